@@ -1,0 +1,60 @@
+/* What a layout does: deposits on every patch, and the figures drawn from them. */
+#ifndef SPRAYPLAN_COVERAGE_H
+#define SPRAYPLAN_COVERAGE_H
+
+#include <sprayplan/error.h>
+#include <sprayplan/vector.h>
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Per patch (see sp_patches). Means are weighted by flux. Where no liquid arrives everything is 0. */
+typedef struct {
+    size_t count;
+    double *flux;          /* all liquid that arrives, m³/s per m² */
+    double *counted;       /* of it, what the criterion counts: from jets that pass speed and incidence; with
+                            * SP_COMBINE_SINGLE of the best nozzle alone */
+    double *jets;          /* jets (forward) or arcs (inverse) that arrive */
+    double *speed;         /* mean impact speed, m/s */
+    double *speed_max;
+    double *incidence;     /* mean, rad from the normal */
+    double *incidence_min;
+    double *impact;        /* mean pressure rho v_n² of the normal component, Pa */
+    double *impact_max;
+    bool *covered;
+} sp_deposits;
+
+/* A connected region without coverage. */
+typedef struct {
+    double area;      /* m² */
+    sp_vec3 centroid; /* m */
+    uint32_t part;    /* of the mesh: the part with most of the area */
+    double reachable_area; /* m² of it that is attainable; -1 where attainable area was not computed */
+} sp_shadow;
+
+typedef struct {
+    double area;           /* clean (and wet) area, m² */
+    double covered_area;   /* m² */
+    double fraction;       /* covered_area / area */
+    double flow;           /* m³/s */
+    double area_per_water; /* covered area over flow, m² per m³/s; 0 without flow */
+    double flux_min, flux_mean, flux_p05, flux_max; /* m³/s per m² over the clean area, by area; p05: 5th percentile */
+    sp_deposits deposits;
+} sp_coverage;
+
+void sp_coverage_destroy(sp_coverage *coverage);
+
+struct sp_evaluator;
+/* Connected uncovered regions, largest first (equal area: lowest patch first). `attainable` [patches] may be NULL.
+ * On success *shadows is malloc'd (NULL where there are none) and the caller frees it. */
+bool sp_shadows(const struct sp_evaluator *evaluator, const sp_coverage *coverage, const bool *attainable,
+                sp_shadow **shadows, size_t *count, sp_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

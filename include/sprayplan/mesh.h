@@ -1,0 +1,99 @@
+/* Triangle meshes: reading, welding, diagnosis. */
+#ifndef SPRAYPLAN_MESH_H
+#define SPRAYPLAN_MESH_H
+
+#include <sprayplan/error.h>
+#include <sprayplan/vector.h>
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SP_NONE UINT32_MAX /* no such triangle, texel, patch, ... */
+
+/* A named group of triangles (OBJ group or object, STL solid). */
+typedef struct {
+    char *name;
+    uint32_t geometry; /* which geometry file of the scene it came from; 0 for a mesh that stands alone */
+} sp_part;
+
+/* A welded triangle mesh. Vertices with equal coordinates are one; degenerate triangles (two equal corners, or no area)
+ * are kept out of `triangles` but remain in `source_triangles`, which holds what the file held, in its order, polygons
+ * as fans. Everything is owned by the mesh and read-only once made. */
+typedef struct {
+    size_t vertex_count;
+    sp_vec3 *vertices; /* [vertex_count], m */
+    size_t triangle_count;
+    uint32_t (*triangles)[3]; /* [triangle_count], anticlockwise seen from the front */
+    uint32_t *part;           /* [triangle_count], index into parts */
+    uint32_t *source;         /* [triangle_count], index into source_triangles */
+    size_t source_triangle_count;
+    uint32_t (*source_triangles)[3]; /* [source_triangle_count] */
+    uint32_t *source_part;           /* [source_triangle_count] */
+    size_t part_count;
+    sp_part *parts; /* [part_count] */
+} sp_mesh;
+
+/* What can be wrong with a mesh as a surface. */
+typedef struct {
+    size_t degenerate;         /* source triangles kept out */
+    size_t open_edges;         /* edges of one triangle */
+    size_t non_manifold_edges; /* edges of three or more triangles */
+    size_t flipped_edges;      /* edges of two triangles that disagree which side is the front */
+    size_t duplicate_triangles; /* triangles with the same three corners as an earlier one */
+    size_t shells;             /* connected through shared edges */
+    size_t closed_shells;      /* shells without open, non-manifold or flipped edges */
+    double area;               /* m² */
+    sp_vec3 minimum, maximum;  /* box around all vertices in use, m; both zero for an empty mesh */
+} sp_mesh_diagnosis;
+
+/* Reads an OBJ or STL file (told by its extension, .obj or .stl in any case; STL text or binary told by its content).
+ * Coordinates are multiplied by `unit` (m per unit of the file). Triangles before any group get the part "default"
+ * (STL: the solid's name, or "default"). Returns NULL with file and line for whatever does not follow the format, for
+ * indices out of range, numbers that are not finite, and for files without a triangle of some area. The caller destroys. */
+sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error);
+
+/* Builds a welded mesh from `vertex_count` points and `triangle_count` triangles, all copied. `part` may be NULL: all in one
+ * part; `part_names` [part_count] likewise. Fails for indices out of range and numbers that are not finite. */
+sp_mesh *sp_mesh_create(const sp_vec3 *vertices, size_t vertex_count, const uint32_t (*triangles)[3],
+                        size_t triangle_count, const uint32_t *part, const char *const *part_names, size_t part_count,
+                        sp_error *error);
+
+/* Accepts NULL. */
+void sp_mesh_destroy(sp_mesh *mesh);
+
+/* p -> rotate(scale p) + translate, rotate being a row-major matrix. */
+typedef struct {
+    double scale;
+    double rotate[3][3];
+    sp_vec3 translate; /* m */
+} sp_transform;
+
+/* The identity. */
+sp_transform sp_transform_default(void);
+/* Rotation by `angle` (rad) about `axis` (any length but 0), Rodrigues' formula. */
+void sp_transform_rotation(sp_transform *transform, sp_vec3 axis, double angle);
+sp_vec3 sp_transform_point(const sp_transform *transform, sp_vec3 point);
+
+/* One mesh of several, in order, mesh i moved by transforms[i]; its parts get geometry = i. Vertices of different meshes are
+ * not welded. A mirroring transform is not possible by construction. The inputs are copied and stay the caller's. */
+sp_mesh *sp_mesh_join(const sp_mesh *const *meshes, const sp_transform *transforms, size_t count, sp_error *error);
+
+/* Returns false only when memory runs out. */
+bool sp_mesh_diagnose(const sp_mesh *mesh, sp_mesh_diagnosis *diagnosis, sp_error *error);
+
+/* The area in m² and the unit normal (anticlockwise front) of one triangle. */
+double sp_triangle_area(const sp_mesh *mesh, uint32_t triangle);
+sp_vec3 sp_triangle_normal(const sp_mesh *mesh, uint32_t triangle);
+/* (1-u-v) a + u b + v c */
+sp_vec3 sp_triangle_point(const sp_mesh *mesh, uint32_t triangle, double u, double v);
+/* Sum over all triangles, m². */
+double sp_mesh_area(const sp_mesh *mesh);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

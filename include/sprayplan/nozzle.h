@@ -1,0 +1,112 @@
+/* Nozzles: what a catalogue says of a type, what a layout says of each one, and what leaves them. */
+#ifndef SPRAYPLAN_NOZZLE_H
+#define SPRAYPLAN_NOZZLE_H
+
+#include <sprayplan/error.h>
+#include <sprayplan/vector.h>
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SP_NAME 64 /* bytes of a name, the terminating zero included */
+
+typedef enum {
+    SP_PATTERN_FULL_CONE,
+    SP_PATTERN_HOLLOW_CONE,
+    SP_PATTERN_FLAT_FAN,
+    SP_PATTERN_SOLID_STREAM,
+} sp_pattern;
+
+typedef struct {
+    double density;   /* kg/m³ */
+    double viscosity; /* Pa s */
+} sp_fluid;
+
+/* A catalogue entry. Plain data; angles are full opening angles. */
+typedef struct {
+    char name[SP_NAME];
+    sp_pattern pattern;
+    double angle;     /* rad, (0, 2π] for cones, (0, 2π] for fans */
+    double hollow;    /* share of the angle that is empty, [0, 1); hollow cones only */
+    double thickness; /* rad, (0, π]; flat fans only */
+    double flow;      /* m³/s of water (1000 kg/m³) at pressure `at` */
+    double at;        /* Pa */
+    double exponent;  /* n in Q = K dp^n */
+    double cv;        /* v0 = cv sqrt(2 dp / rho) */
+    double drop;      /* diameter of the drops, m */
+    double angle_min, angle_max; /* rad; equal to angle where not adjustable */
+    double flow_min, flow_max;   /* m³/s of water at `at`; equal to flow where not adjustable */
+} sp_nozzle_type;
+
+/* One nozzle of a layout. */
+typedef struct {
+    char name[SP_NAME];
+    const sp_nozzle_type *type; /* borrowed from the catalogue */
+    sp_vec3 position;           /* m */
+    sp_vec3 axis;               /* unit */
+    double roll;                /* rad */
+    double pressure;            /* Pa */
+    double angle;               /* rad; 0: the type's */
+    double flow;                /* m³/s as sprayed, at this pressure, of this liquid; 0: from type and pressure */
+    double speed;               /* m/s at the exit; 0: from type and pressure */
+    uint64_t jets;              /* of the forward evaluator; 0: the simulation's */
+    bool keep;                  /* every proposal contains it */
+} sp_nozzle;
+
+typedef struct {
+    size_t count;
+    sp_nozzle *nozzles; /* [count], owned */
+} sp_layout;
+
+/* A layout of `count` copies of nozzles (NULL: all zero). The types stay borrowed. */
+sp_layout *sp_layout_create(const sp_nozzle *nozzles, size_t count, sp_error *error);
+void sp_layout_destroy(sp_layout *layout);
+/* Σ flow, m³/s. */
+double sp_layout_flow(const sp_layout *layout, const sp_fluid *liquid);
+
+/* Q = K dp^n √(1000/rho), m³/s. Nozzle makers' catalogues: K from one point, which is for water. */
+double sp_nozzle_flow(const sp_nozzle *nozzle, const sp_fluid *liquid);
+/* The same for a type at a pressure (Pa) and a rated flow (m³/s of water at type->at), for instance one that refinement
+ * sets. */
+double sp_type_flow(const sp_nozzle_type *type, double rated_flow, double pressure, const sp_fluid *liquid);
+/* v0 = Cv √(2 dp/rho), m/s (Bernoulli), unless the nozzle sets its own. */
+double sp_nozzle_speed(const sp_nozzle *nozzle, const sp_fluid *liquid);
+/* The opening angle in force, rad. */
+double sp_nozzle_angle(const sp_nozzle *nozzle);
+
+/* The nozzle's frame in world coordinates, right-handed and orthonormal. */
+typedef struct {
+    sp_vec3 x, y, z;
+} sp_frame;
+/* z along axis; x = unit(up × axis), or where the axis is within 1e-6 rad of vertical world y × axis (with y up:
+ * world z × axis); y = z × x; then roll turns x, y about z. `up` is (0,0,1) or (0,1,0). */
+sp_frame sp_nozzle_frame(sp_vec3 axis, double roll, sp_vec3 up);
+
+/* A pattern ready for use: liquid per solid angle, uniform inside its region. The region of each kind is DESIGN §2's:
+ * cones by polar angle about z, fans by longitude atan2(x, z) and latitude asin(y). */
+typedef struct {
+    sp_pattern kind;
+    double inner, outer;           /* cones: polar angles, rad */
+    double half_width, half_thickness; /* fans: longitude and latitude, rad */
+    double solid_angle;            /* sr */
+} sp_spray;
+sp_spray sp_spray_create(const sp_nozzle_type *type, double angle);
+/* Share of the liquid per steradian (1/sr) in a unit direction of the nozzle's frame: 1/solid_angle inside, 0 outside. */
+double sp_spray_intensity(const sp_spray *spray, sp_vec3 direction);
+/* Signed angular distance (rad) from the direction to the region's edge, positive inside; its smooth counterpart for
+ * refinement. */
+double sp_spray_margin(const sp_spray *spray, sp_vec3 direction);
+/* Direction i of n, low-discrepancy and equal in area (Archimedes' map), unit, in the nozzle's frame. Deterministic in
+ * (i, n, seed). */
+sp_vec3 sp_spray_direction(const sp_spray *spray, uint64_t i, uint64_t n, uint64_t seed);
+/* Half-angle (rad) of the smallest cone about z that holds the region. */
+double sp_spray_reach(const sp_spray *spray);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

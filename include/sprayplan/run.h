@@ -1,0 +1,18 @@
+/* How work is carried out: threads, progress, cancelling. */
+#ifndef SPRAYPLAN_RUN_H
+#define SPRAYPLAN_RUN_H
+
+#include <stdbool.h>
+
+/* {0} is a sensible default: all cores, silent, never cancelled, no time limit. */
+typedef struct {
+    int threads; /* 0: one per core. The answer does not depend on it. */
+    /* Called now and then, from one thread at a time, with the stage's name and how much of it is done (0 to 1).
+     * Returning false cancels: sp_place then returns its best so far, anything else fails with SP_ERROR_INTERRUPTED.
+     * May be NULL. */
+    bool (*progress)(void *user, const char *stage, double done);
+    void *user;        /* handed to progress */
+    double time_limit; /* s of wall time for sp_place; 0: none */
+} sp_run;
+
+#endif

@@ -1,0 +1,40 @@
+/* Scene files: YAML with units to plain structs, and back. */
+#ifndef SPRAYPLAN_SCENE_H
+#define SPRAYPLAN_SCENE_H
+
+#include <sprayplan/place.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct sp_scene sp_scene;
+
+/* Reads a scene, its catalogue and its geometry. Every error names file, line, column and key, what was found and what was
+ * expected. */
+sp_scene *sp_scene_load(const char *path, sp_error *error);
+/* The same with settings of `simulate:` and `place:` overridden, each "simulate.jets=20000" or "place.refine=none"; the
+ * value is YAML as it would stand in the file. Errors in an override name it in place of the file. */
+sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, size_t count, sp_error *error);
+/* Accepts NULL. Everything that the functions below return belongs to the scene. */
+void sp_scene_destroy(sp_scene *scene);
+
+const char *sp_scene_path(const sp_scene *scene);
+const sp_setup *sp_scene_setup(const sp_scene *scene);   /* NULL for NULL */
+const sp_layout *sp_scene_layout(const sp_scene *scene); /* the engineer's own, may have no nozzles */
+sp_place_options sp_scene_place_options(const sp_scene *scene); /* defaults for NULL */
+bool sp_scene_has_place(const sp_scene *scene); /* the file has a `place:` block with mounts */
+
+/* The scene as YAML text with `layout` in place of its nozzles and `fidelity` (nothing left to auto) under `simulate:`, its
+ * paths relative to `directory`, its numbers reading back exactly. Malloc'd, the caller frees. */
+char *sp_scene_text(const sp_scene *scene, const sp_layout *layout, const sp_fidelity *fidelity, const char *directory,
+                    sp_error *error);
+
+/* "12.5 L/min" -> SI by udunits; `unit` names the dimension expected ("m3/s"). For values outside scene files (--texel,
+ * --unit). A bare number is a length in m or without dimension. */
+bool sp_quantity_parse(const char *text, const char *unit, double *value, sp_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,72 @@
+/* The setup: what is sprayed, with what liquid, what counts as clean, and how faithfully to simulate. Plain data. */
+#ifndef SPRAYPLAN_SETUP_H
+#define SPRAYPLAN_SETUP_H
+
+#include <sprayplan/mesh.h>
+#include <sprayplan/nozzle.h>
+#include <sprayplan/run.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a part of the mesh is in the scene. */
+typedef struct {
+    bool clean;         /* is to be cleaned; otherwise an obstacle that only blocks and reflects */
+    double restitution; /* e, 0 to 1 */
+    double rebound;     /* share of the liquid that flies on where e > 0, 0 to 1 */
+} sp_surface;
+
+typedef enum {
+    SP_CAVITY_NONE,    /* every triangle counts once and takes liquid from either side */
+    SP_CAVITY_POINT,   /* the space seen, wall to wall, from a point */
+    SP_CAVITY_OUTSIDE, /* the space around the geometry */
+} sp_cavity_kind;
+
+typedef enum { SP_COMBINE_SUM, SP_COMBINE_SINGLE } sp_combine;
+
+/* All must hold; with none (0, 0, π/2) any liquid covers. */
+typedef struct {
+    double flux;         /* m³/s per m², 0: none */
+    double impact_speed; /* m/s, 0: none */
+    double incidence;    /* rad, π/2: none */
+    sp_combine combine;
+} sp_criterion;
+
+typedef enum { SP_TRAJECTORY_AUTO, SP_TRAJECTORY_LINE, SP_TRAJECTORY_PARABOLA } sp_trajectory;
+typedef enum { SP_METHOD_AUTO, SP_METHOD_FORWARD, SP_METHOD_INVERSE } sp_method;
+typedef enum { SP_SPLAT_NEAREST, SP_SPLAT_LINEAR } sp_splat;
+
+/* The scene's `simulate:` block; in sp_evaluator_fidelity nothing is left to auto. */
+typedef struct {
+    sp_trajectory trajectory;
+    sp_method method;
+    int reflections; /* -1: auto */
+    uint64_t jets;   /* per nozzle; 0: auto */
+    double texel;    /* m; 0: auto */
+    sp_splat splat;
+    double accuracy; /* points of coverage, as a fraction */
+    uint64_t seed;
+} sp_fidelity;
+
+typedef struct {
+    const sp_mesh *mesh;         /* borrowed: all geometry, in world coordinates */
+    const sp_surface *surfaces;  /* borrowed: [mesh->part_count] */
+    sp_cavity_kind cavity;
+    sp_vec3 cavity_point; /* m; for SP_CAVITY_POINT */
+    sp_fluid liquid;      /* default water: 1000 kg/m³, 1 mPa s */
+    sp_fluid air;         /* 1.2 kg/m³, 18 µPa s */
+    sp_vec3 up;           /* (0,0,1) or (0,1,0) */
+    double gravity;       /* m/s², along -up */
+    sp_criterion criterion;
+    sp_fidelity fidelity;
+    sp_run run;
+} sp_setup;
+
+/* DESIGN §3's defaults, with no mesh. */
+sp_setup sp_setup_default(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,40 @@
+/* What an evaluator holds, for the files of this room. */
+#ifndef SPRAY_STATE_H
+#define SPRAY_STATE_H
+
+#include <sprayplan/evaluator.h>
+
+struct sp_evaluator {
+    sp_setup setup;
+    sp_fidelity fidelity; /* resolved: nothing left to auto */
+    sp_vec3 gravity;      /* zero for lines */
+    const sp_evaluator *origin; /* of a resampled evaluator: owns tracer, charts and wet; else NULL */
+    sp_tracer *tracer;
+    sp_charts *charts;
+    uint8_t *wet; /* [triangle_count], bit 0 front, bit 1 back */
+    sp_atlas *atlas;
+    sp_patches patches;
+    uint32_t (*texel_patch)[2]; /* [texel_count], patch on the front (or both sides) and on the back, or SP_NONE */
+};
+
+/* wet.c: floods lines of sight from the cavity. [triangle_count], malloc'd. All sides where there is no cavity. */
+uint8_t *sp_wet_sides(const sp_setup *setup, const sp_tracer *tracer, sp_error *error);
+
+/* patches.c: from atlas, wet sides and roles. */
+bool sp_patches_create(sp_evaluator *evaluator, sp_error *error);
+void sp_patches_free(sp_patches *patches);
+
+/* forward.c, inverse.c: what sp_evaluate calls. */
+sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
+
+/* coverage.c: everything zero, [patches.count]. */
+sp_coverage *sp_coverage_create(const sp_evaluator *evaluator, sp_error *error);
+/* One arrival of `flux` (m³/s per m²) and `jets` at a patch. speed, incidence and impact are summed weighted by flux until
+ * sp_coverage_conclude divides. Does not touch `counted`. */
+void sp_deposit(sp_deposits *deposits, uint32_t patch, double flux, double jets, double speed, double incidence,
+                double density);
+/* Divides the means, applies the criterion to `counted`, and draws the figures. */
+bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
+                          sp_error *error);
+
+#endif
