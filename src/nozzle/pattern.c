@@ -1,0 +1,93 @@
+/* Patterns: where about its axis a nozzle sprays. Regions of the unit sphere in the nozzle's frame, as in the 2008
+ * study (3.1.2): polar angles about z for cones, longitude atan2(x, z) and latitude asin(y) for fans. */
+#include <sprayplan/nozzle.h>
+
+/* 1 - cos(angle) without cancellation. */
+static double versine(double angle)
+{
+    double s = sin(0.5 * angle);
+    return 2 * s * s;
+}
+
+static double polar_angle(sp_vec3 d)
+{
+    return atan2(hypot(d.x, d.y), d.z);
+}
+
+static double latitude(sp_vec3 d)
+{
+    return atan2(d.y, hypot(d.x, d.z));
+}
+
+sp_spray sp_spray_create(const sp_nozzle_type *type, double angle)
+{
+    sp_spray spray = {.kind = type->pattern};
+    if (spray.kind == SP_PATTERN_FLAT_FAN) {
+        spray.half_width = 0.5 * angle;
+        spray.half_thickness = 0.5 * type->thickness;
+        spray.solid_angle = 4 * spray.half_width * sin(spray.half_thickness);
+        return spray;
+    }
+    spray.outer = 0.5 * angle;
+    spray.inner = spray.kind == SP_PATTERN_HOLLOW_CONE ? type->hollow * spray.outer : 0;
+    spray.solid_angle = 2 * M_PI * (versine(spray.outer) - versine(spray.inner));
+    return spray;
+}
+
+static bool inside(const sp_spray *spray, sp_vec3 d)
+{
+    if (spray->kind == SP_PATTERN_FLAT_FAN)
+        return fabs(atan2(d.x, d.z)) <= spray->half_width && fabs(latitude(d)) <= spray->half_thickness;
+    double polar = polar_angle(d);
+    return polar >= spray->inner && polar <= spray->outer;
+}
+
+double sp_spray_intensity(const sp_spray *spray, sp_vec3 direction)
+{
+    return inside(spray, direction) ? 1 / spray->solid_angle : 0;
+}
+
+/* A region without an edge keeps every direction as far inside as can be: π. */
+static double cone_margin(const sp_spray *spray, sp_vec3 d)
+{
+    double polar = polar_angle(d);
+    double outwards = spray->outer < M_PI ? spray->outer - polar : M_PI;
+    double inwards = spray->inner > 0 ? polar - spray->inner : M_PI;
+    return fmin(outwards, inwards);
+}
+
+/* Distance from d to the meridian that ends the fan on d's side: to the foot of the perpendicular where that lies on
+ * the fan's end, and to the nearer corner elsewhere. */
+static double end_distance(const sp_spray *spray, sp_vec3 d, double longitude)
+{
+    double width = spray->half_width, thick = spray->half_thickness;
+    double along = hypot(d.x, d.z) * cos(fabs(longitude) - width);
+    double foot = fmax(-thick, fmin(thick, atan2(d.y, along)));
+    sp_vec3 end = sp_v(copysign(sin(width), longitude) * cos(foot), sin(foot), cos(width) * cos(foot));
+    return atan2(sp_length(sp_cross(d, end)), sp_dot(d, end));
+}
+
+static double fan_margin(const sp_spray *spray, sp_vec3 d)
+{
+    double longitude = atan2(d.x, d.z);
+    double side = spray->half_thickness < 0.5 * M_PI ? spray->half_thickness - fabs(latitude(d)) : M_PI;
+    if (spray->half_width >= M_PI)
+        return side;
+    double end = end_distance(spray, d, longitude);
+    return fabs(longitude) <= spray->half_width ? fmin(side, end) : -end;
+}
+
+double sp_spray_margin(const sp_spray *spray, sp_vec3 direction)
+{
+    return spray->kind == SP_PATTERN_FLAT_FAN ? fan_margin(spray, direction) : cone_margin(spray, direction);
+}
+
+double sp_spray_reach(const sp_spray *spray)
+{
+    if (spray->kind != SP_PATTERN_FLAT_FAN)
+        return spray->outer;
+    /* the corners are farthest out, unless the fan reaches behind the nozzle, where its middle is */
+    if (spray->half_width >= 0.5 * M_PI)
+        return spray->half_width;
+    return acos(cos(spray->half_width) * cos(spray->half_thickness));
+}
