@@ -25,7 +25,7 @@ typedef struct {
     int width, height;
     const float *pixels; /* [height][width][channels], rows from the top */
 } sp_exr_part;
-/* 32-bit floats, lossless compression; every part has the same channels. */
+/* 32-bit floats, lossless compression; every part has the same size and channels. */
 bool sp_image_write_exr(const char *path, const sp_exr_part *parts, size_t count, const char *const *channel_names,
                         int channels, sp_error *error);
 
