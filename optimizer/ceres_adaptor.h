@@ -1,0 +1,32 @@
+/* Ceres Solver's nonlinear least squares behind a C interface. */
+#ifndef OPTIMIZER_CERES_ADAPTOR_H
+#define OPTIMIZER_CERES_ADAPTOR_H
+
+#include <sprayplan/error.h>
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Residuals at x [unknowns], and where `jacobian` is not NULL their derivatives, [residuals][unknowns] row-major. Returning
+ * false makes Ceres take a shorter step. */
+typedef bool (*sp_residual_function)(void *user, const double *x, double *residuals, double *jacobian);
+
+typedef struct {
+    size_t unknowns, residuals;
+    sp_residual_function function;
+    void *user;
+    int iterations;
+    double tolerance; /* of cost, gradient and step, as Ceres defines them */
+} sp_least_squares;
+
+/* Minimises half the sum of squared residuals from x, which it improves in place (x never gets worse). Levenberg-Marquardt,
+ * one thread, no logging. Fails only where the function fails at the start or memory runs out. */
+bool sp_ceres_solve(const sp_least_squares *problem, double *x, double *cost, sp_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
