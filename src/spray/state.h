@@ -4,6 +4,8 @@
 
 #include <sprayplan/evaluator.h>
 
+#include <omp.h>
+
 struct sp_evaluator {
     sp_setup setup;
     sp_fidelity fidelity; /* resolved: nothing left to auto */
@@ -17,12 +19,23 @@ struct sp_evaluator {
     uint32_t (*texel_patch)[2]; /* [texel_count], patch on the front (or both sides) and on the back, or SP_NONE */
 };
 
+/* Threads to use for sp_run's `threads`. */
+static inline int sp_thread_count(int threads) { return threads > 0 ? threads : omp_get_max_threads(); }
+/* Reports progress; false, with the error set, where the caller is to stop. */
+bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error);
+
 /* wet.c: floods lines of sight from the cavity. [triangle_count], malloc'd. All sides where there is no cavity. */
 uint8_t *sp_wet_sides(const sp_setup *setup, const sp_tracer *tracer, sp_error *error);
+
+/* inside.c: direction `index` of `count`, spread evenly over the sphere. */
+sp_vec3 sp_sphere_direction(int index, int count);
 
 /* patches.c: from atlas, wet sides and roles. */
 bool sp_patches_create(sp_evaluator *evaluator, sp_error *error);
 void sp_patches_free(sp_patches *patches);
+/* The patch that takes what arrives at the point (1-u-v, u, v) of a triangle, on its back or else its front; SP_NONE where
+ * that side is dry or an obstacle. */
+uint32_t sp_patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back);
 
 /* forward.c, inverse.c: what sp_evaluate calls. */
 sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);

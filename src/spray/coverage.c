@@ -1,0 +1,124 @@
+/* Deposits and the figures drawn from them. */
+#include "state.h"
+
+#include <stdlib.h>
+
+sp_coverage *sp_coverage_create(const sp_evaluator *evaluator, sp_error *error)
+{
+    size_t count = evaluator->patches.count, room = count ? count : 1;
+    sp_coverage *coverage = calloc(1, sizeof *coverage);
+    if (!coverage)
+        return sp_fail_memory(error);
+    sp_deposits *deposits = &coverage->deposits;
+    double **columns[] = {&deposits->flux,          &deposits->counted,   &deposits->jets,
+                          &deposits->speed,         &deposits->speed_max, &deposits->incidence,
+                          &deposits->incidence_min, &deposits->impact,    &deposits->impact_max};
+    bool done = true;
+    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
+        *columns[i] = calloc(room, sizeof(double));
+        done = done && *columns[i];
+    }
+    deposits->covered = calloc(room, sizeof *deposits->covered);
+    deposits->count = count;
+    if (!done || !deposits->covered) {
+        sp_coverage_destroy(coverage);
+        return sp_fail_memory(error);
+    }
+    return coverage;
+}
+
+void sp_coverage_destroy(sp_coverage *coverage)
+{
+    if (!coverage)
+        return;
+    sp_deposits *deposits = &coverage->deposits;
+    free(deposits->flux);
+    free(deposits->counted);
+    free(deposits->jets);
+    free(deposits->speed);
+    free(deposits->speed_max);
+    free(deposits->incidence);
+    free(deposits->incidence_min);
+    free(deposits->impact);
+    free(deposits->impact_max);
+    free(deposits->covered);
+    free(coverage);
+}
+
+void sp_deposit(sp_deposits *deposits, uint32_t patch, double flux, double jets, double speed, double incidence,
+                double density)
+{
+    double normal_speed = speed * cos(incidence), impact = density * normal_speed * normal_speed;
+    bool first = !(deposits->jets[patch] > 0);
+    deposits->flux[patch] += flux;
+    deposits->jets[patch] += jets;
+    deposits->speed[patch] += flux * speed;
+    deposits->incidence[patch] += flux * incidence;
+    deposits->impact[patch] += flux * impact;
+    deposits->speed_max[patch] = fmax(deposits->speed_max[patch], speed);
+    deposits->impact_max[patch] = fmax(deposits->impact_max[patch], impact);
+    if (first || incidence < deposits->incidence_min[patch])
+        deposits->incidence_min[patch] = incidence;
+}
+
+/* A patch's flux and area, to be sorted. */
+typedef struct {
+    double flux, area;
+} flux_share;
+
+static int by_flux(const void *left, const void *right)
+{
+    const flux_share *a = left, *b = right;
+    if (a->flux != b->flux)
+        return a->flux < b->flux ? -1 : 1;
+    return (a->area > b->area) - (a->area < b->area);
+}
+
+/* Minimum, mean, maximum and 5th percentile of the flux, by area. */
+static bool draw_flux_figures(const sp_patches *patches, sp_coverage *coverage, sp_error *error)
+{
+    if (patches->count == 0)
+        return true;
+    flux_share *shares = malloc(patches->count * sizeof *shares);
+    if (!shares)
+        return sp_fail_memory(error);
+    double liquid = 0;
+    for (size_t i = 0; i < patches->count; i++) {
+        shares[i] = (flux_share){coverage->deposits.flux[i], patches->area[i]};
+        liquid += shares[i].flux * shares[i].area;
+    }
+    qsort(shares, patches->count, sizeof *shares, by_flux);
+    double below = 0;
+    size_t rank = 0;
+    while (rank + 1 < patches->count && below + shares[rank].area < 0.05 * patches->total_area)
+        below += shares[rank++].area;
+    coverage->flux_min = shares[0].flux;
+    coverage->flux_p05 = shares[rank].flux;
+    coverage->flux_max = shares[patches->count - 1].flux;
+    coverage->flux_mean = liquid / patches->total_area;
+    free(shares);
+    return true;
+}
+
+bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
+                          sp_error *error)
+{
+    const sp_patches *patches = &evaluator->patches;
+    sp_deposits *deposits = &coverage->deposits;
+    double threshold = evaluator->setup.criterion.flux;
+    coverage->area = patches->total_area;
+    for (size_t i = 0; i < patches->count; i++) {
+        if (deposits->flux[i] > 0) {
+            deposits->speed[i] /= deposits->flux[i];
+            deposits->incidence[i] /= deposits->flux[i];
+            deposits->impact[i] /= deposits->flux[i];
+        }
+        deposits->covered[i] = deposits->counted[i] > 0 && deposits->counted[i] >= threshold;
+        if (deposits->covered[i])
+            coverage->covered_area += patches->area[i];
+    }
+    coverage->fraction = coverage->area > 0 ? coverage->covered_area / coverage->area : 0;
+    coverage->flow = sp_layout_flow(layout, &evaluator->setup.liquid);
+    coverage->area_per_water = coverage->flow > 0 ? coverage->covered_area / coverage->flow : 0;
+    return draw_flux_figures(patches, coverage, error);
+}

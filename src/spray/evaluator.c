@@ -1,0 +1,278 @@
+/* Building an evaluator, choosing what is left to auto, and asking it. */
+#include "state.h"
+
+#include <stdlib.h>
+
+#define AUTO_TEXELS 200000
+#define AUTO_REFLECTIONS 3
+#define AUTO_MOST_JETS 4e6 /* per nozzle: seconds of tracing */
+/* Jets per nozzle and texel of the whole surface. With a flux criterion a texel at the threshold then receives that
+ * many from a nozzle that floods everything at the threshold, and more from one with a smaller footprint; without one a
+ * texel must merely not be missed. */
+#define AUTO_JETS_AT_THRESHOLD 150
+#define AUTO_JETS_TO_TOUCH 20
+#define PAGE_EDGE 4096       /* texels */
+#define MOST_PAGE_EDGE 16384 /* texels, for a triangle longer than PAGE_EDGE */
+#define PAGE_MARGIN 4        /* texels that a page needs beyond its chart */
+#define MOST_TEXELS 1e9
+
+bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error)
+{
+    if (!setup->run.progress || setup->run.progress(setup->run.user, stage, done))
+        return true;
+    return sp_fail(error, SP_ERROR_INTERRUPTED, NULL, 0, 0, "interrupted");
+}
+
+static bool in_range(double value, double low, double high)
+{
+    return value >= low && value <= high;
+}
+
+static bool check_surfaces(const sp_setup *setup, sp_error *error)
+{
+    bool clean = false;
+    for (size_t i = 0; i < setup->mesh->part_count; i++) {
+        const sp_surface *surface = &setup->surfaces[i];
+        if (!in_range(surface->restitution, 0, 1) || !in_range(surface->rebound, 0, 1))
+            return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0,
+                           "part \"%s\": restitution %g and rebound %g found, expected 0 to 1",
+                           setup->mesh->parts[i].name, surface->restitution, surface->rebound);
+        clean = clean || surface->clean;
+    }
+    return clean || sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "nothing is to be cleaned: every part is an obstacle");
+}
+
+static bool check_setup(const sp_setup *setup, sp_error *error)
+{
+    const sp_criterion *criterion = &setup->criterion;
+    const sp_fidelity *fidelity = &setup->fidelity;
+    const char *wrong = NULL;
+    if (!setup->mesh || !setup->surfaces || setup->mesh->triangle_count == 0)
+        wrong = "a mesh with triangles and a surface for each of its parts";
+    else if (!in_range(setup->liquid.density, 1e-300, 1e300))
+        wrong = "a positive density of the liquid";
+    else if (!in_range(setup->gravity, 0, 1e300))
+        wrong = "a gravity of 0 or more";
+    else if (!in_range(criterion->flux, 0, 1e300) || !in_range(criterion->impact_speed, 0, 1e300) ||
+             !in_range(criterion->incidence, 0, M_PI / 2))
+        wrong = "a criterion with flux and impact speed of 0 or more and incidence of 0 to 90 deg";
+    else if (!in_range(fidelity->texel, 0, 1e300) || fidelity->reflections < -1)
+        wrong = "a texel of 0 (auto) or more and reflections of -1 (auto) or more";
+    else if (setup->cavity == SP_CAVITY_POINT && !isfinite(sp_length(setup->cavity_point)))
+        wrong = "a finite point of the cavity";
+    if (wrong)
+        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: expected %s", wrong);
+    return check_surfaces(setup, error);
+}
+
+static bool anything_reflects(const sp_setup *setup)
+{
+    for (size_t i = 0; i < setup->mesh->part_count; i++)
+        if (setup->surfaces[i].restitution > 0)
+            return true;
+    return false;
+}
+
+static bool resolve_method(const sp_setup *setup, sp_fidelity *fidelity, sp_error *error)
+{
+    bool reflects = fidelity->reflections != 0 && anything_reflects(setup);
+    if (fidelity->method == SP_METHOD_INVERSE && fidelity->reflections > 0)
+        return sp_fail(
+            error, SP_ERROR_INPUT, NULL, 0, 0,
+            "reflections: %d found with evaluator inverse, which knows primary impact only; expected 0 or auto, "
+            "or evaluator forward",
+            fidelity->reflections);
+    if (fidelity->method == SP_METHOD_INVERSE && fidelity->splat == SP_SPLAT_LINEAR)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "splat: linear found with evaluator inverse, which has no jets to share; expected nearest, or "
+                       "evaluator forward");
+    if (fidelity->method == SP_METHOD_AUTO)
+        fidelity->method = reflects || fidelity->splat == SP_SPLAT_LINEAR ? SP_METHOD_FORWARD : SP_METHOD_INVERSE;
+    if (fidelity->method == SP_METHOD_INVERSE)
+        fidelity->reflections = 0;
+    else if (fidelity->reflections < 0)
+        fidelity->reflections = reflects ? AUTO_REFLECTIONS : 0;
+    return true;
+}
+
+/* The plain safe choice for whatever the setup leaves to auto. */
+static bool resolve(const sp_setup *setup, sp_fidelity *fidelity, sp_error *error)
+{
+    *fidelity = setup->fidelity;
+    if (fidelity->trajectory == SP_TRAJECTORY_AUTO)
+        fidelity->trajectory = SP_TRAJECTORY_PARABOLA;
+    if (!resolve_method(setup, fidelity, error))
+        return false;
+    double area = sp_mesh_area(setup->mesh);
+    if (!(fidelity->texel > 0))
+        fidelity->texel = sqrt(area / AUTO_TEXELS);
+    double texels = area / (fidelity->texel * fidelity->texel);
+    double per_texel = setup->criterion.flux > 0 ? AUTO_JETS_AT_THRESHOLD : AUTO_JETS_TO_TOUCH;
+    if (fidelity->jets == 0)
+        fidelity->jets = (uint64_t)fmin(AUTO_MOST_JETS, ceil(per_texel * texels));
+    return true;
+}
+
+static double longest_edge(const sp_mesh *mesh)
+{
+    double longest = 0;
+    for (size_t i = 0; i < mesh->triangle_count; i++)
+        for (int corner = 0; corner < 3; corner++)
+            longest = fmax(longest, sp_distance(mesh->vertices[mesh->triangles[i][corner]],
+                                                mesh->vertices[mesh->triangles[i][(corner + 1) % 3]]));
+    return longest;
+}
+
+/* The page that a single chart of `extent` (m) needs, in texels: the usual one, or a larger one where it must be. */
+static uint32_t page_edge(double extent, double texel)
+{
+    return (uint32_t)fmin(fmax(ceil(extent / texel) + PAGE_MARGIN, PAGE_EDGE), MOST_PAGE_EDGE);
+}
+
+static bool build_texels(sp_evaluator *evaluator, const sp_charts *charts, double extent, sp_error *error)
+{
+    double texel = evaluator->fidelity.texel, area = sp_mesh_area(evaluator->setup.mesh);
+    if (!(area <= MOST_TEXELS * texel * texel))
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "texel: %g m found, too small for a surface of %g m2; expected at least %.3g m", texel, area,
+                       sqrt(area / MOST_TEXELS));
+    sp_atlas_options options = {.texel = texel, .page_edge = page_edge(extent, texel)};
+    evaluator->atlas = sp_atlas_create(evaluator->setup.mesh, charts, &options, error);
+    if (!evaluator->atlas || !sp_patches_create(evaluator, error))
+        return false;
+    if (evaluator->patches.total_area > 0)
+        return true;
+    return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "nothing is to be cleaned: no part with role clean faces the cavity");
+}
+
+static bool build(sp_evaluator *evaluator, sp_error *error)
+{
+    const sp_setup *setup = &evaluator->setup;
+    if (!sp_evaluator_progress(setup, "accelerator", 0, error))
+        return false;
+    evaluator->tracer = sp_tracer_create(setup->mesh, SP_ACCELERATOR_SAH, error);
+    if (!evaluator->tracer || !sp_evaluator_progress(setup, "wet sides", 0, error))
+        return false;
+    evaluator->wet = sp_wet_sides(setup, evaluator->tracer, error);
+    if (!evaluator->wet || !sp_evaluator_progress(setup, "atlas", 0, error))
+        return false;
+    double extent = (PAGE_EDGE - PAGE_MARGIN) * evaluator->fidelity.texel;
+    evaluator->charts = sp_charts_create(setup->mesh, extent, error);
+    return evaluator->charts && build_texels(evaluator, evaluator->charts, longest_edge(setup->mesh), error) &&
+           sp_evaluator_progress(setup, "atlas", 1, error);
+}
+
+static sp_vec3 resolve_gravity(const sp_setup *setup, const sp_fidelity *fidelity)
+{
+    return fidelity->trajectory == SP_TRAJECTORY_LINE ? sp_v(0, 0, 0) : sp_scale(sp_unit(setup->up), -setup->gravity);
+}
+
+sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error)
+{
+    if (!setup || !check_setup(setup, error))
+        return NULL;
+    sp_evaluator *evaluator = calloc(1, sizeof *evaluator);
+    if (!evaluator)
+        return sp_fail_memory(error);
+    evaluator->setup = *setup;
+    if (!resolve(setup, &evaluator->fidelity, error)) {
+        sp_evaluator_destroy(evaluator);
+        return NULL;
+    }
+    evaluator->gravity = resolve_gravity(setup, &evaluator->fidelity);
+    if (!build(evaluator, error)) {
+        sp_evaluator_destroy(evaluator);
+        return NULL;
+    }
+    return evaluator;
+}
+
+sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_error *error)
+{
+    if (!fine)
+        return NULL;
+    if (!in_range(texel, 1e-300, 1e300)) {
+        sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: a texel of %g m found, expected more than 0", texel);
+        return NULL;
+    }
+    const sp_evaluator *origin = fine->origin ? fine->origin : fine;
+    sp_evaluator *evaluator = calloc(1, sizeof *evaluator);
+    if (!evaluator)
+        return sp_fail_memory(error);
+    evaluator->setup = fine->setup;
+    evaluator->fidelity = fine->fidelity;
+    evaluator->fidelity.method = SP_METHOD_INVERSE;
+    evaluator->fidelity.reflections = 0;
+    evaluator->fidelity.splat = SP_SPLAT_NEAREST;
+    evaluator->fidelity.texel = texel;
+    evaluator->gravity = fine->gravity;
+    evaluator->origin = origin;
+    evaluator->tracer = origin->tracer;
+    evaluator->charts = origin->charts;
+    evaluator->wet = origin->wet;
+    double extent = fmax(origin->charts->extent, longest_edge(origin->setup.mesh));
+    if (!build_texels(evaluator, origin->charts, extent, error)) {
+        sp_evaluator_destroy(evaluator);
+        return NULL;
+    }
+    return evaluator;
+}
+
+void sp_evaluator_destroy(sp_evaluator *evaluator)
+{
+    if (!evaluator)
+        return;
+    if (!evaluator->origin) {
+        sp_tracer_destroy(evaluator->tracer);
+        sp_charts_destroy(evaluator->charts);
+        free(evaluator->wet);
+    }
+    sp_atlas_destroy(evaluator->atlas);
+    sp_patches_free(&evaluator->patches);
+    free(evaluator->texel_patch);
+    free(evaluator);
+}
+
+const sp_setup *sp_evaluator_setup(const sp_evaluator *evaluator)
+{
+    return &evaluator->setup;
+}
+
+const sp_fidelity *sp_evaluator_fidelity(const sp_evaluator *evaluator)
+{
+    return &evaluator->fidelity;
+}
+
+const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator)
+{
+    return evaluator->atlas;
+}
+
+const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator)
+{
+    return &evaluator->patches;
+}
+
+const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator)
+{
+    return evaluator->tracer;
+}
+
+unsigned sp_evaluator_wet(const sp_evaluator *evaluator, uint32_t triangle)
+{
+    return evaluator->wet[triangle];
+}
+
+sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator)
+{
+    return evaluator->gravity;
+}
+
+sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
+{
+    if (!evaluator || !layout)
+        return NULL;
+    return evaluator->fidelity.method == SP_METHOD_FORWARD ? sp_evaluate_forward(evaluator, layout, error)
+                                                           : sp_evaluate_inverse(evaluator, layout, error);
+}

@@ -1,0 +1,289 @@
+/* The forward evaluator: jets are traced from the nozzles through their reflections, and leave their liquid on the
+ * patches that they hit (study 3.2.3 and 3.3.1). */
+#include "state.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define BATCH 65536 /* jets in flight at once */
+#define SHARES 4    /* patches that one jet's liquid goes to at most */
+
+/* What one jet does where it hits. */
+typedef struct {
+    uint32_t patch[SHARES];
+    double share[SHARES]; /* of the flow; they sum to 1 */
+    int shares;           /* 0: a dry side, an obstacle or a miss */
+    double flow;          /* m³/s */
+    double speed, incidence;
+    bool passes;  /* the criterion's speed and incidence */
+    bool goes_on; /* is reflected */
+} jet_impact;
+
+typedef struct {
+    const sp_evaluator *evaluator;
+    sp_deposits *deposits;
+    double *counted;     /* [patches], m³/s per m² of the nozzle in hand, or of all */
+    sp_ray *rays;        /* [BATCH] */
+    double *flow;        /* [BATCH], m³/s */
+    sp_hit *hits;        /* [BATCH] */
+    jet_impact *impacts; /* [BATCH] */
+    int threads;
+} jet_flight;
+
+static uint32_t find_texel(const sp_atlas *atlas, uint32_t page, uint32_t x, uint32_t y)
+{
+    size_t low = 0, high = atlas->texel_count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        uint32_t at_page = atlas->texel_page[middle], at_y = atlas->texel_y[middle], at_x = atlas->texel_x[middle];
+        if (at_page < page || (at_page == page && (at_y < y || (at_y == y && at_x < x))))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    bool found = low < atlas->texel_count && atlas->texel_page[low] == page && atlas->texel_y[low] == y &&
+                 atlas->texel_x[low] == x;
+    return found ? (uint32_t)low : SP_NONE;
+}
+
+/* Shares an impact among the patches of its chart whose texels' centres are nearest, the nearer the more (the study's
+ * weighted average, 3.3.1), and in proportion to their area: an even flux stays even at the rim of a chart. */
+static void share_linearly(const sp_evaluator *evaluator, const sp_hit *hit, bool back, jet_impact *impact)
+{
+    const sp_atlas *atlas = evaluator->atlas;
+    const double(*uv)[2] = (const double(*)[2])atlas->uv[hit->triangle];
+    uint32_t chart = atlas->chart[hit->triangle], page = atlas->chart_page[chart], only = impact->patch[0];
+    double w = 1 - hit->u - hit->v, place[2], corner[2];
+    for (int axis = 0; axis < 2; axis++) {
+        place[axis] = w * uv[0][axis] + hit->u * uv[1][axis] + hit->v * uv[2][axis] - 0.5;
+        corner[axis] = floor(place[axis]);
+    }
+    double sum = 0;
+    int shares = 0;
+    for (int i = 0; i < SHARES; i++) {
+        double x = corner[0] + i % 2, y = corner[1] + i / 2;
+        uint32_t texel = x < 0 || y < 0 ? SP_NONE : find_texel(atlas, page, (uint32_t)x, (uint32_t)y);
+        if (texel == SP_NONE || atlas->texel_chart[texel] != chart)
+            continue;
+        uint32_t patch = evaluator->texel_patch[texel][evaluator->setup.cavity != SP_CAVITY_NONE && back];
+        if (patch == SP_NONE)
+            continue;
+        double weight = (1 - fabs(place[0] - x)) * (1 - fabs(place[1] - y)) * evaluator->patches.area[patch];
+        if (!(weight > 0))
+            continue;
+        impact->patch[shares] = patch;
+        impact->share[shares++] = weight;
+        sum += weight;
+    }
+    if (shares == 0) {
+        impact->patch[0] = only;
+        impact->share[0] = sum = 1;
+        shares = 1;
+    }
+    for (int i = 0; i < shares; i++)
+        impact->share[i] /= sum;
+    impact->shares = shares;
+}
+
+/* A parabola that leaves a triangle may come back to it, which its `skip` hides: of the two meetings with the
+ * triangle's plane one is the start, so that the other follows without round-off. */
+static void return_to_start(const sp_mesh *mesh, const sp_ray *ray, sp_vec3 gravity, sp_hit *hit)
+{
+    sp_vec3 normal = sp_triangle_normal(mesh, ray->skip);
+    double rise = sp_dot(ray->velocity, normal), fall = sp_dot(gravity, normal);
+    if (!(rise * fall < 0) || !(-2 * rise / fall < hit->t))
+        return;
+    double t = -2 * rise / fall;
+    const uint32_t *corner = mesh->triangles[ray->skip];
+    sp_vec3 a = mesh->vertices[corner[0]], point = sp_sub(sp_ray_point(ray, gravity, t), a);
+    sp_vec3 ab = sp_sub(mesh->vertices[corner[1]], a), ac = sp_sub(mesh->vertices[corner[2]], a),
+            area = sp_cross(ab, ac);
+    double u = sp_dot(sp_cross(point, ac), area) / sp_dot(area, area);
+    double v = sp_dot(sp_cross(ab, point), area) / sp_dot(area, area);
+    if (u >= 0 && v >= 0 && u + v <= 1)
+        *hit = (sp_hit){.t = t, .u = u, .v = v, .triangle = ray->skip};
+}
+
+/* Turns a hit into an impact, and the ray and its flow into what flies on: v' = v_t - e v_n (DESIGN §2). */
+static void strike(jet_flight *flight, size_t i)
+{
+    const sp_evaluator *evaluator = flight->evaluator;
+    const sp_mesh *mesh = evaluator->setup.mesh;
+    const sp_criterion *criterion = &evaluator->setup.criterion;
+    sp_ray *ray = &flight->rays[i];
+    sp_hit *hit = &flight->hits[i];
+    jet_impact *impact = &flight->impacts[i];
+    if (ray->skip != SP_NONE)
+        return_to_start(mesh, ray, evaluator->gravity, hit);
+    impact->shares = 0;
+    impact->goes_on = false;
+    if (hit->triangle == SP_NONE)
+        return;
+
+    sp_vec3 velocity = sp_ray_velocity(ray, evaluator->gravity, hit->t);
+    sp_vec3 normal = sp_triangle_normal(mesh, hit->triangle);
+    double along_normal = sp_dot(velocity, normal);
+    impact->flow = flight->flow[i];
+    impact->speed = sp_length(velocity);
+    impact->incidence = impact->speed > 0 ? acos(fmin(1, fabs(along_normal) / impact->speed)) : 0;
+    impact->passes = impact->speed >= criterion->impact_speed && impact->incidence <= criterion->incidence;
+    impact->patch[0] = sp_patch_at(evaluator, hit->triangle, hit->u, hit->v, along_normal > 0);
+    impact->share[0] = 1;
+    impact->shares = impact->patch[0] != SP_NONE;
+    if (impact->shares && evaluator->fidelity.splat == SP_SPLAT_LINEAR)
+        share_linearly(evaluator, hit, along_normal > 0, impact);
+
+    const sp_surface *surface = &evaluator->setup.surfaces[mesh->part[hit->triangle]];
+    ray->origin = sp_triangle_point(mesh, hit->triangle, hit->u, hit->v);
+    ray->velocity = sp_along(velocity, -(1 + surface->restitution) * along_normal, normal);
+    ray->skip = hit->triangle;
+    flight->flow[i] *= surface->rebound;
+    impact->goes_on = surface->restitution > 0 && flight->flow[i] > 0 && sp_length(ray->velocity) > 0;
+}
+
+/* Adds the impacts up. Each thread sees all of them but owns a range of the patches, so that every patch adds up in the
+ * order of the jets however many threads there are. */
+static void settle(jet_flight *flight, size_t count)
+{
+    const sp_patches *patches = &flight->evaluator->patches;
+    double density = flight->evaluator->setup.liquid.density;
+#pragma omp parallel num_threads(flight->threads)
+    {
+        size_t own = (size_t)omp_get_thread_num(), all = (size_t)omp_get_num_threads();
+        size_t first = patches->count * own / all, end = patches->count * (own + 1) / all;
+        for (size_t i = 0; i < count; i++) {
+            const jet_impact *impact = &flight->impacts[i];
+            for (int k = 0; k < impact->shares; k++) {
+                uint32_t patch = impact->patch[k];
+                if (patch < first || patch >= end)
+                    continue;
+                double flux = impact->flow * impact->share[k] / patches->area[patch];
+                sp_deposit(flight->deposits, patch, flux, impact->share[k], impact->speed, impact->incidence, density);
+                if (impact->passes)
+                    flight->counted[patch] += flux;
+            }
+        }
+    }
+}
+
+/* Moves the jets that fly on to the front, in their order; returns how many there are. */
+static size_t gather(jet_flight *flight, size_t count)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (!flight->impacts[i].goes_on)
+            continue;
+        flight->rays[kept] = flight->rays[i];
+        flight->flow[kept++] = flight->flow[i];
+    }
+    return kept;
+}
+
+/* Flies `count` jets to their end. */
+static void fly(jet_flight *flight, size_t count)
+{
+    const sp_evaluator *evaluator = flight->evaluator;
+    for (int bounce = 0; bounce <= evaluator->fidelity.reflections && count > 0; bounce++) {
+        sp_trace_nearest_many(evaluator->tracer, flight->rays, count, evaluator->gravity, flight->threads,
+                              flight->hits);
+#pragma omp parallel for num_threads(flight->threads)
+        for (size_t i = 0; i < count; i++)
+            strike(flight, i);
+        settle(flight, count);
+        count = gather(flight, count);
+    }
+}
+
+static uint64_t nozzle_jets(const sp_evaluator *evaluator, const sp_nozzle *nozzle)
+{
+    return nozzle->jets ? nozzle->jets : evaluator->fidelity.jets;
+}
+
+/* Starts jets [first, first + count) of a nozzle. */
+static void spray_jets(jet_flight *flight, const sp_nozzle *nozzle, uint64_t first, size_t count)
+{
+    const sp_setup *setup = &flight->evaluator->setup;
+    uint64_t jets = nozzle_jets(flight->evaluator, nozzle), seed = flight->evaluator->fidelity.seed;
+    double speed = sp_nozzle_speed(nozzle, &setup->liquid), flow = sp_nozzle_flow(nozzle, &setup->liquid);
+    sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
+    sp_frame frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up);
+#pragma omp parallel for num_threads(flight->threads)
+    for (size_t i = 0; i < count; i++) {
+        sp_vec3 d = sp_spray_direction(&spray, first + i, jets, seed);
+        sp_vec3 direction = sp_along(sp_along(sp_scale(frame.x, d.x), d.y, frame.y), d.z, frame.z);
+        flight->rays[i] = (sp_ray){.origin = nozzle->position,
+                                   .velocity = sp_scale(direction, speed),
+                                   .t_min = 0,
+                                   .t_max = INFINITY,
+                                   .skip = SP_NONE};
+        flight->flow[i] = flow / (double)jets;
+    }
+}
+
+/* `done` and `all` count the layout's jets, for the progress. */
+static bool fly_nozzle(jet_flight *flight, const sp_nozzle *nozzle, double *done, double all, sp_error *error)
+{
+    const sp_setup *setup = &flight->evaluator->setup;
+    uint64_t jets = nozzle_jets(flight->evaluator, nozzle);
+    if (!(sp_nozzle_speed(nozzle, &setup->liquid) > 0) || !(sp_nozzle_flow(nozzle, &setup->liquid) > 0))
+        return true;
+    for (uint64_t first = 0; first < jets; first += BATCH) {
+        size_t count = jets - first < BATCH ? (size_t)(jets - first) : BATCH;
+        spray_jets(flight, nozzle, first, count);
+        fly(flight, count);
+        *done += (double)count;
+        if (!sp_evaluator_progress(setup, "jets", *done / all, error))
+            return false;
+    }
+    return true;
+}
+
+/* With SP_COMBINE_SINGLE each nozzle is counted by itself and the best one stays. */
+static bool fly_layout(jet_flight *flight, const sp_layout *layout, sp_error *error)
+{
+    size_t patches = flight->deposits->count;
+    bool single = flight->evaluator->setup.criterion.combine == SP_COMBINE_SINGLE;
+    double done = 0, all = 0;
+    for (size_t n = 0; n < layout->count; n++)
+        all += (double)nozzle_jets(flight->evaluator, &layout->nozzles[n]);
+    flight->counted = single ? malloc((patches ? patches : 1) * sizeof(double)) : flight->deposits->counted;
+    if (!flight->counted)
+        return sp_fail_memory(error);
+    bool going = true;
+    for (size_t n = 0; going && n < layout->count; n++) {
+        if (single)
+            memset(flight->counted, 0, patches * sizeof(double));
+        going = fly_nozzle(flight, &layout->nozzles[n], &done, all, error);
+        for (size_t i = 0; single && i < patches; i++)
+            flight->deposits->counted[i] = fmax(flight->deposits->counted[i], flight->counted[i]);
+    }
+    if (single)
+        free(flight->counted);
+    return going;
+}
+
+sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
+{
+    sp_coverage *coverage = sp_coverage_create(evaluator, error);
+    if (!coverage)
+        return NULL;
+    jet_flight flight = {.evaluator = evaluator,
+                         .deposits = &coverage->deposits,
+                         .rays = malloc(BATCH * sizeof *flight.rays),
+                         .flow = malloc(BATCH * sizeof *flight.flow),
+                         .hits = malloc(BATCH * sizeof *flight.hits),
+                         .impacts = malloc(BATCH * sizeof *flight.impacts),
+                         .threads = sp_thread_count(evaluator->setup.run.threads)};
+    bool done = flight.rays && flight.flow && flight.hits && flight.impacts;
+    if (!done)
+        sp_fail_memory(error);
+    done = done && fly_layout(&flight, layout, error) && sp_coverage_conclude(evaluator, layout, coverage, error);
+    free(flight.rays);
+    free(flight.flow);
+    free(flight.hits);
+    free(flight.impacts);
+    if (done)
+        return coverage;
+    sp_coverage_destroy(coverage);
+    return NULL;
+}

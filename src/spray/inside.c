@@ -1,0 +1,35 @@
+/* Whether a point lies in the space that the wet sides face. */
+#include "state.h"
+
+#define SIGHTS 32
+
+/* Spherical Fibonacci points (Swinbank and Purser 2006): equal steps in height, the golden angle in longitude. */
+sp_vec3 sp_sphere_direction(int index, int count)
+{
+    static const double golden = 0.61803398874989484820;
+    double height = 1 - (2 * index + 1.0) / count, radius = sqrt(1 - height * height);
+    double turns = index * golden, longitude = 2 * M_PI * (turns - floor(turns));
+    return sp_v(radius * cos(longitude), radius * sin(longitude), height);
+}
+
+bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point)
+{
+    if (evaluator->setup.cavity == SP_CAVITY_NONE)
+        return true;
+    int votes = 0;
+    for (int i = 0; i < SIGHTS; i++) {
+        sp_ray sight = {.origin = point,
+                        .velocity = sp_sphere_direction(i, SIGHTS),
+                        .t_min = 0,
+                        .t_max = INFINITY,
+                        .skip = SP_NONE};
+        sp_hit hit = sp_trace_nearest(evaluator->tracer, &sight, sp_v(0, 0, 0));
+        if (hit.triangle == SP_NONE) {
+            votes += evaluator->setup.cavity == SP_CAVITY_OUTSIDE;
+            continue;
+        }
+        bool back = sp_dot(sp_triangle_normal(evaluator->setup.mesh, hit.triangle), sight.velocity) > 0;
+        votes += (evaluator->wet[hit.triangle] >> back) & 1;
+    }
+    return 2 * votes > SIGHTS;
+}

@@ -1,0 +1,235 @@
+/* Patches: the clean, wet part of each texel, on each side. */
+#include "state.h"
+
+#include <stdlib.h>
+
+/* Of the way from a patch's nearest point towards the middle of the polygon that holds it: off the edges, where a line
+ * of sight would have to choose between neighbouring triangles. */
+#define INWARDS 1e-4
+
+/* Whether a triangle's `side` (0 front, or both where no cavity is named; 1 back) is cleaned and counted. */
+static bool is_counted(const sp_evaluator *evaluator, uint32_t triangle, unsigned side)
+{
+    const sp_setup *setup = &evaluator->setup;
+    if (!setup->surfaces[setup->mesh->part[triangle]].clean)
+        return false;
+    return setup->cavity == SP_CAVITY_NONE ? side == 0 : (evaluator->wet[triangle] >> side) & 1;
+}
+
+uint32_t sp_patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back)
+{
+    unsigned side = evaluator->setup.cavity != SP_CAVITY_NONE && back;
+    if (!is_counted(evaluator, triangle, side))
+        return SP_NONE;
+    return evaluator->texel_patch[sp_atlas_texel(evaluator->atlas, triangle, u, v)][side];
+}
+
+/* The point of triangle abc nearest to p: the foot of the perpendicular where that lies inside, else the nearest of its
+ * feet on the three edges. */
+static sp_vec3 nearest_in_triangle(sp_vec3 p, sp_vec3 a, sp_vec3 b, sp_vec3 c)
+{
+    const sp_vec3 corner[3] = {a, b, c};
+    sp_vec3 normal = sp_cross(sp_sub(b, a), sp_sub(c, a)), nearest = a;
+    double area2 = sp_dot(normal, normal), least = INFINITY;
+    bool inside = area2 > 0;
+    for (int i = 0; i < 3; i++) {
+        sp_vec3 from = corner[i], edge = sp_sub(corner[(i + 1) % 3], from), offset = sp_sub(p, from);
+        inside = inside && sp_dot(sp_cross(edge, offset), normal) >= 0;
+        double length2 = sp_dot(edge, edge), share = length2 > 0 ? sp_dot(offset, edge) / length2 : 0;
+        sp_vec3 foot = sp_along(from, fmin(fmax(share, 0), 1), edge);
+        double distance = sp_distance(foot, p);
+        if (distance < least) {
+            least = distance;
+            nearest = foot;
+        }
+    }
+    return inside ? sp_along(p, -sp_dot(sp_sub(p, a), normal) / area2, normal) : nearest;
+}
+
+static double corner_area(sp_vec3 a, sp_vec3 b, sp_vec3 c)
+{
+    return 0.5 * sp_length(sp_cross(sp_sub(b, a), sp_sub(c, a)));
+}
+
+/* Area times centroid of a convex polygon; its area in *area. */
+static sp_vec3 polygon_moment(const sp_vec3 *polygon, int count, double *area)
+{
+    sp_vec3 moment = sp_v(0, 0, 0);
+    *area = 0;
+    for (int i = 2; i < count; i++) {
+        double part = corner_area(polygon[0], polygon[i - 1], polygon[i]);
+        moment = sp_along(moment, part / 3, sp_add(polygon[0], sp_add(polygon[i - 1], polygon[i])));
+        *area += part;
+    }
+    return moment;
+}
+
+/* Where one patch is judged, and how large it is. */
+typedef struct {
+    double area;
+    sp_vec3 point;
+    uint32_t triangle;
+} patch_place;
+
+/* The centroid of what `texel` has on `side`; its area, as the atlas measured it, in *area. False where nothing is
+ * left. */
+static bool patch_centroid(const sp_evaluator *evaluator, uint32_t texel, unsigned side, sp_vec3 *centroid,
+                           double *area)
+{
+    const sp_atlas *atlas = evaluator->atlas;
+    sp_vec3 moment = sp_v(0, 0, 0);
+    double drawn = 0;
+    *area = 0;
+    for (uint32_t f = atlas->fragment_start[texel]; f < atlas->fragment_start[texel + 1]; f++) {
+        if (!is_counted(evaluator, atlas->fragments[f].triangle, side))
+            continue;
+        sp_vec3 polygon[SP_FRAGMENT_POINTS];
+        int corners = sp_atlas_fragment_polygon(atlas, evaluator->setup.mesh, texel, f, polygon);
+        double part;
+        moment = sp_add(moment, polygon_moment(polygon, corners, &part));
+        drawn += part;
+        *area += atlas->fragments[f].area;
+    }
+    if (!(drawn > 0 && *area > 0))
+        return false;
+    *centroid = sp_scale(moment, 1 / drawn);
+    return true;
+}
+
+/* False where the texel has nothing to count on that side. */
+static bool place_patch(const sp_evaluator *evaluator, uint32_t texel, unsigned side, patch_place *place)
+{
+    const sp_atlas *atlas = evaluator->atlas;
+    sp_vec3 centroid;
+    if (!patch_centroid(evaluator, texel, side, &centroid, &place->area))
+        return false;
+    double least = INFINITY;
+    for (uint32_t f = atlas->fragment_start[texel]; f < atlas->fragment_start[texel + 1]; f++) {
+        uint32_t triangle = atlas->fragments[f].triangle;
+        if (!is_counted(evaluator, triangle, side))
+            continue;
+        sp_vec3 polygon[SP_FRAGMENT_POINTS];
+        int corners = sp_atlas_fragment_polygon(atlas, evaluator->setup.mesh, texel, f, polygon);
+        double area;
+        sp_vec3 moment = polygon_moment(polygon, corners, &area);
+        for (int i = 2; area > 0 && i < corners; i++) {
+            sp_vec3 point = nearest_in_triangle(centroid, polygon[0], polygon[i - 1], polygon[i]);
+            double distance = sp_distance(point, centroid);
+            if (distance < least) {
+                least = distance;
+                place->point = sp_along(point, INWARDS, sp_sub(sp_scale(moment, 1 / area), point));
+                place->triangle = triangle;
+            }
+        }
+    }
+    return least < INFINITY;
+}
+
+static bool allocate_patches(sp_patches *patches, size_t count)
+{
+    size_t room = count ? count : 1;
+    patches->count = count;
+    patches->texel = malloc(room * sizeof *patches->texel);
+    patches->side = malloc(room * sizeof *patches->side);
+    patches->area = malloc(room * sizeof *patches->area);
+    patches->point = malloc(room * sizeof *patches->point);
+    patches->normal = malloc(room * sizeof *patches->normal);
+    patches->triangle = malloc(room * sizeof *patches->triangle);
+    patches->neighbour_start = malloc((count + 1) * sizeof *patches->neighbour_start);
+    return patches->texel && patches->side && patches->area && patches->point && patches->normal && patches->triangle &&
+           patches->neighbour_start;
+}
+
+/* Copies the places found on front and back of every texel into patches, and numbers them. */
+static void number_patches(sp_evaluator *evaluator, patch_place (*places)[2])
+{
+    sp_patches *patches = &evaluator->patches;
+    bool sided = evaluator->setup.cavity != SP_CAVITY_NONE;
+    uint32_t patch = 0;
+    for (size_t texel = 0; texel < evaluator->atlas->texel_count; texel++) {
+        for (unsigned side = 0; side < 2; side++) {
+            const patch_place *place = &places[texel][side];
+            evaluator->texel_patch[texel][side] = place->triangle == SP_NONE ? SP_NONE : patch;
+            if (place->triangle == SP_NONE)
+                continue;
+            sp_vec3 normal = sp_triangle_normal(evaluator->setup.mesh, place->triangle);
+            patches->texel[patch] = (uint32_t)texel;
+            patches->side[patch] = !sided ? SP_SIDE_BOTH : side ? SP_SIDE_BACK : SP_SIDE_FRONT;
+            patches->area[patch] = place->area;
+            patches->point[patch] = place->point;
+            patches->normal[patch] = side ? sp_scale(normal, -1) : normal;
+            patches->triangle[patch] = place->triangle;
+            patches->total_area += place->area;
+            patch++;
+        }
+    }
+}
+
+/* Neighbours of a patch: the patches on the same side of the texels that touch its own. */
+static bool link_patches(sp_evaluator *evaluator)
+{
+    const sp_atlas *atlas = evaluator->atlas;
+    sp_patches *patches = &evaluator->patches;
+    uint32_t links = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        links = 0;
+        for (size_t patch = 0; patch < patches->count; patch++) {
+            uint32_t texel = patches->texel[patch];
+            bool back = patches->side[patch] == SP_SIDE_BACK;
+            patches->neighbour_start[patch] = links;
+            for (uint32_t k = atlas->neighbour_start[texel]; k < atlas->neighbour_start[texel + 1]; k++) {
+                uint32_t other = evaluator->texel_patch[atlas->neighbours[k]][back];
+                if (other == SP_NONE)
+                    continue;
+                if (pass)
+                    patches->neighbours[links] = other;
+                links++;
+            }
+        }
+        if (!pass)
+            patches->neighbours = malloc((links ? links : 1) * sizeof *patches->neighbours);
+        if (!patches->neighbours)
+            return false;
+    }
+    patches->neighbour_start[patches->count] = links;
+    return true;
+}
+
+bool sp_patches_create(sp_evaluator *evaluator, sp_error *error)
+{
+    size_t texels = evaluator->atlas->texel_count;
+    patch_place(*places)[2] = malloc((texels ? texels : 1) * sizeof *places);
+    evaluator->texel_patch = malloc((texels ? texels : 1) * sizeof *evaluator->texel_patch);
+    if (!places || !evaluator->texel_patch) {
+        free(places);
+        return sp_fail_memory(error);
+    }
+#pragma omp parallel for schedule(dynamic, 256) num_threads(sp_thread_count(evaluator->setup.run.threads))
+    for (size_t texel = 0; texel < texels; texel++)
+        for (unsigned side = 0; side < 2; side++)
+            if (!place_patch(evaluator, (uint32_t)texel, side, &places[texel][side]))
+                places[texel][side].triangle = SP_NONE;
+    size_t count = 0;
+    for (size_t texel = 0; texel < texels; texel++)
+        count += (places[texel][0].triangle != SP_NONE) + (places[texel][1].triangle != SP_NONE);
+    bool done = allocate_patches(&evaluator->patches, count);
+    if (done) {
+        number_patches(evaluator, places);
+        done = link_patches(evaluator);
+    }
+    free(places);
+    return done || sp_fail_memory(error);
+}
+
+void sp_patches_free(sp_patches *patches)
+{
+    free(patches->texel);
+    free(patches->side);
+    free(patches->area);
+    free(patches->point);
+    free(patches->normal);
+    free(patches->triangle);
+    free(patches->neighbour_start);
+    free(patches->neighbours);
+    *patches = (sp_patches){0};
+}

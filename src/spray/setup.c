@@ -1,0 +1,21 @@
+#include <sprayplan/setup.h>
+
+sp_setup sp_setup_default(void)
+{
+    return (sp_setup){
+        .cavity = SP_CAVITY_NONE,
+        .liquid = {.density = 1000, .viscosity = 1e-3},
+        .air = {.density = 1.2, .viscosity = 18e-6},
+        .up = {0, 0, 1},
+        .gravity = 9.81,
+        .criterion = {.flux = 0, .impact_speed = 0, .incidence = M_PI / 2, .combine = SP_COMBINE_SUM},
+        .fidelity = {.trajectory = SP_TRAJECTORY_AUTO,
+                     .method = SP_METHOD_AUTO,
+                     .reflections = -1,
+                     .jets = 0,
+                     .texel = 0,
+                     .splat = SP_SPLAT_NEAREST,
+                     .accuracy = 0.01,
+                     .seed = 1},
+    };
+}

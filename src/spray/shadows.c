@@ -1,0 +1,135 @@
+/* Shadows: connected regions that the criteria do not find covered. */
+#include "state.h"
+
+#include <stdlib.h>
+
+/* A region while it grows. */
+typedef struct {
+    sp_shadow shadow;
+    uint32_t first; /* its lowest patch */
+} region;
+
+typedef struct {
+    const sp_evaluator *evaluator;
+    const bool *attainable;
+    bool *visited;     /* [patches], covered ones too */
+    uint32_t *queue;   /* [patches] */
+    double *part_area; /* [parts], zero between regions */
+} shadow_search;
+
+/* The part with most of the region's area; of equal ones the lowest number. Leaves part_area zero again. */
+static uint32_t main_part(const shadow_search *search, size_t members)
+{
+    const sp_patches *patches = &search->evaluator->patches;
+    const sp_mesh *mesh = search->evaluator->setup.mesh;
+    for (size_t i = 0; i < members; i++)
+        search->part_area[mesh->part[patches->triangle[search->queue[i]]]] += patches->area[search->queue[i]];
+    uint32_t best = mesh->part[patches->triangle[search->queue[0]]];
+    for (size_t i = 0; i < members; i++) {
+        uint32_t part = mesh->part[patches->triangle[search->queue[i]]];
+        double more = search->part_area[part] - search->part_area[best];
+        if (more > 0 || (more == 0 && part < best))
+            best = part;
+    }
+    for (size_t i = 0; i < members; i++)
+        search->part_area[mesh->part[patches->triangle[search->queue[i]]]] = 0;
+    return best;
+}
+
+/* The region that holds patch `first`. */
+static region grow(const shadow_search *search, uint32_t first)
+{
+    const sp_patches *patches = &search->evaluator->patches;
+    size_t members = 1;
+    search->queue[0] = first;
+    search->visited[first] = true;
+    for (size_t i = 0; i < members; i++) {
+        uint32_t patch = search->queue[i];
+        for (uint32_t k = patches->neighbour_start[patch]; k < patches->neighbour_start[patch + 1]; k++) {
+            uint32_t other = patches->neighbours[k];
+            if (!search->visited[other]) {
+                search->visited[other] = true;
+                search->queue[members++] = other;
+            }
+        }
+    }
+    sp_shadow shadow = {.reachable_area = search->attainable ? 0 : -1};
+    for (size_t i = 0; i < members; i++) {
+        uint32_t patch = search->queue[i];
+        shadow.area += patches->area[patch];
+        shadow.centroid = sp_along(shadow.centroid, patches->area[patch], patches->point[patch]);
+        if (search->attainable && search->attainable[patch])
+            shadow.reachable_area += patches->area[patch];
+    }
+    shadow.centroid = sp_scale(shadow.centroid, 1 / shadow.area);
+    shadow.part = main_part(search, members);
+    return (region){shadow, first};
+}
+
+static int largest_first(const void *left, const void *right)
+{
+    const region *a = left, *b = right;
+    if (a->shadow.area != b->shadow.area)
+        return a->shadow.area > b->shadow.area ? -1 : 1;
+    return (a->first > b->first) - (a->first < b->first);
+}
+
+/* NULL only where memory runs out. */
+static region *find_regions(const shadow_search *search, size_t *count)
+{
+    size_t room = 16;
+    region *regions = malloc(room * sizeof *regions);
+    *count = 0;
+    for (size_t patch = 0; regions && patch < search->evaluator->patches.count; patch++) {
+        if (search->visited[patch])
+            continue;
+        if (*count == room) {
+            room *= 2;
+            region *more = realloc(regions, room * sizeof *regions);
+            if (!more) {
+                free(regions);
+                return NULL;
+            }
+            regions = more;
+        }
+        regions[(*count)++] = grow(search, (uint32_t)patch);
+    }
+    if (regions)
+        qsort(regions, *count, sizeof *regions, largest_first);
+    return regions;
+}
+
+static bool hand_over(const region *regions, size_t count, sp_shadow **shadows)
+{
+    *shadows = count ? malloc(count * sizeof **shadows) : NULL;
+    for (size_t i = 0; *shadows && i < count; i++)
+        (*shadows)[i] = regions[i].shadow;
+    return *shadows || count == 0;
+}
+
+bool sp_shadows(const sp_evaluator *evaluator, const sp_coverage *coverage, const bool *attainable, sp_shadow **shadows,
+                size_t *count, sp_error *error)
+{
+    if (!evaluator || !coverage)
+        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "shadows: evaluator and coverage must not be NULL");
+    size_t patches = evaluator->patches.count;
+    if (coverage->deposits.count != patches)
+        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "shadows: the coverage is of another evaluator");
+    shadow_search search = {.evaluator = evaluator,
+                            .attainable = attainable,
+                            .visited = malloc(patches ? patches * sizeof(bool) : 1),
+                            .queue = malloc(patches ? patches * sizeof(uint32_t) : 1),
+                            .part_area = calloc(evaluator->setup.mesh->part_count, sizeof(double))};
+    region *regions = NULL;
+    if (search.visited && search.queue && search.part_area) {
+        for (size_t i = 0; i < patches; i++)
+            search.visited[i] = coverage->deposits.covered[i];
+        regions = find_regions(&search, count);
+    }
+    bool done = regions && hand_over(regions, *count, shadows);
+    free(search.visited);
+    free(search.queue);
+    free(search.part_area);
+    free(regions);
+    return done || sp_fail_memory(error);
+}
