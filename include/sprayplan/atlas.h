@@ -42,6 +42,8 @@ typedef struct {
     double *texel_area;                                     /* [texel_count], m²; sums to the surface's area */
     uint32_t *fragment_start; /* [texel_count + 1]; fragments of texel i are [start[i], start[i+1]) */
     sp_fragment *fragments;   /* ordered by texel, then triangle */
+    uint32_t *triangle_start; /* [triangle_count + 1]; each triangle's own texels, at least one, are */
+    uint32_t *triangle_texels; /* [start[t], start[t + 1]), ascending */
     uint32_t *neighbour_start; /* [texel_count + 1] */
     uint32_t *neighbours;      /* texels that touch along an edge in the chart or across a seam; symmetric, ascending */
 } sp_atlas;
