@@ -1,0 +1,26 @@
+/* How liquid that leaves one point at one speed arrives at a point of the surface. */
+#ifndef SPRAY_ARRIVAL_H
+#define SPRAY_ARRIVAL_H
+
+#include "state.h"
+
+typedef struct {
+    const sp_evaluator *evaluator;
+    sp_vec3 position; /* m */
+    double speed;     /* m/s */
+} sp_source;
+
+typedef struct {
+    sp_vec3 point;     /* m */
+    sp_vec3 normal;    /* unit, towards the wet side */
+    sp_side side;      /* SP_SIDE_BOTH takes liquid from either side */
+    uint32_t triangle; /* that holds the point */
+} sp_target;
+
+sp_target sp_patch_target(const sp_patches *patches, uint32_t patch);
+/* Fills everything but `patch`; false where the flight comes to the dry side. */
+bool sp_arrive(const sp_source *source, const sp_target *target, const sp_flight *flight, sp_arrival *arrival);
+/* True where something lies in the way. */
+bool sp_flight_blocked(const sp_source *source, const sp_target *target, const sp_flight *flight);
+
+#endif
