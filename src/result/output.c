@@ -12,7 +12,7 @@
 typedef struct {
     char *target, *temporary;
     char *backup;  /* a second name of what target was, while commit is under way */
-    bool replaced; /* by commit */
+    bool existed, replaced; /* before commit; by commit */
 } entry;
 
 struct sp_output {
@@ -194,6 +194,7 @@ static bool keep_old(const sp_output *output, entry *file, sp_error *error)
     file->backup = joined(output->directory, "replaced", (long)getpid(), name);
     if (!file->backup)
         return sp_fail_memory(error);
+    file->existed = access(file->target, F_OK) == 0;
     if (link(file->target, file->backup) != 0) {
         free(file->backup);
         file->backup = NULL;
@@ -209,7 +210,7 @@ static void put_back(sp_output *output)
             rename(file->backup, file->target);
         else if (file->backup)
             unlink(file->backup);
-        else if (file->replaced)
+        else if (file->replaced && !file->existed)
             unlink(file->target);
     }
 }

@@ -1,0 +1,47 @@
+/* The nozzle list for spreadsheets (RFC 4180). */
+#include "growing_text.h"
+
+#include <sprayplan/result.h>
+
+#include <string.h>
+
+static void add_field(sp_text *text, const char *value)
+{
+    if (!strpbrk(value, ",\"\r\n")) {
+        sp_text_append(text, value, strlen(value));
+        return;
+    }
+    sp_text_append(text, "\"", 1);
+    for (const char *at = value; *at; ++at)
+        sp_text_append(text, *at == '"' ? "\"\"" : at, *at == '"' ? 2 : 1);
+    sp_text_append(text, "\"", 1);
+}
+
+char *sp_nozzles_csv(const sp_layout *layout, const sp_fluid *liquid, sp_error *error)
+{
+    sp_text text = {0};
+    sp_text_add(&text, "name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s\n");
+    for (size_t i = 0; i < layout->count; ++i) {
+        const sp_nozzle *nozzle = &layout->nozzles[i];
+        const double values[] = {nozzle->position.x,
+                                 nozzle->position.y,
+                                 nozzle->position.z,
+                                 nozzle->axis.x,
+                                 nozzle->axis.y,
+                                 nozzle->axis.z,
+                                 nozzle->roll * 180 / M_PI,
+                                 sp_nozzle_angle(nozzle) * 180 / M_PI,
+                                 nozzle->pressure / 1e5,
+                                 sp_nozzle_flow(nozzle, liquid) * 6e4,
+                                 sp_nozzle_speed(nozzle, liquid)};
+        add_field(&text, nozzle->name);
+        sp_text_append(&text, ",", 1);
+        add_field(&text, nozzle->type->name);
+        for (size_t k = 0; k < sizeof values / sizeof *values; ++k) {
+            sp_text_append(&text, ",", 1);
+            sp_text_number(&text, values[k]);
+        }
+        sp_text_append(&text, "\n", 1);
+    }
+    return sp_text_finish(&text, error);
+}

@@ -1,0 +1,320 @@
+/* Figures back from a result.json, which may come from a stranger. */
+#include "growing_text.h"
+
+#include <sprayplan/result.h>
+
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define LARGEST_FILE (256L << 20) /* bytes */
+#define MOST_LAYOUTS 1000
+
+/* Where in the file we are, for errors. */
+typedef struct {
+    const char *file;
+    sp_error *error;
+    char place[128]; /* "layouts[2].nozzles[0]." */
+} reader;
+
+static const char *kind_of(const json_t *value)
+{
+    switch (json_typeof(value)) {
+    case JSON_OBJECT:
+        return "an object";
+    case JSON_ARRAY:
+        return "a list";
+    case JSON_STRING:
+        return "a text";
+    case JSON_NULL:
+        return "null";
+    case JSON_TRUE:
+    case JSON_FALSE:
+        return "true or false";
+    default:
+        return "a number";
+    }
+}
+
+static bool wrong(const reader *in, const char *key, const json_t *found, const char *expected)
+{
+    if (!found)
+        return sp_fail(in->error, SP_ERROR_INPUT, in->file, 0, 0, "%s%s: missing, expected %s", in->place, key, expected);
+    if (json_is_number(found))
+        return sp_fail(in->error, SP_ERROR_INPUT, in->file, 0, 0, "%s%s: found %.17g, expected %s", in->place, key,
+                       json_number_value(found), expected);
+    return sp_fail(in->error, SP_ERROR_INPUT, in->file, 0, 0, "%s%s: found %s, expected %s", in->place, key,
+                   kind_of(found), expected);
+}
+
+/* A number in [minimum, maximum] times `unit`; NAN where absent. */
+static bool get_real(const reader *in, const json_t *object, const char *key, double minimum, double maximum, double unit,
+                     double *value)
+{
+    const json_t *found = json_object_get(object, key);
+    *value = NAN;
+    if (!found)
+        return true;
+    char expected[80];
+    snprintf(expected, sizeof expected, "a number from %g to %g", minimum, maximum);
+    double number = json_is_number(found) ? json_number_value(found) : NAN;
+    if (!(number >= minimum && number <= maximum))
+        return wrong(in, key, found, expected);
+    *value = number * unit;
+    return true;
+}
+
+static bool get_count(const reader *in, const json_t *object, const char *key, size_t *value)
+{
+    const json_t *found = json_object_get(object, key);
+    *value = SP_UNKNOWN;
+    if (!found)
+        return true;
+    if (!json_is_integer(found) || json_integer_value(found) < 0)
+        return wrong(in, key, found, "a whole number, not negative");
+    *value = (size_t)json_integer_value(found);
+    return true;
+}
+
+/* Malloc'd; "" where absent. */
+static bool get_text(const reader *in, const json_t *object, const char *key, char **value)
+{
+    const json_t *found = json_object_get(object, key);
+    *value = NULL;
+    if (found && !json_is_string(found))
+        return wrong(in, key, found, "a text");
+    *value = sp_text_utf8(found ? json_string_value(found) : "");
+    return *value || sp_fail_memory(in->error);
+}
+
+static bool get_choice(const reader *in, const json_t *object, const char *key, const char *first, const char *second,
+                       char value[16])
+{
+    const json_t *found = json_object_get(object, key);
+    const char *text = found && json_is_string(found) ? json_string_value(found) : NULL;
+    value[0] = 0;
+    if (!found)
+        return true;
+    char expected[64];
+    snprintf(expected, sizeof expected, "\"%s\" or \"%s\"", first, second);
+    if (!text || (strcmp(text, first) != 0 && strcmp(text, second) != 0))
+        return wrong(in, key, found, expected);
+    snprintf(value, 16, "%s", text);
+    return true;
+}
+
+static bool get_vector(const reader *in, const json_t *object, const char *key, sp_vec3 *value)
+{
+    const json_t *found = json_object_get(object, key);
+    *value = sp_v(NAN, NAN, NAN);
+    if (!found)
+        return true;
+    if (!json_is_array(found) || json_array_size(found) != 3)
+        return wrong(in, key, found, "a list of three numbers");
+    double parts[3];
+    for (size_t i = 0; i < 3; ++i) {
+        const json_t *part = json_array_get(found, i);
+        parts[i] = json_is_number(part) ? json_number_value(part) : NAN;
+        if (!isfinite(parts[i]))
+            return wrong(in, key, part, "a list of three numbers");
+    }
+    *value = sp_v(parts[0], parts[1], parts[2]);
+    return true;
+}
+
+/* The list or object under `key`; absent is no error where it is not required. */
+static bool get_part(const reader *in, const json_t *object, const char *key, json_type type, bool required,
+                     const json_t **value)
+{
+    *value = json_object_get(object, key);
+    if (!*value ? !required : json_typeof(*value) == type)
+        return true;
+    return wrong(in, key, *value, type == JSON_ARRAY ? "a list" : "an object");
+}
+
+static bool read_geometry(const reader *in, const json_t *geometry, sp_figures *figures)
+{
+    return get_count(in, geometry, "triangles", &figures->triangles) &&
+           get_real(in, geometry, "area_m2", 0, 1e12, 1, &figures->area) &&
+           get_real(in, geometry, "clean_area_m2", 0, 1e12, 1, &figures->clean_area) &&
+           get_real(in, geometry, "attainable_area_m2", 0, 1e12, 1, &figures->attainable_area);
+}
+
+static bool read_fidelity(const reader *in, const json_t *fidelity, sp_figures *figures)
+{
+    return get_choice(in, fidelity, "trajectory", "line", "parabola", figures->trajectory) &&
+           get_choice(in, fidelity, "evaluator", "forward", "inverse", figures->evaluator) &&
+           get_count(in, fidelity, "reflections", &figures->reflections) &&
+           get_count(in, fidelity, "jets_per_nozzle", &figures->jets) &&
+           get_real(in, fidelity, "texel_m", 0, 1e6, 1, &figures->texel) &&
+           get_real(in, fidelity, "error_estimate", 0, 1, 1, &figures->error_estimate);
+}
+
+static bool read_coverage(const reader *in, const json_t *layout, sp_figures *figures)
+{
+    const double l_min = 1 / 6e4;
+    const json_t *flux;
+    if (!get_real(in, layout, "water_l_min", 0, 1e9, l_min, &figures->flow) ||
+        !get_real(in, layout, "covered_area_m2", 0, 1e12, 1, &figures->covered_area) ||
+        !get_real(in, layout, "coverage", 0, 1 + 1e-9, 1, &figures->coverage) ||
+        !get_real(in, layout, "coverage_of_attainable", 0, 1 + 1e-9, 1, &figures->of_attainable) ||
+        !get_real(in, layout, "area_per_water", 0, 1e12, 6e4, &figures->area_per_water) ||
+        !get_part(in, layout, "flux_l_min_m2", JSON_OBJECT, false, &flux))
+        return false;
+    if (isnan(figures->flow))
+        return wrong(in, "water_l_min", NULL, "a number");
+    if (isnan(figures->coverage))
+        return wrong(in, "coverage", NULL, "a number from 0 to 1");
+    reader inner = *in;
+    snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "flux_l_min_m2.");
+    return get_real(&inner, flux, "min", 0, 1e12, l_min, &figures->flux_min) &&
+           get_real(&inner, flux, "mean", 0, 1e12, l_min, &figures->flux_mean) &&
+           get_real(&inner, flux, "p05", 0, 1e12, l_min, &figures->flux_p05) &&
+           get_real(&inner, flux, "max", 0, 1e12, l_min, &figures->flux_max);
+}
+
+static bool read_shadow(const reader *in, const json_t *entry, sp_shadow_figures *shadow)
+{
+    const json_t *reachable = json_object_get(entry, "reachable");
+    if (reachable && !json_is_boolean(reachable))
+        return wrong(in, "reachable", reachable, "true or false");
+    shadow->reachable = reachable ? json_is_true(reachable) : -1;
+    return get_real(in, entry, "area_m2", 0, 1e12, 1, &shadow->area) &&
+           get_vector(in, entry, "centroid_m", &shadow->centroid) && get_text(in, entry, "part", &shadow->part);
+}
+
+static bool read_nozzle(const reader *in, const json_t *entry, sp_nozzle_figures *nozzle)
+{
+    return get_text(in, entry, "name", &nozzle->name) && get_text(in, entry, "type", &nozzle->type) &&
+           get_vector(in, entry, "position_m", &nozzle->position) && get_vector(in, entry, "axis", &nozzle->axis) &&
+           get_real(in, entry, "roll_rad", -1e6, 1e6, 1, &nozzle->roll) &&
+           get_real(in, entry, "angle_rad", 0, 7, 1, &nozzle->angle) &&
+           get_real(in, entry, "pressure_pa", 0, 1e12, 1, &nozzle->pressure) &&
+           get_real(in, entry, "flow_l_min", 0, 1e9, 1 / 6e4, &nozzle->flow) &&
+           get_real(in, entry, "speed_m_s", 0, 1e6, 1, &nozzle->speed);
+}
+
+/* The reader for entry `i` of the list `key`, which must be an object. */
+static bool enter(const reader *in, const char *key, size_t i, const json_t *entry, reader *inner)
+{
+    *inner = *in;
+    size_t used = strlen(in->place);
+    snprintf(inner->place + used, sizeof inner->place - used, "%s[%zu]", key, i);
+    if (!json_is_object(entry))
+        return wrong(inner, "", entry, "an object");
+    used = strlen(inner->place);
+    snprintf(inner->place + used, sizeof inner->place - used, ".");
+    return true;
+}
+
+static bool read_rows(const reader *in, const json_t *layout, sp_figures *figures)
+{
+    const json_t *shadows, *nozzles;
+    if (!get_part(in, layout, "shadows", JSON_ARRAY, false, &shadows) ||
+        !get_part(in, layout, "nozzles", JSON_ARRAY, true, &nozzles))
+        return false;
+    size_t shadow_count = json_array_size(shadows), nozzle_count = json_array_size(nozzles);
+    shadow_count = shadow_count < SP_SHADOWS_KEPT ? shadow_count : SP_SHADOWS_KEPT;
+    figures->shadows = calloc(shadow_count + 1, sizeof *figures->shadows);
+    figures->nozzles = calloc(nozzle_count + 1, sizeof *figures->nozzles);
+    if (!figures->shadows || !figures->nozzles)
+        return sp_fail_memory(in->error);
+    figures->shadow_count = shadow_count;
+    figures->nozzle_count = nozzle_count;
+    reader inner;
+    for (size_t i = 0; i < shadow_count; ++i)
+        if (!enter(in, "shadows", i, json_array_get(shadows, i), &inner) ||
+            !read_shadow(&inner, json_array_get(shadows, i), &figures->shadows[i]))
+            return false;
+    for (size_t i = 0; i < nozzle_count; ++i)
+        if (!enter(in, "nozzles", i, json_array_get(nozzles, i), &inner) ||
+            !read_nozzle(&inner, json_array_get(nozzles, i), &figures->nozzles[i]))
+            return false;
+    return true;
+}
+
+static bool read_layout(const reader *in, const json_t *root, const json_t *layout, sp_figures *figures)
+{
+    const reader top = {in->file, in->error, ""};
+    const json_t *geometry, *fidelity;
+    bool own_geometry = json_object_get(layout, "geometry"), own_fidelity = json_object_get(layout, "fidelity");
+    reader inner = own_geometry ? *in : top;
+    if (!get_part(&inner, own_geometry ? layout : root, "geometry", JSON_OBJECT, false, &geometry))
+        return false;
+    size_t used = strlen(inner.place);
+    snprintf(inner.place + used, sizeof inner.place - used, "geometry.");
+    if (!read_geometry(&inner, geometry, figures))
+        return false;
+    inner = own_fidelity ? *in : top;
+    if (!get_part(&inner, own_fidelity ? layout : root, "fidelity", JSON_OBJECT, false, &fidelity))
+        return false;
+    used = strlen(inner.place);
+    snprintf(inner.place + used, sizeof inner.place - used, "fidelity.");
+    if (!read_fidelity(&inner, fidelity, figures) || !get_text(in, layout, "name", &figures->name))
+        return false;
+    if (!figures->name[0])
+        return wrong(in, "name", json_object_get(layout, "name"), "a text that is not empty");
+    return read_coverage(in, layout, figures) && read_rows(in, layout, figures);
+}
+
+static json_t *parse(const char *path, sp_error *error)
+{
+    struct stat status;
+    FILE *file = fopen(path, "rb");
+    if (!file || fstat(fileno(file), &status) != 0 || !S_ISREG(status.st_mode) || status.st_size > LARGEST_FILE) {
+        sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot be read, expected a file of at most %ld MiB",
+                LARGEST_FILE >> 20);
+        if (file)
+            fclose(file);
+        return NULL;
+    }
+    json_error_t cause;
+    json_t *root = json_loadf(file, JSON_REJECT_DUPLICATES, &cause);
+    fclose(file);
+    if (!root)
+        sp_fail(error, SP_ERROR_INPUT, path, cause.line, cause.column, "no valid JSON: %s", cause.text);
+    return root;
+}
+
+static sp_figures *read_all(const reader *in, const json_t *root, size_t *count)
+{
+    const json_t *layouts;
+    if (!json_is_object(root))
+        return wrong(in, "top", root, "an object"), NULL;
+    if (!json_is_string(json_object_get(root, "sprayplan")))
+        return wrong(in, "sprayplan", json_object_get(root, "sprayplan"), "a text: the version that wrote it"), NULL;
+    if (!get_part(in, root, "layouts", JSON_ARRAY, true, &layouts))
+        return NULL;
+    size_t found = json_array_size(layouts);
+    if (found < 1 || found > MOST_LAYOUTS) {
+        sp_fail(in->error, SP_ERROR_INPUT, in->file, 0, 0, "layouts: found %zu entries, expected 1 to %d", found,
+                MOST_LAYOUTS);
+        return NULL;
+    }
+    sp_figures *figures = calloc(found, sizeof *figures);
+    if (!figures)
+        return sp_fail_memory(in->error);
+    reader inner;
+    for (size_t i = 0; i < found; ++i)
+        if (!enter(in, "layouts", i, json_array_get(layouts, i), &inner) ||
+            !read_layout(&inner, root, json_array_get(layouts, i), &figures[i])) {
+            sp_figures_destroy(figures, found);
+            return NULL;
+        }
+    *count = found;
+    return figures;
+}
+
+sp_figures *sp_figures_read(const char *path, size_t *count, sp_error *error)
+{
+    *count = 0;
+    json_t *root = parse(path, error);
+    if (!root)
+        return NULL;
+    const reader in = {path, error, ""};
+    sp_figures *figures = read_all(&in, root, count);
+    json_decref(root);
+    return figures;
+}

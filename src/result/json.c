@@ -1,0 +1,179 @@
+/* result.json as DESIGN §6: keys in its order, what was not computed absent. */
+#include "growing_text.h"
+
+#include <sprayplan/result.h>
+#include <sprayplan/sprayplan.h>
+
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* An absent figure is no failure; a figure that finds no memory is. */
+static bool put(json_t *object, const char *key, json_t *value) { return json_object_set_new(object, key, value) == 0; }
+
+static bool put_real(json_t *object, const char *key, double value)
+{
+    return !isfinite(value) || put(object, key, json_real(value));
+}
+
+static bool put_count(json_t *object, const char *key, size_t value)
+{
+    return value == SP_UNKNOWN || put(object, key, json_integer((json_int_t)value));
+}
+
+static bool put_text(json_t *object, const char *key, const char *value)
+{
+    return !value[0] || put(object, key, json_string(value));
+}
+
+static bool put_vector(json_t *object, const char *key, sp_vec3 value)
+{
+    if (!isfinite(value.x) || !isfinite(value.y) || !isfinite(value.z))
+        return true;
+    return put(object, key, json_pack("[fff]", value.x, value.y, value.z));
+}
+
+static bool put_geometry(json_t *object, const sp_figures *figures)
+{
+    json_t *geometry = json_object();
+    bool done = put_count(geometry, "triangles", figures->triangles) && put_real(geometry, "area_m2", figures->area) &&
+                put_real(geometry, "clean_area_m2", figures->clean_area) &&
+                put_real(geometry, "attainable_area_m2", figures->attainable_area);
+    return put(object, "geometry", geometry) && done;
+}
+
+static bool put_fidelity(json_t *object, const sp_figures *figures)
+{
+    json_t *fidelity = json_object();
+    bool done = put_text(fidelity, "trajectory", figures->trajectory) &&
+                put_text(fidelity, "evaluator", figures->evaluator) &&
+                put_count(fidelity, "reflections", figures->reflections) &&
+                put_count(fidelity, "jets_per_nozzle", figures->jets) && put_real(fidelity, "texel_m", figures->texel) &&
+                put_real(fidelity, "error_estimate", figures->error_estimate);
+    return put(object, "fidelity", fidelity) && done;
+}
+
+static bool put_flux(json_t *object, const sp_figures *figures)
+{
+    json_t *flux = json_object();
+    bool done = put_real(flux, "min", 6e4 * figures->flux_min) && put_real(flux, "mean", 6e4 * figures->flux_mean) &&
+                put_real(flux, "p05", 6e4 * figures->flux_p05) && put_real(flux, "max", 6e4 * figures->flux_max);
+    return put(object, "flux_l_min_m2", flux) && done;
+}
+
+static bool put_shadow(json_t *shadows, const sp_shadow_figures *figures)
+{
+    json_t *shadow = json_object();
+    bool done = put_real(shadow, "area_m2", figures->area) && put_vector(shadow, "centroid_m", figures->centroid) &&
+                put_text(shadow, "part", figures->part) &&
+                (figures->reachable < 0 || put(shadow, "reachable", json_boolean(figures->reachable)));
+    return json_array_append_new(shadows, shadow) == 0 && done;
+}
+
+static bool put_nozzle(json_t *nozzles, const sp_nozzle_figures *figures)
+{
+    json_t *nozzle = json_object();
+    bool done = put_text(nozzle, "name", figures->name) && put_text(nozzle, "type", figures->type) &&
+                put_vector(nozzle, "position_m", figures->position) && put_vector(nozzle, "axis", figures->axis) &&
+                put_real(nozzle, "roll_rad", figures->roll) && put_real(nozzle, "angle_rad", figures->angle) &&
+                put_real(nozzle, "pressure_pa", figures->pressure) &&
+                put_real(nozzle, "flow_l_min", 6e4 * figures->flow) && put_real(nozzle, "speed_m_s", figures->speed);
+    return json_array_append_new(nozzles, nozzle) == 0 && done;
+}
+
+static bool put_layout(json_t *layouts, const sp_figures *figures, bool own_geometry, bool own_fidelity)
+{
+    json_t *layout = json_object(), *shadows = json_array(), *nozzles = json_array();
+    bool done = put_text(layout, "name", figures->name) && put_real(layout, "water_l_min", 6e4 * figures->flow) &&
+                put_real(layout, "covered_area_m2", figures->covered_area) &&
+                put_real(layout, "coverage", figures->coverage) &&
+                put_real(layout, "coverage_of_attainable", figures->of_attainable) &&
+                put_real(layout, "area_per_water", figures->area_per_water / 6e4) && put_flux(layout, figures);
+    for (size_t i = 0; done && i < figures->shadow_count; ++i)
+        done = put_shadow(shadows, &figures->shadows[i]);
+    for (size_t i = 0; done && i < figures->nozzle_count; ++i)
+        done = put_nozzle(nozzles, &figures->nozzles[i]);
+    done = put(layout, "shadows", shadows) && done;
+    done = put(layout, "nozzles", nozzles) && done;
+    done = done && (!own_geometry || put_geometry(layout, figures)) && (!own_fidelity || put_fidelity(layout, figures));
+    return json_array_append_new(layouts, layout) == 0 && done;
+}
+
+static bool equal(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
+
+static bool same_geometry(const sp_figures *a, const sp_figures *b)
+{
+    return a->triangles == b->triangles && equal(a->area, b->area) && equal(a->clean_area, b->clean_area) &&
+           equal(a->attainable_area, b->attainable_area);
+}
+
+static bool same_fidelity(const sp_figures *a, const sp_figures *b)
+{
+    return strcmp(a->trajectory, b->trajectory) == 0 && strcmp(a->evaluator, b->evaluator) == 0 &&
+           a->reflections == b->reflections && a->jets == b->jets && equal(a->texel, b->texel) &&
+           equal(a->error_estimate, b->error_estimate);
+}
+
+static bool put_front(json_t *root, const sp_proposal *proposal, double clean_area)
+{
+    json_t *front = json_array();
+    bool done = true;
+    for (size_t i = 0; done && i < proposal->front_count; ++i) {
+        const sp_front_point *point = &proposal->front[i];
+        json_t *entry = json_object();
+        done = put_real(entry, "water_l_min", 6e4 * point->flow) &&
+               put_real(entry, "coverage", point->area / clean_area) && put_count(entry, "nozzles", point->nozzles);
+        done = json_array_append_new(front, entry) == 0 && done;
+    }
+    return put(root, "front", front) && done;
+}
+
+static bool put_stages(json_t *stages, const sp_stage *list, size_t count)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (json_array_append_new(stages, json_pack("{s:s, s:f}", "name", list[i].name, "seconds", list[i].seconds)) != 0)
+            return false;
+    return true;
+}
+
+static bool fill(json_t *root, const sp_result *result, const sp_figures *figures)
+{
+    bool one_geometry = true, one_fidelity = true;
+    for (size_t i = 1; i < result->design_count; ++i) {
+        one_geometry = one_geometry && same_geometry(&figures[0], &figures[i]);
+        one_fidelity = one_fidelity && same_fidelity(&figures[0], &figures[i]);
+    }
+    char *scene = sp_text_utf8(result->scene);
+    bool done = scene && put_text(root, "sprayplan", SP_VERSION) && put_text(root, "command", result->command) &&
+                put_text(root, "scene", scene) &&
+                (!one_geometry || result->design_count == 0 || put_geometry(root, figures)) &&
+                (!one_fidelity || result->design_count == 0 || put_fidelity(root, figures));
+    free(scene);
+    json_t *layouts = json_array(), *stages = json_array();
+    for (size_t i = 0; done && i < result->design_count; ++i)
+        done = put_layout(layouts, &figures[i], !one_geometry, !one_fidelity);
+    done = put(root, "layouts", layouts) && done;
+    if (result->proposal)
+        done = done && put_front(root, result->proposal, figures[0].clean_area);
+    done = done && put_stages(stages, result->stages, result->stage_count) &&
+           (!result->proposal || put_stages(stages, result->proposal->stages, result->proposal->stage_count));
+    return put(root, "stages", stages) && done;
+}
+
+char *sp_result_json(const sp_result *result, sp_error *error)
+{
+    sp_figures *figures = sp_result_figures(result, error);
+    if (!figures)
+        return NULL;
+    json_t *root = json_object();
+    char *dump = fill(root, result, figures) ? json_dumps(root, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) : NULL;
+    json_decref(root);
+    sp_figures_destroy(figures, result->design_count);
+    sp_text text = {0};
+    if (dump)
+        sp_text_add(&text, "%s\n", dump);
+    else
+        text.failed = true;
+    free(dump);
+    return sp_text_finish(&text, error);
+}
