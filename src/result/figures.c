@@ -1,10 +1,8 @@
-/* From designs to their figures. */
+/* Figures as data: room for them, copies, their end. */
+#include "figures.h"
 #include "growing_text.h"
 
-#include <sprayplan/result.h>
-
 #include <stdlib.h>
-#include <string.h>
 
 static void figures_clear(sp_figures *figures)
 {
@@ -28,8 +26,7 @@ void sp_figures_destroy(sp_figures *figures, size_t count)
     free(figures);
 }
 
-/* Room for the counts given, every text NULL. */
-static bool make_rows(sp_figures *figures, size_t shadows, size_t nozzles)
+bool sp_figures_make_rows(sp_figures *figures, size_t shadows, size_t nozzles)
 {
     figures->shadows = calloc(shadows + 1, sizeof *figures->shadows);
     figures->nozzles = calloc(nozzles + 1, sizeof *figures->nozzles);
@@ -40,14 +37,14 @@ static bool make_rows(sp_figures *figures, size_t shadows, size_t nozzles)
     return true;
 }
 
-static bool copy_figures(sp_figures *to, const sp_figures *from)
+bool sp_figures_copy(sp_figures *to, const sp_figures *from)
 {
     *to = *from;
     to->name = NULL;
     to->shadows = NULL;
     to->nozzles = NULL;
     to->shadow_count = to->nozzle_count = 0;
-    if (!make_rows(to, from->shadow_count, from->nozzle_count))
+    if (!sp_figures_make_rows(to, from->shadow_count, from->nozzle_count))
         return false;
     bool copied = true;
     for (size_t i = 0; i < to->shadow_count; ++i) {
@@ -60,136 +57,4 @@ static bool copy_figures(sp_figures *to, const sp_figures *from)
         copied &= (to->nozzles[i].type = sp_text_utf8(from->nozzles[i].type)) != NULL;
     }
     return copied;
-}
-
-static void set_geometry_and_fidelity(sp_figures *figures, const sp_evaluator *evaluator)
-{
-    const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
-    const sp_fidelity *fidelity = sp_evaluator_fidelity(evaluator);
-    bool inverse = fidelity->method == SP_METHOD_INVERSE;
-    figures->triangles = mesh->triangle_count;
-    figures->area = sp_mesh_area(mesh);
-    figures->clean_area = sp_evaluator_patches(evaluator)->total_area;
-    strcpy(figures->trajectory, fidelity->trajectory == SP_TRAJECTORY_LINE ? "line" : "parabola");
-    strcpy(figures->evaluator, inverse ? "inverse" : "forward");
-    figures->reflections = fidelity->reflections < 0 ? SP_UNKNOWN : (size_t)fidelity->reflections;
-    figures->jets = inverse ? SP_UNKNOWN : fidelity->jets;
-    figures->texel = fidelity->texel;
-    figures->error_estimate = NAN;
-}
-
-static void set_coverage(sp_figures *figures, const sp_coverage *coverage)
-{
-    figures->flow = coverage->flow;
-    figures->covered_area = coverage->covered_area;
-    figures->coverage = coverage->fraction;
-    figures->of_attainable =
-        figures->attainable_area > 0 ? coverage->covered_area / figures->attainable_area : NAN;
-    figures->area_per_water = coverage->flow > 0 ? coverage->area_per_water : NAN;
-    figures->flux_min = coverage->flux_min;
-    figures->flux_mean = coverage->flux_mean;
-    figures->flux_p05 = coverage->flux_p05;
-    figures->flux_max = coverage->flux_max;
-}
-
-static bool set_nozzles(sp_figures *figures, const sp_layout *layout, const sp_fluid *liquid)
-{
-    bool copied = true;
-    for (size_t i = 0; i < figures->nozzle_count; ++i) {
-        const sp_nozzle *nozzle = &layout->nozzles[i];
-        figures->nozzles[i] = (sp_nozzle_figures){.name = sp_text_utf8(nozzle->name),
-                                                  .type = sp_text_utf8(nozzle->type->name),
-                                                  .position = nozzle->position,
-                                                  .axis = nozzle->axis,
-                                                  .roll = nozzle->roll,
-                                                  .angle = sp_nozzle_angle(nozzle),
-                                                  .pressure = nozzle->pressure,
-                                                  .flow = sp_nozzle_flow(nozzle, liquid),
-                                                  .speed = sp_nozzle_speed(nozzle, liquid)};
-        copied &= figures->nozzles[i].name && figures->nozzles[i].type;
-    }
-    return copied;
-}
-
-static bool set_shadows(sp_figures *figures, const sp_shadow *shadows, const sp_mesh *mesh)
-{
-    bool copied = true;
-    for (size_t i = 0; i < figures->shadow_count; ++i) {
-        const sp_shadow *shadow = &shadows[i];
-        figures->shadows[i] = (sp_shadow_figures){
-            .area = shadow->area,
-            .centroid = shadow->centroid,
-            .part = sp_text_utf8(mesh->parts[shadow->part].name),
-            .reachable = shadow->reachable_area < 0 ? -1 : shadow->reachable_area >= 0.5 * shadow->area};
-        copied &= figures->shadows[i].part != NULL;
-    }
-    return copied;
-}
-
-static bool describe(sp_figures *figures, const sp_design *design, const bool *attainable, double attainable_area,
-                     sp_error *error)
-{
-    const sp_setup *setup = sp_evaluator_setup(design->evaluator);
-    sp_shadow *shadows = NULL;
-    size_t shadow_count = 0;
-    if (!sp_shadows(design->evaluator, design->coverage, attainable, &shadows, &shadow_count, error))
-        return false;
-    set_geometry_and_fidelity(figures, design->evaluator);
-    figures->attainable_area = attainable ? attainable_area : NAN;
-    set_coverage(figures, design->coverage);
-    bool done = make_rows(figures, shadow_count < SP_SHADOWS_KEPT ? shadow_count : SP_SHADOWS_KEPT,
-                          design->layout->count) &&
-                set_nozzles(figures, design->layout, &setup->liquid) && set_shadows(figures, shadows, setup->mesh);
-    free(shadows);
-    return done || sp_fail_memory(error);
-}
-
-/* What the proposal calls attainable or any design covers, and its area. Without a proposal NULL and no error. */
-static bool *reported_attainable(const sp_result *result, const sp_evaluator **evaluator, double *area, sp_error *error)
-{
-    *evaluator = NULL;
-    *area = 0;
-    for (size_t i = 0; result->proposal && i < result->design_count; ++i)
-        if (result->designs[i].coverage == result->proposal->coverage)
-            *evaluator = result->designs[i].evaluator;
-    if (!*evaluator)
-        return NULL;
-    const sp_patches *patches = sp_evaluator_patches(*evaluator);
-    bool *attainable = malloc(patches->count + 1);
-    if (!attainable)
-        return sp_fail_memory(error);
-    memcpy(attainable, result->proposal->attainable, patches->count);
-    for (size_t i = 0; i < result->design_count; ++i)
-        for (size_t k = 0; result->designs[i].evaluator == *evaluator && k < patches->count; ++k)
-            attainable[k] |= result->designs[i].coverage->deposits.covered[k];
-    for (size_t k = 0; k < patches->count; ++k)
-        *area += attainable[k] ? patches->area[k] : 0;
-    return attainable;
-}
-
-sp_figures *sp_result_figures(const sp_result *result, sp_error *error)
-{
-    sp_figures *figures = calloc(result->design_count + 1, sizeof *figures);
-    if (!figures)
-        return sp_fail_memory(error);
-    sp_error failure = {0};
-    const sp_evaluator *home;
-    double attainable_area;
-    bool *attainable = reported_attainable(result, &home, &attainable_area, &failure);
-    for (size_t i = 0; failure.kind == SP_OK && i < result->design_count; ++i) {
-        const sp_design *design = &result->designs[i];
-        if (design->evaluator)
-            describe(&figures[i], design, design->evaluator == home ? attainable : NULL, attainable_area, &failure);
-        else if (!copy_figures(&figures[i], design->figures))
-            sp_fail_memory(&failure);
-        if (failure.kind == SP_OK && !(figures[i].name = sp_text_utf8(design->name)))
-            sp_fail_memory(&failure);
-    }
-    free(attainable);
-    if (failure.kind == SP_OK)
-        return figures;
-    if (error && error->kind == SP_OK)
-        *error = failure;
-    sp_figures_destroy(figures, result->design_count);
-    return NULL;
 }

@@ -1,7 +1,6 @@
 /* Figures back from a result.json, which may come from a stranger. */
+#include "figures.h"
 #include "growing_text.h"
-
-#include <sprayplan/result.h>
 
 #include <jansson.h>
 #include <stdio.h>
@@ -217,12 +216,8 @@ static bool read_rows(const reader *in, const json_t *layout, sp_figures *figure
         return false;
     size_t shadow_count = json_array_size(shadows), nozzle_count = json_array_size(nozzles);
     shadow_count = shadow_count < SP_SHADOWS_KEPT ? shadow_count : SP_SHADOWS_KEPT;
-    figures->shadows = calloc(shadow_count + 1, sizeof *figures->shadows);
-    figures->nozzles = calloc(nozzle_count + 1, sizeof *figures->nozzles);
-    if (!figures->shadows || !figures->nozzles)
+    if (!sp_figures_make_rows(figures, shadow_count, nozzle_count))
         return sp_fail_memory(in->error);
-    figures->shadow_count = shadow_count;
-    figures->nozzle_count = nozzle_count;
     reader inner;
     for (size_t i = 0; i < shadow_count; ++i)
         if (!enter(in, "shadows", i, json_array_get(shadows, i), &inner) ||

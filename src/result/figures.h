@@ -1,0 +1,12 @@
+/* What the files of this room share about figures. */
+#ifndef RESULT_FIGURES_H
+#define RESULT_FIGURES_H
+
+#include <sprayplan/result.h>
+
+/* Room for the counts given, every text NULL. False where memory ran out. */
+bool sp_figures_make_rows(sp_figures *figures, size_t shadows, size_t nozzles);
+/* Everything but the name. False where memory ran out; what was copied is then still to be destroyed. */
+bool sp_figures_copy(sp_figures *to, const sp_figures *from);
+
+#endif

@@ -1,0 +1,46 @@
+#include <sprayplan/result.h>
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static void rows_read_back(void **state)
+{
+    (void)state;
+    sp_nozzle_type type = {.name = "cone, \"wide\"", .pattern = SP_PATTERN_FULL_CONE, .angle = M_PI / 2, .flow = 2e-4, .at = 2e5,
+                           .exponent = 0.5, .cv = 0.95, .drop = 1e-3, .angle_min = M_PI / 2, .angle_max = M_PI / 2,
+                           .flow_min = 2e-4, .flow_max = 2e-4};
+    const sp_nozzle nozzle = {.name = "N1", .type = &type, .position = {0.1, -1.0 / 3, 1.8}, .axis = {0, 0, -1},
+                              .roll = M_PI / 6, .pressure = 2e5};
+    const sp_fluid water = {1000, 1e-3};
+    sp_error error = {0};
+    sp_layout *layout = sp_layout_create(&nozzle, 1, &error);
+    char *csv = sp_nozzles_csv(layout, &water, &error);
+    assert_non_null(csv);
+    const char *start = "name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s\n"
+                        "N1,\"cone, \"\"wide\"\"\",0.1,";
+    assert_memory_equal(csv, start, strlen(start));
+    double values[10];
+    char *at = csv + strlen(start);
+    for (int i = 0; i < 10; ++i) {
+        values[i] = strtod(at, &at);
+        assert_int_equal(*at++, i < 9 ? ',' : '\n');
+    }
+    assert_string_equal(at, "");
+    assert_true(values[0] == -1.0 / 3 && values[1] == 1.8 && values[4] == -1);
+    assert_true(fabs(values[5] - 30) < 1e-12 && fabs(values[6] - 90) < 1e-12 && values[7] == 2);
+    assert_true(fabs(values[8] - 12) < 1e-12 && fabs(values[9] - 19) < 1e-12);
+    free(csv);
+    sp_layout_destroy(layout);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(rows_read_back)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
