@@ -94,13 +94,15 @@ sp_atlas *sp_atlas_create(const sp_mesh *mesh, const sp_charts *charts, const sp
         return NULL;
     uint32_t limit = options->page_edge ? options->page_edge : DEFAULT_PAGE_EDGE;
     if (!(options->texel > 0) || !isfinite(options->texel) || limit > LARGEST_PAGE_EDGE) {
-        sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "an atlas of texels of %g m and pages of %u texels; expected a size "
-                "above 0 and pages of at most %u", options->texel, limit, LARGEST_PAGE_EDGE);
+        sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0,
+                "an atlas of texels of %g m and pages of %u texels; expected a size "
+                "above 0 and pages of at most %u",
+                options->texel, limit, LARGEST_PAGE_EDGE);
         return NULL;
     }
     if (charts->triangle_count != mesh->triangle_count) {
-        sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "charts of %zu triangles for a mesh of %zu", charts->triangle_count,
-                mesh->triangle_count);
+        sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "charts of %zu triangles for a mesh of %zu",
+                charts->triangle_count, mesh->triangle_count);
         return NULL;
     }
     sp_atlas *atlas = calloc(1, sizeof *atlas);

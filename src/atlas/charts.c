@@ -1,13 +1,14 @@
 #include <sprayplan/atlas.h>
 
 #include "atlas/edges.h"
+#include "atlas/orient.h"
 #include "atlas/unfold.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* twin [3 triangle_count]: the half-edge across each half-edge. SP_NONE at open edges, at edges of three or more triangles
- * and where the two triangles do not agree which side is the front. */
+/* twin [3 triangle_count]: the half-edge across each half-edge. SP_NONE at open edges, at edges of three or more
+ * triangles and where the two triangles do not agree which side is the front. */
 static bool find_twins(const sp_mesh *mesh, uint32_t *twin)
 {
     size_t count = 3 * mesh->triangle_count;
@@ -50,7 +51,7 @@ sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error)
     bool done = charts->chart && charts->flat && twin && find_twins(mesh, twin);
     if (!done)
         sp_fail_memory(error);
-    done = done && sp_unfold(charts, mesh, twin, error);
+    done = done && sp_unfold(charts, mesh, twin, error) && sp_orient_charts(charts, error);
     free(twin);
     if (done)
         return charts;

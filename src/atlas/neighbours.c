@@ -1,5 +1,5 @@
-/* Which texels touch: inside a triangle, and across the edges of the mesh whether or not the atlas is cut there. Two lips of
- * a cut that merely lie side by side on the page do not touch. */
+/* Which texels touch: inside a triangle, and across the edges of the mesh whether or not the atlas is cut there. Two
+ * lips of a cut that merely lie side by side on the page do not touch. */
 #include "atlas/edges.h"
 #include "atlas/order.h"
 #include "atlas/texels.h"
@@ -40,7 +40,8 @@ static bool pair_inside(pairs *p, const sp_atlas *atlas, uint32_t triangle)
         uint32_t here = own[i];
         if (i + 1 < end && y[own[i + 1]] == y[here] && x[own[i + 1]] == x[here] + 1 && !add_pair(p, here, own[i + 1]))
             return false;
-        while (above < end && (y[own[above]] < y[here] + 1 || (y[own[above]] == y[here] + 1 && x[own[above]] < x[here])))
+        while (above < end &&
+               (y[own[above]] < y[here] + 1 || (y[own[above]] == y[here] + 1 && x[own[above]] < x[here])))
             above++;
         if (above < end && y[own[above]] == y[here] + 1 && x[own[above]] == x[here] && !add_pair(p, here, own[above]))
             return false;

@@ -15,7 +15,10 @@ static uint64_t largest(const uint64_t *keys, size_t count)
     return most;
 }
 
-static uint32_t digit(uint64_t key, int shift) { return (uint32_t)(key >> shift) & (DIGITS - 1); }
+static uint32_t digit(uint64_t key, int shift)
+{
+    return (uint32_t)(key >> shift) & (DIGITS - 1);
+}
 
 /* start[d] becomes where the first key with digit d goes. */
 static void count_digits(const uint64_t *keys, size_t count, int shift, size_t start[DIGITS])

@@ -1,5 +1,5 @@
-/* A loose quadtree: a triangle hangs in the smallest square that is as wide as its bounding box and holds the box's centre,
- * so it reaches at most half a square beyond. Triangles of any mix of sizes are found in logarithmic time.
+/* A loose quadtree: a triangle hangs in the smallest square that is as wide as its bounding box and holds the box's
+ * centre, so it reaches at most half a square beyond. Triangles of any mix of sizes are found in logarithmic time.
  * Follows T. Ulrich, "Loose Octrees", Game Programming Gems (2000). */
 #include "atlas/overlap.h"
 
@@ -138,8 +138,8 @@ static bool grow_root(sp_plane *plane, double x, double y, double size)
         if (fabs(x - old.x) <= old.half && fabs(y - old.y) <= old.half && size <= 2 * old.half)
             return true;
         int right = x >= old.x, up = y >= old.y;
-        uint32_t root = add_node(plane, old.x + (right ? old.half : -old.half), old.y + (up ? old.half : -old.half),
-                                 2 * old.half);
+        uint32_t root =
+            add_node(plane, old.x + (right ? old.half : -old.half), old.y + (up ? old.half : -old.half), 2 * old.half);
         if (root == SP_NONE)
             return false;
         plane->nodes[root].child[(right ? 0 : 1) + (up ? 0 : 2)] = plane->root;
@@ -177,7 +177,8 @@ bool sp_plane_add(sp_plane *plane, uint32_t triangle, sp_error *error)
     return true;
 }
 
-static size_t overlaps_below(const sp_plane *plane, uint32_t at, const double triangle[3][2], const box *b, size_t limit)
+static size_t overlaps_below(const sp_plane *plane, uint32_t at, const double triangle[3][2], const box *b,
+                             size_t limit)
 {
     const node *here = &plane->nodes[at];
     double reach = 2.000001 * here->half;

@@ -1,5 +1,5 @@
-/* Skyline packing of bounding boxes, largest diagonal first: study 2008, 3.3.2.2, after Lévy, Petitjean, Ray and Maillot,
- * "Least squares conformal maps" (2002), on as many pages as it takes. */
+/* Skyline packing of bounding boxes, largest diagonal first: study 2008, 3.3.2.2, after Lévy, Petitjean, Ray and
+ * Maillot, "Least squares conformal maps" (2002), on as many pages as it takes. */
 #include "atlas/pack.h"
 
 #include "atlas/order.h"
@@ -15,8 +15,8 @@ typedef struct {
     uint32_t x, width, height;
 } step;
 
-/* One page: its steps from left to right, which cover its whole width. A rectangle takes one texel more than its size to
- * the right and above, and the page is one texel larger: that is the gap. */
+/* One page: its steps from left to right, which cover its whole width. A rectangle takes one texel more than its size
+ * to the right and above, and the page is one texel larger: that is the gap. */
 typedef struct {
     step *steps;
     size_t count, capacity;

@@ -8,12 +8,12 @@
 #include <stdint.h>
 
 typedef struct {
-    uint32_t width, height;  /* texels, 1 to the page limit */
-    uint32_t page, x, y;     /* where it was put */
+    uint32_t width, height; /* texels, 1 to the page limit */
+    uint32_t page, x, y;    /* where it was put */
 } sp_rectangle;
 
-/* Puts every rectangle on a page, one texel between any two. `limit` is the largest page edge; page_edge becomes the edge
- * chosen and page_count the number of pages. Returns false when memory runs out. */
+/* Puts every rectangle on a page, one texel between any two. `limit` is the largest page edge; page_edge becomes the
+ * edge chosen and page_count the number of pages. Returns false when memory runs out. */
 bool sp_pack(sp_rectangle *rectangles, size_t count, uint32_t limit, uint32_t *page_edge, size_t *page_count,
              sp_error *error);
 

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Pieces smaller than this part of the triangle and of a texel are round-off at a texel's border and make no fragment. */
+/* Pieces smaller than this part of the triangle and of a texel are round-off at a texel's border and make no fragment.
+ */
 #define SLIVER 1e-9
 
 typedef struct {
@@ -71,15 +72,16 @@ static bool cut_flat(pieces *p, const sp_atlas *atlas, uint32_t triangle, const 
         for (uint32_t column = strip.count ? (uint32_t)low : 0; column < high && column < local->columns; column++) {
             sp_clip_column(&strip, column, &cell);
             double area = sp_polygon_area(&cell);
-            if (area > 0 && !add_piece(p, texel_key(atlas, triangle, local->x + column, local->y + row), triangle, area))
+            if (area > 0 &&
+                !add_piece(p, texel_key(atlas, triangle, local->x + column, local->y + row), triangle, area))
                 return false;
         }
     }
     return true;
 }
 
-/* Drops the slivers and shares the triangle's area on the surface among the rest by their flat areas. A triangle too small
- * or too thin to have any area on the page belongs to the texel of its centroid. */
+/* Drops the slivers and shares the triangle's area on the surface among the rest by their flat areas. A triangle too
+ * small or too thin to have any area on the page belongs to the texel of its centroid. */
 static bool cut_triangle(pieces *p, const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle)
 {
     sp_local_triangle local = sp_local((const double(*)[2])atlas->uv[triangle]);
@@ -108,7 +110,10 @@ static bool cut_triangle(pieces *p, const sp_atlas *atlas, const sp_mesh *mesh, 
     return add_piece(p, texel_key(atlas, triangle, local.x + column, local.y + row), triangle, surface);
 }
 
-static void *array(size_t count, size_t size) { return malloc((count + !count) * size); }
+static void *array(size_t count, size_t size)
+{
+    return malloc((count + !count) * size);
+}
 
 static bool allocate(sp_atlas *atlas, size_t texels, size_t fragments)
 {

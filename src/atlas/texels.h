@@ -11,7 +11,8 @@ bool sp_atlas_cut(sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
 /* neighbours.c: which texels touch. `edge_order` as sp_edge_order. Needs the texels. */
 bool sp_atlas_connect(sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
 
-/* A triangle moved to the texel where its box begins, which loses nothing, and the texels that it may reach from there. */
+/* A triangle moved to the texel where its box begins, which loses nothing, and the texels that it may reach from there.
+ */
 typedef struct {
     double corner[3][2];
     uint32_t x, y;          /* the texel */

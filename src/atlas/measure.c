@@ -1,0 +1,179 @@
+/* How good an atlas is: cuts, distortion, use of the pages, and checks that hold for every atlas. */
+#include "atlas/edges.h"
+#include "atlas/overlap.h"
+
+#include <sprayplan/atlas.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Compensated summation (Neumaier 1974), or rounding over a million texels would be what is measured. */
+typedef struct {
+    double sum, rest;
+} exact_sum;
+
+static void add(exact_sum *s, double value)
+{
+    double sum = s->sum + value;
+    s->rest += fabs(s->sum) >= fabs(value) ? (s->sum - sum) + value : (value - sum) + s->sum;
+    s->sum = sum;
+}
+
+typedef struct {
+    double strain, area;
+} strained;
+
+static int by_strain(const void *a, const void *b)
+{
+    const strained *p = a, *q = b;
+    return (p->strain > q->strain) - (p->strain < q->strain);
+}
+
+/* max(σ1 - 1, 1 - σ2) of the map from the surface to the page, in true length. */
+static double strain_of(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle)
+{
+    const uint32_t *corner = mesh->triangles[triangle];
+    sp_vec3 b = sp_sub(mesh->vertices[corner[1]], mesh->vertices[corner[0]]);
+    sp_vec3 c = sp_sub(mesh->vertices[corner[2]], mesh->vertices[corner[0]]);
+    /* On the surface b lies along x; the map's matrix is the laid edges times the inverse of (b, c). */
+    double bx = sp_length(b), cx = sp_dot(b, c) / bx, cy = sp_length(sp_cross(b, c)) / bx;
+    const double(*uv)[2] = (const double(*)[2])atlas->uv[triangle];
+    double column[2][2];
+    for (int k = 0; k < 2; k++) {
+        double laid_b = (uv[1][k] - uv[0][k]) * atlas->texel, laid_c = (uv[2][k] - uv[0][k]) * atlas->texel;
+        column[0][k] = laid_b / bx;
+        column[1][k] = (laid_c - column[0][k] * cx) / cy;
+    }
+    /* The singular values of a 2x2 matrix in closed form. */
+    double half_sum = 0.5 * hypot(column[0][0] + column[1][1], column[0][1] - column[1][0]);
+    double half_difference = 0.5 * hypot(column[0][0] - column[1][1], column[0][1] + column[1][0]);
+    return fmax(half_sum + half_difference - 1, 1 - fabs(half_sum - half_difference));
+}
+
+static bool measure_strain(const sp_atlas *atlas, const sp_mesh *mesh, sp_atlas_figures *figures)
+{
+    strained *all = malloc((mesh->triangle_count + 1) * sizeof *all);
+    if (!all)
+        return false;
+    exact_sum area = {0}, mean = {0};
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        all[t] = (strained){strain_of(atlas, mesh, t), sp_triangle_area(mesh, t)};
+        add(&area, all[t].area);
+        add(&mean, all[t].strain * all[t].area);
+        figures->strain_max = fmax(figures->strain_max, all[t].strain);
+    }
+    qsort(all, mesh->triangle_count, sizeof *all, by_strain);
+    double below = 0, whole = area.sum + area.rest;
+    for (size_t i = 0; i < mesh->triangle_count && below < 0.95 * whole; i++) {
+        below += all[i].area;
+        figures->strain95 = all[i].strain;
+    }
+    figures->strain_mean = whole > 0 ? (mean.sum + mean.rest) / whole : 0;
+    free(all);
+    return true;
+}
+
+/* True where the two sides of an edge do not lie on each other. */
+static bool is_cut(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t a, uint32_t b)
+{
+    if (atlas->chart[a / 3] != atlas->chart[b / 3])
+        return true;
+    uint32_t start_a = a % 3, end_a = (start_a + 1) % 3, start_b = b % 3, end_b = (start_b + 1) % 3;
+    if (mesh->triangles[a / 3][start_a] != mesh->triangles[b / 3][start_b]) {
+        start_b = end_b;
+        end_b = b % 3;
+    }
+    const double(*p)[2] = (const double(*)[2])atlas->uv[a / 3], (*q)[2] = (const double(*)[2])atlas->uv[b / 3];
+    double gap = fmax(hypot(p[start_a][0] - q[start_b][0], p[start_a][1] - q[start_b][1]),
+                      hypot(p[end_a][0] - q[end_b][0], p[end_a][1] - q[end_b][1]));
+    return gap > SP_OVERLAP_TOLERANCE * hypot(p[end_a][0] - p[start_a][0], p[end_a][1] - p[start_a][1]);
+}
+
+static bool measure_seams(const sp_atlas *atlas, const sp_mesh *mesh, double surface, sp_atlas_figures *figures)
+{
+    uint32_t *order = sp_edges_in_order(mesh);
+    if (!order)
+        return false;
+    double length = 0;
+    for (size_t i = 1; i < 3 * mesh->triangle_count; i++) {
+        uint32_t a = order[i - 1], b = order[i];
+        if (sp_edge_key(mesh, a) != sp_edge_key(mesh, b) || !is_cut(atlas, mesh, a, b))
+            continue;
+        const uint32_t *corner = mesh->triangles[a / 3];
+        length += sp_distance(mesh->vertices[corner[a % 3]], mesh->vertices[corner[(a % 3 + 1) % 3]]);
+    }
+    free(order);
+    figures->seam_over_sqrt_area = surface > 0 ? length / sqrt(surface) : 0;
+    return true;
+}
+
+/* Texels with triangles of two charts, and pairs that overlap on their page: charts lie apart, so both are of one
+ * chart. */
+static bool measure_conflicts(const sp_atlas *atlas, sp_atlas_figures *figures, sp_error *error)
+{
+    for (size_t i = 0; i < atlas->texel_count; i++) {
+        bool shared = false;
+        for (uint32_t f = atlas->fragment_start[i]; f < atlas->fragment_start[i + 1]; f++)
+            shared = shared || atlas->chart[atlas->fragments[f].triangle] != atlas->texel_chart[i];
+        figures->shared_texels += shared;
+    }
+    sp_plane *plane = sp_plane_create((const double(*)[3][2])atlas->uv, atlas->triangle_count, error);
+    bool done = plane;
+    for (uint32_t page = 0; done && page < atlas->page_count; page++) {
+        sp_plane_clear(plane);
+        for (uint32_t t = 0; done && t < atlas->triangle_count; t++) {
+            if (atlas->chart_page[atlas->chart[t]] != page)
+                continue;
+            figures->overlaps += sp_plane_overlaps(plane, (const double(*)[2])atlas->uv[t], SIZE_MAX);
+            done = sp_plane_add(plane, t, error);
+        }
+    }
+    sp_plane_destroy(plane);
+    return done;
+}
+
+static bool count_small_charts(const sp_atlas *atlas, sp_atlas_figures *figures)
+{
+    size_t *size = calloc(atlas->chart_count + 1, sizeof *size);
+    if (!size)
+        return false;
+    for (size_t t = 0; t < atlas->triangle_count; t++)
+        size[atlas->chart[t]]++;
+    for (size_t c = 0; c < atlas->chart_count; c++)
+        figures->charts_le4 += size[c] <= 4;
+    free(size);
+    return true;
+}
+
+static double flat_area(const double uv[3][2])
+{
+    return 0.5 * ((uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) - (uv[1][1] - uv[0][1]) * (uv[2][0] - uv[0][0]));
+}
+
+bool sp_atlas_measure(const sp_atlas *atlas, const sp_mesh *mesh, sp_atlas_figures *figures, sp_error *error)
+{
+    *figures = (sp_atlas_figures){0};
+    if (!atlas || !mesh)
+        return false;
+    figures->triangles = atlas->triangle_count;
+    figures->charts = atlas->chart_count;
+    figures->pages = atlas->page_count;
+    figures->texels = atlas->texel_count;
+    exact_sum surface = {0}, texels = {0}, flat = {0};
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        add(&surface, sp_triangle_area(mesh, t));
+        add(&flat, flat_area((const double(*)[2])atlas->uv[t]));
+    }
+    for (size_t i = 0; i < atlas->texel_count; i++)
+        add(&texels, atlas->texel_area[i]);
+    double whole = surface.sum + surface.rest, difference = texels.sum - surface.sum + (texels.rest - surface.rest);
+    figures->area_error = whole > 0 ? fabs(difference) / whole : 0;
+    double page = (double)atlas->page_edge * atlas->page_edge;
+    figures->utilisation = (flat.sum + flat.rest) / (page * (double)atlas->page_count);
+    if (!measure_strain(atlas, mesh, figures) || !measure_seams(atlas, mesh, whole, figures) ||
+        !count_small_charts(atlas, figures)) {
+        sp_fail_memory(error);
+        return false;
+    }
+    return measure_conflicts(atlas, figures, error);
+}
