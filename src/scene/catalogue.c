@@ -1,0 +1,198 @@
+/* The nozzle catalogue. */
+#include "scene/state.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const pattern_names[] = {"full_cone", "hollow_cone", "flat_fan", "solid_stream", NULL};
+
+static bool read_pattern(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+{
+    static const char *const later[] = {"measured", "cluster", "rotating"};
+    static const char *const later_keys[] = {"image", "members", "rotation"};
+    const sp_yaml *name = sp_yaml_get(node, "pattern");
+    int pattern = 0;
+    for (size_t i = 0; i < sizeof later / sizeof *later; i++)
+        if (sp_text_is(name, later[i]))
+            return sp_read_unsupported(reader, name, "pattern", "full_cone, hollow_cone, flat_fan or solid_stream");
+    for (size_t i = 0; i < sizeof later_keys / sizeof *later_keys; i++) {
+        const sp_yaml *child = sp_yaml_get(node, later_keys[i]);
+        if (child)
+            return sp_read_unsupported(reader, child, later_keys[i], "a type without this key");
+    }
+    if (!sp_read_choice(reader, node, "pattern", pattern_names, &pattern))
+        return false;
+    type->pattern = (sp_pattern)pattern;
+    return true;
+}
+
+/* A key that belongs to one pattern is needed there and stands nowhere else. */
+static bool check_pattern_key(const sp_reader *reader, const sp_yaml *node, const sp_nozzle_type *type, const char *key,
+                              sp_pattern owner)
+{
+    const sp_yaml *child = sp_yaml_get(node, key);
+    if (type->pattern == owner && !child)
+        return sp_read_message(reader, node, key, "found nothing, expected this key in a %s", pattern_names[owner]);
+    if (type->pattern != owner && child)
+        return sp_read_message(reader, child, key, "found in a %s, expected in a %s only", pattern_names[type->pattern],
+                               pattern_names[owner]);
+    return true;
+}
+
+/* `key` is a list of two values, rising, around `value`; absent: the value alone. */
+static bool read_adjustable(const sp_reader *reader, const sp_yaml *node, const char *key, const sp_dimension *dimension,
+                            sp_range range, double value, double limits[2])
+{
+    const sp_yaml *list = sp_yaml_get(node, key);
+    limits[0] = limits[1] = value;
+    if (!list)
+        return true;
+    if (list->kind != SP_YAML_LIST || list->count != 2)
+        return sp_read_fail(reader, list, key, "a list of two values such as [%s, ...]", dimension->example);
+    if (!sp_read_quantity_at(reader, list->first, key, dimension, range, &limits[0]) ||
+        !sp_read_quantity_at(reader, list->last, key, dimension, range, &limits[1]))
+        return false;
+    if (!(limits[0] < limits[1]))
+        return sp_read_message(reader, list, key, "found '%.60s' before '%.60s', expected the smaller first",
+                               list->first->text, list->last->text);
+    if (value < limits[0] || value > limits[1])
+        return sp_read_message(reader, list, key, "found '%.60s' to '%.60s', expected a range that contains the type's own",
+                               list->first->text, list->last->text);
+    return true;
+}
+
+static bool read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+{
+    const double pi = acos(-1);
+    double limits[2];
+    if (type->pattern == SP_PATTERN_SOLID_STREAM)
+        type->angle = pi / 180;
+    else if (!sp_yaml_get(node, "angle"))
+        return sp_read_message(reader, node, "angle", "found nothing, expected this key in a %s",
+                               pattern_names[type->pattern]);
+    if (!check_pattern_key(reader, node, type, "hollow", SP_PATTERN_HOLLOW_CONE) ||
+        !check_pattern_key(reader, node, type, "thickness", SP_PATTERN_FLAT_FAN) ||
+        !sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_above_to(0, 2 * pi), &type->angle) ||
+        !sp_read_quantity(reader, node, "hollow", &sp_ratio_unit, sp_from_below(0, 1), &type->hollow) ||
+        !sp_read_quantity(reader, node, "thickness", &sp_angle_unit, sp_above_to(0, pi), &type->thickness) ||
+        !read_adjustable(reader, node, "angle_range", &sp_angle_unit, sp_above_to(0, 2 * pi), type->angle, limits))
+        return false;
+    type->angle_min = limits[0];
+    type->angle_max = limits[1];
+    return true;
+}
+
+static bool read_flow(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+{
+    double limits[2];
+    type->exponent = 0.5;
+    type->cv = 0.95;
+    type->drop = 1e-3;
+    if (!sp_read_quantity(reader, node, "flow", &sp_flow_unit, sp_above(0), &type->flow) ||
+        !sp_read_quantity(reader, node, "at", &sp_pressure_unit, sp_above(0), &type->at) ||
+        !sp_read_quantity(reader, node, "exponent", &sp_ratio_unit, sp_above_to(0, 1), &type->exponent) ||
+        !sp_read_quantity(reader, node, "cv", &sp_ratio_unit, sp_above_to(0, 1), &type->cv) ||
+        !sp_read_quantity(reader, node, "drop", &sp_length_unit, sp_above(0), &type->drop) ||
+        !read_adjustable(reader, node, "flow_range", &sp_flow_unit, sp_above(0), type->flow, limits))
+        return false;
+    type->flow_min = limits[0];
+    type->flow_max = limits[1];
+    return true;
+}
+
+static bool read_type(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+{
+    static const sp_key keys[] = {{"name", true},      {"pattern", true},   {"angle", false},       {"hollow", false},
+                                  {"thickness", false}, {"flow", true},      {"at", true},           {"exponent", false},
+                                  {"cv", false},        {"drop", false},     {"angle_range", false}, {"flow_range", false},
+                                  {"image", false},     {"members", false},  {"rotation", false},    {NULL, false}};
+    *type = (sp_nozzle_type){0};
+    /* What is not built yet is said before what such a type may lack. */
+    return (node->kind != SP_YAML_MAP || read_pattern(reader, node, type)) &&
+           sp_read_keys(reader, node, "nozzles", "a catalogue type", keys) &&
+           sp_read_name(reader, node, "name", type->name) && read_shape(reader, node, type) &&
+           read_flow(reader, node, type);
+}
+
+static bool read_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *list)
+{
+    if (!sp_read_is_list(reader, list, "nozzles", "catalogue types"))
+        return false;
+    if (list->count > SP_MAX_ITEMS)
+        return sp_read_message(reader, list, "nozzles", "found %zu types, expected at most %d", list->count, SP_MAX_ITEMS);
+    scene->types = calloc(list->count ? list->count : 1, sizeof *scene->types);
+    if (!scene->types)
+        return sp_fail_memory(reader->error);
+    for (const sp_yaml *node = list->first; node; node = node->next) {
+        sp_nozzle_type *type = &scene->types[scene->type_count];
+        if (!read_type(reader, node, type))
+            return false;
+        for (size_t i = 0; i < scene->type_count; i++)
+            if (strcmp(scene->types[i].name, type->name) == 0)
+                return sp_read_fail(reader, sp_yaml_get(node, "name"), "name", "a name that no other type has");
+        scene->type_count++;
+    }
+    return true;
+}
+
+bool sp_scene_read_catalogue(sp_scene *scene, const sp_reader *reader)
+{
+    static const sp_key keys[] = {{"nozzles", true}, {NULL, false}};
+    const sp_yaml *node = sp_yaml_get(scene->tree, "catalogue");
+    if (!node)
+        return true;
+    char *path = sp_scene_file(scene, reader, node, "catalogue");
+    sp_yaml *tree = path ? sp_yaml_load(path, reader->error) : NULL;
+    bool good = tree && sp_read_keys(reader, tree, "catalogue", "a catalogue", keys) &&
+                read_types(scene, reader, sp_yaml_get(tree, "nozzles"));
+    sp_yaml_destroy(tree);
+    free(path);
+    return good;
+}
+
+const sp_nozzle_type *sp_scene_find_type(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node,
+                                         const char *key)
+{
+    const char *name = sp_read_text(reader, node, key, "the name of a type in the catalogue");
+    const char *near = NULL;
+    if (!name)
+        return NULL;
+    for (size_t i = 0; i < scene->type_count; i++) {
+        if (strcmp(scene->types[i].name, name) == 0)
+            return &scene->types[i];
+        if (!near && sp_text_near(name, scene->types[i].name))
+            near = scene->types[i].name;
+    }
+    if (scene->type_count == 0)
+        sp_read_fail(reader, node, key, "a type of the catalogue, of which this scene has none (catalogue:)");
+    else if (near)
+        sp_read_fail(reader, node, key, "a type of the catalogue, perhaps '%s'", near);
+    else
+        sp_read_fail(reader, node, key, "a type of the catalogue, which has '%s'%s", scene->types[0].name,
+                     scene->type_count > 1 ? " and others" : "");
+    return NULL;
+}
+
+bool sp_scene_read_types(const sp_scene *scene, const sp_reader *reader, const sp_yaml *map, const char *key,
+                         const sp_nozzle_type ***types, size_t *count)
+{
+    const sp_yaml *list = sp_yaml_get(map, key);
+    if (!list)
+        return true;
+    if (list->kind != SP_YAML_LIST || list->count == 0)
+        return sp_read_fail(reader, list, key, "a list of type names");
+    *types = calloc(list->count, sizeof **types);
+    if (!*types)
+        return sp_fail_memory(reader->error);
+    for (const sp_yaml *node = list->first; node; node = node->next) {
+        const sp_nozzle_type *type = sp_scene_find_type(scene, reader, node, key);
+        if (!type)
+            return false;
+        for (size_t i = 0; i < *count; i++)
+            if ((*types)[i] == type)
+                return sp_read_fail(reader, node, key, "each type once");
+        (*types)[(*count)++] = type;
+    }
+    return true;
+}

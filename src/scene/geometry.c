@@ -1,0 +1,177 @@
+/* geometry: files, transforms, parts, surfaces. */
+#include "scene/state.h"
+
+#include <fnmatch.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+typedef struct {
+    double unit;
+    sp_transform transform;
+    bool obstacle;
+    double restitution, rebound;
+} piece;
+
+static bool read_unit(const sp_reader *reader, const sp_yaml *node, double *unit)
+{
+    const sp_yaml *child = sp_yaml_get(node, "unit");
+    char why[200] = "";
+    if (!child)
+        return true;
+    const char *text = sp_read_text(reader, child, "unit", "a unit of length such as mm");
+    if (!text)
+        return false;
+    if (sp_units_factor(reader->units, text, &sp_length_unit, unit, why, sizeof why))
+        return true;
+    return sp_read_fail(reader, child, "unit", "a unit of length such as mm (%s)", why);
+}
+
+static bool read_rotation(const sp_reader *reader, const sp_yaml *node, sp_transform *transform)
+{
+    static const sp_key keys[] = {{"axis", true}, {"angle", true}, {NULL, false}};
+    const sp_yaml *rotate = sp_yaml_get(node, "rotate");
+    sp_vec3 axis = {0, 0, 1};
+    double angle = 0;
+    if (!rotate)
+        return true;
+    if (!sp_read_keys(reader, rotate, "rotate", "a rotation", keys) || !sp_read_axis(reader, rotate, "axis", &axis) ||
+        !sp_read_quantity(reader, rotate, "angle", &sp_angle_unit, sp_any(), &angle))
+        return false;
+    sp_transform_rotation(transform, axis, angle);
+    return true;
+}
+
+static bool read_piece(const sp_reader *reader, const sp_yaml *node, piece *p)
+{
+    static const sp_key keys[] = {{"file", true},      {"unit", false},   {"scale", false},       {"role", false},
+                                  {"translate", false}, {"rotate", false}, {"restitution", false}, {"rebound", false},
+                                  {"clean_parts", false}, {NULL, false}};
+    static const char *const roles[] = {"clean", "obstacle", NULL};
+    int role = 0;
+    *p = (piece){.unit = 1, .transform = sp_transform_default(), .rebound = 1};
+    if (!sp_read_keys(reader, node, "geometry", "a geometry file", keys) || !read_unit(reader, node, &p->unit) ||
+        !sp_read_quantity(reader, node, "scale", &sp_ratio_unit, sp_above(0), &p->transform.scale) ||
+        !sp_read_choice(reader, node, "role", roles, &role) ||
+        !sp_read_vector(reader, node, "translate", &sp_length_unit, &p->transform.translate) ||
+        !read_rotation(reader, node, &p->transform) ||
+        !sp_read_quantity(reader, node, "restitution", &sp_ratio_unit, sp_between(0, 1), &p->restitution) ||
+        !sp_read_quantity(reader, node, "rebound", &sp_ratio_unit, sp_between(0, 1), &p->rebound))
+        return false;
+    p->obstacle = role == 1;
+    const sp_yaml *parts = sp_yaml_get(node, "clean_parts");
+    if (parts && p->obstacle)
+        return sp_read_message(reader, parts, "clean_parts", "found beside role: obstacle, expected with role: clean only");
+    return true;
+}
+
+static bool check_extension(const sp_reader *reader, const sp_yaml *node)
+{
+    static const char *const later[] = {".ply", ".step", ".stp", ".iges", ".igs", ".brep", ".brp"};
+    const char *name = sp_read_text(reader, node, "file", "the path of a file");
+    if (!name)
+        return false;
+    const char *dot = strrchr(name, '.');
+    if (dot && (strcasecmp(dot, ".obj") == 0 || strcasecmp(dot, ".stl") == 0))
+        return true;
+    for (size_t i = 0; dot && i < sizeof later / sizeof *later; i++)
+        if (strcasecmp(dot, later[i]) == 0)
+            return sp_read_unsupported(reader, node, "file", "an OBJ or STL file");
+    return sp_read_fail(reader, node, "file", "a file that ends in .obj or .stl");
+}
+
+static sp_mesh *load_piece(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, const piece *p)
+{
+    const sp_yaml *file = sp_yaml_get(node, "file");
+    if (!check_extension(reader, file))
+        return NULL;
+    char *path = sp_scene_file(scene, reader, file, "file");
+    sp_mesh *mesh = path ? sp_mesh_load(path, p->unit, reader->error) : NULL;
+    free(path);
+    return mesh;
+}
+
+/* Marks the parts of geometry `index` that a name or glob takes. */
+static bool clean_part(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, uint32_t index)
+{
+    const char *pattern = sp_read_text(reader, node, "clean_parts", "the name of a part, or a glob such as baffle*");
+    bool found = false;
+    char names[240] = "";
+    if (!pattern)
+        return false;
+    for (size_t i = 0; i < scene->mesh->part_count; i++) {
+        const sp_part *part = &scene->mesh->parts[i];
+        if (part->geometry != index)
+            continue;
+        size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", part->name);
+        if (strcmp(pattern, part->name) == 0 || fnmatch(pattern, part->name, 0) == 0)
+            scene->surfaces[i].clean = found = true;
+    }
+    return found || sp_read_fail(reader, node, "clean_parts", "a name or glob that fits a part of this file: %s", names);
+}
+
+static bool set_surfaces(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, uint32_t index, const piece *p)
+{
+    const sp_yaml *parts = sp_yaml_get(node, "clean_parts");
+    for (size_t i = 0; i < scene->mesh->part_count; i++)
+        if (scene->mesh->parts[i].geometry == index)
+            scene->surfaces[i] = (sp_surface){!p->obstacle && !parts, p->restitution, p->rebound};
+    if (!parts)
+        return true;
+    if (!sp_read_is_list(reader, parts, "clean_parts", "part names"))
+        return false;
+    for (const sp_yaml *child = parts->first; child; child = child->next)
+        if (!clean_part(scene, reader, child, index))
+            return false;
+    return true;
+}
+
+static bool join_pieces(sp_scene *scene, const sp_reader *reader, const sp_mesh *const *meshes, const piece *pieces,
+                        size_t count)
+{
+    sp_transform *transforms = malloc(count * sizeof *transforms);
+    if (!transforms)
+        return sp_fail_memory(reader->error);
+    for (size_t i = 0; i < count; i++)
+        transforms[i] = pieces[i].transform;
+    scene->mesh = sp_mesh_join(meshes, transforms, count, reader->error);
+    free(transforms);
+    if (!scene->mesh)
+        return false;
+    scene->surfaces = calloc(scene->mesh->part_count, sizeof *scene->surfaces);
+    return scene->surfaces || sp_fail_memory(reader->error);
+}
+
+static bool read_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml *list, sp_mesh **meshes, piece *pieces)
+{
+    size_t count = 0;
+    for (const sp_yaml *node = list->first; node; node = node->next, count++)
+        if (!read_piece(reader, node, &pieces[count]) ||
+            !(meshes[count] = load_piece(scene, reader, node, &pieces[count])))
+            return false;
+    if (!join_pieces(scene, reader, (const sp_mesh *const *)meshes, pieces, count))
+        return false;
+    uint32_t index = 0;
+    for (const sp_yaml *node = list->first; node; node = node->next, index++)
+        if (!set_surfaces(scene, reader, node, index, &pieces[index]))
+            return false;
+    return true;
+}
+
+bool sp_scene_read_geometry(sp_scene *scene, const sp_reader *reader)
+{
+    const sp_yaml *list = sp_yaml_get(scene->tree, "geometry");
+    if (list->kind != SP_YAML_LIST || list->count == 0 || list->count > SP_MAX_ITEMS)
+        return sp_read_fail(reader, list, "geometry", "a list of 1 to %d files", SP_MAX_ITEMS);
+    sp_mesh **meshes = calloc(list->count, sizeof *meshes);
+    piece *pieces = calloc(list->count, sizeof *pieces);
+    bool good = meshes && pieces ? read_pieces(scene, reader, list, meshes, pieces)
+                                 : sp_fail_memory(reader->error) != NULL;
+    for (size_t i = 0; meshes && i < list->count; i++)
+        sp_mesh_destroy(meshes[i]);
+    free(meshes);
+    free(pieces);
+    return good;
+}

@@ -1,0 +1,61 @@
+/* up, cavity, liquid, air, gravity, criterion. */
+#include "scene/state.h"
+
+static bool read_fluid(const sp_scene *scene, const sp_reader *reader, const char *key, const char *what, sp_fluid *fluid)
+{
+    static const sp_key keys[] = {{"density", false}, {"viscosity", false}, {NULL, false}};
+    const sp_yaml *node = sp_yaml_get(scene->tree, key);
+    return !node ||
+           (sp_read_keys(reader, node, key, what, keys) &&
+            sp_read_quantity(reader, node, "density", &sp_density_unit, sp_above(0), &fluid->density) &&
+            sp_read_quantity(reader, node, "viscosity", &sp_viscosity_unit, sp_above(0), &fluid->viscosity));
+}
+
+static bool read_cavity(sp_scene *scene, const sp_reader *reader)
+{
+    const sp_yaml *node = sp_yaml_get(scene->tree, "cavity");
+    if (!node)
+        return true;
+    if (sp_text_is(node, "outside")) {
+        scene->setup.cavity = SP_CAVITY_OUTSIDE;
+        return true;
+    }
+    if (node->kind != SP_YAML_LIST)
+        return sp_read_fail(reader, node, "cavity", "a point such as [0 m, 0 m, 1 m], or outside");
+    scene->setup.cavity = SP_CAVITY_POINT;
+    return sp_read_vector(reader, scene->tree, "cavity", &sp_length_unit, &scene->setup.cavity_point);
+}
+
+static bool read_criterion(const sp_scene *scene, const sp_reader *reader, sp_criterion *criterion)
+{
+    static const sp_key keys[] = {
+        {"flux", false}, {"impact_speed", false}, {"incidence", false}, {"combine", false}, {NULL, false}};
+    static const char *const combines[] = {"sum", "single", NULL};
+    const sp_yaml *node = sp_yaml_get(scene->tree, "criterion");
+    int combine = criterion->combine;
+    if (!node)
+        return true;
+    if (!sp_read_keys(reader, node, "criterion", "the criterion", keys) ||
+        !sp_read_quantity(reader, node, "flux", &sp_flux_unit, sp_from(0), &criterion->flux) ||
+        !sp_read_quantity(reader, node, "impact_speed", &sp_speed_unit, sp_from(0), &criterion->impact_speed) ||
+        !sp_read_quantity(reader, node, "incidence", &sp_angle_unit, sp_above_to(0, acos(-1) / 2), &criterion->incidence) ||
+        !sp_read_choice(reader, node, "combine", combines, &combine))
+        return false;
+    criterion->combine = combine == 1 ? SP_COMBINE_SINGLE : SP_COMBINE_SUM;
+    return true;
+}
+
+bool sp_scene_read_physics(sp_scene *scene, const sp_reader *reader)
+{
+    static const char *const ups[] = {"z", "y", NULL};
+    sp_setup *setup = &scene->setup;
+    int up = 0;
+    if (!sp_read_choice(reader, scene->tree, "up", ups, &up) || !read_cavity(scene, reader) ||
+        !read_fluid(scene, reader, "liquid", "the liquid", &setup->liquid) ||
+        !read_fluid(scene, reader, "air", "the air", &setup->air) ||
+        !sp_read_quantity(reader, scene->tree, "gravity", &sp_acceleration_unit, sp_from(0), &setup->gravity) ||
+        !read_criterion(scene, reader, &setup->criterion))
+        return false;
+    setup->up = up == 1 ? sp_v(0, 1, 0) : sp_v(0, 0, 1);
+    return true;
+}

@@ -1,0 +1,269 @@
+/* place: what may be proposed, and where. */
+#include "scene/state.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Mounting points of one line or box: a slip in `spacing` must not ask for more memory than there is. */
+static const double max_points = 1e6;
+
+static bool read_tilt(const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+{
+    return sp_read_quantity(reader, node, "tilt", &sp_angle_unit, sp_between(0, acos(-1)), &mount->tilt);
+}
+
+static bool check_spacing(const sp_reader *reader, const sp_yaml *node, double spacing, sp_vec3 extent)
+{
+    double points = 1, sizes[3] = {extent.x, extent.y, extent.z};
+    bool flat = true;
+    for (int i = 0; i < 3; i++) {
+        flat = flat && sizes[i] == 0;
+        points *= spacing > 0 ? floor(fabs(sizes[i]) / spacing) + 1 : 1;
+    }
+    if (flat)
+        return true;
+    if (!sp_yaml_get(node, "spacing"))
+        return sp_read_message(reader, node, "spacing", "found nothing, expected this key where there is more than a point");
+    if (points > max_points)
+        return sp_read_fail(reader, sp_yaml_get(node, "spacing"), "spacing", "one that gives at most %g points, not %.3g",
+                            max_points, points);
+    return true;
+}
+
+static bool read_depth(const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+{
+    static const sp_key keys[] = {{"from", false}, {"to", true}, {"spacing", false}, {NULL, false}};
+    const sp_yaml *depth = sp_yaml_get(node, "depth");
+    if (!depth)
+        return true;
+    if (!sp_read_keys(reader, depth, "depth", "a lance", keys) ||
+        !sp_read_quantity(reader, depth, "from", &sp_length_unit, sp_from(0), &mount->depth_from) ||
+        !sp_read_quantity(reader, depth, "to", &sp_length_unit, sp_from(0), &mount->depth_to) ||
+        !sp_read_quantity(reader, depth, "spacing", &sp_length_unit, sp_above(0), &mount->depth_spacing))
+        return false;
+    if (mount->depth_to < mount->depth_from)
+        return sp_read_fail(reader, sp_yaml_get(depth, "to"), "to", "a length of at least `from`, %g m", mount->depth_from);
+    return check_spacing(reader, depth, mount->depth_spacing, sp_v(mount->depth_to - mount->depth_from, 0, 0));
+}
+
+static bool read_port(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+{
+    static const sp_key keys[] = {{"name", true}, {"position", true}, {"axis", false}, {"tilt", false},
+                                  {"depth", false}, {"types", false}, {NULL, false}};
+    const sp_nozzle_type ***types = &scene->mount_types[scene->mount_count];
+    if (!sp_read_keys(reader, node, "port", "a port", keys) || !sp_read_name(reader, node, "name", mount->name) ||
+        !sp_read_vector(reader, node, "position", &sp_length_unit, &mount->position) ||
+        !sp_read_axis(reader, node, "axis", &mount->axis) || !read_tilt(reader, node, mount) ||
+        !read_depth(reader, node, mount) ||
+        !sp_scene_read_types(scene, reader, node, "types", types, &mount->type_count))
+        return false;
+    mount->types = *types;
+    for (size_t i = 0; i < scene->mount_count; i++)
+        if (scene->mounts[i].kind == SP_MOUNT_PORT && strcmp(scene->mounts[i].name, mount->name) == 0)
+            return sp_read_fail(reader, sp_yaml_get(node, "name"), "name", "a name that no other port has");
+    return true;
+}
+
+static bool find_part(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+{
+    char names[240] = "";
+    const char *name = sp_read_text(reader, node, "part", "the name of a part");
+    if (!name)
+        return false;
+    for (size_t i = 0; i < scene->mesh->part_count; i++) {
+        const sp_part *part = &scene->mesh->parts[i];
+        size_t used = strlen(names);
+        if (part->geometry != mount->geometry)
+            continue;
+        snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", part->name);
+        if (strcmp(part->name, name) == 0) {
+            mount->part = (uint32_t)i;
+            return true;
+        }
+    }
+    return sp_read_fail(reader, node, "part", "a part of that geometry: %s", names);
+}
+
+static bool read_surface(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+{
+    static const sp_key keys[] = {{"geometry", true}, {"part", false}, {"spacing", true}, {"standoff", false},
+                                  {"tilt", false},    {NULL, false}};
+    uint64_t geometry = 0;
+    mount->axis = sp_v(0, 0, 0);
+    mount->part = SP_NONE;
+    if (!sp_read_keys(reader, node, "surface", "a surface", keys) ||
+        !sp_read_count(reader, node, "geometry", 0, sp_yaml_get(scene->tree, "geometry")->count - 1, &geometry) ||
+        !sp_read_quantity(reader, node, "spacing", &sp_length_unit, sp_above(0), &mount->spacing) ||
+        !sp_read_quantity(reader, node, "standoff", &sp_length_unit, sp_from(0), &mount->standoff) ||
+        !read_tilt(reader, node, mount))
+        return false;
+    mount->geometry = (uint32_t)geometry;
+    const sp_yaml *part = sp_yaml_get(node, "part");
+    return !part || find_part(scene, reader, part, mount);
+}
+
+static bool read_line(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+{
+    static const sp_key keys[] = {{"from", true}, {"to", true}, {"spacing", false}, {"axis", false},
+                                  {"tilt", false}, {NULL, false}};
+    (void)scene;
+    return sp_read_keys(reader, node, "line", "a line", keys) &&
+           sp_read_vector(reader, node, "from", &sp_length_unit, &mount->from) &&
+           sp_read_vector(reader, node, "to", &sp_length_unit, &mount->to) &&
+           sp_read_quantity(reader, node, "spacing", &sp_length_unit, sp_above(0), &mount->spacing) &&
+           sp_read_axis(reader, node, "axis", &mount->axis) && read_tilt(reader, node, mount) &&
+           check_spacing(reader, node, mount->spacing, sp_v(sp_distance(mount->from, mount->to), 0, 0));
+}
+
+static bool read_box(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+{
+    static const sp_key keys[] = {{"min", true}, {"max", true}, {"spacing", false}, {"axis", false},
+                                  {"tilt", false}, {NULL, false}};
+    (void)scene;
+    if (!sp_read_keys(reader, node, "box", "a box", keys) ||
+        !sp_read_vector(reader, node, "min", &sp_length_unit, &mount->from) ||
+        !sp_read_vector(reader, node, "max", &sp_length_unit, &mount->to) ||
+        !sp_read_quantity(reader, node, "spacing", &sp_length_unit, sp_above(0), &mount->spacing) ||
+        !sp_read_axis(reader, node, "axis", &mount->axis) || !read_tilt(reader, node, mount))
+        return false;
+    sp_vec3 extent = sp_sub(mount->to, mount->from);
+    if (extent.x < 0 || extent.y < 0 || extent.z < 0)
+        return sp_read_fail(reader, sp_yaml_get(node, "max"), "max", "no coordinate below that of `min`");
+    return check_spacing(reader, node, mount->spacing, extent);
+}
+
+static bool read_mount(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+{
+    static const sp_key keys[] = {{"port", false}, {"surface", false}, {"line", false}, {"box", false}, {NULL, false}};
+    static bool (*const readers[])(sp_scene *, const sp_reader *, const sp_yaml *, sp_mount *) = {read_port, read_surface,
+                                                                                                read_line, read_box};
+    if (!sp_read_keys(reader, node, "mounts", "a mount", keys))
+        return false;
+    if (node->count != 1)
+        return sp_read_message(reader, node, "mounts", "found %zu keys, expected one of port, surface, line, box",
+                               node->count);
+    int kind = 0;
+    while (strcmp(keys[kind].name, node->first->key) != 0)
+        kind++;
+    *mount = (sp_mount){.kind = (sp_mount_kind)kind, .axis = sp_scale(scene->setup.up, -1)};
+    return readers[kind](scene, reader, node->first, mount);
+}
+
+static bool read_mounts(sp_scene *scene, const sp_reader *reader, const sp_yaml *list)
+{
+    if (!list)
+        return true;
+    if (!sp_read_is_list(reader, list, "mounts", "mounts"))
+        return false;
+    if (list->count > SP_MAX_ITEMS)
+        return sp_read_message(reader, list, "mounts", "found %zu mounts, expected at most %d", list->count, SP_MAX_ITEMS);
+    scene->mounts = calloc(list->count + 1, sizeof *scene->mounts);
+    scene->mount_types = calloc(list->count + 1, sizeof *scene->mount_types);
+    if (!scene->mounts || !scene->mount_types)
+        return sp_fail_memory(reader->error);
+    for (const sp_yaml *node = list->first; node; node = node->next) {
+        /* Counted even when it fails: its types are then freed with the others. */
+        bool good = read_mount(scene, reader, node, &scene->mounts[scene->mount_count]);
+        scene->mount_count++;
+        if (!good)
+            return false;
+    }
+    return true;
+}
+
+static bool read_pressures(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, size_t *count)
+{
+    if (!node)
+        return true;
+    bool list = node->kind == SP_YAML_LIST;
+    if (list && node->count == 0)
+        return sp_read_message(reader, node, "pressure", "found an empty list, expected a pressure or several");
+    if (list && node->count > SP_MAX_ITEMS)
+        return sp_read_message(reader, node, "pressure", "found %zu pressures, expected at most %d", node->count,
+                               SP_MAX_ITEMS);
+    scene->pressures = calloc(list ? node->count : 1, sizeof *scene->pressures);
+    if (!scene->pressures)
+        return sp_fail_memory(reader->error);
+    for (const sp_yaml *child = list ? node->first : node; child; child = list ? child->next : NULL)
+        if (!sp_read_quantity_at(reader, child, "pressure", &sp_pressure_unit, sp_above(0), &scene->pressures[(*count)++]))
+            return false;
+    return true;
+}
+
+static bool read_refine(const sp_reader *reader, const sp_yaml *node, sp_refine *refine)
+{
+    static const sp_key keys[] = {{"position", false}, {"axis", false}, {"roll", false},
+                                  {"angle", false},    {"flow", false}, {NULL, false}};
+    const double pi = acos(-1);
+    if (!node)
+        return true;
+    if (sp_text_is(node, "none")) {
+        *refine = (sp_refine){0};
+        return true;
+    }
+    if (node->kind != SP_YAML_MAP)
+        return sp_read_fail(reader, node, "refine", "none, or keys such as {position: 50 mm, axis: 15 deg}");
+    return sp_read_keys(reader, node, "refine", "refinement", keys) &&
+           sp_read_quantity(reader, node, "position", &sp_length_unit, sp_from(0), &refine->position) &&
+           sp_read_quantity(reader, node, "axis", &sp_angle_unit, sp_between(0, pi), &refine->axis) &&
+           sp_read_flag(reader, node, "roll", &refine->roll) &&
+           sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_between(0, 2 * pi), &refine->angle) &&
+           sp_read_quantity(reader, node, "flow", &sp_ratio_unit, sp_from(0), &refine->flow);
+}
+
+static bool read_aims(const sp_reader *reader, const sp_yaml *node, sp_place_options *place)
+{
+    static const char *const objectives[] = {"area_per_water", "min_water", "max_coverage", NULL};
+    int objective = place->objective;
+    uint64_t nozzles = place->max_nozzles;
+    if (!sp_read_choice(reader, node, "objective", objectives, &objective) ||
+        !sp_read_quantity(reader, node, "coverage", &sp_ratio_unit, sp_above_to(0, 1), &place->coverage) ||
+        !sp_read_count(reader, node, "max_nozzles", 1, SP_MAX_ITEMS, &nozzles) ||
+        !sp_read_quantity(reader, node, "max_water", &sp_flow_unit, sp_above(0), &place->max_water) ||
+        !sp_read_quantity(reader, node, "clearance", &sp_length_unit, sp_from(0), &place->clearance))
+        return false;
+    place->objective = (sp_objective)objective;
+    place->max_nozzles = nozzles;
+    return true;
+}
+
+/* All types of the catalogue where the block names none. */
+static bool read_place_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *node)
+{
+    size_t *count = &scene->place.type_count;
+    if (sp_yaml_get(node, "types"))
+        return sp_scene_read_types(scene, reader, node, "types", &scene->place_types, count);
+    scene->place_types = calloc(scene->type_count + 1, sizeof *scene->place_types);
+    if (!scene->place_types)
+        return sp_fail_memory(reader->error);
+    for (; *count < scene->type_count; (*count)++)
+        scene->place_types[*count] = &scene->types[*count];
+    return true;
+}
+
+bool sp_scene_read_place(sp_scene *scene, const sp_reader *reader)
+{
+    static const sp_key keys[] = {{"objective", false}, {"coverage", false}, {"max_nozzles", false}, {"max_water", false},
+                                  {"types", false},     {"pressure", false}, {"clearance", false},   {"mounts", false},
+                                  {"refine", false},    {NULL, false}};
+    const sp_yaml *node = sp_yaml_get(scene->tree, "place");
+    sp_place_options *place = &scene->place;
+    if (node && (!sp_read_keys(reader, node, "place", "the placement", keys) || !read_aims(reader, node, place) ||
+                 !read_pressures(scene, reader, sp_yaml_get(node, "pressure"), &place->pressure_count) ||
+                 !read_mounts(scene, reader, sp_yaml_get(node, "mounts")) ||
+                 !read_refine(reader, sp_yaml_get(node, "refine"), &place->refine)))
+        return false;
+    if (!read_place_types(scene, reader, node))
+        return false;
+    if (scene->mount_count > 0 && place->pressure_count == 0)
+        return sp_read_message(reader, node, "pressure", "found nothing, expected this key beside mounts");
+    if (scene->mount_count > 0 && place->type_count == 0)
+        return sp_read_message(reader, node, "types", "found no types, expected a catalogue to choose from");
+    place->types = scene->place_types;
+    place->pressures = scene->pressures;
+    place->mounts = scene->mounts;
+    place->mount_count = scene->mount_count;
+    place->kept = scene->layout;
+    return true;
+}

@@ -1,0 +1,144 @@
+/* Loading a scene, and what it hands out. */
+#include "scene/state.h"
+
+#include <locale.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Numbers in files have a decimal point whatever language the program speaks. The caller's locale comes back. */
+typedef struct {
+    locale_t ours, theirs;
+} locale_change;
+
+static bool enter_locale(locale_change *change, sp_error *error)
+{
+    change->ours = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    if (change->ours == (locale_t)0)
+        return sp_fail_memory(error);
+    change->theirs = uselocale(change->ours);
+    return true;
+}
+
+static void leave_locale(const locale_change *change)
+{
+    uselocale(change->theirs);
+    freelocale(change->ours);
+}
+
+static bool read_tree(sp_scene *scene, const sp_reader *reader)
+{
+    static const sp_key keys[] = {{"up", false},        {"geometry", true}, {"cavity", false},    {"liquid", false},
+                                  {"air", false},       {"gravity", false}, {"criterion", false}, {"catalogue", false},
+                                  {"nozzles", false},   {"simulate", false}, {"place", false},    {NULL, false}};
+    return sp_read_keys(reader, scene->tree, "scene", "a scene", keys) && sp_scene_read_physics(scene, reader) &&
+           sp_scene_read_catalogue(scene, reader) && sp_scene_read_nozzles(scene, reader) &&
+           sp_scene_read_simulate(scene, reader) && sp_scene_read_geometry(scene, reader) &&
+           sp_scene_read_place(scene, reader);
+}
+
+static bool load(sp_scene *scene, const char *path, const char *const *overrides, size_t count, sp_error *error)
+{
+    scene->path = strdup(path);
+    if (!scene->path)
+        return sp_fail_memory(error);
+    scene->directory = sp_path_directory(path, error);
+    scene->tree = scene->directory ? sp_yaml_load(path, error) : NULL;
+    if (!scene->tree)
+        return false;
+    sp_units *units = sp_units_create(error);
+    sp_reader reader = {units, error};
+    bool good = units != NULL;
+    if (good && scene->tree->kind != SP_YAML_MAP)
+        good = sp_read_fail(&reader, scene->tree, "scene", "keys and values, such as geometry: ...");
+    for (size_t i = 0; good && i < count; i++)
+        good = sp_scene_override(scene->tree, overrides[i], error);
+    good = good && read_tree(scene, &reader);
+    sp_units_destroy(units);
+    return good;
+}
+
+sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, size_t count, sp_error *error)
+{
+    sp_error local = {0}, *kept = error ? error : &local;
+    locale_change change;
+    if (!path) {
+        sp_fail(kept, SP_ERROR_ARGUMENT, NULL, 0, 0, "a scene needs a path");
+        return NULL;
+    }
+    sp_scene *scene = calloc(1, sizeof *scene);
+    if (!scene)
+        return sp_fail_memory(kept);
+    scene->setup = sp_setup_default();
+    scene->place = sp_place_options_default();
+    bool entered = enter_locale(&change, kept);
+    bool good = entered && load(scene, path, overrides, count, kept);
+    if (entered)
+        leave_locale(&change);
+    if (!good) {
+        sp_scene_destroy(scene);
+        return NULL;
+    }
+    scene->setup.mesh = scene->mesh;
+    scene->setup.surfaces = scene->surfaces;
+    return scene;
+}
+
+sp_scene *sp_scene_load(const char *path, sp_error *error) { return sp_scene_load_with(path, NULL, 0, error); }
+
+void sp_scene_destroy(sp_scene *scene)
+{
+    if (!scene)
+        return;
+    for (size_t i = 0; scene->mount_types && i < scene->mount_count; i++)
+        free(scene->mount_types[i]);
+    free(scene->mount_types);
+    free(scene->mounts);
+    free(scene->pressures);
+    free(scene->place_types);
+    sp_layout_destroy(scene->layout);
+    free(scene->types);
+    sp_mesh_destroy(scene->mesh);
+    free(scene->surfaces);
+    sp_yaml_destroy(scene->tree);
+    free(scene->directory);
+    free(scene->path);
+    free(scene);
+}
+
+const char *sp_scene_path(const sp_scene *scene) { return scene ? scene->path : NULL; }
+const sp_setup *sp_scene_setup(const sp_scene *scene) { return scene ? &scene->setup : NULL; }
+const sp_layout *sp_scene_layout(const sp_scene *scene) { return scene ? scene->layout : NULL; }
+sp_place_options sp_scene_place_options(const sp_scene *scene)
+{
+    return scene ? scene->place : sp_place_options_default();
+}
+bool sp_scene_has_place(const sp_scene *scene) { return scene && scene->mount_count > 0; }
+
+static bool parse_quantity(const char *text, const char *unit, double *value, sp_error *error)
+{
+    sp_units *units = sp_units_create(error);
+    if (!units)
+        return false;
+    bool bare = strcmp(unit, "m") == 0 || strcmp(unit, "1") == 0 || !unit[0];
+    sp_dimension dimension = {"a quantity", unit[0] ? unit : "1", "", bare};
+    char why[200];
+    bool good = sp_units_read(units, text, &dimension, value, why, sizeof why);
+    if (!good)
+        sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "found '%.80s', expected a number %s%s%s%s", text,
+                unit[0] && strcmp(unit, "1") != 0 ? "and a unit that measures the same as " : "without unit",
+                strcmp(unit, "1") != 0 ? unit : "", why[0] ? ": " : "", why);
+    sp_units_destroy(units);
+    return good;
+}
+
+bool sp_quantity_parse(const char *text, const char *unit, double *value, sp_error *error)
+{
+    locale_change change;
+    if (!text || !unit || !value)
+        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "a quantity needs a text, a unit and a place to go to");
+    if (!enter_locale(&change, error))
+        return false;
+    bool good = parse_quantity(text, unit, value, error);
+    leave_locale(&change);
+    return good;
+}

@@ -1,0 +1,56 @@
+/* A scene in memory, and who reads what of it. */
+#ifndef SCENE_STATE_H
+#define SCENE_STATE_H
+
+#include "scene/read.h"
+
+#include <sprayplan/scene.h>
+
+enum { SP_MAX_ITEMS = 10000 }; /* of nozzles, types, mounts, geometry files */
+#define SP_MAX_JETS UINT64_C(1000000000000)
+
+struct sp_scene {
+    char *path;
+    char *directory; /* that holds the scene, "." where the path names none */
+    sp_yaml *tree;   /* the scene as it stands, overrides applied */
+    sp_mesh *mesh;
+    sp_surface *surfaces; /* [mesh->part_count] */
+    size_t type_count;
+    sp_nozzle_type *types;
+    sp_setup setup;
+    sp_layout *layout;
+    sp_place_options place;
+    size_t mount_count;
+    sp_mount *mounts;
+    const sp_nozzle_type ***mount_types; /* [mount_count], what a port's `types` points to */
+    double *pressures;
+    const sp_nozzle_type **place_types;
+};
+
+/* Each reads its block into the scene; an absent block leaves the defaults. In this order. */
+bool sp_scene_read_geometry(sp_scene *scene, const sp_reader *reader);
+bool sp_scene_read_physics(sp_scene *scene, const sp_reader *reader);
+bool sp_scene_read_catalogue(sp_scene *scene, const sp_reader *reader);
+bool sp_scene_read_nozzles(sp_scene *scene, const sp_reader *reader);
+bool sp_scene_read_simulate(sp_scene *scene, const sp_reader *reader);
+bool sp_scene_read_place(sp_scene *scene, const sp_reader *reader);
+
+/* Puts "simulate.jets=20000" into the tree. */
+bool sp_scene_override(sp_yaml *tree, const char *setting, sp_error *error);
+
+/* The catalogue's type of that name; NULL with an error at `node`. */
+const sp_nozzle_type *sp_scene_find_type(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node,
+                                         const char *key);
+/* A list of type names under `key`, malloc'd into *types; absent: none. */
+bool sp_scene_read_types(const sp_scene *scene, const sp_reader *reader, const sp_yaml *map, const char *key,
+                         const sp_nozzle_type ***types, size_t *count);
+
+/* `file` as the scene names it, seen from the working directory. Malloc'd. */
+char *sp_path_join(const char *directory, const char *file, sp_error *error);
+char *sp_path_directory(const char *path, sp_error *error);
+/* `path` (seen from the working directory) as seen from `directory`, which need not exist yet. Malloc'd. */
+char *sp_path_relative(const char *path, const char *directory, sp_error *error);
+/* A file named under `key` exists and can be opened. Returns its path as sp_path_join does, NULL with an error. */
+char *sp_scene_file(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, const char *key);
+
+#endif

@@ -1,0 +1,168 @@
+#include "scene/units.h"
+
+#include <udunits2.h>
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct sp_units {
+    ut_system *system;
+    ut_error_message_handler handler; /* the one to put back */
+};
+
+/* 1 US gallon = 231 cubic inches = 3.785411784 L, exactly. */
+static const double us_gallon = 3.785411784e-3;
+
+static bool add_unit(ut_system *system, const char *name, double factor, const char *of)
+{
+    ut_unit *base = ut_parse(system, of, UT_ASCII);
+    ut_unit *unit = ut_scale(factor, base);
+    bool good = unit && ut_map_name_to_unit(name, UT_ASCII, unit) == UT_SUCCESS;
+    ut_free(unit);
+    ut_free(base);
+    return good;
+}
+
+sp_units *sp_units_create(sp_error *error)
+{
+    sp_units *units = calloc(1, sizeof *units);
+    if (!units)
+        return sp_fail_memory(error);
+    units->handler = ut_set_error_message_handler(ut_ignore);
+    units->system = ut_read_xml(NULL);
+    if (units->system && add_unit(units->system, "deg", acos(-1) / 180, "rad") &&
+        add_unit(units->system, "gpm", us_gallon / 60, "m3/s"))
+        return units;
+    sp_fail(error, SP_ERROR_FILE, NULL, 0, 0, "cannot read the units database of udunits2");
+    sp_units_destroy(units);
+    return NULL;
+}
+
+void sp_units_destroy(sp_units *units)
+{
+    if (!units)
+        return;
+    ut_free_system(units->system);
+    ut_set_error_message_handler(units->handler);
+    free(units);
+}
+
+/* udunits takes far more than units: "10 mm" (a scaled unit), "s since 2000", "lg(re 1 mW)". What is left here are names
+ * with exponents, products and quotients, and a leading "1/". */
+static bool plain_unit(const char *unit)
+{
+    if (strlen(unit) > 60 || (!isalpha((unsigned char)unit[0]) && !strchr("1%", unit[0]) && !(unit[0] & 0x80)))
+        return false;
+    if (unit[0] == '1' && unit[1] != '/')
+        return false;
+    for (const char *c = unit + 1; *c; c++) {
+        bool digit = isdigit((unsigned char)*c);
+        if (digit && !isalnum((unsigned char)c[-1]) && !strchr("^-", c[-1]))
+            return false;
+        if (!digit && !isalpha((unsigned char)*c) && !(*c & 0x80) && !strchr("/.*^- ()%", *c))
+            return false;
+    }
+    return true;
+}
+
+/* udunits' gal is the Galileo, 0.01 m/s². */
+static bool names_gal(const char *unit)
+{
+    for (const char *c = unit; *c;) {
+        size_t size = 0;
+        while (isalpha((unsigned char)c[size]))
+            size++;
+        if (size == 3 && tolower((unsigned char)c[0]) == 'g' && tolower((unsigned char)c[1]) == 'a' &&
+            tolower((unsigned char)c[2]) == 'l')
+            return true;
+        c += size ? size : 1;
+    }
+    return false;
+}
+
+/* To udunits radians have no dimension; to us an angle is not a share. */
+static bool is_angle(const ut_unit *unit)
+{
+    char definition[256] = "";
+    ut_format(unit, definition, sizeof definition, UT_ASCII | UT_DEFINITION);
+    return strstr(definition, "rad") != NULL;
+}
+
+/* udunits also converts to reciprocals, offsets and logarithms; a quantity here is a multiple of its unit. */
+static bool convert(ut_unit *from, ut_unit *to, double *factor)
+{
+    if (!ut_are_convertible(from, to) || is_angle(from) != is_angle(to))
+        return false;
+    cv_converter *converter = ut_get_converter(from, to);
+    if (!converter)
+        return false;
+    double one = cv_convert_double(converter, 1), two = cv_convert_double(converter, 2);
+    cv_free(converter);
+    *factor = one;
+    return isfinite(one) && one > 0 && fabs(two - 2 * one) <= 1e-12 * one;
+}
+
+bool sp_units_factor(const sp_units *units, const char *unit, const sp_dimension *dimension, double *factor, char *why,
+                     size_t size)
+{
+    if (names_gal(unit)) {
+        snprintf(why, size, "gal is the Galileo here: write gpm for US gallons per minute, or L/min");
+        return false;
+    }
+    ut_unit *from = plain_unit(unit) ? ut_parse(units->system, unit, UT_UTF8) : NULL;
+    ut_unit *to = ut_parse(units->system, dimension->unit, UT_UTF8);
+    bool good = from && to && convert(from, to, factor);
+    if (!good)
+        snprintf(why, size, from ? "'%.60s' measures something else" : "'%.60s' is no known unit", unit);
+    ut_free(from);
+    ut_free(to);
+    return good;
+}
+
+/* A decimal number: no "inf", no "nan", no hexadecimals. Returns what follows it, or NULL. */
+static const char *skip_number(const char *text)
+{
+    size_t digits = 0;
+    if (*text == '+' || *text == '-')
+        text++;
+    for (; isdigit((unsigned char)*text); text++)
+        digits++;
+    if (*text == '.')
+        for (text++; isdigit((unsigned char)*text); text++)
+            digits++;
+    if (!digits)
+        return NULL;
+    if (*text == 'e' || *text == 'E') {
+        const char *exponent = text + 1 + (text[1] == '+' || text[1] == '-');
+        if (isdigit((unsigned char)*exponent))
+            for (text = exponent; isdigit((unsigned char)*text);)
+                text++;
+    }
+    return text;
+}
+
+bool sp_units_read(const sp_units *units, const char *text, const sp_dimension *dimension, double *value, char *why,
+                   size_t size)
+{
+    why[0] = '\0';
+    const char *unit = skip_number(text);
+    if (!unit)
+        return false;
+    double number = strtod(text, NULL), factor = 1;
+    while (*unit == ' ')
+        unit++;
+    if (!*unit && !dimension->bare) {
+        snprintf(why, size, "it has no unit");
+        return false;
+    }
+    if (*unit && !sp_units_factor(units, unit, dimension, &factor, why, size))
+        return false;
+    *value = number * factor;
+    if (isfinite(*value))
+        return true;
+    snprintf(why, size, "it is not finite");
+    return false;
+}

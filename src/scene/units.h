@@ -1,0 +1,30 @@
+/* Quantities by udunits2. A unit system belongs to whoever created it; udunits' parser itself is not reentrant. */
+#ifndef SCENE_UNITS_H
+#define SCENE_UNITS_H
+
+#include <sprayplan/error.h>
+
+#include <stddef.h>
+
+typedef struct sp_units sp_units;
+
+/* What a value measures. */
+typedef struct {
+    const char *name;    /* "a pressure" */
+    const char *unit;    /* SI, as udunits writes it: "Pa"; "1" without dimension, "rad" for angles */
+    const char *example; /* "2 bar" */
+    bool bare;           /* a number alone is in that unit */
+} sp_dimension;
+
+/* udunits' own system with `deg` and `gpm` added. */
+sp_units *sp_units_create(sp_error *error);
+void sp_units_destroy(sp_units *units);
+
+/* Reads "12.5 L/min" to SI. On failure returns false with what is wrong in `why`, empty where it is not a quantity at all. */
+bool sp_units_read(const sp_units *units, const char *text, const sp_dimension *dimension, double *value, char *why,
+                   size_t size);
+/* The same for a unit alone: "mm" to 0.001. */
+bool sp_units_factor(const sp_units *units, const char *unit, const sp_dimension *dimension, double *factor, char *why,
+                     size_t size);
+
+#endif

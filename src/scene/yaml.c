@@ -1,0 +1,334 @@
+#include "scene/yaml.h"
+
+#include <libfyaml.h>
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_DEPTH = 32, MAX_BYTES = 16 << 20 };
+
+typedef struct {
+    struct fy_parser *parser;
+    struct fy_diag *diag;
+    const char *file;
+    sp_error *error;
+} source;
+
+void sp_yaml_destroy(sp_yaml *node)
+{
+    if (!node)
+        return;
+    for (sp_yaml *child = node->first, *next; child; child = next) {
+        next = child->next;
+        sp_yaml_destroy(child);
+    }
+    free(node->text);
+    free(node->key);
+    free(node->owned_file);
+    free(node);
+}
+
+sp_yaml *sp_yaml_get(const sp_yaml *map, const char *key)
+{
+    if (!map || map->kind != SP_YAML_MAP)
+        return NULL;
+    for (sp_yaml *child = map->first; child; child = child->next)
+        if (strcmp(child->key, key) == 0)
+            return child;
+    return NULL;
+}
+
+void sp_yaml_append(sp_yaml *parent, sp_yaml *child)
+{
+    if (parent->last)
+        parent->last->next = child;
+    else
+        parent->first = child;
+    parent->last = child;
+    child->next = NULL;
+    parent->count++;
+}
+
+void sp_yaml_replace(sp_yaml *map, sp_yaml *child)
+{
+    sp_yaml *before = NULL, *old = map->first;
+    while (old && strcmp(old->key, child->key) != 0) {
+        before = old;
+        old = old->next;
+    }
+    if (!old) {
+        sp_yaml_append(map, child);
+        return;
+    }
+    child->next = old->next;
+    *(before ? &before->next : &map->first) = child;
+    if (map->last == old)
+        map->last = child;
+    sp_yaml_destroy(old);
+}
+
+sp_yaml *sp_yaml_create_map(const char *key, sp_error *error)
+{
+    sp_yaml *node = calloc(1, sizeof *node);
+    if (!node || !(node->key = strdup(key))) {
+        free(node);
+        return sp_fail_memory(error);
+    }
+    node->kind = SP_YAML_MAP;
+    node->file = "";
+    return node;
+}
+
+static void swallow(struct fy_diag *diag, void *user, const char *text, size_t size)
+{
+    (void)diag, (void)user, (void)text, (void)size;
+}
+
+/* Copies a token's text; an absent token is an empty text. */
+static char *token_text(struct fy_token *token)
+{
+    size_t size = 0;
+    const char *text = token ? fy_token_get_text(token, &size) : "";
+    char *copy = malloc(size + 1);
+    if (!copy)
+        return NULL;
+    if (text)
+        memcpy(copy, text, size);
+    copy[text ? size : 0] = '\0';
+    return copy;
+}
+
+static bool fail_at(const source *s, const struct fy_mark *mark, const char *what)
+{
+    return sp_fail(s->error, SP_ERROR_INPUT, s->file, mark ? mark->line + 1 : 0, mark ? mark->column + 1 : 0, "%s", what);
+}
+
+/* What libfyaml says is wrong, the first of it, where it says. */
+static bool fail_parse(const source *s)
+{
+    void *at = NULL;
+    const struct fy_diag_error *found = fy_diag_errors_iterate(s->diag, &at);
+    if (!found || !found->msg)
+        return sp_fail(s->error, SP_ERROR_INPUT, s->file, 0, 0, "YAML: found text that cannot be parsed");
+    return sp_fail(s->error, SP_ERROR_INPUT, s->file, found->line > 0 ? found->line : 1,
+                   found->column > 0 ? found->column : 1, "YAML: %s", found->msg);
+}
+
+static struct fy_event *next_event(const source *s)
+{
+    struct fy_event *event = fy_parser_parse(s->parser);
+    if (!event)
+        fail_parse(s);
+    return event;
+}
+
+static bool check_event(const source *s, struct fy_event *event, int depth)
+{
+    const struct fy_mark *mark = fy_event_start_mark(event);
+    if (event->type == FYET_ALIAS)
+        return fail_at(s, mark, "YAML: found an alias, expected its value written out");
+    if (fy_event_get_anchor_token(event))
+        return fail_at(s, mark, "YAML: found an anchor, expected a value without one");
+    if (fy_event_get_tag_token(event))
+        return fail_at(s, mark, "YAML: found a tag, expected a value without one");
+    if (depth > MAX_DEPTH)
+        return fail_at(s, mark, "YAML: found more than 32 levels of nesting, expected fewer");
+    return true;
+}
+
+static sp_yaml *read_node(const source *s, struct fy_event *event, int depth);
+
+static bool read_list(const source *s, sp_yaml *node, int depth)
+{
+    for (;;) {
+        struct fy_event *event = next_event(s);
+        if (!event)
+            return false;
+        bool end = event->type == FYET_SEQUENCE_END;
+        sp_yaml *child = end ? NULL : read_node(s, event, depth + 1);
+        fy_parser_event_free(s->parser, event);
+        if (!child)
+            return end;
+        sp_yaml_append(node, child);
+    }
+}
+
+/* Moves a key's text and place to the value that follows it. */
+static bool read_value(const source *s, sp_yaml *node, sp_yaml *key, int depth)
+{
+    struct fy_event *event = next_event(s);
+    sp_yaml *child = event ? read_node(s, event, depth + 1) : NULL;
+    if (event)
+        fy_parser_event_free(s->parser, event);
+    if (!child)
+        return false;
+    child->key = key->text;
+    key->text = NULL;
+    child->key_line = key->line;
+    child->key_column = key->column;
+    if (child->line == 0) {
+        child->line = key->line;
+        child->column = key->column;
+    }
+    sp_yaml_append(node, child);
+    return true;
+}
+
+static bool read_map(const source *s, sp_yaml *node, int depth)
+{
+    for (;;) {
+        struct fy_event *event = next_event(s);
+        if (!event)
+            return false;
+        bool end = event->type == FYET_MAPPING_END;
+        sp_yaml *key = NULL;
+        if (!end && (event->type == FYET_MAPPING_START || event->type == FYET_SEQUENCE_START))
+            fail_at(s, fy_event_start_mark(event), "YAML: found a list or block as a key, expected a name");
+        else if (!end)
+            key = read_node(s, event, depth + 1);
+        fy_parser_event_free(s->parser, event);
+        if (!key)
+            return end;
+        bool good = read_value(s, node, key, depth);
+        sp_yaml_destroy(key);
+        if (!good)
+            return false;
+    }
+}
+
+static bool fill_node(const source *s, struct fy_event *event, sp_yaml *node, int depth)
+{
+    if (event->type == FYET_SEQUENCE_START) {
+        node->kind = SP_YAML_LIST;
+        return read_list(s, node, depth);
+    }
+    if (event->type == FYET_MAPPING_START) {
+        node->kind = SP_YAML_MAP;
+        return read_map(s, node, depth);
+    }
+    node->kind = SP_YAML_SCALAR;
+    node->text = token_text(event->scalar.value);
+    if (!node->text)
+        return sp_fail_memory(s->error);
+    node->empty = !node->text[0] && fy_event_get_node_style(event) == FYNS_PLAIN;
+    return true;
+}
+
+static sp_yaml *read_node(const source *s, struct fy_event *event, int depth)
+{
+    if (!check_event(s, event, depth))
+        return NULL;
+    sp_yaml *node = calloc(1, sizeof *node);
+    if (!node)
+        return sp_fail_memory(s->error);
+    const struct fy_mark *mark = fy_event_start_mark(event);
+    node->file = s->file;
+    node->line = mark ? mark->line + 1 : 0;
+    node->column = mark ? mark->column + 1 : 0;
+    if (fill_node(s, event, node, depth))
+        return node;
+    sp_yaml_destroy(node);
+    return NULL;
+}
+
+/* The stream's one document; an empty stream is an empty scalar. */
+static sp_yaml *read_document(const source *s)
+{
+    sp_yaml *root = NULL;
+    for (;;) {
+        struct fy_event *event = next_event(s);
+        if (!event)
+            break;
+        enum fy_event_type type = event->type;
+        bool good = true;
+        if (type == FYET_DOCUMENT_START && root)
+            good = fail_at(s, fy_event_start_mark(event), "YAML: found a second document, expected one");
+        else if (type != FYET_STREAM_START && type != FYET_STREAM_END && type != FYET_DOCUMENT_START &&
+                 type != FYET_DOCUMENT_END)
+            good = (root = read_node(s, event, 1)) != NULL;
+        fy_parser_event_free(s->parser, event);
+        if (!good)
+            break;
+        if (type == FYET_STREAM_END) {
+            if (!root)
+                sp_fail(s->error, SP_ERROR_INPUT, s->file, 1, 1, "YAML: found an empty file, expected keys and values");
+            return root;
+        }
+    }
+    sp_yaml_destroy(root);
+    return NULL;
+}
+
+static sp_yaml *parse_with(source *s, const char *text, size_t size)
+{
+    struct fy_diag_cfg quiet = {.output_fn = swallow, .level = FYET_ERROR, .module_mask = ~0u};
+    s->diag = fy_diag_create(&quiet);
+    if (!s->diag)
+        return sp_fail_memory(s->error);
+    fy_diag_set_collect_errors(s->diag, true);
+    struct fy_parse_cfg settings = {.flags = FYPCF_QUIET | FYPCF_JSON_NONE, .diag = s->diag};
+    s->parser = fy_parser_create(&settings);
+    if (!s->parser)
+        return sp_fail_memory(s->error);
+    if (fy_parser_set_string(s->parser, text, size) != 0)
+        return sp_fail_memory(s->error);
+    return read_document(s);
+}
+
+sp_yaml *sp_yaml_parse(const char *file, const char *text, size_t size, sp_error *error)
+{
+    int line = 1;
+    for (size_t i = 0; i < size; i++) {
+        line += text[i] == '\n';
+        if (!text[i]) {
+            sp_fail(error, SP_ERROR_INPUT, file, line, 0, "YAML: found a zero byte, expected text");
+            return NULL;
+        }
+    }
+    char *name = strdup(file);
+    if (!name)
+        return sp_fail_memory(error);
+    source s = {.file = name, .error = error};
+    sp_yaml *root = parse_with(&s, text, size);
+    if (s.parser)
+        fy_parser_destroy(s.parser);
+    if (s.diag)
+        fy_diag_unref(s.diag);
+    if (root)
+        root->owned_file = name;
+    else
+        free(name);
+    return root;
+}
+
+static sp_yaml *load_stream(FILE *stream, const char *file, sp_error *error)
+{
+    char *text = malloc(MAX_BYTES + 1);
+    if (!text)
+        return sp_fail_memory(error);
+    errno = 0;
+    size_t size = fread(text, 1, MAX_BYTES + 1, stream);
+    sp_yaml *root = NULL;
+    if (ferror(stream))
+        sp_fail(error, SP_ERROR_FILE, file, 0, 0, "cannot read: %s", strerror(errno));
+    else if (size > MAX_BYTES)
+        sp_fail(error, SP_ERROR_INPUT, file, 0, 0, "found more than 16 MiB, expected a smaller file");
+    else
+        root = sp_yaml_parse(file, text, size, error);
+    free(text);
+    return root;
+}
+
+sp_yaml *sp_yaml_load(const char *file, sp_error *error)
+{
+    FILE *stream = fopen(file, "rb");
+    if (!stream) {
+        sp_fail(error, SP_ERROR_FILE, file, 0, 0, "cannot open: %s", strerror(errno));
+        return NULL;
+    }
+    sp_yaml *root = load_stream(stream, file, error);
+    fclose(stream);
+    return root;
+}
