@@ -27,7 +27,7 @@ static sp_yaml *enter(sp_yaml *map, const char *key, const char *setting, sp_err
         fail(setting, "found a key below one that has a single value, expected a block there", error);
         return NULL;
     }
-    child = sp_yaml_create_map(key, error);
+    child = sp_yaml_create(SP_YAML_MAP, key, NULL, error);
     if (child)
         sp_yaml_replace(map, child);
     return child;

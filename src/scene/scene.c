@@ -1,29 +1,9 @@
 /* Loading a scene, and what it hands out. */
+#include "scene/locale.h"
 #include "scene/state.h"
 
-#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Numbers in files have a decimal point whatever language the program speaks. The caller's locale comes back. */
-typedef struct {
-    locale_t ours, theirs;
-} locale_change;
-
-static bool enter_locale(locale_change *change, sp_error *error)
-{
-    change->ours = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (change->ours == (locale_t)0)
-        return sp_fail_memory(error);
-    change->theirs = uselocale(change->ours);
-    return true;
-}
-
-static void leave_locale(const locale_change *change)
-{
-    uselocale(change->theirs);
-    freelocale(change->ours);
-}
 
 static bool read_tree(sp_scene *scene, const sp_reader *reader)
 {
@@ -60,7 +40,7 @@ static bool load(sp_scene *scene, const char *path, const char *const *overrides
 sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, size_t count, sp_error *error)
 {
     sp_error local = {0}, *kept = error ? error : &local;
-    locale_change change;
+    sp_locale change;
     if (!path) {
         sp_fail(kept, SP_ERROR_ARGUMENT, NULL, 0, 0, "a scene needs a path");
         return NULL;
@@ -70,10 +50,10 @@ sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, siz
         return sp_fail_memory(kept);
     scene->setup = sp_setup_default();
     scene->place = sp_place_options_default();
-    bool entered = enter_locale(&change, kept);
+    bool entered = sp_locale_enter(&change, kept);
     bool good = entered && load(scene, path, overrides, count, kept);
     if (entered)
-        leave_locale(&change);
+        sp_locale_leave(&change);
     if (!good) {
         sp_scene_destroy(scene);
         return NULL;
@@ -133,12 +113,12 @@ static bool parse_quantity(const char *text, const char *unit, double *value, sp
 
 bool sp_quantity_parse(const char *text, const char *unit, double *value, sp_error *error)
 {
-    locale_change change;
+    sp_locale change;
     if (!text || !unit || !value)
         return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "a quantity needs a text, a unit and a place to go to");
-    if (!enter_locale(&change, error))
+    if (!sp_locale_enter(&change, error))
         return false;
     bool good = parse_quantity(text, unit, value, error);
-    leave_locale(&change);
+    sp_locale_leave(&change);
     return good;
 }

@@ -69,16 +69,36 @@ void sp_yaml_replace(sp_yaml *map, sp_yaml *child)
     sp_yaml_destroy(old);
 }
 
-sp_yaml *sp_yaml_create_map(const char *key, sp_error *error)
+sp_yaml *sp_yaml_create(sp_yaml_kind kind, const char *key, const char *text, sp_error *error)
 {
     sp_yaml *node = calloc(1, sizeof *node);
-    if (!node || !(node->key = strdup(key))) {
-        free(node);
+    if (!node)
         return sp_fail_memory(error);
-    }
-    node->kind = SP_YAML_MAP;
+    node->kind = kind;
     node->file = "";
-    return node;
+    node->key = key ? strdup(key) : NULL;
+    node->text = text ? strdup(text) : NULL;
+    if ((!key || node->key) && (!text || node->text))
+        return node;
+    sp_yaml_destroy(node);
+    return sp_fail_memory(error);
+}
+
+sp_yaml *sp_yaml_clone(const sp_yaml *node, sp_error *error)
+{
+    sp_yaml *copy = sp_yaml_create(node->kind, node->key, node->text, error);
+    if (!copy)
+        return NULL;
+    copy->empty = node->empty;
+    for (const sp_yaml *child = node->first; child; child = child->next) {
+        sp_yaml *child_copy = sp_yaml_clone(child, error);
+        if (!child_copy) {
+            sp_yaml_destroy(copy);
+            return NULL;
+        }
+        sp_yaml_append(copy, child_copy);
+    }
+    return copy;
 }
 
 static void swallow(struct fy_diag *diag, void *user, const char *text, size_t size)

@@ -32,11 +32,17 @@ void sp_yaml_destroy(sp_yaml *node);
 
 /* The child with that key, or NULL; NULL where the node is NULL or not a map. */
 sp_yaml *sp_yaml_get(const sp_yaml *map, const char *key);
-/* An empty map under `key`, located like nothing in a file; NULL when memory runs out. */
-sp_yaml *sp_yaml_create_map(const char *key, sp_error *error);
+/* A node that stands in no file: a scalar with that text, or a list or map without children. `key` may be NULL. */
+sp_yaml *sp_yaml_create(sp_yaml_kind kind, const char *key, const char *text, sp_error *error);
+/* A copy that stands in no file. */
+sp_yaml *sp_yaml_clone(const sp_yaml *node, sp_error *error);
 /* Adds a child at the end; the parent then owns it. */
 void sp_yaml_append(sp_yaml *parent, sp_yaml *child);
 /* Puts `child` in place of the child with the same key, which is destroyed, or at the end. */
 void sp_yaml_replace(sp_yaml *map, sp_yaml *child);
+
+/* The tree as YAML text, which reads back as the same tree; `heading` is a comment of one line. Malloc'd. Fails for text
+ * that is not UTF-8. */
+char *sp_yaml_text(const sp_yaml *root, const char *heading, sp_error *error);
 
 #endif
