@@ -1,0 +1,221 @@
+/* What is left to auto, what is refused, and the patches. */
+#include "shapes.h"
+
+typedef struct {
+    sp_mesh *mesh;
+    sp_surface surfaces[2];
+    sp_setup setup;
+} fixture;
+
+/* A floor of 1 m² and, as another part, a step on it of 0.25 m². */
+static fixture floor_and_step(void)
+{
+    shape s = shape_create();
+    shape_part(&s, "floor");
+    shape_sheet(&s, sp_v(0, 0, 0), sp_v(1, 0, 0), sp_v(0, 1, 0), 4);
+    shape_part(&s, "step");
+    shape_sheet(&s, sp_v(0.25, 0.25, 0.1), sp_v(0.5, 0, 0), sp_v(0, 0.5, 0), 2);
+    fixture f = {.mesh = shape_mesh(&s), .surfaces = {{true, 0, 1}, {true, 0, 1}}, .setup = sp_setup_default()};
+    f.setup.mesh = f.mesh;
+    return f;
+}
+
+static sp_fidelity resolved(fixture *f)
+{
+    f->setup.surfaces = f->surfaces;
+    sp_error error = {0};
+    sp_evaluator *evaluator = sp_evaluator_create(&f->setup, &error);
+    assert_string_equal(error.message, "");
+    assert_non_null(evaluator);
+    sp_fidelity fidelity = *sp_evaluator_fidelity(evaluator);
+    sp_evaluator_destroy(evaluator);
+    return fidelity;
+}
+
+static void refused(fixture *f, sp_error_kind kind, const char *text)
+{
+    f->setup.surfaces = f->surfaces;
+    sp_error error = {0};
+    assert_null(sp_evaluator_create(&f->setup, &error));
+    assert_int_equal(error.kind, kind);
+    if (!strstr(error.message, text))
+        fail_msg("\"%s\" does not say \"%s\"", error.message, text);
+}
+
+static void auto_chooses(void **state)
+{
+    (void)state;
+    fixture f = floor_and_step();
+    sp_fidelity fidelity = resolved(&f);
+    assert_int_equal(fidelity.trajectory, SP_TRAJECTORY_PARABOLA);
+    assert_int_equal(fidelity.method, SP_METHOD_INVERSE);
+    assert_int_equal(fidelity.reflections, 0);
+    assert_true(fabs(fidelity.texel - sqrt(1.25 / 200000)) < 1e-12);
+    assert_true(fidelity.jets > 0);
+
+    f.setup.fidelity.texel = 0.05;
+    f.surfaces[1].restitution = 0.3;
+    fidelity = resolved(&f);
+    assert_int_equal(fidelity.method, SP_METHOD_FORWARD);
+    assert_int_equal(fidelity.reflections, 3);
+    f.setup.fidelity.reflections = 0;
+    assert_int_equal(resolved(&f).method, SP_METHOD_INVERSE);
+    f.setup.fidelity.reflections = -1;
+    f.setup.fidelity.method = SP_METHOD_INVERSE;
+    assert_int_equal(resolved(&f).reflections, 0);
+    f.surfaces[1].restitution = 0;
+    f.setup.fidelity.method = SP_METHOD_FORWARD;
+    assert_int_equal(resolved(&f).reflections, 0);
+
+    uint64_t to_touch = resolved(&f).jets;
+    f.setup.criterion.flux = 1e-5;
+    assert_true(resolved(&f).jets > to_touch);
+    assert_true(resolved(&f).jets >= 100 * (uint64_t)(1.25 / (0.05 * 0.05)));
+    sp_mesh_destroy(f.mesh);
+}
+
+static void settings_are_kept(void **state)
+{
+    (void)state;
+    fixture f = floor_and_step();
+    f.setup.fidelity = (sp_fidelity){.trajectory = SP_TRAJECTORY_LINE,
+                                     .method = SP_METHOD_FORWARD,
+                                     .reflections = 2,
+                                     .jets = 77,
+                                     .texel = 0.1,
+                                     .splat = SP_SPLAT_LINEAR,
+                                     .accuracy = 0.02,
+                                     .seed = 5};
+    sp_fidelity fidelity = resolved(&f);
+    assert_memory_equal(&fidelity, &f.setup.fidelity, sizeof fidelity);
+    sp_mesh_destroy(f.mesh);
+}
+
+static void wrong_setups_are_refused(void **state)
+{
+    (void)state;
+    fixture f = floor_and_step();
+    f.setup.fidelity.method = SP_METHOD_INVERSE;
+    f.setup.fidelity.reflections = 2;
+    refused(&f, SP_ERROR_INPUT, "primary impact only");
+    f.setup.fidelity.reflections = 0;
+    f.setup.fidelity.splat = SP_SPLAT_LINEAR;
+    refused(&f, SP_ERROR_INPUT, "splat");
+    f.setup.fidelity.splat = SP_SPLAT_NEAREST;
+    f.setup.fidelity.texel = 1e-7;
+    refused(&f, SP_ERROR_INPUT, "texel");
+    f.setup.fidelity.texel = -1;
+    refused(&f, SP_ERROR_ARGUMENT, "texel");
+    f.setup.fidelity.texel = 0.05;
+    f.setup.criterion.flux = NAN;
+    refused(&f, SP_ERROR_ARGUMENT, "criterion");
+    f.setup.criterion.flux = 0;
+    f.surfaces[0].restitution = 1.5;
+    refused(&f, SP_ERROR_ARGUMENT, "restitution");
+    f.surfaces[0].restitution = 0;
+    f.surfaces[0].clean = f.surfaces[1].clean = false;
+    refused(&f, SP_ERROR_INPUT, "nothing is to be cleaned");
+    sp_mesh_destroy(f.mesh);
+
+    sp_error error = {.kind = SP_ERROR_FILE, .message = "earlier"};
+    assert_null(sp_evaluator_create(NULL, &error));
+    assert_null(sp_evaluator_resample(NULL, 0.1, &error));
+    assert_null(sp_evaluate(NULL, NULL, &error));
+    assert_string_equal(error.message, "earlier");
+}
+
+static bool stop(void *user, const char *stage, double done)
+{
+    (void)stage;
+    (void)done;
+    return --*(int *)user > 0;
+}
+
+static void building_can_be_interrupted(void **state)
+{
+    (void)state;
+    fixture f = floor_and_step();
+    f.setup.fidelity.texel = 0.05;
+    f.setup.cavity = SP_CAVITY_OUTSIDE;
+    f.setup.run.progress = stop;
+    for (int calls = 1; calls <= 4; calls++) {
+        int left = calls;
+        f.setup.run.user = &left;
+        refused(&f, SP_ERROR_INTERRUPTED, "interrupted");
+    }
+    sp_mesh_destroy(f.mesh);
+}
+
+/* The patch's point lies on its triangle, and neighbours are mutual, ascending and of the same side. */
+static void check_patches(const sp_evaluator *evaluator, const sp_mesh *mesh)
+{
+    const sp_patches *p = sp_evaluator_patches(evaluator);
+    double total = 0;
+    for (uint32_t i = 0; i < p->count; i++) {
+        total += p->area[i];
+        assert_true(p->area[i] > 0);
+        assert_true(i == 0 || p->texel[i] > p->texel[i - 1] ||
+                    (p->texel[i] == p->texel[i - 1] && p->side[i] > p->side[i - 1]));
+        sp_vec3 a = sp_triangle_point(mesh, p->triangle[i], 0, 0);
+        assert_true(fabs(sp_dot(sp_sub(p->point[i], a), p->normal[i])) < 1e-9);
+        double sign = p->side[i] == SP_SIDE_BACK ? -1 : 1;
+        assert_true(sp_dot(p->normal[i], sp_triangle_normal(mesh, p->triangle[i])) * sign > 1 - 1e-12);
+        for (uint32_t k = p->neighbour_start[i]; k < p->neighbour_start[i + 1]; k++) {
+            uint32_t other = p->neighbours[k];
+            assert_true(other < p->count && other != i && p->side[other] == p->side[i]);
+            assert_true(k == p->neighbour_start[i] || p->neighbours[k - 1] < other);
+            bool mutual = false;
+            for (uint32_t m = p->neighbour_start[other]; m < p->neighbour_start[other + 1]; m++)
+                mutual = mutual || p->neighbours[m] == i;
+            assert_true(mutual);
+        }
+    }
+    assert_true(fabs(total / p->total_area - 1) < 1e-12);
+}
+
+static void patches_hold_what_is_counted(void **state)
+{
+    (void)state;
+    fixture f = floor_and_step();
+    f.setup.surfaces = f.surfaces;
+    f.setup.fidelity.texel = 0.03;
+    sp_error error = {0};
+    sp_evaluator *evaluator = sp_evaluator_create(&f.setup, &error);
+    assert_non_null(evaluator);
+    check_patches(evaluator, f.mesh);
+    assert_true(fabs(sp_evaluator_patches(evaluator)->total_area - 1.25) < 1e-9);
+    sp_evaluator *coarse = sp_evaluator_resample(evaluator, 0.11, &error);
+    assert_non_null(coarse);
+    check_patches(coarse, f.mesh);
+    assert_true(fabs(sp_evaluator_patches(coarse)->total_area - 1.25) < 1e-9);
+    assert_true(sp_evaluator_patches(coarse)->count < sp_evaluator_patches(evaluator)->count / 8);
+    assert_int_equal(sp_evaluator_fidelity(coarse)->method, SP_METHOD_INVERSE);
+    assert_ptr_equal(sp_evaluator_tracer(coarse), sp_evaluator_tracer(evaluator));
+    sp_evaluator_destroy(coarse);
+    sp_evaluator *finer = sp_evaluator_resample(evaluator, 0.002, &error);
+    assert_non_null(finer);
+    assert_true(fabs(sp_evaluator_patches(finer)->total_area - 1.25) < 1e-9);
+    sp_evaluator_destroy(finer);
+    sp_evaluator_destroy(evaluator);
+
+    f.surfaces[1].clean = false;
+    f.setup.cavity = SP_CAVITY_OUTSIDE;
+    evaluator = sp_evaluator_create(&f.setup, &error);
+    assert_non_null(evaluator);
+    check_patches(evaluator, f.mesh);
+    assert_true(fabs(sp_evaluator_patches(evaluator)->total_area - 2) < 1e-9);
+    sp_evaluator_destroy(evaluator);
+    sp_mesh_destroy(f.mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(auto_chooses),
+        cmocka_unit_test(settings_are_kept),
+        cmocka_unit_test(wrong_setups_are_refused),
+        cmocka_unit_test(building_can_be_interrupted),
+        cmocka_unit_test(patches_hold_what_is_counted),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
