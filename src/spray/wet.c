@@ -6,36 +6,43 @@
 
 #define LINES 16        /* from each side of each triangle */
 #define DIRECTIONS 4096 /* from the cavity's point */
-#define BLOCK 4096      /* triangles whose lines are traced at once */
+#define BLOCK 4096      /* triangles whose lines are traced before their hits are joined */
 /* Of the geometry's diagonal: surfaces nearer than this to each other touch, and a line that starts where its triangle
  * touches another says nothing of the space on either side. */
 #define CONTACT 1e-7
 #define ON_EDGE 1e-9 /* barycentric: a hit this near to an edge may belong to either neighbour */
 
+/* Instead of a side: */
+#define SKY (SIZE_MAX - 1)
+#define UNTOLD SIZE_MAX
+
 /* Sides that face the same space, as disjoint sets: side 2t is the front of triangle t, 2t + 1 its back, and the last
  * node is the liquid. */
 typedef struct {
+    const sp_setup *setup;
+    const sp_tracer *tracer;
+    double contact; /* m */
     size_t *parent;
     size_t liquid;
-} space_sets;
+} side_flood;
 
-static size_t find_root(space_sets *sets, size_t node)
+static size_t find_root(side_flood *flood, size_t node)
 {
-    while (sets->parent[node] != node) {
-        sets->parent[node] = sets->parent[sets->parent[node]];
-        node = sets->parent[node];
+    while (flood->parent[node] != node) {
+        flood->parent[node] = flood->parent[flood->parent[node]];
+        node = flood->parent[node];
     }
     return node;
 }
 
-static void join(space_sets *sets, size_t a, size_t b)
+static void join(side_flood *flood, size_t a, size_t b)
 {
-    a = find_root(sets, a);
-    b = find_root(sets, b);
+    a = find_root(flood, a);
+    b = find_root(flood, b);
     if (a < b)
-        sets->parent[b] = a;
+        flood->parent[b] = a;
     else
-        sets->parent[a] = b;
+        flood->parent[a] = b;
 }
 
 /* Coordinate `axis` of point `index` of the R sequence in four dimensions (Roberts 2018, "The unreasonable
@@ -70,63 +77,77 @@ static sp_ray side_line(const sp_mesh *mesh, size_t side, unsigned line, double 
     return (sp_ray){.origin = origin, .velocity = direction, .t_min = 0, .t_max = INFINITY, .skip = triangle};
 }
 
-/* The side that a line meets, or SIZE_MAX where the hit does not say. */
-static size_t side_met(const sp_mesh *mesh, const sp_ray *line, const sp_hit *hit)
+static bool same_corners(const sp_mesh *mesh, uint32_t a, uint32_t b)
 {
-    if (hit->u < ON_EDGE || hit->v < ON_EDGE || 1 - hit->u - hit->v < ON_EDGE)
-        return SIZE_MAX;
-    double facing = sp_dot(sp_triangle_normal(mesh, hit->triangle), line->velocity);
+    for (int i = 0; i < 3; i++) {
+        bool found = false;
+        for (int k = 0; k < 3; k++)
+            found =
+                found || sp_distance(mesh->vertices[mesh->triangles[a][i]], mesh->vertices[mesh->triangles[b][k]]) == 0;
+        if (!found)
+            return false;
+    }
+    return true;
+}
+
+/* The side that a line meets, SKY where it escapes, UNTOLD where the hit does not say. */
+static size_t side_met(const side_flood *flood, sp_ray line)
+{
+    const sp_mesh *mesh = flood->setup->mesh;
+    sp_vec3 straight = sp_v(0, 0, 0);
+    sp_hit hit = sp_trace_nearest(flood->tracer, &line, straight);
+    if (line.skip != SP_NONE && hit.t < 2 * flood->contact) {
+        if (!same_corners(mesh, line.skip, hit.triangle))
+            return UNTOLD;
+        line.t_min = 2 * flood->contact;
+        hit = sp_trace_nearest(flood->tracer, &line, straight);
+    }
+    if (hit.triangle == SP_NONE)
+        return SKY;
+    if (hit.u < ON_EDGE || hit.v < ON_EDGE || 1 - hit.u - hit.v < ON_EDGE)
+        return UNTOLD;
+    double facing = sp_dot(sp_triangle_normal(mesh, hit.triangle), line.velocity);
     if (fabs(facing) < 1e-9)
-        return SIZE_MAX;
-    return 2 * (size_t)hit->triangle + (facing > 0);
+        return UNTOLD;
+    /* Where two solids touch, one's wall hides the other's contact face, and round-off chooses which is met. */
+    line.t_min = hit.t - flood->contact;
+    line.t_max = hit.t + flood->contact;
+    line.skip = hit.triangle;
+    sp_hit beside = sp_trace_nearest(flood->tracer, &line, straight);
+    if (beside.triangle != SP_NONE && !same_corners(mesh, hit.triangle, beside.triangle))
+        return UNTOLD;
+    return 2 * (size_t)hit.triangle + (facing > 0);
 }
 
-static void join_hits(const sp_setup *setup, space_sets *sets, size_t first_side, size_t count, const sp_ray *lines,
-                      const sp_hit *hits, double contact)
+static bool join_sides(side_flood *flood, sp_error *error)
 {
-    for (size_t i = 0; i < count; i++) {
-        size_t side = first_side + i / LINES;
-        if (hits[i].triangle == SP_NONE) {
-            if (setup->cavity == SP_CAVITY_OUTSIDE)
-                join(sets, side, sets->liquid);
-            continue;
-        }
-        size_t met = hits[i].t < 2 * contact ? SIZE_MAX : side_met(setup->mesh, &lines[i], &hits[i]);
-        if (met != SIZE_MAX)
-            join(sets, side, met);
-    }
-}
-
-static bool join_sides(const sp_setup *setup, const sp_tracer *tracer, space_sets *sets, double contact,
-                       sp_error *error)
-{
-    const sp_mesh *mesh = setup->mesh;
-    size_t most = 2 * LINES * (size_t)BLOCK;
-    sp_ray *lines = malloc(most * sizeof *lines);
-    sp_hit *hits = malloc(most * sizeof *hits);
-    bool done = lines && hits;
-    if (!done)
-        sp_fail_memory(error);
-    for (size_t first = 0; done && first < mesh->triangle_count; first += BLOCK) {
-        size_t triangles = mesh->triangle_count - first < BLOCK ? mesh->triangle_count - first : BLOCK;
-        size_t count = 2 * LINES * triangles;
-#pragma omp parallel for num_threads(sp_thread_count(setup->run.threads))
+    const sp_setup *setup = flood->setup;
+    size_t triangles = setup->mesh->triangle_count;
+    size_t *met = malloc(2 * LINES * (size_t)BLOCK * sizeof *met);
+    if (!met)
+        return sp_fail_memory(error);
+    bool done = true;
+    for (size_t first = 0; done && first < triangles; first += BLOCK) {
+        size_t end = first + BLOCK < triangles ? first + BLOCK : triangles, count = 2 * LINES * (end - first);
+#pragma omp parallel for schedule(dynamic, 1024) num_threads(sp_thread_count(setup->run.threads))
         for (size_t i = 0; i < count; i++)
-            lines[i] = side_line(mesh, 2 * first + i / LINES, i % LINES, contact);
-        sp_trace_nearest_many(tracer, lines, count, sp_v(0, 0, 0), setup->run.threads, hits);
-        join_hits(setup, sets, 2 * first, count, lines, hits, contact);
-        done = sp_evaluator_progress(setup, "wet sides", (double)(first + triangles) / (double)mesh->triangle_count,
-                                     error);
+            met[i] = side_met(flood, side_line(setup->mesh, 2 * first + i / LINES, i % LINES, flood->contact));
+        for (size_t i = 0; i < count; i++) {
+            if (met[i] == SKY && setup->cavity == SP_CAVITY_OUTSIDE)
+                join(flood, 2 * first + i / LINES, flood->liquid);
+            else if (met[i] != SKY && met[i] != UNTOLD)
+                join(flood, 2 * first + i / LINES, met[i]);
+        }
+        done = sp_evaluator_progress(setup, "wet sides", (double)end / (double)triangles, error);
     }
-    free(lines);
-    free(hits);
+    free(met);
     return done;
 }
 
 /* Joins the liquid with what the cavity's point sees. */
-static bool join_seen(const sp_setup *setup, const sp_tracer *tracer, space_sets *sets, sp_error *error)
+static bool join_seen(side_flood *flood, sp_error *error)
 {
-    sp_vec3 point = setup->cavity_point;
+    sp_vec3 point = flood->setup->cavity_point;
     bool seen = false;
     for (int i = 0; i < DIRECTIONS; i++) {
         sp_ray line = {.origin = point,
@@ -134,11 +155,10 @@ static bool join_seen(const sp_setup *setup, const sp_tracer *tracer, space_sets
                        .t_min = 0,
                        .t_max = INFINITY,
                        .skip = SP_NONE};
-        sp_hit hit = sp_trace_nearest(tracer, &line, sp_v(0, 0, 0));
-        size_t met = hit.triangle == SP_NONE ? SIZE_MAX : side_met(setup->mesh, &line, &hit);
-        if (met == SIZE_MAX)
+        size_t met = side_met(flood, line);
+        if (met == SKY || met == UNTOLD)
             continue;
-        join(sets, met, sets->liquid);
+        join(flood, met, flood->liquid);
         seen = true;
     }
     return seen ||
@@ -161,21 +181,24 @@ static double mesh_diagonal(const sp_mesh *mesh)
     return mesh->triangle_count ? sp_distance(low, high) : 0;
 }
 
-static bool flood(const sp_setup *setup, const sp_tracer *tracer, uint8_t *wet, sp_error *error)
+static bool flood_mesh(const sp_setup *setup, const sp_tracer *tracer, uint8_t *wet, sp_error *error)
 {
     size_t sides = 2 * setup->mesh->triangle_count;
-    space_sets sets = {.parent = malloc((sides + 1) * sizeof *sets.parent), .liquid = sides};
-    if (!sets.parent)
+    side_flood flood = {.setup = setup,
+                        .tracer = tracer,
+                        .contact = CONTACT * mesh_diagonal(setup->mesh),
+                        .parent = malloc((sides + 1) * sizeof *flood.parent),
+                        .liquid = sides};
+    if (!flood.parent)
         return sp_fail_memory(error);
     for (size_t i = 0; i <= sides; i++)
-        sets.parent[i] = i;
-    bool done = (setup->cavity == SP_CAVITY_OUTSIDE || join_seen(setup, tracer, &sets, error)) &&
-                join_sides(setup, tracer, &sets, CONTACT * mesh_diagonal(setup->mesh), error);
-    size_t liquid = find_root(&sets, sets.liquid);
+        flood.parent[i] = i;
+    bool done = (setup->cavity == SP_CAVITY_OUTSIDE || join_seen(&flood, error)) && join_sides(&flood, error);
+    size_t liquid = find_root(&flood, flood.liquid);
     for (size_t i = 0; done && i < sides; i++)
-        if (find_root(&sets, i) == liquid)
+        if (find_root(&flood, i) == liquid)
             wet[i / 2] |= (uint8_t)(1u << (i % 2));
-    free(sets.parent);
+    free(flood.parent);
     return done;
 }
 
@@ -188,7 +211,7 @@ uint8_t *sp_wet_sides(const sp_setup *setup, const sp_tracer *tracer, sp_error *
     if (setup->cavity == SP_CAVITY_NONE) {
         for (size_t i = 0; i < count; i++)
             wet[i] = 3;
-    } else if (!flood(setup, tracer, wet, error)) {
+    } else if (!flood_mesh(setup, tracer, wet, error)) {
         free(wet);
         return NULL;
     }

@@ -87,7 +87,11 @@ static void settings_are_kept(void **state)
                                      .accuracy = 0.02,
                                      .seed = 5};
     sp_fidelity fidelity = resolved(&f);
-    assert_memory_equal(&fidelity, &f.setup.fidelity, sizeof fidelity);
+    const sp_fidelity *asked = &f.setup.fidelity;
+    assert_true(fidelity.trajectory == asked->trajectory && fidelity.method == asked->method);
+    assert_true(fidelity.reflections == asked->reflections && fidelity.jets == asked->jets);
+    assert_true(fidelity.texel == asked->texel && fidelity.splat == asked->splat);
+    assert_true(fidelity.accuracy == asked->accuracy && fidelity.seed == asked->seed);
     sp_mesh_destroy(f.mesh);
 }
 

@@ -82,7 +82,7 @@ static void cone_on_floor(void **state)
     sp_evaluator *evaluator;
     sp_coverage *coverage = evaluate(&f, &nozzle, 1, &evaluator);
     /* A disc of radius 1, read high by about 4/π texel/R. */
-    assert_near(coverage->covered_area, M_PI * (1 + 4 / M_PI * 0.02), 0.005);
+    assert_near(coverage->covered_area, M_PI * (1 + 4 / M_PI * 0.02), 0.01);
     assert_near(coverage->area, 9, 1e-9);
     assert_near(coverage->fraction, coverage->covered_area / 9, 1e-12);
     assert_near(coverage->flow, 1e-4, 1e-12);
@@ -94,12 +94,13 @@ static void cone_on_floor(void **state)
     const sp_patches *patches = sp_evaluator_patches(evaluator);
     double solid_angle = 2 * M_PI * (1 - cos(M_PI / 4)), speed = 0.95 * sqrt(2 * 2e5 / 1000);
     size_t compared = 0;
+    double square = 0;
     for (size_t i = 0; i < patches->count; i++) {
         double r = hypot(patches->point[i].x, patches->point[i].y), angle = atan(r);
         if (r > 0.9 || patches->area[i] < 0.99 * 0.02 * 0.02)
             continue;
         double flux = 1e-4 / solid_angle * pow(cos(angle), 3);
-        assert_near(coverage->deposits.flux[i], flux, 0.25); /* some fifteen jets a texel */
+        square += pow(coverage->deposits.flux[i] / flux - 1, 2);
         assert_near(coverage->deposits.speed[i], speed, 1e-9);
         assert_near(coverage->deposits.speed_max[i], speed, 1e-9);
         assert_true(fabs(coverage->deposits.incidence[i] - angle) < 0.02);
@@ -109,6 +110,7 @@ static void cone_on_floor(void **state)
         compared++;
     }
     assert_true(compared > 5000);
+    assert_true(sqrt(square / (double)compared) < 0.15); /* some fifteen jets a texel; were they random, 0.26 */
     sp_coverage_destroy(coverage);
     sp_evaluator_destroy(evaluator);
     sp_mesh_destroy(f.mesh);
@@ -213,7 +215,7 @@ static void mirror_ceiling(void **state)
     sp_evaluator *evaluator;
     sp_coverage *coverage = evaluate(&f, &nozzle, 1, &evaluator);
     assert_near(coverage->area, 16, 1e-9);
-    assert_near(coverage->covered_area, M_PI * 2.25 * (1 + 4 / M_PI * 0.02 / 1.5), 0.005);
+    assert_near(coverage->covered_area, M_PI * 2.25 * (1 + 4 / M_PI * 0.02 / 1.5), 0.01);
     assert_near(liquid(evaluator, coverage->deposits.flux), 0.5e-4, 1e-9);
     sp_coverage_destroy(coverage);
     sp_evaluator_destroy(evaluator);

@@ -174,6 +174,23 @@ static void solid_touching_the_wall_stays_dry_inside(void **state)
     release(&f);
 }
 
+/* Triangles that the file holds twice, or both ways round, count once and hide nothing. */
+static void doubled_triangles_stay_wet(void **state)
+{
+    (void)state;
+    shape s = shape_create();
+    shape_part(&s, "wall");
+    shape_box(&s, sp_v(0, 0, 0), sp_v(1, 1, 1), true);
+    shape_sheet(&s, sp_v(0.3, 0.3, 0.6), sp_v(0.4, 0, 0), sp_v(0, 0.4, 0), 1);
+    size_t count = s.triangle_count;
+    shape_box(&s, sp_v(0, 0, 0), sp_v(1, 1, 1), false);
+    shape_sheet(&s, sp_v(0.3, 0.3, 0.6), sp_v(0.4, 0, 0), sp_v(0, 0.4, 0), 1);
+    fixture f = build(&s, SP_CAVITY_POINT, sp_v(0.52, 0.47, 0.3));
+    for (uint32_t t = 0; t < count; t++)
+        assert_int_equal(sp_evaluator_wet(f.evaluator, t), t < 12 ? 1 : 3);
+    release(&f);
+}
+
 static void same_for_any_number_of_threads(void **state)
 {
     (void)state;
@@ -214,9 +231,13 @@ static void point_that_sees_nothing_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(thick_vessel_is_wet_inside_only), cmocka_unit_test(from_outside_the_opening_lets_the_flood_in),
-        cmocka_unit_test(shell_from_inside_and_outside),   cmocka_unit_test(solid_touching_the_wall_stays_dry_inside),
-        cmocka_unit_test(same_for_any_number_of_threads),  cmocka_unit_test(point_that_sees_nothing_is_refused),
+        cmocka_unit_test(thick_vessel_is_wet_inside_only),
+        cmocka_unit_test(from_outside_the_opening_lets_the_flood_in),
+        cmocka_unit_test(shell_from_inside_and_outside),
+        cmocka_unit_test(solid_touching_the_wall_stays_dry_inside),
+        cmocka_unit_test(doubled_triangles_stay_wet),
+        cmocka_unit_test(same_for_any_number_of_threads),
+        cmocka_unit_test(point_that_sees_nothing_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
