@@ -1,0 +1,304 @@
+/* sprayplan check, simulate, place and compare on a small room: figures, files, exit status, and the same bytes for any
+ * number of threads. */
+#include "workplace.h"
+
+#include <math.h>
+#include <signal.h>
+#include <time.h>
+
+static json_t *layout_named(json_t *result, const char *name)
+{
+    size_t i;
+    json_t *layout;
+    json_array_foreach(json_object_get(result, "layouts"), i, layout)
+        if (strcmp(json_string_value(json_object_get(layout, "name")), name) == 0)
+            return layout;
+    fail_msg("no layout %s", name);
+    return NULL;
+}
+
+static double number(json_t *object, const char *key)
+{
+    assert_true(json_is_number(json_object_get(object, key)));
+    return json_number_value(json_object_get(object, key));
+}
+
+static json_t *json_file(const char *name)
+{
+    char *text = read_file(name, NULL);
+    assert_non_null(text);
+    json_t *object = json_loads(text, 0, NULL);
+    assert_non_null(object);
+    free(text);
+    return object;
+}
+
+static void check_measures_the_room(void **state)
+{
+    (void)state;
+    json_t *object = expect_json("check room.yaml --json", 0);
+    assert_int_equal(number(json_object_get(object, "mesh"), "triangles"), 12);
+    assert_int_equal(json_array_size(json_object_get(object, "parts")), 3);
+    assert_true(fabs(number(object, "clean_area_m2") - 6) < 1e-9);
+    assert_int_equal(json_array_size(json_object_get(object, "warnings")), 0);
+    json_decref(object);
+}
+
+static void check_warns_where_bodies_are_closed_and_no_cavity_is_named(void **state)
+{
+    (void)state;
+    write_file("open.yaml", "geometry:\n  - file: room.obj\ncatalogue: catalogue.yaml\n");
+    json_t *object = expect_json("check open.yaml --json", 0);
+    assert_int_equal(json_array_size(json_object_get(object, "warnings")), 1);
+    assert_non_null(strstr(json_string_value(json_array_get(json_object_get(object, "warnings"), 0)), "cavity"));
+    json_decref(object);
+}
+
+/* The cone of 120 deg, 0.4 m under the ceiling's height above a floor of 1 m²: 12 L/min over pi sr. On the floor the flux is
+ * Q cos^3(a) / (pi h²), above 1 L/min/m² all over it. */
+static void simulate_gives_the_figures(void **state)
+{
+    (void)state;
+    json_t *object = expect_json("simulate room.yaml --json --set simulate.trajectory=line", 0);
+    json_t *manual = layout_named(object, "manual");
+    assert_true(fabs(number(manual, "water_l_min") - 12) < 1e-9);
+    assert_true(number(manual, "covered_area_m2") > 1);
+    assert_true(fabs(number(manual, "coverage") - number(manual, "covered_area_m2") / 6) < 1e-9);
+    assert_true(fabs(number(manual, "area_per_water") - number(manual, "covered_area_m2") / 12) < 1e-9);
+    json_t *fidelity = json_object_get(object, "fidelity");
+    assert_string_equal(json_string_value(json_object_get(fidelity, "trajectory")), "line");
+    assert_null(json_object_get(fidelity, "error_estimate"));
+    json_decref(object);
+}
+
+static void without_output_nothing_is_written(void **state)
+{
+    (void)state;
+    char *before = list_folder(".");
+    outcome result = run_program("simulate room.yaml");
+    assert_int_equal(result.status, 0);
+    assert_string_equal(result.err, "");
+    assert_non_null(strstr(result.out, "manual"));
+    forget(&result);
+    expect("simulate room.yaml --quiet", 0, "", "");
+    expect("check room.yaml --quiet", 0, "", "");
+    char *after = list_folder(".");
+    assert_string_equal(before, after);
+    free(before);
+    free(after);
+}
+
+static void simulate_writes_its_files(void **state)
+{
+    (void)state;
+    outcome result = run_program("simulate room.yaml -o simulated --json");
+    assert_int_equal(result.status, 0);
+    char *written = read_file("simulated/result.json", NULL);
+    assert_string_equal(written, result.out);
+    free(written);
+    forget(&result);
+    char *names = list_folder("simulated");
+    assert_string_equal(names, "coverage.png\ndeposits.exr\nlayout.yaml\nmodel.glb\nnozzles.csv\nreport.html\n"
+                               "result.json\n");
+    free(names);
+}
+
+static void no_input_is_overwritten(void **state)
+{
+    (void)state;
+    expect("simulate room.yaml -o simulated --quiet", 0, "", "");
+    char *before = read_file("simulated/layout.yaml", NULL);
+    outcome result = run_program("simulate simulated/layout.yaml -o simulated");
+    assert_int_equal(result.status, 3);
+    char *after = read_file("simulated/layout.yaml", NULL);
+    assert_string_equal(before, after);
+    free(before);
+    free(after);
+    forget(&result);
+}
+
+static void same_file(const char *a, const char *b, const char *name)
+{
+    char path[2][256];
+    size_t size[2];
+    snprintf(path[0], sizeof path[0], "%s/%s", a, name);
+    snprintf(path[1], sizeof path[1], "%s/%s", b, name);
+    char *first = read_file(path[0], &size[0]), *second = read_file(path[1], &size[1]);
+    assert_non_null(first);
+    assert_non_null(second);
+    if (size[0] != size[1] || memcmp(first, second, size[0]) != 0)
+        fail_msg("%s and %s differ", path[0], path[1]);
+    free(first);
+    free(second);
+}
+
+/* All that place writes, for one thread and for three: the same bytes, measured times aside. */
+static void place_gives_the_same_bytes_for_any_number_of_threads(void **state)
+{
+    (void)state;
+    outcome one = run_program("place room.yaml --threads 1 -o one"), three = run_program("place room.yaml --threads 3 -o three");
+    assert_int_equal(one.status, three.status);
+    assert_true(one.status == 0 || one.status == 4);
+    assert_string_equal(one.out, three.out);
+    forget(&one);
+    forget(&three);
+    static const char *const files[] = {
+        "layout.yaml",          "nozzles.csv",          "coverage.png",         "deposits.exr",        "model.glb",
+        "coverage-manual.png",  "deposits-manual.exr",  "model-manual.glb",     "coverage-greedy.png", "deposits-greedy.exr",
+        "model-greedy.glb",
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; ++i)
+        same_file("one", "three", files[i]);
+    json_t *a = json_file("one/result.json"), *b = json_file("three/result.json");
+    assert_int_equal(json_object_del(a, "stages"), 0);
+    assert_int_equal(json_object_del(b, "stages"), 0);
+    assert_true(json_equal(a, b));
+    json_decref(a);
+    json_decref(b);
+}
+
+/* The proposal is at least as good as what it was made from, and simulating the layout.yaml that was written, from another
+ * folder, gives its figures back. */
+static void the_written_layout_gives_the_same_figures(void **state)
+{
+    (void)state;
+    outcome result = run_program("place room.yaml -o placed --quiet");
+    assert_true(result.status == 0 || result.status == 4);
+    assert_string_equal(result.out, "");
+    forget(&result);
+    json_t *placed = json_file("placed/result.json");
+    json_t *again = expect_json("simulate placed/layout.yaml --json", 0);
+    json_t *proposed = layout_named(placed, "proposed"), *manual = layout_named(again, "manual");
+    static const char *const same[] = {"water_l_min", "covered_area_m2", "coverage", "area_per_water"};
+    for (size_t i = 0; i < sizeof same / sizeof *same; ++i)
+        assert_true(number(proposed, same[i]) == number(manual, same[i]));
+    assert_true(json_equal(json_object_get(proposed, "flux_l_min_m2"), json_object_get(manual, "flux_l_min_m2")));
+    assert_true(json_equal(json_object_get(proposed, "nozzles"), json_object_get(manual, "nozzles")));
+    assert_true(json_equal(json_object_get(placed, "fidelity"), json_object_get(again, "fidelity")));
+    json_decref(placed);
+    json_decref(again);
+}
+
+static void place_says_whether_the_coverage_asked_for_is_reached(void **state)
+{
+    (void)state;
+    json_decref(expect_json("place room.yaml --json --set 'place.coverage=20 %'", 0));
+    json_t *object = expect_json("place room.yaml --json --set place.max_nozzles=1 --set 'place.coverage=100 %' "
+                                 "--set 'place.max_water=13 L/min'", 4);
+    json_t *proposed = layout_named(object, "proposed");
+    assert_int_equal(json_array_size(json_object_get(proposed, "nozzles")), 1);
+    assert_true(number(proposed, "water_l_min") <= 13);
+    json_decref(object);
+}
+
+static void compare_sets_scenes_side_by_side(void **state)
+{
+    (void)state;
+    write_file("other.yaml", room_yaml);
+    json_t *object = expect_json("compare room.yaml other.yaml --json", 0);
+    assert_int_equal(json_array_size(json_object_get(object, "layouts")), 2);
+    assert_true(number(json_array_get(json_object_get(object, "layouts"), 0), "coverage") ==
+                number(json_array_get(json_object_get(object, "layouts"), 1), "coverage"));
+    json_decref(object);
+    outcome result = run_program("compare room.yaml other.yaml -o compared --quiet");
+    assert_int_equal(result.status, 0);
+    forget(&result);
+    char *report = read_file("compared/report.html", NULL);
+    assert_non_null(report);
+    free(report);
+}
+
+static void atlas_keeps_every_triangle(void **state)
+{
+    (void)state;
+    json_t *object = expect_json("atlas room.obj -o unfolded.obj --texel 10mm --json", 0);
+    assert_int_equal(number(object, "triangles"), 12);
+    assert_int_equal(number(object, "shared_texels"), 0);
+    assert_int_equal(number(object, "overlaps"), 0);
+    json_decref(object);
+    char *obj = read_file("unfolded.obj", NULL), *faces = obj;
+    int count = 0;
+    assert_non_null(obj);
+    while ((faces = strstr(faces, "\nf ")))
+        ++count, ++faces;
+    assert_int_equal(count, 12);
+    assert_non_null(strstr(obj, "usemtl page_0\n"));
+    free(obj);
+}
+
+/* Whether the process has a handler of its own for this signal. */
+static bool catches(pid_t process, int signal)
+{
+    char path[64], line[256];
+    unsigned long long caught = 0;
+    snprintf(path, sizeof path, "/proc/%d/status", (int)process);
+    FILE *file = fopen(path, "r");
+    while (file && fgets(line, sizeof line, file))
+        sscanf(line, "SigCgt: %llx", &caught);
+    if (file)
+        fclose(file);
+    return caught >> (signal - 1) & 1;
+}
+
+static pid_t begin_long_place(const char *folder)
+{
+    pid_t child = fork();
+    if (child == 0) {
+        if (chdir(workplace) != 0 || !freopen(".out", "w", stdout) || !freopen(".err", "w", stderr))
+            _exit(127);
+        /* Thousands of mounting points on fine texels: far longer than the test lets it run. */
+        execl(BINARY_DIR "/sprayplan", "sprayplan", "place", "long.yaml", "-o", folder, (char *)NULL);
+        _exit(127);
+    }
+    return child;
+}
+
+static void interrupting_place_writes_the_best_so_far(void **state)
+{
+    (void)state;
+    char *long_yaml = malloc(sizeof room_yaml + 512);
+    sprintf(long_yaml, "%s    - box: {min: [0.1, 0.1, 0.1], max: [0.9, 0.9, 0.9], spacing: 20 mm, tilt: 180 deg}\n",
+            room_yaml);
+    write_file("long.yaml", long_yaml);
+    free(long_yaml);
+    pid_t child = begin_long_place("interrupted");
+    assert_true(child > 0);
+    struct timespec pause = {0, 10000000};
+    while (!catches(child, SIGINT) && kill(child, 0) == 0)
+        nanosleep(&pause, NULL);
+    /* The evaluator of twelve triangles takes a few milliseconds. */
+    sleep(2);
+    assert_int_equal(kill(child, SIGINT), 0);
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 130);
+    char *complaint = read_file(".err", NULL);
+    assert_non_null(strstr(complaint, "interrupted"));
+    free(complaint);
+    json_t *object = json_file("interrupted/result.json");
+    layout_named(object, "proposed");
+    json_decref(object);
+    outcome result = run_program("check interrupted/layout.yaml --quiet");
+    assert_int_equal(result.status, 0);
+    forget(&result);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(check_measures_the_room),
+        cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),
+        cmocka_unit_test(simulate_gives_the_figures),
+        cmocka_unit_test(without_output_nothing_is_written),
+        cmocka_unit_test(simulate_writes_its_files),
+        cmocka_unit_test(no_input_is_overwritten),
+        cmocka_unit_test(place_gives_the_same_bytes_for_any_number_of_threads),
+        cmocka_unit_test(the_written_layout_gives_the_same_figures),
+        cmocka_unit_test(place_says_whether_the_coverage_asked_for_is_reached),
+        cmocka_unit_test(compare_sets_scenes_side_by_side),
+        cmocka_unit_test(atlas_keeps_every_triangle),
+        cmocka_unit_test(interrupting_place_writes_the_best_so_far),
+    };
+    return cmocka_run_group_tests(tests, open_workplace, close_workplace);
+}

@@ -1,0 +1,128 @@
+/* sprayplan trace: its CSV, exact for rays whose hits are exact in binary. */
+#include "workplace.h"
+
+#define HEADER "ray,t,triangle,u,v,x,y,z,speed,incidence_deg\n"
+
+/* In the room: down on the floor's first and second triangle (a quad is a fan: 1 2 3 and 1 3 4), slantwise on the floor,
+ * a ray that starts outside and points away. */
+static const char rays[] = "# ox,oy,oz,vx,vy,vz\n"
+                           "0.75, 0.25, 0.5, 0, 0, -2\n"
+                           "\n"
+                           "0.25,0.75,0.5,0,0,-2 # the other half\n"
+                           "0.25,0.125,0.5,0.5,0,-0.5\n"
+                           "2,2,2,1,0,0\n";
+
+static void lines_hit_where_they_must(void **state)
+{
+    (void)state;
+    write_file("rays.csv", rays);
+    outcome result = run_program("trace room.obj --rays rays.csv");
+    static const char expected[] = HEADER "0,0.25,0,0.5,0.25,0.75,0.25,0,2,0\n"
+                                          "1,0.25,1,0.25,0.5,0.25,0.75,0,2,0\n"
+                                          "2,1,0,0.625,0.125,0.75,0.125,0,0.70710678118654757,45";
+    assert_memory_equal(result.out, expected, sizeof expected - 1);
+    assert_non_null(strstr(result.out, "\n3,,,,,,,,,\n"));
+    assert_string_equal(result.err, "");
+    assert_int_equal(result.status, 0);
+    forget(&result);
+}
+
+/* From (1/2, 1/4, 1/2) at 1 m/s along x, g = 4: falls 1/2 m in 1/2 s, 1/2 m on: at the foot of the wall; from lower it meets
+ * the floor. z = 1/8 - 2 t² = 0 at t = 1/4, with v = (1, 0, -1). */
+static void parabolas_fall(void **state)
+{
+    (void)state;
+    write_file("thrown.csv", "0.5,0.25,0.125,1,0,0\n");
+    outcome result = run_program("trace room.obj --rays thrown.csv --gravity 0,0,-4");
+    static const char expected[] = HEADER "0,0.25,0,0.5,0.25,0.75,0.25,0,1.4142135623730951,45";
+    assert_memory_equal(result.out, expected, sizeof expected - 1);
+    assert_int_equal(result.status, 0);
+    forget(&result);
+}
+
+static void every_accelerator_and_thread_count_gives_the_same_bytes(void **state)
+{
+    (void)state;
+    char *text = malloc(1 << 20), *at = text;
+    uint32_t seed = 1;
+    for (int i = 0; i < 1000; ++i) {
+        double number[6];
+        for (int k = 0; k < 6; ++k) {
+            seed = seed * 1664525 + 1013904223;
+            number[k] = (seed >> 8) * 0x1p-24 - (k < 3 ? 0 : 0.5);
+        }
+        at += sprintf(at, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", number[0], number[1], number[2], number[3], number[4],
+                      number[5]);
+    }
+    write_file("many.csv", text);
+    free(text);
+    static const char *const gravities[] = {"0,0,0", "0,0,-9.81"};
+    for (int g = 0; g < 2; ++g) {
+        static const char *const ways[] = {"--accel sah", "--accel naive", "--accel none", "--threads 3"};
+        outcome first = {0};
+        for (int i = 0; i < 4; ++i) {
+            char line[256];
+            snprintf(line, sizeof line, "trace room.obj --rays many.csv --gravity %s %s", gravities[g], ways[i]);
+            outcome result = run_program(line);
+            assert_int_equal(result.status, 0);
+            if (i == 0) {
+                first = result;
+                continue;
+            }
+            assert_string_equal(result.out, first.out);
+            forget(&result);
+        }
+        assert_null(strstr(first.out, ",,")); /* nothing leaves a closed room */
+        forget(&first);
+    }
+}
+
+static void json_holds_the_same(void **state)
+{
+    (void)state;
+    write_file("rays.csv", rays);
+    json_t *object = expect_json("trace room.obj --rays rays.csv --json", 0);
+    json_t *hits = json_object_get(object, "hits");
+    assert_int_equal(json_array_size(hits), 4);
+    json_t *hit = json_array_get(hits, 1);
+    assert_int_equal(json_integer_value(json_object_get(hit, "triangle")), 1);
+    assert_true(json_number_value(json_object_get(hit, "t")) == 0.25);
+    assert_true(json_is_null(json_array_get(hits, 3)));
+    json_decref(object);
+}
+
+static void a_bad_ray_is_located(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *where;
+    } files[] = {
+        {"0,0,0,1,0,0\n0,0,zero,1,0,0\n", "bad.csv:2:5: "},
+        {"0,0,0,1,0\n", "bad.csv:1:"},
+        {"0,0,0,1,0,0,0\n", "bad.csv:1:12: "},
+        {"0,0,0,0,0,0\n", "bad.csv:1:"},
+        {"0,0,nan,1,0,0\n", "bad.csv:1:5: "},
+        {"0,0,1e999,1,0,0\n", "bad.csv:1:5: "},
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
+        write_file("bad.csv", files[i].text);
+        outcome result = run_program("trace room.obj --rays bad.csv");
+        if (result.status != 3 || strstr(result.err, files[i].where) != result.err)
+            print_error("%s: status %d, %s\n", files[i].text, result.status, result.err);
+        assert_int_equal(result.status, 3);
+        assert_ptr_equal(strstr(result.err, files[i].where), result.err);
+        forget(&result);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lines_hit_where_they_must),
+        cmocka_unit_test(parabolas_fall),
+        cmocka_unit_test(every_accelerator_and_thread_count_gives_the_same_bytes),
+        cmocka_unit_test(json_holds_the_same),
+        cmocka_unit_test(a_bad_ray_is_located),
+    };
+    return cmocka_run_group_tests(tests, open_workplace, close_workplace);
+}

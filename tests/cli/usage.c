@@ -1,0 +1,111 @@
+/* How the program is called, and what it says when it is called wrongly. */
+#include "workplace.h"
+
+static void says_its_version(void **state)
+{
+    (void)state;
+    expect("--version", 0, "sprayplan 0.1.0\n", "");
+}
+
+static void help_goes_to_standard_output(void **state)
+{
+    (void)state;
+    static const char *const calls[] = {"--help", "check --help", "simulate --help", "place --help",
+                                        "compare --help", "trace --help", "atlas --help"};
+    for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {
+        outcome result = run_program(calls[i]);
+        assert_int_equal(result.status, 0);
+        assert_ptr_equal(strstr(result.out, "usage: sprayplan"), result.out);
+        assert_string_equal(result.err, "");
+        forget(&result);
+    }
+}
+
+static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *arguments, *complaint;
+    } calls[] = {
+        {"", "usage: sprayplan"},
+        {"paint room.yaml", "unknown command \"paint\""},
+        {"study room.yaml", "study is not built yet"},
+        {"bench room.obj", "bench is not built yet"},
+        {"check", "found 0 file names, expected one"},
+        {"check room.yaml room.yaml", "found 2 file names, expected one"},
+        {"compare room.yaml", "found 1 file names, expected two or more"},
+        {"check room.yaml --threads 0", "--threads: found \"0\", expected a whole number"},
+        {"check room.yaml --threads two", "--threads: found \"two\""},
+        {"check room.yaml --set simulate.jets", "--set: found \"simulate.jets\", expected KEY=VALUE"},
+        {"check room.yaml -o out", "check does not take"},
+        {"simulate room.yaml --time-limit 3", "simulate does not take"},
+        {"place room.yaml --time-limit 0", "--time-limit: found \"0\", expected seconds above 0"},
+        {"place room.yaml --frobnicate", "frobnicate"},
+        {"trace room.obj", "found no --rays"},
+        {"trace room.obj --rays r --accel octree", "--accel: found \"octree\", expected sah, naive or none"},
+        {"trace room.obj --rays r --gravity 0,0", "--gravity: found \"0,0\", expected gx,gy,gz"},
+        {"atlas room.obj --texel 3s", "--texel: found \"3s\", expected a length above 0"},
+    };
+    for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {
+        outcome result = run_program(calls[i].arguments);
+        if (result.status != 2 || !strstr(result.err, calls[i].complaint))
+            print_error("sprayplan %s: status %d, %s\n", calls[i].arguments, result.status, result.err);
+        assert_int_equal(result.status, 2);
+        assert_non_null(strstr(result.err, calls[i].complaint));
+        assert_string_equal(result.out, "");
+        forget(&result);
+    }
+}
+
+static void bad_input_ends_with_3_and_says_where(void **state)
+{
+    (void)state;
+    write_file("unit.yaml", "geometry:\n  - file: room.obj\ncriterion:\n  flux: 1 bar\ncatalogue: catalogue.yaml\n");
+    write_file("key.yaml", "geometry:\n  - file: room.obj\n    colour: red\ncatalogue: catalogue.yaml\n");
+    write_file("type.yaml", "geometry:\n  - file: room.obj\ncatalogue: catalogue.yaml\nnozzles:\n"
+                            "  - {name: N, type: hose, position: [0.5, 0.5, 0.5], axis: [0, 0, 1], pressure: 2 bar}\n");
+    write_file("mesh.yaml", "geometry:\n  - file: broken.obj\ncatalogue: catalogue.yaml\n");
+    write_file("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
+    write_file("syntax.yaml", "geometry: [\n");
+    write_file("bare.yaml", "geometry:\n  - file: room.obj\ncatalogue: catalogue.yaml\n");
+    static const struct {
+        const char *arguments, *place, *subject;
+    } calls[] = {
+        {"check unit.yaml", "unit.yaml:4:9: ", "flux"},
+        {"check key.yaml", "key.yaml:3:5: ", "colour"},
+        {"check type.yaml", "type.yaml:5:22: ", "hose"},
+        {"check mesh.yaml", "broken.obj:4", "4"},
+        {"check syntax.yaml", "syntax.yaml:", ""},
+        {"check nowhere.yaml", "nowhere.yaml", ""},
+        {"check room.yaml --set simulate.jets=none", "", "simulate.jets"},
+        {"check room.yaml --set simulate.colour=red", "", "colour"},
+        {"simulate bare.yaml", "bare.yaml", "nozzles"},
+        {"place bare.yaml", "bare.yaml", "place"},
+        {"trace broken.obj --rays room.yaml", "broken.obj:4", ""},
+        {"atlas nowhere.obj", "nowhere.obj", ""},
+    };
+    for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i)
+        for (int json = 0; json < 2; ++json) {
+            char line[256];
+            snprintf(line, sizeof line, "%s%s", calls[i].arguments, json ? " --json" : "");
+            outcome result = run_program(line);
+            if (result.status != 3 || !strstr(result.err, calls[i].place) || !strstr(result.err, calls[i].subject))
+                print_error("sprayplan %s: status %d, %s\n", line, result.status, result.err);
+            assert_int_equal(result.status, 3);
+            assert_non_null(strstr(result.err, calls[i].place));
+            assert_non_null(strstr(result.err, calls[i].subject));
+            assert_string_equal(result.out, "");
+            forget(&result);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(says_its_version),
+        cmocka_unit_test(help_goes_to_standard_output),
+        cmocka_unit_test(wrong_usage_ends_with_2_and_prints_nothing),
+        cmocka_unit_test(bad_input_ends_with_3_and_says_where),
+    };
+    return cmocka_run_group_tests(tests, open_workplace, close_workplace);
+}
