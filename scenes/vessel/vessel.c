@@ -15,6 +15,10 @@ enum {
     ROUND = 32 /* of shaft and necks */
 };
 
+/* Size of the heads' triangles. On the knuckle they cut the corner by size² / (8 · 126), which has to stay well below the wall's
+ * thickness, or the two skins would meet. */
+static const double INNER = 32, OUTER = 40;
+
 static const double WALL = 6;
 static const double TOP = 1460; /* upper tangent line */
 static const head BOTTOM_HEAD = {0, -1, 600, 1200, 120};
@@ -46,7 +50,7 @@ static circle widened(circle circle, double by)
 static void shell(model *model)
 {
     model_part(model, "shell");
-    turn(model, 0, 0, RIM, (const double[][2]){{600, TOP}, {600, 0}}, 2, 40);
+    turn(model, 0, 0, RIM, (const double[][2]){{600, TOP}, {600, 0}}, 2, 50);
     turn(model, 0, 0, RIM, (const double[][2]){{606, 0}, {606, TOP}}, 2, 150);
 }
 
@@ -56,8 +60,8 @@ static bool bottom(model *model)
     circle outside = widened(OUTLET, WALL);
     const double end = -350;
     model_part(model, "bottom_head");
-    if (!head_surface(model, &BOTTOM_HEAD, &OUTLET, 1, RIM, 30, true) ||
-        !head_surface(model, &outer, &outside, 1, RIM, 80, false))
+    if (!head_surface(model, &BOTTOM_HEAD, &OUTLET, 1, RIM, INNER, true) ||
+        !head_surface(model, &outer, &outside, 1, RIM, OUTER, false))
         return false;
     model_part(model, "outlet");
     pipe_to_head(model, &BOTTOM_HEAD, &OUTLET, end, true);
@@ -77,8 +81,8 @@ static bool top(model *model, const head *outer, const circle *lantern)
         outside[3 + i] = widened(inside[3 + i], WALL);
     }
     model_part(model, "top_head");
-    return head_surface(model, &TOP_HEAD, inside, 3 + PORTS, RIM, 30, false) &&
-           head_surface(model, outer, outside, 3 + PORTS, RIM, 80, true);
+    return head_surface(model, &TOP_HEAD, inside, 3 + PORTS, RIM, INNER, false) &&
+           head_surface(model, outer, outside, 3 + PORTS, RIM, OUTER, true);
 }
 
 static void ports(model *model, const head *outer)
@@ -118,8 +122,8 @@ static void manway(model *model, const head *outer)
 static void drive(model *model, const head *outer, const circle *lantern)
 {
     model_part(model, "drive");
-    pipe_to_head(model, outer, lantern, 1800, false);
-    turn(model, 0, 0, ROUND, (const double[][2]){{lantern->r, 1800}, {110, 1800}, {110, 2050}, {0, 2050}}, 4, 150);
+    pipe_to_head(model, outer, lantern, 1850, false);
+    turn(model, 0, 0, ROUND, (const double[][2]){{lantern->r, 1850}, {110, 1850}, {110, 2050}, {0, 2050}}, 4, 150);
 }
 
 /* A dip tube with its bore, which is cleaned by pumping through it and therefore is a part of its own. */
