@@ -58,21 +58,42 @@ static uint64_t texel_key(const sp_atlas *atlas, uint32_t triangle, uint64_t x, 
     return (atlas->chart_page[atlas->chart[triangle]] * edge + y) * edge + x;
 }
 
-/* The triangle's pieces with their flat areas. */
+typedef struct {
+    double low, high;
+} range;
+
+static range range_of(const double (*points)[2], int count, int axis)
+{
+    range r = {INFINITY, -INFINITY};
+    for (int i = 0; i < count; i++) {
+        r.low = fmin(r.low, points[i][axis]);
+        r.high = fmax(r.high, points[i][axis]);
+    }
+    return r;
+}
+
+static bool narrower(const sp_polygon *polygon, int axis, double least)
+{
+    range r = range_of((const double(*)[2])polygon->point, polygon->count, axis);
+    return !(r.high - r.low >= least);
+}
+
+/* The triangle's pieces with their flat areas, without slivers; returns false when memory runs out. */
 static bool cut_flat(pieces *p, const sp_atlas *atlas, uint32_t triangle, const sp_local_triangle *local)
 {
+    const double(*corner)[2] = (const double(*)[2])local->corner;
+    range x = range_of(corner, 3, 0), y = range_of(corner, 3, 1);
+    double least_x = SLIVER * fmin(1, x.high - x.low), least_y = SLIVER * fmin(1, y.high - y.low);
     for (uint32_t row = 0; row < local->rows; row++) {
         sp_polygon strip, cell;
-        sp_clip_row((const double(*)[2])local->corner, row, &strip);
-        double low = INFINITY, high = 0;
-        for (int i = 0; i < strip.count; i++) {
-            low = fmin(low, strip.point[i][0]);
-            high = fmax(high, strip.point[i][0]);
-        }
-        for (uint32_t column = strip.count ? (uint32_t)low : 0; column < high && column < local->columns; column++) {
+        sp_clip_row(corner, row, &strip);
+        if (narrower(&strip, 1, least_y))
+            continue;
+        range reach = range_of((const double(*)[2])strip.point, strip.count, 0);
+        for (uint32_t column = (uint32_t)reach.low; column < reach.high && column < local->columns; column++) {
             sp_clip_column(&strip, column, &cell);
             double area = sp_polygon_area(&cell);
-            if (area > 0 &&
+            if (area > 0 && !narrower(&cell, 0, least_x) && !narrower(&cell, 1, least_y) &&
                 !add_piece(p, texel_key(atlas, triangle, local->x + column, local->y + row), triangle, area))
                 return false;
         }
@@ -80,28 +101,20 @@ static bool cut_flat(pieces *p, const sp_atlas *atlas, uint32_t triangle, const 
     return true;
 }
 
-/* Drops the slivers and shares the triangle's area on the surface among the rest by their flat areas. A triangle too
- * small or too thin to have any area on the page belongs to the texel of its centroid. */
+/* Shares the triangle's area on the surface among its pieces by their flat areas. A triangle too small or too thin to
+ * have any area on the page belongs to the texel of its centroid. */
 static bool cut_triangle(pieces *p, const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle)
 {
     sp_local_triangle local = sp_local((const double(*)[2])atlas->uv[triangle]);
-    size_t begin = p->count, end = begin;
+    size_t begin = p->count;
     if (!cut_flat(p, atlas, triangle, &local))
         return false;
-    double total = 0, kept = 0, surface = sp_triangle_area(mesh, triangle);
+    double total = 0, surface = sp_triangle_area(mesh, triangle);
     for (size_t i = begin; i < p->count; i++)
         total += p->fragment[i].area;
-    for (size_t i = begin; i < p->count; i++) {
-        if (p->fragment[i].area < SLIVER * fmin(total, 1))
-            continue;
-        kept += p->fragment[i].area;
-        p->key[end] = p->key[i];
-        p->fragment[end++] = p->fragment[i];
-    }
-    p->count = end;
-    for (size_t i = begin; i < end; i++)
-        p->fragment[i].area *= surface / kept;
-    if (begin < end)
+    for (size_t i = begin; i < p->count; i++)
+        p->fragment[i].area *= surface / total;
+    if (begin < p->count)
         return true;
     double x = (local.corner[0][0] + local.corner[1][0] + local.corner[2][0]) / 3;
     double y = (local.corner[0][1] + local.corner[1][1] + local.corner[2][1]) / 3;
