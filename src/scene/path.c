@@ -2,12 +2,10 @@
 #include "scene/state.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 static char *join(const char *first, const char *between, const char *last, sp_error *error)
 {
@@ -61,49 +59,46 @@ static char *real_directory(const char *path, sp_error *error)
     char *real = realpath(path, NULL);
     if (real)
         return real;
-    if (errno != ENOENT || !path[0]) {
-        sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot resolve this path: %s", strerror(errno));
-        return NULL;
-    }
+    int reason = errno;
     char *trimmed = join("", "", path, error);
     if (!trimmed)
         return NULL;
     for (size_t n = strlen(trimmed); n > 1 && trimmed[n - 1] == '/'; n--)
         trimmed[n - 1] = '\0';
-    char *above = sp_path_directory(trimmed, error);
-    char *base = above && strcmp(above, trimmed) != 0 ? real_directory(above, error) : NULL;
-    const char *slash = strrchr(trimmed, '/');
-    char *whole = base ? join(strcmp(base, "/") == 0 ? "" : base, "/", slash ? slash + 1 : trimmed, error) : NULL;
+    const char *slash = strrchr(trimmed, '/'), *name = slash ? slash + 1 : trimmed;
+    char *whole = NULL;
+    if (reason == ENOENT && *name && strcmp(name, ".") != 0 && strcmp(name, "..") != 0) {
+        char *above = sp_path_directory(trimmed, error);
+        char *base = above ? real_directory(above, error) : NULL;
+        whole = base ? join(strcmp(base, "/") == 0 ? "" : base, "/", name, error) : NULL;
+        free(above);
+        free(base);
+    } else {
+        sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot resolve this path: %s", strerror(reason));
+    }
     free(trimmed);
-    free(above);
-    free(base);
     return whole;
 }
 
-/* From one absolute directory without links or dots to another: up from what they do not share, then down. */
+/* From one absolute directory without links or dots to another: up to the last one that they share, then down. */
 static char *route(const char *from, const char *to, sp_error *error)
 {
-    size_t shared = 0, i = 0;
-    for (; from[i] && from[i] == to[i]; i++)
-        if (from[i] == '/')
-            shared = i + 1;
-    bool whole = (!from[i] || from[i] == '/') && (!to[i] || to[i] == '/');
-    if (whole && i > 0)
-        shared = i + (to[i] == '/');
-    const char *rest = whole && !from[i] ? "" : from + (whole ? i + 1 : shared);
-    size_t ups = *rest ? 1 : 0;
-    for (const char *c = rest; *c; c++)
+    size_t shared = 0, ups = 0;
+    for (size_t i = 0;; i++) {
+        if ((!from[i] || from[i] == '/') && (!to[i] || to[i] == '/'))
+            shared = i;
+        if (!from[i] || from[i] != to[i])
+            break;
+    }
+    for (const char *c = from + shared; *c; c++)
         ups += *c == '/';
-    char *path = malloc(3 * ups + strlen(to + shared) + 2);
+    const char *down = to + shared + (to[shared] == '/');
+    char *path = malloc(3 * ups + strlen(down) + 2);
     if (!path)
         return sp_fail_memory(error);
-    path[0] = '\0';
-    for (size_t k = 0; k < ups; k++)
-        strcat(path, "../");
-    strcat(path, to + shared);
-    size_t length = strlen(path);
-    if (length && path[length - 1] != '/')
-        strcat(path, "/");
+    for (size_t i = 0; i < ups; i++)
+        memcpy(path + 3 * i, "../", 3);
+    sprintf(path + 3 * ups, "%s%s", down, *down ? "/" : "");
     return path;
 }
 
@@ -113,7 +108,7 @@ char *sp_path_relative(const char *path, const char *directory, sp_error *error)
     char *above = sp_path_directory(path, error);
     char *to = above ? real_directory(above, error) : NULL;
     char *from = to ? real_directory(directory, error) : NULL;
-    char *way = from ? route(from, to, error) : NULL;
+    char *way = from ? route(strcmp(from, "/") == 0 ? "" : from, strcmp(to, "/") == 0 ? "" : to, error) : NULL;
     char *relative = way ? join(way, "", slash ? slash + 1 : path, error) : NULL;
     free(above);
     free(to);

@@ -116,10 +116,8 @@ static bool check_child(const sp_reader *reader, const sp_yaml *map, const sp_ya
     if (!key->name)
         return fail_unknown(reader, child, what, keys);
     const sp_yaml *first = sp_yaml_get(map, child->key);
-    if (first != child)
-        return sp_fail(reader->error, SP_ERROR_INPUT, child->file, child->key_line, child->key_column,
-                       "%s: found a second time, expected once (first in line %d)", child->key, first->key_line);
-    return true;
+    return first == child || sp_fail(reader->error, SP_ERROR_INPUT, child->file, child->key_line, child->key_column,
+                                     "%s: found a second time, expected once", child->key);
 }
 
 bool sp_read_keys(const sp_reader *reader, const sp_yaml *node, const char *key, const char *what, const sp_key *keys)

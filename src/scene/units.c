@@ -160,9 +160,10 @@ bool sp_units_read(const sp_units *units, const char *text, const sp_dimension *
     }
     if (*unit && !sp_units_factor(units, unit, dimension, &factor, why, size))
         return false;
+    if (!isfinite(number * factor)) {
+        snprintf(why, size, "it is not finite");
+        return false;
+    }
     *value = number * factor;
-    if (isfinite(*value))
-        return true;
-    snprintf(why, size, "it is not finite");
-    return false;
+    return true;
 }

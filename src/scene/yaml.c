@@ -273,7 +273,7 @@ static sp_yaml *read_document(const source *s)
             break;
         if (type == FYET_STREAM_END) {
             if (!root)
-                sp_fail(s->error, SP_ERROR_INPUT, s->file, 1, 1, "YAML: found an empty file, expected keys and values");
+                sp_fail(s->error, SP_ERROR_INPUT, s->file, 1, 1, "YAML: found nothing, expected a value");
             return root;
         }
     }
@@ -312,6 +312,9 @@ sp_yaml *sp_yaml_parse(const char *file, const char *text, size_t size, sp_error
         return sp_fail_memory(error);
     source s = {.file = name, .error = error};
     sp_yaml *root = parse_with(&s, text, size);
+    /* The collected errors hold tokens of the parser, and the diagnostics do not free them by themselves. */
+    if (s.diag)
+        fy_diag_reset_error(s.diag);
     if (s.parser)
         fy_parser_destroy(s.parser);
     if (s.diag)
