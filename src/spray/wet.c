@@ -56,8 +56,9 @@ static double sequence(uint64_t index, int axis)
 
 /* A line from inside a triangle into the space that its side faces. It starts a little way back, so that a surface that
  * touches the triangle there is met rather than missed by round-off. */
-static sp_ray side_line(const sp_mesh *mesh, size_t side, unsigned line, double contact)
+static sp_ray side_line(const side_flood *flood, size_t side, size_t line)
 {
+    const sp_mesh *mesh = flood->setup->mesh;
     uint32_t triangle = (uint32_t)(side / 2);
     uint64_t index = (uint64_t)side * LINES + line;
     double root = sqrt(sequence(index, 0)), share = sequence(index, 1);
@@ -73,7 +74,7 @@ static sp_ray side_line(const sp_mesh *mesh, size_t side, unsigned line, double 
     sp_vec3 direction = sp_scale(z, height);
     direction = sp_along(direction, radius * cos(turn), x);
     direction = sp_along(direction, radius * sin(turn), y);
-    sp_vec3 origin = sp_along(sp_triangle_point(mesh, triangle, u, v), -contact, direction);
+    sp_vec3 origin = sp_along(sp_triangle_point(mesh, triangle, u, v), -flood->contact, direction);
     return (sp_ray){.origin = origin, .velocity = direction, .t_min = 0, .t_max = INFINITY, .skip = triangle};
 }
 
@@ -90,57 +91,79 @@ static bool same_corners(const sp_mesh *mesh, uint32_t a, uint32_t b)
     return true;
 }
 
-/* The side that a line meets, SKY where it escapes, UNTOLD where the hit does not say. */
-static size_t side_met(const side_flood *flood, sp_ray line)
+/* What a line meets first: a side, SKY, or UNTOLD where the hit does not say. */
+typedef struct {
+    size_t met;
+    double t;
+} sighting;
+
+static sighting look(const side_flood *flood, sp_ray line)
 {
     const sp_mesh *mesh = flood->setup->mesh;
-    sp_vec3 straight = sp_v(0, 0, 0);
-    sp_hit hit = sp_trace_nearest(flood->tracer, &line, straight);
+    sp_hit hit = sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0));
     if (line.skip != SP_NONE && hit.t < 2 * flood->contact) {
         if (!same_corners(mesh, line.skip, hit.triangle))
-            return UNTOLD;
+            return (sighting){UNTOLD, hit.t};
         line.t_min = 2 * flood->contact;
-        hit = sp_trace_nearest(flood->tracer, &line, straight);
+        hit = sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0));
     }
     if (hit.triangle == SP_NONE)
-        return SKY;
-    if (hit.u < ON_EDGE || hit.v < ON_EDGE || 1 - hit.u - hit.v < ON_EDGE)
-        return UNTOLD;
+        return (sighting){SKY, hit.t};
     double facing = sp_dot(sp_triangle_normal(mesh, hit.triangle), line.velocity);
-    if (fabs(facing) < 1e-9)
-        return UNTOLD;
-    /* Where two solids touch, one's wall hides the other's contact face, and round-off chooses which is met. */
-    line.t_min = hit.t - flood->contact;
-    line.t_max = hit.t + flood->contact;
-    line.skip = hit.triangle;
-    sp_hit beside = sp_trace_nearest(flood->tracer, &line, straight);
-    if (beside.triangle != SP_NONE && !same_corners(mesh, hit.triangle, beside.triangle))
-        return UNTOLD;
-    return 2 * (size_t)hit.triangle + (facing > 0);
+    if (hit.u < ON_EDGE || hit.v < ON_EDGE || 1 - hit.u - hit.v < ON_EDGE || fabs(facing) < ON_EDGE)
+        return (sighting){UNTOLD, hit.t};
+    return (sighting){2 * (size_t)hit.triangle + (facing > 0), hit.t};
+}
+
+/* Whether the triangle met touches another there: where two solids touch, one's wall hides the other's contact face,
+ * and round-off chooses which of them is met. */
+static bool touches_another(const side_flood *flood, sp_ray line, sighting sighting)
+{
+    uint32_t triangle = (uint32_t)(sighting.met / 2);
+    line.t_min = sighting.t - flood->contact;
+    line.t_max = sighting.t + flood->contact;
+    line.skip = triangle;
+    sp_hit beside = sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0));
+    return beside.triangle != SP_NONE && !same_corners(flood->setup->mesh, triangle, beside.triangle);
+}
+
+/* Whether a line of `node` tells of a connection not known yet. */
+static bool is_news(side_flood *flood, size_t node, sighting sighting)
+{
+    if (sighting.met == SKY)
+        return flood->setup->cavity == SP_CAVITY_OUTSIDE;
+    return sighting.met != UNTOLD && find_root(flood, node) != find_root(flood, sighting.met);
+}
+
+static void join_news(side_flood *flood, size_t node, sp_ray line, sighting sighting)
+{
+    if (sighting.met == SKY)
+        join(flood, node, flood->liquid);
+    else if (!touches_another(flood, line, sighting))
+        join(flood, node, sighting.met);
 }
 
 static bool join_sides(side_flood *flood, sp_error *error)
 {
     const sp_setup *setup = flood->setup;
     size_t triangles = setup->mesh->triangle_count;
-    size_t *met = malloc(2 * LINES * (size_t)BLOCK * sizeof *met);
-    if (!met)
+    sighting *sightings = malloc(2 * LINES * (size_t)BLOCK * sizeof *sightings);
+    if (!sightings)
         return sp_fail_memory(error);
     bool done = true;
     for (size_t first = 0; done && first < triangles; first += BLOCK) {
         size_t end = first + BLOCK < triangles ? first + BLOCK : triangles, count = 2 * LINES * (end - first);
 #pragma omp parallel for schedule(dynamic, 1024) num_threads(sp_thread_count(setup->run.threads))
         for (size_t i = 0; i < count; i++)
-            met[i] = side_met(flood, side_line(setup->mesh, 2 * first + i / LINES, i % LINES, flood->contact));
+            sightings[i] = look(flood, side_line(flood, 2 * first + i / LINES, i % LINES));
         for (size_t i = 0; i < count; i++) {
-            if (met[i] == SKY && setup->cavity == SP_CAVITY_OUTSIDE)
-                join(flood, 2 * first + i / LINES, flood->liquid);
-            else if (met[i] != SKY && met[i] != UNTOLD)
-                join(flood, 2 * first + i / LINES, met[i]);
+            size_t side = 2 * first + i / LINES;
+            if (is_news(flood, side, sightings[i]))
+                join_news(flood, side, side_line(flood, side, i % LINES), sightings[i]);
         }
         done = sp_evaluator_progress(setup, "wet sides", (double)end / (double)triangles, error);
     }
-    free(met);
+    free(sightings);
     return done;
 }
 
@@ -155,11 +178,10 @@ static bool join_seen(side_flood *flood, sp_error *error)
                        .t_min = 0,
                        .t_max = INFINITY,
                        .skip = SP_NONE};
-        size_t met = side_met(flood, line);
-        if (met == SKY || met == UNTOLD)
-            continue;
-        join(flood, met, flood->liquid);
-        seen = true;
+        sighting sighting = look(flood, line);
+        if (is_news(flood, flood->liquid, sighting))
+            join_news(flood, flood->liquid, line, sighting);
+        seen = seen || (sighting.met != SKY && sighting.met != UNTOLD);
     }
     return seen ||
            sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
