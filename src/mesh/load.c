@@ -1,68 +1,105 @@
-/* Mesh files: which reader, and the bytes for it. */
-#include "mesh/weld.h"
+#include "mesh/soup.h"
 
 #include <errno.h>
+#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-/* The whole file, a zero byte behind it. */
+/* The whole file with a '\0' behind it; also of what has no size beforehand, such as a pipe. */
 static char *read_file(const char *path, size_t *size, sp_error *error)
 {
     FILE *file = fopen(path, "rb");
     if (!file) {
-        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "cannot be opened: %s", strerror(errno));
+        sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot be opened: %s", strerror(errno));
         return NULL;
     }
-    long end = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
-    char *bytes = end >= 0 && end < INT64_MAX / 2 ? malloc((size_t)end + 1) : NULL;
-    bool good = false;
-    if (end < 0)
-        sp_fail(error, SP_ERROR_FILE, path, 0, 0, "is not a file that can be read");
-    else if (!bytes)
+    size_t room = 1 << 16;
+    char *text = malloc(room);
+    *size = 0;
+    while (text) {
+        *size += fread(text + *size, 1, room - 1 - *size, file);
+        if (*size < room - 1)
+            break;
+        char *larger = room <= SIZE_MAX / 2 ? realloc(text, 2 * room) : NULL;
+        if (!larger)
+            free(text);
+        text = larger;
+        room *= 2;
+    }
+    if (!text) {
         sp_fail_memory(error);
-    else if (fseek(file, 0, SEEK_SET) != 0 || fread(bytes, 1, (size_t)end, file) != (size_t)end)
-        sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot be read");
-    else
-        good = true;
-    fclose(file);
-    if (!good) {
-        free(bytes);
-        return NULL;
+    } else if (ferror(file)) {
+        sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot be read: %s", strerror(errno));
+        free(text);
+        text = NULL;
+    } else {
+        text[*size] = '\0';
     }
-    bytes[end] = 0;
-    *size = (size_t)end;
-    return bytes;
+    fclose(file);
+    return text;
 }
 
-static bool read_mesh(const char *path, char *bytes, size_t size, double unit, mesh_build *build, sp_error *error)
+typedef bool read_function(const char *path, const char *text, size_t size, double unit, sp_soup *soup, sp_error *error);
+
+static read_function *reader_for(const char *path, sp_error *error)
 {
     const char *dot = strrchr(path, '.');
-    if (dot && !strcasecmp(dot, ".obj"))
-        return mesh_read_obj(bytes, size, unit, build, error);
-    if (dot && !strcasecmp(dot, ".stl"))
-        return mesh_read_stl(bytes, size, unit, build, error);
-    return sp_fail(error, SP_ERROR_UNSUPPORTED, path, 0, 0, "found a file name ending in \"%s\", expected .obj or .stl",
-                   dot ? dot : "");
+    if (dot && strcasecmp(dot, ".obj") == 0)
+        return sp_obj_read;
+    if (dot && strcasecmp(dot, ".stl") == 0)
+        return sp_stl_read;
+    sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found a file of unknown kind, expected .obj or .stl");
+    return NULL;
+}
+
+/* Numbers are read in the "C" locale whatever the program has set; only this thread is touched. */
+static bool read_in_c_locale(read_function *read, const char *path, const char *text, size_t size, double unit,
+                             sp_soup *soup, sp_error *error)
+{
+    locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    if (c == (locale_t)0)
+        return sp_fail_memory(error);
+    locale_t before = uselocale(c);
+    bool good = read(path, text, size, unit, soup, error);
+    uselocale(before);
+    freelocale(c);
+    return good;
+}
+
+static sp_mesh *weld(const char *path, const sp_soup *soup, sp_error *error)
+{
+    if (soup->triangle_count == 0) {
+        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found no triangle, expected at least one");
+        return NULL;
+    }
+    sp_mesh *mesh =
+        sp_mesh_create(soup->vertices, soup->vertex_count, (const uint32_t(*)[3])soup->triangles, soup->triangle_count,
+                       soup->part, (const char *const *)soup->part_names, soup->part_count, error);
+    if (mesh && mesh->triangle_count == 0) {
+        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found only triangles without area, expected at least one with some");
+        sp_mesh_destroy(mesh);
+        mesh = NULL;
+    }
+    return mesh;
 }
 
 sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error)
 {
-    size_t size;
-    mesh_build build = {0};
-    sp_mesh *mesh = NULL;
-    if (!(isfinite(unit) && unit > 0)) {
-        sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0, "unit: found %g, expected a length above 0", unit);
+    if (!(unit > 0) || !isfinite(unit)) {
+        sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0, "found a unit of %g m, expected a positive one", unit);
         return NULL;
     }
-    char *bytes = read_file(path, &size, error);
-    sp_error inner = {0};
-    if (bytes && read_mesh(path, bytes, size, unit, &build, &inner))
-        mesh = mesh_weld(&build, &inner);
-    if (inner.kind != SP_OK)
-        sp_fail(error, inner.kind, path, inner.line, inner.column, "%s", inner.message);
-    mesh_build_free(&build);
-    free(bytes);
+    size_t size;
+    read_function *read = reader_for(path, error);
+    char *text = read ? read_file(path, &size, error) : NULL;
+    if (!text)
+        return NULL;
+    sp_soup soup = {0};
+    bool good = read_in_c_locale(read, path, text, size, unit, &soup, error);
+    free(text);
+    sp_mesh *mesh = good ? weld(path, &soup, error) : NULL;
+    sp_soup_clear(&soup);
     return mesh;
 }

@@ -1,114 +1,199 @@
-/* Meshes: assembling, exact welding, sorting out degenerate triangles. */
-#include "mesh/build.h"
+#include "mesh/allocate.h"
+#include "mesh/soup.h"
 
+#include <float.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static bool grow(void *array, size_t *capacity, size_t count, size_t item, sp_error *error)
+static void *allocate(size_t count, size_t size, sp_error *error)
 {
-    void **items = array;
-    if (count < *capacity)
-        return true;
-    size_t more = *capacity ? 2 * *capacity : 256;
-    void *moved = more > SIZE_MAX / item ? NULL : realloc(*items, more * item);
-    if (!moved)
-        return sp_fail_memory(error);
-    *items = moved;
-    *capacity = more;
-    return true;
+    void *items = calloc(count ? count : 1, size);
+    return items ? items : sp_fail_memory(error);
 }
 
-bool mesh_build_point(mesh_build *build, sp_vec3 point, sp_error *error)
+void sp_mesh_destroy(sp_mesh *mesh)
 {
-    if (build->point_count >= SP_NONE)
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "found more than 4 billion vertices");
-    if (!grow(&build->points, &build->point_capacity, build->point_count, sizeof *build->points, error))
+    if (!mesh)
+        return;
+    for (size_t i = 0; mesh->parts && i < mesh->part_count; i++)
+        free(mesh->parts[i].name);
+    free(mesh->parts);
+    free(mesh->vertices);
+    free(mesh->triangles);
+    free(mesh->part);
+    free(mesh->source);
+    free(mesh->source_triangles);
+    free(mesh->source_part);
+    free(mesh);
+}
+
+static uint64_t mix(uint64_t hash, double number)
+{
+    uint64_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    hash = (hash ^ bits) * 0x9E3779B97F4A7C15u; /* 2^64 over the golden ratio: Knuth's multiplicative hashing */
+    return hash ^ (hash >> 29);
+}
+
+static bool equal(sp_vec3 a, sp_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+/* Fills mesh->vertices with the different points, in the order of their first coming, and `welded` with where each went. */
+static bool weld(sp_mesh *mesh, const sp_vec3 *vertices, size_t count, uint32_t *welded, sp_error *error)
+{
+    size_t size = 16;
+    while (size < 2 * count)
+        size *= 2;
+    uint32_t *table = allocate(size, sizeof *table, error);
+    if (!table)
         return false;
-    build->points[build->point_count++] = point;
-    return true;
-}
-
-bool mesh_build_triangle(mesh_build *build, uint32_t a, uint32_t b, uint32_t c, uint32_t part, sp_error *error)
-{
-    size_t capacity = build->triangle_capacity;
-    if (build->triangle_count >= SP_NONE / 4)
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "found more than a billion triangles");
-    if (!grow(&build->triangles, &capacity, build->triangle_count, sizeof *build->triangles, error) ||
-        !grow(&build->part, &build->triangle_capacity, build->triangle_count, sizeof *build->part, error))
-        return false;
-    uint32_t *corners = build->triangles[build->triangle_count];
-    corners[0] = a;
-    corners[1] = b;
-    corners[2] = c;
-    build->part[build->triangle_count++] = part;
-    return true;
-}
-
-/* Names come from strangers and end up in JSON, HTML and on terminals. Returns the length of the UTF-8 sequence of a
- * printable character at `text`, 0 where there is none (RFC 3629). */
-static size_t printable_length(const unsigned char *text, size_t left)
-{
-    if (text[0] < 0x80)
-        return text[0] >= 0x20 && text[0] != 0x7f;
-    size_t length = text[0] >= 0xf0 && text[0] <= 0xf4 ? 4 : text[0] >= 0xe0 ? 3 : text[0] >= 0xc2 ? 2 : 0;
-    if (!length || text[0] > 0xf4 || length > left)
-        return 0;
-    for (size_t i = 1; i < length; i++)
-        if ((text[i] & 0xc0) != 0x80)
-            return 0;
-    bool overlong = (text[0] == 0xe0 && text[1] < 0xa0) || (text[0] == 0xf0 && text[1] < 0x90);
-    bool beyond = (text[0] == 0xed && text[1] > 0x9f) || (text[0] == 0xf4 && text[1] > 0x8f);
-    bool control = text[0] == 0xc2 && text[1] < 0xa0;
-    return overlong || beyond || control ? 0 : length;
-}
-
-static char *printable_copy(const char *name, size_t length)
-{
-    char *copy = malloc(length + 1);
-    for (size_t i = 0; copy && i < length;) {
-        size_t step = printable_length((const unsigned char *)name + i, length - i);
-        if (step)
-            memcpy(copy + i, name + i, step);
-        else
-            copy[i] = '?';
-        i += step ? step : 1;
-    }
-    if (copy)
-        copy[length] = 0;
-    return copy;
-}
-
-bool mesh_build_part(mesh_build *build, const char *name, size_t length, uint32_t *part, sp_error *error)
-{
-    char *copy = printable_copy(name, length);
-    if (!copy)
-        return sp_fail_memory(error);
-    for (size_t i = 0; i < build->name_count; i++)
-        if (!strcmp(build->names[i], copy)) {
-            free(copy);
-            *part = (uint32_t)i;
-            return true;
+    memset(table, 0xFF, size * sizeof *table);
+    for (size_t i = 0; i < count; i++) {
+        sp_vec3 p = sp_add(vertices[i], sp_v(0, 0, 0)); /* -0 becomes 0 */
+        size_t slot = mix(mix(mix(0, p.x), p.y), p.z) & (size - 1);
+        while (table[slot] != SP_NONE && !equal(mesh->vertices[table[slot]], p))
+            slot = (slot + 1) & (size - 1);
+        if (table[slot] == SP_NONE) {
+            table[slot] = (uint32_t)mesh->vertex_count;
+            mesh->vertices[mesh->vertex_count++] = p;
         }
-    if (build->name_count >= 65536) {
-        free(copy);
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "found more than 65536 parts");
+        welded[i] = table[slot];
     }
-    if (!grow(&build->names, &build->name_capacity, build->name_count, sizeof *build->names, error)) {
-        free(copy);
-        return false;
-    }
-    *part = (uint32_t)build->name_count;
-    build->names[build->name_count++] = copy;
+    free(table);
     return true;
 }
 
-void mesh_build_free(mesh_build *build)
+/* Two equal corners, or an area that cannot be told from round-off: a component of the cross product of edges not longer
+ * than L has a rounding error of at most 3 epsilon L². */
+static bool is_degenerate(const sp_mesh *mesh, const uint32_t corners[3])
 {
-    for (size_t i = 0; i < build->name_count; i++)
-        free(build->names[i]);
-    free(build->names);
-    free(build->points);
-    free(build->triangles);
-    free(build->part);
-    *build = (mesh_build){0};
+    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
+        return true;
+    sp_vec3 a = mesh->vertices[corners[0]], b = mesh->vertices[corners[1]], c = mesh->vertices[corners[2]];
+    sp_vec3 ab = sp_sub(b, a), ac = sp_sub(c, a), bc = sp_sub(c, b);
+    double longest = fmax(sp_dot(ab, ab), fmax(sp_dot(ac, ac), sp_dot(bc, bc)));
+    return !(sp_length(sp_cross(ab, ac)) > 8 * DBL_EPSILON * longest);
+}
+
+static void keep_proper_triangles(sp_mesh *mesh)
+{
+    for (size_t i = 0; i < mesh->source_triangle_count; i++) {
+        if (is_degenerate(mesh, mesh->source_triangles[i]))
+            continue;
+        size_t t = mesh->triangle_count++;
+        memcpy(mesh->triangles[t], mesh->source_triangles[i], sizeof *mesh->triangles);
+        mesh->part[t] = mesh->source_part[i];
+        mesh->source[t] = (uint32_t)i;
+    }
+}
+
+static bool name_parts(sp_mesh *mesh, const char *const *names, sp_error *error)
+{
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        char number[32];
+        snprintf(number, sizeof number, "part-%zu", i);
+        const char *name = names ? names[i] : mesh->part_count == 1 ? "default" : number;
+        mesh->parts[i].name = strdup(name);
+        if (!mesh->parts[i].name) {
+            sp_fail_memory(error);
+            return false;
+        }
+    }
+    return true;
+}
+
+sp_mesh *sp_mesh_allocate(size_t vertex_count, size_t triangle_count, size_t part_count, sp_error *error)
+{
+    sp_mesh *mesh = allocate(1, sizeof *mesh, error);
+    if (!mesh)
+        return NULL;
+    mesh->source_triangle_count = triangle_count;
+    mesh->part_count = part_count;
+    mesh->vertices = allocate(vertex_count, sizeof *mesh->vertices, error);
+    mesh->triangles = allocate(triangle_count, sizeof *mesh->triangles, error);
+    mesh->part = allocate(triangle_count, sizeof *mesh->part, error);
+    mesh->source = allocate(triangle_count, sizeof *mesh->source, error);
+    mesh->source_triangles = allocate(triangle_count, sizeof *mesh->source_triangles, error);
+    mesh->source_part = allocate(triangle_count, sizeof *mesh->source_part, error);
+    mesh->parts = allocate(part_count, sizeof *mesh->parts, error);
+    if (mesh->vertices && mesh->triangles && mesh->part && mesh->source && mesh->source_triangles && mesh->source_part &&
+        mesh->parts)
+        return mesh;
+    sp_mesh_destroy(mesh);
+    return NULL;
+}
+
+static bool check_input(const sp_vec3 *vertices, size_t vertex_count, const uint32_t (*triangles)[3],
+                        size_t triangle_count, const uint32_t *part, size_t part_count, sp_error *error)
+{
+    /* So that vertices, and half edges 3 t + k, have numbers below SP_NONE. */
+    if (vertex_count >= SP_NONE || triangle_count >= SP_NONE / 3 || part_count >= SP_NONE)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "found %zu vertices, %zu triangles, %zu parts, expected fewer than %u, %u, %u", vertex_count,
+                       triangle_count, part_count, SP_NONE, SP_NONE / 3, SP_NONE);
+    for (size_t i = 0; i < vertex_count; i++)
+        if (!sp_coordinates_allowed(vertices[i]))
+            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                           "found in vertex %zu a coordinate that is not finite or beyond 1e30 m", i);
+    for (size_t i = 0; i < triangle_count; i++) {
+        for (int k = 0; k < 3; k++)
+            if (triangles[i][k] >= vertex_count)
+                return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                               "found in triangle %zu vertex %u, expected less than %zu", i, triangles[i][k], vertex_count);
+        if (part && part[i] >= part_count)
+            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "found triangle %zu in part %u, expected less than %zu", i,
+                           part[i], part_count);
+    }
+    return true;
+}
+
+sp_mesh *sp_mesh_create(const sp_vec3 *vertices, size_t vertex_count, const uint32_t (*triangles)[3],
+                        size_t triangle_count, const uint32_t *part, const char *const *part_names, size_t part_count,
+                        sp_error *error)
+{
+    if (!part && part_count == 0)
+        part_count = 1;
+    if (!check_input(vertices, vertex_count, triangles, triangle_count, part, part_count, error))
+        return NULL;
+    sp_mesh *mesh = sp_mesh_allocate(vertex_count, triangle_count, part_count, error);
+    uint32_t *welded = mesh ? allocate(vertex_count, sizeof *welded, error) : NULL;
+    if (!welded || !name_parts(mesh, part_names, error) || !weld(mesh, vertices, vertex_count, welded, error)) {
+        free(welded);
+        sp_mesh_destroy(mesh);
+        return NULL;
+    }
+    for (size_t i = 0; i < triangle_count; i++) {
+        for (int k = 0; k < 3; k++)
+            mesh->source_triangles[i][k] = welded[triangles[i][k]];
+        mesh->source_part[i] = part ? part[i] : 0;
+    }
+    free(welded);
+    keep_proper_triangles(mesh);
+    return mesh;
+}
+
+static sp_vec3 twice_area(const sp_mesh *mesh, uint32_t triangle)
+{
+    const uint32_t *corners = mesh->triangles[triangle];
+    sp_vec3 a = mesh->vertices[corners[0]];
+    return sp_cross(sp_sub(mesh->vertices[corners[1]], a), sp_sub(mesh->vertices[corners[2]], a));
+}
+
+double sp_triangle_area(const sp_mesh *mesh, uint32_t triangle) { return 0.5 * sp_length(twice_area(mesh, triangle)); }
+
+sp_vec3 sp_triangle_normal(const sp_mesh *mesh, uint32_t triangle) { return sp_unit(twice_area(mesh, triangle)); }
+
+sp_vec3 sp_triangle_point(const sp_mesh *mesh, uint32_t triangle, double u, double v)
+{
+    const uint32_t *corners = mesh->triangles[triangle];
+    sp_vec3 point = sp_scale(mesh->vertices[corners[0]], 1 - u - v);
+    return sp_along(sp_along(point, u, mesh->vertices[corners[1]]), v, mesh->vertices[corners[2]]);
+}
+
+double sp_mesh_area(const sp_mesh *mesh)
+{
+    double area = 0;
+    for (size_t i = 0; i < mesh->triangle_count; i++)
+        area += sp_triangle_area(mesh, (uint32_t)i);
+    return area;
 }

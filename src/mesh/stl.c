@@ -1,187 +1,172 @@
-/* STL, text and binary. */
-#include "mesh/build.h"
+/* STL, text and binary. After the "StereoLithography Interface Specification", 3D Systems, 1989. */
+#include "mesh/scanner.h"
+#include "mesh/soup.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { HEADER = 80, RECORD = 50 };
+enum { HEADER = 80, START = HEADER + 4, RECORD = 50 };
 
-static uint32_t little_endian(const char *bytes)
+typedef struct {
+    sp_scanner scanner;
+    sp_soup *soup;
+    double unit;
+    uint32_t part;
+    sp_error *error;
+} reader;
+
+static bool expect(reader *r, const char *word)
 {
-    const unsigned char *b = (const unsigned char *)bytes;
-    return (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
+    sp_token token;
+    if (!sp_scan_any_token(&r->scanner, &token))
+        return sp_scanner_ended(&r->scanner, word, r->error);
+    return sp_token_is(&r->scanner, &token, word) || sp_token_unexpected(&r->scanner, &token, word, r->error);
 }
 
-static double read_float(const char *bytes)
+static bool read_point(reader *r, sp_vec3 *point)
 {
-    uint32_t bits = little_endian(bytes);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return (double)value;
+    double numbers[3];
+    for (int k = 0; k < 3; k++) {
+        sp_token token;
+        if (!sp_scan_any_token(&r->scanner, &token))
+            return sp_scanner_ended(&r->scanner, "a number", r->error);
+        if (!sp_token_number(&r->scanner, &token, &numbers[k], r->error))
+            return false;
+    }
+    *point = sp_v(numbers[0], numbers[1], numbers[2]);
+    return true;
 }
 
-/* The size tells, not the first word: many binary files begin with "solid". */
-static bool is_binary(const char *bytes, size_t size)
+/* Adds a triangle with corners of its own; welding finds those that are equal. */
+static bool add_triangle(const char *path, sp_soup *soup, const sp_vec3 corners[3], uint32_t part, sp_error *error)
 {
-    return size >= HEADER + 4 && size == HEADER + 4 + (uint64_t)RECORD * little_endian(bytes + HEADER);
+    if (soup->vertex_count > SP_NONE - 3)
+        return sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found more than %u vertices, expected fewer", SP_NONE - 1);
+    uint32_t first = (uint32_t)soup->vertex_count;
+    for (int k = 0; k < 3; k++)
+        if (!sp_soup_add_vertex(soup, corners[k], error))
+            return false;
+    return sp_soup_add_triangle(soup, first, first + 1, first + 2, part, error);
 }
 
-static bool read_binary(const char *bytes, double unit, mesh_build *build, sp_error *error)
+/* From behind "facet". */
+static bool read_facet(reader *r)
 {
-    uint32_t count = little_endian(bytes + HEADER), part;
-    if (!mesh_build_part(build, "default", 7, &part, error))
+    sp_vec3 normal, corners[3];
+    if (!expect(r, "normal") || !read_point(r, &normal) || !expect(r, "outer") || !expect(r, "loop"))
         return false;
-    for (uint32_t t = 0; t < count; t++) {
-        const char *record = bytes + HEADER + 4 + (size_t)RECORD * t + 12; /* behind the normal */
-        uint32_t first = (uint32_t)build->point_count;
-        for (int i = 0; i < 3; i++) {
-            double number[3];
-            for (int k = 0; k < 3; k++) {
-                number[k] = unit * read_float(record + 12 * i + 4 * k);
-                if (!isfinite(number[k]))
-                    return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                                   "triangle %lu: found a coordinate that is not finite", (unsigned long)t);
-            }
-            if (!mesh_build_point(build, sp_v(number[0], number[1], number[2]), error))
-                return false;
+    for (int k = 0; k < 3; k++) {
+        if (!expect(r, "vertex") || !read_point(r, &corners[k]))
+            return false;
+        corners[k] = sp_scale(corners[k], r->unit);
+        if (!sp_coordinates_allowed(corners[k]))
+            return sp_fail(r->error, SP_ERROR_INPUT, r->scanner.path, r->scanner.line, 0,
+                           "found a coordinate beyond 1e30 m, expected less");
+    }
+    return expect(r, "endloop") && expect(r, "endfacet") && add_triangle(r->scanner.path, r->soup, corners, r->part, r->error);
+}
+
+/* From behind "solid" to behind "endsolid" and its name. */
+static bool read_solid(reader *r)
+{
+    char *name = sp_scan_name(&r->scanner, "default", r->error);
+    if (!name)
+        return false;
+    r->part = sp_soup_part(r->soup, name, r->error);
+    free(name);
+    if (r->part == SP_NONE)
+        return false;
+    sp_token token;
+    while (sp_scan_any_token(&r->scanner, &token)) {
+        if (sp_token_is(&r->scanner, &token, "endsolid")) {
+            sp_scan_next_line(&r->scanner);
+            return true;
         }
-        if (!mesh_build_triangle(build, first, first + 1, first + 2, part, error))
+        if (!sp_token_is(&r->scanner, &token, "facet"))
+            return sp_token_unexpected(&r->scanner, &token, "facet or endsolid", r->error);
+        if (!read_facet(r))
+            return false;
+    }
+    return sp_scanner_ended(&r->scanner, "facet or endsolid", r->error);
+}
+
+static bool read_text(const char *path, const char *text, size_t size, double unit, sp_soup *soup, sp_error *error)
+{
+    reader r = {sp_scanner_open(path, text, size, false), soup, unit, SP_NONE, error};
+    sp_token token;
+    while (sp_scan_any_token(&r.scanner, &token)) {
+        if (!sp_token_is(&r.scanner, &token, "solid"))
+            return sp_token_unexpected(&r.scanner, &token, "solid", error);
+        if (!read_solid(&r))
             return false;
     }
     return true;
 }
 
-typedef struct {
-    const char *at, *end;
-    int line;
-    double unit;
-    mesh_build *build;
-    sp_error *error;
-} stl_reader;
-
-#define WRONG(reader, ...) sp_fail((reader)->error, SP_ERROR_INPUT, NULL, (reader)->line, 0, __VA_ARGS__)
-
-static bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f'; }
-
-/* The next word; its length is 0 at the end of the file. */
-static const char *next_word(stl_reader *reader, int *length)
+/* Little-endian, whatever this machine is. */
+static uint32_t read_word(const unsigned char *at)
 {
-    while (reader->at < reader->end && blank(*reader->at))
-        reader->line += *reader->at++ == '\n';
-    const char *word = reader->at;
-    while (reader->at < reader->end && !blank(*reader->at) && reader->at - word < 1000)
-        reader->at++;
-    *length = (int)(reader->at - word);
-    return word;
+    return (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
 }
 
-static bool is_word(const char *word, int length, const char *expected)
+static double read_float(const unsigned char *at)
 {
-    return length == (int)strlen(expected) && !strncmp(word, expected, (size_t)length);
+    uint32_t word = read_word(at);
+    float number;
+    memcpy(&number, &word, sizeof number);
+    return number;
 }
 
-static bool expect(stl_reader *reader, const char *expected)
+static bool read_binary(const char *path, const unsigned char *bytes, size_t size, double unit, sp_soup *soup,
+                        sp_error *error)
 {
-    int length;
-    const char *word = next_word(reader, &length);
-    return is_word(word, length, expected) ||
-           WRONG(reader, "found \"%.*s\", expected \"%s\"", length > 40 ? 40 : length, word, expected);
-}
-
-static bool read_number(stl_reader *reader, double *value)
-{
-    char copy[64];
-    int length;
-    const char *word = next_word(reader, &length);
-    if (length > 0 && length < (int)sizeof copy) {
-        char *end;
-        memcpy(copy, word, (size_t)length);
-        copy[length] = 0;
-        *value = strtod(copy, &end);
-        if (!*end && isfinite(*value) && !strpbrk(copy, "xX"))
-            return true;
-    }
-    return WRONG(reader, "found \"%.*s\", expected a finite number", length > 40 ? 40 : length, word);
-}
-
-static bool read_point(stl_reader *reader, double scale, sp_vec3 *point)
-{
-    if (!read_number(reader, &point->x) || !read_number(reader, &point->y) || !read_number(reader, &point->z))
+    uint64_t count = size >= START ? read_word(bytes + HEADER) : 0;
+    if (size < START || size != START + RECORD * count)
+        return sp_fail(error, SP_ERROR_INPUT, path, 0, 0,
+                       "found %zu bytes of binary STL, expected %llu for its %llu triangles", size,
+                       (unsigned long long)(START + RECORD * count), (unsigned long long)count);
+    uint32_t part = sp_soup_part(soup, "default", error);
+    if (part == SP_NONE)
         return false;
-    *point = sp_scale(*point, scale);
-    return (isfinite(point->x) && isfinite(point->y) && isfinite(point->z)) ||
-           WRONG(reader, "found a coordinate beyond all range");
-}
-
-/* Behind the word "facet". */
-static bool read_facet(stl_reader *reader, uint32_t part)
-{
-    uint32_t first = (uint32_t)reader->build->point_count;
-    sp_vec3 point;
-    if (!expect(reader, "normal") || !read_point(reader, 1, &point) || !expect(reader, "outer") ||
-        !expect(reader, "loop"))
-        return false;
-    for (int i = 0; i < 3; i++)
-        if (!expect(reader, "vertex") || !read_point(reader, reader->unit, &point) ||
-            !mesh_build_point(reader->build, point, reader->error))
-            return false;
-    return expect(reader, "endloop") && expect(reader, "endfacet") &&
-           mesh_build_triangle(reader->build, first, first + 1, first + 2, part, reader->error);
-}
-
-static void skip_line(stl_reader *reader, const char **rest, size_t *length)
-{
-    while (reader->at < reader->end && (*reader->at == ' ' || *reader->at == '\t'))
-        reader->at++;
-    *rest = reader->at;
-    while (reader->at < reader->end && *reader->at != '\n')
-        reader->at++;
-    *length = (size_t)(reader->at - *rest);
-    while (*length && blank((*rest)[*length - 1]))
-        --*length;
-}
-
-/* Behind the word "solid". */
-static bool read_solid(stl_reader *reader)
-{
-    const char *name;
-    size_t name_length;
-    uint32_t part;
-    skip_line(reader, &name, &name_length);
-    if (!mesh_build_part(reader->build, name_length ? name : "default", name_length ? name_length : 7, &part,
-                         reader->error))
-        return false;
-    for (;;) {
-        int length;
-        const char *word = next_word(reader, &length);
-        if (is_word(word, length, "endsolid")) {
-            skip_line(reader, &name, &name_length);
-            return true;
+    for (uint64_t i = 0; i < count; i++) {
+        const unsigned char *record = bytes + START + RECORD * i;
+        sp_vec3 points[4]; /* the normal, then the corners */
+        for (int k = 0; k < 4; k++, record += 12) {
+            points[k] = sp_v(read_float(record), read_float(record + 4), read_float(record + 8));
+            if (k > 0)
+                points[k] = sp_scale(points[k], unit);
+            if (!sp_coordinates_allowed(points[k]))
+                return sp_fail(error, SP_ERROR_INPUT, path, 0, 0,
+                               "found in triangle %llu of %llu a number that is not finite or beyond 1e30 m",
+                               (unsigned long long)(i + 1), (unsigned long long)count);
         }
-        if (!is_word(word, length, "facet"))
-            return WRONG(reader, "found \"%.*s\", expected \"facet\" or \"endsolid\"", length > 40 ? 40 : length, word);
-        if (!read_facet(reader, part))
+        if (!add_triangle(path, soup, points + 1, part, error))
             return false;
     }
+    return true;
 }
 
-bool mesh_read_stl(const char *bytes, size_t size, double unit, mesh_build *build, sp_error *error)
+/* Text begins with "solid"; so do many binary files, but then their size fits, or there are zero bytes. */
+static bool is_text(const unsigned char *bytes, size_t size)
 {
-    if (is_binary(bytes, size))
-        return read_binary(bytes, unit, build, error);
-    stl_reader reader = {.at = bytes, .end = bytes + size, .line = 1, .unit = unit, .build = build, .error = error};
-    if (size < 5 || strncmp(bytes, "solid", 5))
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                       "found %zu bytes that are neither text beginning with \"solid\" nor a header and the triangles "
-                       "it counts", size);
-    for (;;) {
-        int length;
-        const char *word = next_word(&reader, &length);
-        if (length == 0)
-            return true;
-        if (!is_word(word, length, "solid"))
-            return WRONG(&reader, "found \"%.*s\", expected \"solid\"", length > 40 ? 40 : length, word);
-        if (!read_solid(&reader))
+    if (size >= START && size == START + RECORD * (uint64_t)read_word(bytes + HEADER))
+        return false;
+    if (memchr(bytes, '\0', size < START ? size : START))
+        return false;
+    size_t at = size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+    while (at < size && isspace(bytes[at]))
+        at++;
+    static const char word[] = "solid";
+    for (size_t k = 0; k < 5; k++)
+        if (at + k >= size || tolower(bytes[at + k]) != word[k])
             return false;
-    }
+    return true;
+}
+
+bool sp_stl_read(const char *path, const char *text, size_t size, double unit, sp_soup *soup, sp_error *error)
+{
+    const unsigned char *bytes = (const unsigned char *)text;
+    return is_text(bytes, size) ? read_text(path, text, size, unit, soup, error)
+                                : read_binary(path, bytes, size, unit, soup, error);
 }
