@@ -54,8 +54,8 @@ typedef struct {
 } sp_atlas_options;
 
 /* Packs the charts by a skyline of bounding boxes, largest diagonal first (study 3.3.2.2), a gap of one texel between
- * charts, as many pages as needed, and measures every texel by clipping. Fails with SP_ERROR_INPUT where a single triangle is
- * larger than a page at this texel. charts and mesh are only read. */
+ * charts, as many pages as needed, and measures every texel by clipping. Fails with SP_ERROR_INPUT where a chart is larger than
+ * a page at this texel: with an extent of page_edge texels that happens only to single triangles. charts and mesh are only read. */
 sp_atlas *sp_atlas_create(const sp_mesh *mesh, const sp_charts *charts, const sp_atlas_options *options,
                           sp_error *error);
 void sp_atlas_destroy(sp_atlas *atlas);
@@ -72,7 +72,7 @@ int sp_atlas_fragment_polygon(const sp_atlas *atlas, const sp_mesh *mesh, uint32
 /* The `atlas` command's figures. */
 typedef struct {
     size_t triangles, charts, charts_le4, pages, texels;
-    double seam_over_sqrt_area;                  /* length of the cuts between charts over √area */
+    double seam_over_sqrt_area;                  /* length of the cuts, between charts and inside them, over √area */
     double strain_mean, strain95, strain_max;    /* max(σ1-1, 1-σ2) of each triangle's map, weighted by area */
     double utilisation;                          /* flat area over the area of the pages */
     size_t shared_texels, overlaps;              /* texels with two charts; pairs of triangles that overlap in a chart */

@@ -39,6 +39,11 @@ sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error)
         sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "charts of at most %g m; expected a length above 0", extent);
         return NULL;
     }
+    if (mesh->triangle_count >= SP_NONE / 3) {
+        sp_fail(error, SP_ERROR_UNSUPPORTED, NULL, 0, 0, "an atlas of %zu triangles; at most %u are possible",
+                mesh->triangle_count, SP_NONE / 3 - 1);
+        return NULL;
+    }
     sp_charts *charts = calloc(1, sizeof *charts);
     if (!charts)
         return sp_fail_memory(error);

@@ -8,7 +8,7 @@
 
 /* texels.c: cuts every triangle by the texels: texels, areas, fragments and each triangle's own texels. Needs uv. */
 bool sp_atlas_cut(sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
-/* neighbours.c: which texels touch. `edge_order` as sp_edge_order. Needs the texels. */
+/* neighbours.c: which texels touch. Needs the texels. */
 bool sp_atlas_connect(sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
 
 /* A triangle moved to the texel where its box begins, which loses nothing, and the texels that it may reach from there.
