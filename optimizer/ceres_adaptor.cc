@@ -4,7 +4,6 @@
 
 #include <exception>
 #include <limits>
-#include <memory>
 #include <vector>
 
 namespace
@@ -37,6 +36,10 @@ bool sp_ceres_solve(const sp_least_squares *problem, double *x, double *cost, sp
         return sp_fail(error, SP_ERROR_ARGUMENT, nullptr, 0, 0, "a least squares problem of %zu unknowns, %zu residuals",
                        problem->unknowns, problem->residuals);
     try {
+        // Ceres logs an error to stderr where the first evaluation fails, whatever its logging type.
+        std::vector<double> residuals(problem->residuals);
+        if (!problem->function(problem->user, x, residuals.data(), nullptr))
+            return sp_fail(error, SP_ERROR_ARGUMENT, nullptr, 0, 0, "least squares: no residuals at the start");
         ceres::Problem ceres_problem;
         ceres_problem.AddResidualBlock(new Function(*problem), nullptr, x);
         ceres::Solver::Options options;

@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /* Residuals at x [unknowns], and where `jacobian` is not NULL their derivatives, [residuals][unknowns] row-major. Returning
- * false makes Ceres take a shorter step. */
+ * false (where something is not finite) makes Ceres take a shorter step. */
 typedef bool (*sp_residual_function)(void *user, const double *x, double *residuals, double *jacobian);
 
 typedef struct {

@@ -1,0 +1,19 @@
+/* Attainable area: what the mounts, types and limits could cover at all. */
+#ifndef OPTIMIZER_ATTAINABLE_H
+#define OPTIMIZER_ATTAINABLE_H
+
+#include "design.h"
+
+/* Per patch of `fine`, [patches], calloc'd by the caller: whether some pose that the mounts allow (its axis anywhere within
+ * the tilt, angle and flow as refinement may set them) reaches it with passing speed and incidence, and the kept nozzles
+ * with as many of its best poses as number, water and ports allow could together cover it; with `single` one pose alone.
+ * Ends early, the rest false, where the watch says so. */
+bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *watch, bool *attainable,
+                   sp_error *error);
+
+/* The range that refinement may set: angle (rad), and flow (m³/s) of a type at a pressure. */
+void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high);
+void sp_flow_range(const sp_place_options *options, const sp_fluid *liquid, const sp_nozzle_type *type, double pressure,
+                   double *low, double *high);
+
+#endif

@@ -1,0 +1,157 @@
+#include "candidates.h"
+
+#include <stdlib.h>
+
+/* Axes lie about a third of the pattern's half-angle apart: finer ones look alike to the search, and refinement moves them
+ * anyway. */
+#define AXIS_SHARE (1.0 / 3)
+#define AXIS_STEP_LEAST (8 * M_PI / 180)
+#define AXIS_STEP_MOST (20 * M_PI / 180)
+#define FAN_ROLLS 8
+
+static bool make_create(const sp_setup *setup, const sp_nozzle_type *type, double pressure, sp_candidates *candidates)
+{
+    sp_nozzle nozzle = {.type = type, .pressure = pressure};
+    sp_make make = {.type = type, .pressure = pressure, .spray = sp_spray_create(type, type->angle)};
+    make.flow = sp_nozzle_flow(&nozzle, &setup->liquid);
+    make.speed = sp_nozzle_speed(&nozzle, &setup->liquid);
+    make.reach = sp_spray_reach(&make.spray);
+    make.roll_count = type->pattern == SP_PATTERN_FLAT_FAN ? FAN_ROLLS : 1;
+    if (!(make.flow > 0) || !(make.speed > 0))
+        return false;
+    while (make.speed_class < candidates->speed_count && candidates->speeds[make.speed_class] != make.speed)
+        make.speed_class++;
+    if (make.speed_class == candidates->speed_count)
+        candidates->speeds[candidates->speed_count++] = make.speed;
+    candidates->makes[candidates->make_count++] = make;
+    return true;
+}
+
+static bool makes_create(const sp_setup *setup, const sp_place_options *options, sp_candidates *candidates,
+                         sp_error *error)
+{
+    if (!options->type_count || !options->pressure_count)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: no %s to choose from",
+                       options->type_count ? "pressure" : "type");
+    if (options->pressure_count > SIZE_MAX / sizeof(sp_make) / options->type_count)
+        return sp_fail_memory(error);
+    size_t most = options->type_count * options->pressure_count;
+    candidates->makes = calloc(most, sizeof *candidates->makes);
+    candidates->speeds = calloc(most, sizeof *candidates->speeds);
+    if (!candidates->makes || !candidates->speeds)
+        return sp_fail_memory(error);
+    for (size_t t = 0; t < options->type_count; t++)
+        for (size_t p = 0; p < options->pressure_count; p++)
+            if (!make_create(setup, options->types[t], options->pressures[p], candidates))
+                return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: type %s at %g Pa sprays nothing",
+                               options->types[t]->name, options->pressures[p]);
+    return true;
+}
+
+/* Rings about +z, the outermost at the tilt itself, each ring's axes no further apart than the rings. With `axes` NULL it
+ * only counts. */
+static size_t rings(double tilt, double step, sp_vec3 *axes)
+{
+    size_t ring_count = tilt > 0 ? (size_t)ceil(tilt / step * (1 - 1e-9)) : 0, count = 0;
+    for (size_t ring = 0; ring <= ring_count; ring++) {
+        double polar = ring_count ? tilt * (double)ring / (double)ring_count : 0;
+        size_t around = (size_t)fmax(1, ceil(2 * M_PI * sin(polar) / step * (1 - 1e-9)));
+        for (size_t i = 0; i < around; i++, count++) {
+            /* every other ring is turned by half a step */
+            double azimuth = 2 * M_PI * ((double)i + 0.5 * (double)(ring % 2)) / (double)around;
+            if (axes)
+                axes[count] = sp_v(sin(polar) * cos(azimuth), sin(polar) * sin(azimuth), cos(polar));
+        }
+    }
+    return count;
+}
+
+static bool fits(const sp_mount *mount, const sp_nozzle_type *type)
+{
+    if (mount->kind != SP_MOUNT_PORT || !mount->type_count)
+        return true;
+    for (size_t i = 0; i < mount->type_count; i++)
+        if (mount->types[i] == type)
+            return true;
+    return false;
+}
+
+static bool axes_create(const sp_place_options *options, sp_candidates *candidates, sp_error *error)
+{
+    candidates->mount_count = options->mount_count;
+    candidates->axes = calloc(options->mount_count * candidates->make_count, sizeof *candidates->axes);
+    if (!candidates->axes)
+        return sp_fail_memory(error);
+    for (size_t m = 0; m < options->mount_count; m++)
+        for (size_t k = 0; k < candidates->make_count; k++) {
+            const sp_make *make = &candidates->makes[k];
+            if (!fits(&options->mounts[m], make->type))
+                continue;
+            double step = fmin(AXIS_STEP_MOST, fmax(AXIS_STEP_LEAST, AXIS_SHARE * make->reach));
+            double tilt = fmin(M_PI, options->mounts[m].tilt);
+            sp_axes *axes = &candidates->axes[m * candidates->make_count + k];
+            axes->axes = malloc(rings(tilt, step, NULL) * sizeof *axes->axes);
+            if (!axes->axes)
+                return sp_fail_memory(error);
+            axes->count = rings(tilt, step, axes->axes);
+        }
+    return true;
+}
+
+bool sp_candidates_create(const sp_evaluator *evaluator, const sp_place_options *options, const sp_sites *sites,
+                          sp_candidates *candidates, sp_error *error)
+{
+    *candidates = (sp_candidates){0};
+    const sp_setup *setup = sp_evaluator_setup(evaluator);
+    if (!makes_create(setup, options, candidates, error) || !axes_create(options, candidates, error)) {
+        sp_candidates_free(candidates);
+        return false;
+    }
+    candidates->pose_start = calloc(sites->count + 1, sizeof *candidates->pose_start);
+    if (!candidates->pose_start) {
+        sp_candidates_free(candidates);
+        return sp_fail_memory(error);
+    }
+    for (size_t i = 0; i < sites->count; i++) {
+        size_t count = 0;
+        for (size_t k = 0; k < candidates->make_count; k++)
+            count += sp_candidates_axes(candidates, sites->items[i].mount, k)->count * candidates->makes[k].roll_count;
+        candidates->pose_start[i + 1] = candidates->pose_start[i] + count;
+    }
+    return true;
+}
+
+void sp_candidates_free(sp_candidates *candidates)
+{
+    for (size_t i = 0; candidates->axes && i < candidates->mount_count * candidates->make_count; i++)
+        free(candidates->axes[i].axes);
+    free(candidates->axes);
+    free(candidates->makes);
+    free(candidates->speeds);
+    free(candidates->pose_start);
+    *candidates = (sp_candidates){0};
+}
+
+sp_vec3 sp_site_axis(const sp_site *site, sp_vec3 axis, sp_vec3 up)
+{
+    sp_frame frame = sp_nozzle_frame(site->axis, 0, up);
+    return sp_unit(sp_add(sp_add(sp_scale(frame.x, axis.x), sp_scale(frame.y, axis.y)), sp_scale(frame.z, axis.z)));
+}
+
+double sp_make_roll(const sp_make *make, size_t i)
+{
+    /* Half a turn brings a fan back to itself. */
+    return M_PI * (double)i / (double)make->roll_count;
+}
+
+sp_nozzle sp_pose_nozzle(const sp_candidates *candidates, const sp_sites *sites, sp_pose pose, sp_vec3 up)
+{
+    const sp_site *site = &sites->items[pose.site];
+    const sp_make *make = &candidates->makes[pose.make];
+    const sp_axes *axes = sp_candidates_axes(candidates, site->mount, pose.make);
+    return (sp_nozzle){.type = make->type,
+                       .position = site->position,
+                       .axis = sp_site_axis(site, axes->axes[pose.axis], up),
+                       .roll = sp_make_roll(make, pose.roll),
+                       .pressure = make->pressure};
+}

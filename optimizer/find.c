@@ -1,0 +1,113 @@
+#include "find.h"
+
+#define ROUNDS_MOST 4 /* corrections for what the coarse patches misjudge */
+
+typedef struct {
+    const sp_search *search;
+    sp_watch *watch;
+    sp_front *front;
+    sp_pool *pool;
+    sp_error *error;
+    double target; /* m² on the final patches; INFINITY: as much as possible */
+    double budget; /* m³/s */
+} sp_finding;
+
+/* Greedy over everything; where the fine measure falls short of the target, on with a higher coarse one. */
+static bool first_design(const sp_finding *finding, sp_design *design)
+{
+    double coarse = finding->target;
+    sp_front_point point;
+    for (int round = 0; round < ROUNDS_MOST; round++) {
+        size_t before = design->count;
+        if (!sp_greedy(finding->search, 1, coarse, finding->budget, finding->watch, design, finding->pool,
+                       finding->error) ||
+            !sp_front_measure(finding->front, finding->search, design, &point, finding->error))
+            return false;
+        if (point.area >= finding->target || (round && design->count == before))
+            return true;
+        coarse = design->covered + (finding->target - point.area);
+    }
+    return true;
+}
+
+/* Greedy over the pool with another weight of water, improved within the water allowed. */
+static bool other_design(const sp_finding *finding, double power)
+{
+    sp_design design;
+    if (!sp_design_create(finding->search, &design, finding->error))
+        return false;
+    double coarse = finding->target - finding->front->bias;
+    bool done = sp_greedy_pool(finding->search, finding->pool, power, coarse, finding->budget, &design, finding->error);
+    double budget = design.covered >= coarse ? design.flow : finding->budget;
+    done = done &&
+           sp_improve(finding->search, finding->pool, budget, finding->watch, &design, finding->error) &&
+           sp_front_measure(finding->front, finding->search, &design, NULL, finding->error);
+    sp_design_free(&design);
+    return done;
+}
+
+/* Less water at the same coverage, judged on the coarse patches and confirmed on the fine ones. */
+static bool shrink_best(const sp_finding *finding)
+{
+    bool done = true;
+    for (int round = 0; done && round < ROUNDS_MOST; round++) {
+        sp_front *front = finding->front;
+        sp_front_point before = front->measured, point;
+        sp_design design;
+        if (!sp_design_copy(finding->search, &front->best, &design, finding->error))
+            return false;
+        double target = before.area < finding->target ? before.area : finding->target;
+        /* each round asks the coarse patches for a little more than the last one's miss */
+        double coarse = target - front->bias + 0.001 * round * target;
+        done = sp_shrink(finding->search, finding->pool, coarse, finding->watch, &design, finding->error);
+        bool shrunk = done && design.flow < before.flow;
+        if (shrunk)
+            done = sp_front_measure(front, finding->search, &design, &point, finding->error);
+        sp_design_free(&design);
+        if (!shrunk || (done && point.area >= target))
+            break;
+    }
+    return done;
+}
+
+/* The front below the best: the first designs of the greedy order, each improved within its own water. */
+static bool fill_front(const sp_finding *finding, const sp_design *greedy)
+{
+    bool done = true;
+    for (size_t count = 1; done && count < greedy->count && sp_watch_goes_on(finding->watch, "front", 0); count++) {
+        sp_design design;
+        done = sp_design_copy(finding->search, greedy, &design, finding->error);
+        if (!done)
+            break;
+        while (design.count > count)
+            sp_design_remove(finding->search, &design, design.count - 1);
+        done =
+            sp_improve(finding->search, finding->pool, design.flow, finding->watch, &design, finding->error) &&
+            sp_front_measure(finding->front, finding->search, &design, NULL, finding->error);
+        sp_design_free(&design);
+    }
+    return done;
+}
+
+bool sp_find(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool *pool, sp_error *error)
+{
+    bool most = front->objective == SP_OBJECTIVE_MAX_COVERAGE;
+    sp_finding finding = {.search = search,
+                          .watch = watch,
+                          .front = front,
+                          .pool = pool,
+                          .error = error,
+                          .target = most ? INFINITY : front->target,
+                          .budget = search->options->max_water};
+    sp_design design;
+    if (!sp_design_create(search, &design, error))
+        return false;
+    bool done = sp_front_measure(front, search, &design, NULL, error) && first_design(&finding, &design) &&
+                sp_watch_stage(watch, "greedy", error);
+    for (int i = 0; done && i < 2 && sp_watch_goes_on(watch, "exchange", 0); i++)
+        done = other_design(&finding, i == 0 ? 0.5 : 0);
+    done = done && shrink_best(&finding) && sp_watch_stage(watch, "exchange", error) &&
+           fill_front(&finding, &design) && sp_watch_stage(watch, "front", error);
+    sp_design_free(&design);
+    return done;
+}

@@ -1,0 +1,28 @@
+/* What the search has found: designs measured by the scene's own evaluator, and the front of coverage against water. */
+#ifndef OPTIMIZER_FRONT_H
+#define OPTIMIZER_FRONT_H
+
+#include "design.h"
+
+typedef struct {
+    const sp_evaluator *fine;
+    sp_objective objective;
+    double target;    /* m² */
+    size_t count, capacity;
+    sp_front_point *points; /* all that was measured */
+    bool found;
+    sp_design best;          /* with what follows, the best measured yet by the objective */
+    sp_front_point measured; /* of it */
+    double bias;             /* m² that the fine measure lies above the best one's coarse `covered` */
+} sp_front;
+
+/* True where a is better than b: by the objective among designs that reach the target, by area among others. */
+bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b);
+/* Measures the design, notes it, and keeps a copy where it is the best yet. *point may be NULL. */
+bool sp_front_measure(sp_front *front, const sp_search *search, const sp_design *design, sp_front_point *point,
+                      sp_error *error);
+/* Sorts by water and keeps what rises. */
+void sp_front_settle(sp_front *front);
+void sp_front_free(sp_front *front);
+
+#endif

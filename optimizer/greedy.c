@@ -1,0 +1,243 @@
+#include "greedy.h"
+
+#include <stdlib.h>
+
+#define GAIN_LEAST 1e-6   /* of the area: less is no reason for a nozzle */
+#define POOL_PER_ROUND 64 /* best mounting points of a round whose poses are remembered */
+
+bool sp_pool_add(sp_pool *pool, sp_pose pose, sp_error *error)
+{
+    if (pool->count == pool->capacity) {
+        size_t capacity = pool->capacity ? 2 * pool->capacity : 256;
+        sp_pose *items = realloc(pool->items, capacity * sizeof *items);
+        if (!items)
+            return sp_fail_memory(error);
+        pool->items = items;
+        pool->capacity = capacity;
+    }
+    pool->items[pool->count++] = pose;
+    return true;
+}
+
+static int compare_poses(const void *a, const void *b)
+{
+    const sp_pose *p = a, *q = b;
+    const uint32_t left[4] = {p->site, p->make, p->axis, p->roll}, right[4] = {q->site, q->make, q->axis, q->roll};
+    for (int i = 0; i < 4; i++)
+        if (left[i] != right[i])
+            return left[i] < right[i] ? -1 : 1;
+    return 0;
+}
+
+void sp_pool_settle(sp_pool *pool)
+{
+    if (!pool->count)
+        return;
+    qsort(pool->items, pool->count, sizeof *pool->items, compare_poses);
+    size_t kept = 1;
+    for (size_t i = 1; i < pool->count; i++)
+        if (compare_poses(&pool->items[i], &pool->items[kept - 1]))
+            pool->items[kept++] = pool->items[i];
+    pool->count = kept;
+}
+
+void sp_pool_free(sp_pool *pool)
+{
+    free(pool->items);
+    *pool = (sp_pool){0};
+}
+
+/* The best pose of one mounting point and make in this round. */
+typedef struct {
+    sp_pose pose;
+    double merit; /* gain per water^power; 0: none */
+    double gain;
+} sp_round_best;
+
+typedef struct {
+    const sp_search *search;
+    double power, budget;
+    float *room;         /* [poses], what each could gain at most; INFINITY: not yet known */
+    sp_round_best *best; /* [sites x makes] */
+    bool started;
+} sp_rounds;
+
+static bool rounds_create(const sp_search *search, double power, double budget, sp_rounds *rounds, sp_error *error)
+{
+    size_t sites = search->sites->count, poses = search->candidates->pose_start[sites];
+    *rounds = (sp_rounds){.search = search, .power = power, .budget = budget};
+    rounds->room = malloc((poses ? poses : 1) * sizeof *rounds->room);
+    rounds->best = calloc(sites, search->candidates->make_count * sizeof *rounds->best);
+    if (!rounds->room || !rounds->best)
+        return sp_fail_memory(error);
+    for (size_t i = 0; i < poses; i++)
+        rounds->room[i] = INFINITY;
+    return true;
+}
+
+static void rounds_free(sp_rounds *rounds)
+{
+    free(rounds->room);
+    free(rounds->best);
+}
+
+/* Scores one site's poses but those that cannot beat `least`, a merit that some pose of this round has. */
+static void scan_site(sp_rounds *rounds, const sp_design *design, uint32_t site, double least)
+{
+    const sp_candidates *candidates = rounds->search->candidates;
+    size_t number = candidates->pose_start[site];
+    uint32_t mount = rounds->search->sites->items[site].mount;
+    bool has_place = sp_design_has_place(rounds->search, design, mount);
+    for (size_t k = 0; k < candidates->make_count; k++) {
+        const sp_make *make = &candidates->makes[k];
+        sp_round_best *best = &rounds->best[site * candidates->make_count + k];
+        size_t axes = sp_candidates_axes(candidates, mount, k)->count;
+        *best = (sp_round_best){0};
+        if (!has_place || design->flow + make->flow > rounds->budget) {
+            number += axes * make->roll_count;
+            continue;
+        }
+        double price = pow(make->flow, rounds->power);
+        for (uint32_t a = 0; a < axes; a++)
+            for (uint32_t r = 0; r < make->roll_count; r++, number++) {
+                if ((double)rounds->room[number] * (1 + 1e-6) < least * price)
+                    continue;
+                sp_pose pose = {site, (uint32_t)k, a, r};
+                sp_score score = sp_score_pose(rounds->search, design->wet, pose);
+                rounds->room[number] = (float)score.room;
+                if (score.gain / price > best->merit)
+                    *best = (sp_round_best){pose, score.gain / price, score.gain};
+            }
+    }
+}
+
+/* A merit that this round surely reaches: that of the last round's best poses, scored again. */
+static double round_floor(sp_rounds *rounds, const sp_design *design)
+{
+    const sp_search *search = rounds->search;
+    size_t count = search->sites->count * search->candidates->make_count;
+    double least = 0;
+    int threads = sp_threads(&search->options->run);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 16) reduction(max : least)
+    for (size_t i = 0; i < count; i++) {
+        const sp_round_best *best = &rounds->best[i];
+        if (best->merit <= 0)
+            continue;
+        const sp_make *make = &search->candidates->makes[best->pose.make];
+        if (design->flow + make->flow > rounds->budget ||
+            !sp_design_has_place(search, design, search->sites->items[best->pose.site].mount))
+            continue;
+        double gain = sp_score_pose(search, design->wet, best->pose).gain;
+        least = fmax(least, gain / pow(make->flow, rounds->power));
+    }
+    return least;
+}
+
+static void scan(sp_rounds *rounds, const sp_design *design)
+{
+    double least = rounds->started ? round_floor(rounds, design) : 0;
+    rounds->started = true;
+    size_t sites = rounds->search->sites->count;
+    int threads = sp_threads(&rounds->search->options->run);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+    for (size_t i = 0; i < sites; i++)
+        scan_site(rounds, design, (uint32_t)i, least);
+}
+
+static int compare_merit(const void *a, const void *b)
+{
+    const sp_round_best *p = a, *q = b;
+    if (p->merit != q->merit)
+        return p->merit > q->merit ? -1 : 1;
+    return compare_poses(&p->pose, &q->pose);
+}
+
+/* Of the first round every site's and make's best is remembered, of later ones the best few. */
+static bool remember(const sp_rounds *rounds, bool first, sp_pool *pool, sp_error *error)
+{
+    size_t count = rounds->search->sites->count * rounds->search->candidates->make_count;
+    sp_round_best *sorted = malloc(count * sizeof *sorted);
+    if (!sorted)
+        return sp_fail_memory(error);
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++)
+        if (rounds->best[i].merit > 0)
+            sorted[found++] = rounds->best[i];
+    qsort(sorted, found, sizeof *sorted, compare_merit);
+    bool done = true;
+    for (size_t i = 0; done && i < found && (first || i < POOL_PER_ROUND); i++)
+        done = sp_pool_add(pool, sorted[i].pose, error);
+    free(sorted);
+    return done;
+}
+
+static const sp_round_best *round_best(const sp_rounds *rounds)
+{
+    size_t count = rounds->search->sites->count * rounds->search->candidates->make_count;
+    const sp_round_best *best = &rounds->best[0];
+    for (size_t i = 1; i < count; i++)
+        if (rounds->best[i].merit > best->merit)
+            best = &rounds->best[i];
+    return best;
+}
+
+bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_watch *watch, sp_design *design,
+               sp_pool *pool, sp_error *error)
+{
+    sp_rounds rounds;
+    double least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
+    bool done = rounds_create(search, power, budget, &rounds, error);
+    bool first = true;
+    while (done && design->covered < target && sp_watch_goes_on(watch, "greedy", fmin(1, design->covered / target))) {
+        scan(&rounds, design);
+        const sp_round_best *best = round_best(&rounds);
+        if (best->merit <= 0 || best->gain < least)
+            break;
+        done = remember(&rounds, first, pool, error) && sp_design_add_pose(search, design, best->pose, error);
+        first = false;
+    }
+    rounds_free(&rounds);
+    sp_pool_settle(pool);
+    return done;
+}
+
+double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_design *design, double power, double budget,
+                    double *scores, sp_pose *best)
+{
+    int threads = sp_threads(&search->options->run);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 32)
+    for (size_t i = 0; i < pool->count; i++) {
+        sp_pose pose = pool->items[i];
+        bool allowed = design->flow + search->candidates->makes[pose.make].flow <= budget &&
+                       sp_design_has_place(search, design, search->sites->items[pose.site].mount);
+        scores[i] = allowed ? sp_score_pose(search, design->wet, pose).gain : 0;
+    }
+    double merit = 0, gain = 0;
+    for (size_t i = 0; i < pool->count; i++) {
+        double candidate = scores[i] / pow(search->candidates->makes[pool->items[i].make].flow, power);
+        if (candidate > merit) {
+            merit = candidate;
+            gain = scores[i];
+            *best = pool->items[i];
+        }
+    }
+    return gain;
+}
+
+bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, double target, double budget,
+                    sp_design *design, sp_error *error)
+{
+    double *scores = malloc((pool->count ? pool->count : 1) * sizeof *scores);
+    if (!scores)
+        return sp_fail_memory(error);
+    double least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
+    bool done = true;
+    while (done && design->covered < target) {
+        sp_pose pose;
+        if (sp_pool_best(search, pool, design, power, budget, scores, &pose) < least)
+            break;
+        done = sp_design_add_pose(search, design, pose, error);
+    }
+    free(scores);
+    return done;
+}

@@ -1,0 +1,152 @@
+#include "attainable.h"
+#include "find.h"
+#include "refine.h"
+
+#include <stdlib.h>
+
+/* What a placement makes on its way, in the order in which it comes about. */
+typedef struct {
+    const sp_evaluator *fine;
+    const sp_place_options *options;
+    sp_watch watch;
+    sp_sites sites;
+    sp_candidates candidates;
+    sp_evaluator *resampled; /* NULL: the fine one is coarse enough */
+    sp_visibility visibility;
+    sp_search search;
+    sp_pool pool;
+    sp_front front;
+} sp_placement;
+
+static void placement_free(sp_placement *placement)
+{
+    sp_front_free(&placement->front);
+    sp_pool_free(&placement->pool);
+    sp_search_free(&placement->search);
+    sp_visibility_free(&placement->visibility);
+    sp_evaluator_destroy(placement->resampled);
+    sp_candidates_free(&placement->candidates);
+    sp_sites_free(&placement->sites);
+    free(placement->watch.stages);
+}
+
+static bool check(const sp_place_options *options, sp_error *error)
+{
+    if (!options->mount_count)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: no mounts");
+    if (!(options->coverage >= 0 && options->coverage <= 1))
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: coverage: %g, expected 0 to 1", options->coverage);
+    return true;
+}
+
+/* Mounting points, candidates, and what each point can reach on patches few enough. */
+static bool look_around(sp_placement *placement, sp_error *error)
+{
+    const sp_evaluator *fine = placement->fine;
+    if (!sp_sites_create(fine, placement->options, &placement->sites, error) ||
+        !sp_candidates_create(fine, placement->options, &placement->sites, &placement->candidates, error))
+        return false;
+    double texel = sp_visibility_texel(fine, &placement->sites, &placement->candidates);
+    if (texel > 1.1 * sp_evaluator_fidelity(fine)->texel) {
+        placement->resampled = sp_evaluator_resample(fine, texel, error);
+        if (!placement->resampled)
+            return false;
+    }
+    const sp_evaluator *coarse = placement->resampled ? placement->resampled : fine;
+    return sp_visibility_create(coarse, placement->options, &placement->sites, &placement->candidates,
+                                &placement->watch, &placement->visibility, error) &&
+           sp_search_create(coarse, placement->options, &placement->sites, &placement->candidates,
+                            &placement->visibility, &placement->search, error) &&
+           sp_watch_stage(&placement->watch, "visibility", error);
+}
+
+static double area_of(const sp_evaluator *fine, const bool *chosen)
+{
+    const sp_patches *patches = sp_evaluator_patches(fine);
+    double area = 0;
+    for (size_t p = 0; p < patches->count; p++)
+        area += chosen[p] ? patches->area[p] : 0;
+    return area;
+}
+
+static bool set_target(sp_placement *placement, sp_proposal *proposal, sp_error *error)
+{
+    size_t patches = sp_evaluator_patches(placement->fine)->count;
+    proposal->attainable = calloc(patches ? patches : 1, sizeof *proposal->attainable);
+    if (!proposal->attainable)
+        return sp_fail_memory(error);
+    if (!sp_attainable(placement->fine, &placement->search, &placement->watch, proposal->attainable, error))
+        return false;
+    proposal->target_area = placement->options->coverage * area_of(placement->fine, proposal->attainable);
+    placement->front.fine = placement->fine;
+    placement->front.objective = placement->options->objective;
+    placement->front.target = proposal->target_area;
+    return sp_watch_stage(&placement->watch, "attainable", error);
+}
+
+/* The best design so far as a layout with its coverage. */
+static bool write_down(const sp_placement *placement, sp_layout **layout, sp_coverage **coverage, sp_error *error)
+{
+    *layout = sp_design_layout(&placement->search, &placement->front.best, error);
+    *coverage = *layout ? sp_evaluate(placement->fine, *layout, error) : NULL;
+    return *coverage != NULL;
+}
+
+static void conclude(sp_placement *placement, sp_proposal *proposal)
+{
+    const sp_place_options *options = placement->options;
+    for (size_t p = 0; p < proposal->coverage->deposits.count; p++)
+        proposal->attainable[p] = proposal->attainable[p] || proposal->coverage->deposits.covered[p] ||
+                                  proposal->greedy_coverage->deposits.covered[p];
+    proposal->attainable_area = area_of(placement->fine, proposal->attainable);
+    proposal->reached = proposal->coverage->covered_area >= proposal->target_area &&
+                        proposal->coverage->flow <= options->max_water &&
+                        (!options->max_nozzles || proposal->layout->count <= options->max_nozzles);
+    proposal->interrupted = placement->watch.interrupted;
+    proposal->positions = placement->sites.count;
+    proposal->candidates = placement->candidates.pose_start[placement->sites.count];
+    sp_front_settle(&placement->front);
+    proposal->front_count = placement->front.count;
+    proposal->front = placement->front.points;
+    placement->front.points = NULL;
+    proposal->stage_count = placement->watch.stage_count;
+    proposal->stages = placement->watch.stages;
+    placement->watch.stages = NULL;
+}
+
+sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error)
+{
+    if (!evaluator || !check(options, error))
+        return NULL;
+    sp_proposal *proposal = calloc(1, sizeof *proposal);
+    if (!proposal)
+        return sp_fail_memory(error);
+    sp_placement placement = {.fine = evaluator, .options = options, .watch = sp_watch_start(&options->run)};
+    bool done = look_around(&placement, error) && set_target(&placement, proposal, error) &&
+                sp_find(&placement.search, &placement.watch, &placement.front, &placement.pool, error) &&
+                write_down(&placement, &proposal->greedy, &proposal->greedy_coverage, error) &&
+                sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
+                write_down(&placement, &proposal->layout, &proposal->coverage, error) &&
+                sp_watch_stage(&placement.watch, "refine", error);
+    if (done)
+        conclude(&placement, proposal);
+    placement_free(&placement);
+    if (done)
+        return proposal;
+    sp_proposal_destroy(proposal);
+    return NULL;
+}
+
+void sp_proposal_destroy(sp_proposal *proposal)
+{
+    if (!proposal)
+        return;
+    sp_layout_destroy(proposal->layout);
+    sp_coverage_destroy(proposal->coverage);
+    sp_layout_destroy(proposal->greedy);
+    sp_coverage_destroy(proposal->greedy_coverage);
+    free(proposal->attainable);
+    free(proposal->front);
+    free(proposal->stages);
+    free(proposal);
+}

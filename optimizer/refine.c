@@ -1,0 +1,274 @@
+#include "refine.h"
+
+#include "attainable.h"
+#include "soft.h"
+
+#include <stdlib.h>
+
+#define ROUNDS_MOST 8   /* annealings that improve, for one design */
+#define FLOW_TRIALS 7   /* measurements to find how far the flow can be turned down */
+#define SNAPSHOTS 3     /* of an annealing's steps, the best on the coarse patches are measured */
+
+static const sp_width widths[] = {{0.8, 0.085}, {0.4, 0.06}, {0.2, 0.042},   {0.1, 0.03},
+                                  {0.05, 0.021}, {0.025, 0.015}, {0.0125, 0.006}};
+#define WIDTHS (sizeof widths / sizeof *widths)
+/* Where an annealing starts: a wide one may find what a narrow one cannot see, or lose what was there. */
+static const size_t starts[] = {0, 2, 4};
+#define STARTS (sizeof starts / sizeof *starts)
+
+typedef struct {
+    const sp_search *search;
+    const sp_pool *pool;
+    sp_watch *watch;
+    sp_front *front;
+    sp_error *error;
+} sp_refining;
+
+/* Where a nozzle moved to `position` would be mounted; false where it must not be there. */
+static bool moved_site(const sp_search *search, const sp_placed *placed, sp_vec3 position, sp_site *site)
+{
+    const sp_place_options *options = search->options;
+    const sp_mount *mount = &options->mounts[placed->site.mount];
+    *site = placed->site;
+    site->position = position;
+    if (mount->kind == SP_MOUNT_SURFACE) {
+        double limit = options->refine.position < 0 ? 0.5 * mount->spacing : options->refine.position;
+        *site = placed->site;
+        if (!sp_site_project(search->coarse, options, site, position) ||
+            sp_distance(site->position, placed->origin.position) > limit)
+            return false;
+    }
+    return sp_site_allowed(search->coarse, options, site);
+}
+
+/* Takes the values over, the place only where the mount allows it. */
+static void apply(const sp_search *search, sp_placed *placed, const sp_freedom *freedom, const double *values)
+{
+    sp_site site = placed->site;
+    sp_nozzle nozzle = sp_freedom_nozzle(freedom, values);
+    if (sp_distance(nozzle.position, placed->nozzle.position) > 0 &&
+        moved_site(search, placed, nozzle.position, &site)) {
+        sp_nozzle there = sp_freedom_nozzle_at(freedom, values, &site);
+        double turn = sp_dot(there.axis, placed->origin.axis);
+        /* a curved surface may turn the axis more than refinement is allowed to */
+        if (turn < cos(freedom->axis_limit) - 1e-9)
+            site = placed->site;
+    }
+    placed->nozzle = sp_freedom_nozzle_at(freedom, values, &site);
+    placed->site = site;
+    placed->flow = sp_nozzle_flow(&placed->nozzle, &sp_evaluator_setup(search->coarse)->liquid);
+}
+
+/* The flow that a nozzle may be turned down to; its own where that is fixed. */
+static double least_flow(const sp_search *search, const sp_placed *placed)
+{
+    double low, high;
+    sp_flow_range(search->options, &sp_evaluator_setup(search->coarse)->liquid, placed->nozzle.type,
+                  placed->nozzle.pressure, &low, &high);
+    return high > low * (1 + 1e-9) ? fmin(low, placed->flow) : placed->flow;
+}
+
+/* Turns adjustable nozzles down by the same share of what they have above their least, to a total of `budget`. */
+static void turn_down(const sp_search *search, sp_design *design, double budget)
+{
+    double total = search->kept_flow, spare = 0;
+    for (size_t i = 0; i < design->count; i++) {
+        total += design->items[i].flow;
+        spare += design->items[i].flow - least_flow(search, &design->items[i]);
+    }
+    if (total <= budget || spare <= 0)
+        return;
+    double share = fmin(1, (total - budget) / spare * (1 + 1e-12));
+    for (size_t i = 0; i < design->count; i++) {
+        sp_placed *placed = &design->items[i];
+        double low = least_flow(search, placed);
+        if (low < placed->flow)
+            placed->nozzle.flow = placed->flow = placed->flow - share * (placed->flow - low);
+    }
+}
+
+static bool retrace(const sp_search *search, sp_design *design, sp_error *error)
+{
+    for (size_t i = 0; i < design->count; i++)
+        if (!sp_field_nozzle(search, &design->items[i].nozzle, design->items[i].field, error))
+            return false;
+    sp_design_refresh(search, design);
+    return true;
+}
+
+/* One outer step: solve with visibility frozen, apply, trace again. */
+static bool step(const sp_refining *refining, sp_width width, double budget, sp_design *design)
+{
+    const sp_search *search = refining->search;
+    sp_freedom *freedoms = malloc(design->count * sizeof *freedoms);
+    double(*values)[SP_UNKNOWNS] = malloc(design->count * sizeof *values);
+    bool done = freedoms && values;
+    if (!done)
+        sp_fail_memory(refining->error);
+    for (size_t i = 0; done && i < design->count; i++) {
+        freedoms[i] = sp_freedom_create(search, &design->items[i]);
+        for (size_t k = 0; k < freedoms[i].count; k++)
+            values[i][k] = freedoms[i].value[k];
+    }
+    done = done && sp_soft_solve(search, freedoms, design->count, width, budget, values, refining->error);
+    for (size_t i = 0; done && i < design->count; i++)
+        apply(search, &design->items[i], &freedoms[i], values[i]);
+    free(freedoms);
+    free(values);
+    if (!done)
+        return false;
+    turn_down(search, design, budget);
+    return retrace(search, design, refining->error);
+}
+
+/* Keeps the designs that cover most on the coarse patches, best first. Takes the design over. */
+static void keep_snapshot(sp_design *snapshots, size_t *count, sp_design *design)
+{
+    size_t at = *count;
+    while (at > 0 && snapshots[at - 1].covered < design->covered)
+        at--;
+    if (at == SNAPSHOTS) {
+        sp_design_free(design);
+        return;
+    }
+    if (*count == SNAPSHOTS)
+        sp_design_free(&snapshots[--*count]);
+    for (size_t i = *count; i > at; i--)
+        snapshots[i] = snapshots[i - 1];
+    snapshots[at] = *design;
+    ++*count;
+}
+
+/* Anneals a copy of the design from the given width and measures the best of its steps; the front takes what is better. */
+static bool anneal(const sp_refining *refining, const sp_design *from, size_t start)
+{
+    const sp_search *search = refining->search;
+    double budget = fmin(from->flow, search->options->max_water);
+    sp_design design, snapshots[SNAPSHOTS];
+    size_t count = 0;
+    if (!sp_design_copy(search, from, &design, refining->error))
+        return false;
+    bool done = true;
+    for (size_t w = start; done && w < WIDTHS && sp_watch_goes_on(refining->watch, "refine", (double)w / WIDTHS); w++) {
+        sp_design copy;
+        done = step(refining, widths[w], budget, &design) && sp_design_copy(search, &design, &copy, refining->error);
+        if (done && copy.flow <= budget * (1 + 1e-9))
+            keep_snapshot(snapshots, &count, &copy);
+        else if (done)
+            sp_design_free(&copy);
+    }
+    for (size_t i = 0; i < count; i++) {
+        done = done && (!sp_watch_goes_on(refining->watch, "refine", 1) ||
+                        sp_front_measure(refining->front, search, &snapshots[i], NULL, refining->error));
+        sp_design_free(&snapshots[i]);
+    }
+    sp_design_free(&design);
+    return done;
+}
+
+static bool same(const sp_front_point *a, const sp_front_point *b)
+{
+    return a->area == b->area && a->flow == b->flow && a->nozzles == b->nozzles;
+}
+
+/* Anneals the best design again and again, while it improves. */
+static bool polish(const sp_refining *refining)
+{
+    sp_front *front = refining->front;
+    size_t start = 0;
+    for (int round = 0; round < ROUNDS_MOST && start < STARTS && front->best.count; round++) {
+        sp_front_point before = front->measured;
+        if (!sp_watch_goes_on(refining->watch, "refine", 0))
+            return true;
+        if (!anneal(refining, &front->best, starts[start]))
+            return false;
+        if (same(&before, &front->measured))
+            start++;
+    }
+    return true;
+}
+
+/* Turns adjustable nozzles down while the target holds. */
+static bool save_flow(const sp_refining *refining)
+{
+    const sp_search *search = refining->search;
+    sp_front *front = refining->front;
+    double high = front->best.flow, low = search->kept_flow;
+    for (size_t i = 0; i < front->best.count; i++)
+        low += least_flow(search, &front->best.items[i]);
+    sp_design full;
+    if (!(low < high * (1 - 1e-6)))
+        return true;
+    if (!sp_design_copy(search, &front->best, &full, refining->error))
+        return false;
+    bool done = true;
+    for (int trial = 0; done && trial < FLOW_TRIALS && sp_watch_goes_on(refining->watch, "refine", 1); trial++) {
+        sp_design design;
+        sp_front_point point;
+        double middle = 0.5 * (low + high);
+        done = sp_design_copy(search, &full, &design, refining->error);
+        if (!done)
+            break;
+        turn_down(search, &design, middle);
+        done = retrace(search, &design, refining->error) &&
+               sp_front_measure(front, search, &design, &point, refining->error);
+        sp_design_free(&design);
+        if (done && point.area >= front->target)
+            high = middle;
+        else
+            low = middle;
+    }
+    sp_design_free(&full);
+    return done;
+}
+
+/* Less water by the share given: exchange within it, then refine to make up for what is missing. *saved says whether the
+ * best design got better. */
+static bool save_share(const sp_refining *refining, double share, bool *saved)
+{
+    const sp_search *search = refining->search;
+    sp_front *front = refining->front;
+    sp_front_point before = front->measured;
+    sp_design reduced;
+    bool found;
+    *saved = false;
+    if (!sp_reduce(search, refining->pool, &front->best, front->best.flow * (1 - share), front->target - front->bias,
+                   refining->watch, &reduced, &found, refining->error))
+        return false;
+    if (!found)
+        return true;
+    bool done = sp_front_measure(front, search, &reduced, NULL, refining->error);
+    for (size_t s = 0; done && s + 1 < STARTS && same(&before, &front->measured); s++)
+        done = anneal(refining, &reduced, starts[s]);
+    sp_design_free(&reduced);
+    *saved = done && !same(&before, &front->measured);
+    return done;
+}
+
+static bool save_water(const sp_refining *refining)
+{
+    static const double shares[] = {0.12, 0.06, 0.03};
+    for (size_t i = 0; i < sizeof shares / sizeof *shares;) {
+        bool saved = false;
+        if (!refining->front->best.count || !sp_watch_goes_on(refining->watch, "refine", 0))
+            return true;
+        if (!save_share(refining, shares[i], &saved))
+            return false;
+        i += !saved;
+    }
+    return true;
+}
+
+bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error)
+{
+    const sp_refine *allowed = &search->options->refine;
+    sp_refining refining = {search, pool, watch, front, error};
+    if (allowed->position == 0 && allowed->axis == 0 && !allowed->roll && allowed->angle == 0 && allowed->flow == 0)
+        return true;
+    if (!polish(&refining))
+        return false;
+    bool saves = front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
+    if (!saves)
+        return true;
+    return save_water(&refining) && polish(&refining) && save_flow(&refining);
+}

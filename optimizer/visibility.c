@@ -1,0 +1,207 @@
+#include "visibility.h"
+
+#include <stdlib.h>
+
+#define PATCHES_MOST 25000.0
+#define PATCHES_LEAST 500.0
+#define MEMORY 1.0e9         /* bytes, for all views */
+#define ARRIVAL_BYTES 20.0
+#define BATCH 8              /* sites a thread traces between two looks at the clock */
+#define TIME_SHARE 0.5       /* of a time limit, that tracing may take */
+
+/* The octahedron unfolded onto [-1, 1]²: Cigolle et al., A survey of efficient representations for independent unit
+ * vectors, JCGT 2014. */
+static void encode(sp_vec3 d, double *u, double *v)
+{
+    double scale = 1 / (fabs(d.x) + fabs(d.y) + fabs(d.z));
+    *u = d.x * scale;
+    *v = d.y * scale;
+    if (d.z < 0) {
+        double x = *u, y = *v;
+        *u = copysign(1 - fabs(y), x);
+        *v = copysign(1 - fabs(x), y);
+    }
+}
+
+static sp_vec3 decode(double u, double v)
+{
+    double z = 1 - fabs(u) - fabs(v);
+    if (z >= 0)
+        return sp_unit(sp_v(u, v, z));
+    return sp_unit(sp_v(copysign(1 - fabs(v), u), copysign(1 - fabs(u), v), z));
+}
+
+static size_t bin_of(sp_vec3 direction)
+{
+    double u, v;
+    encode(direction, &u, &v);
+    int i = (int)((u + 1) * (0.5 * SP_BINS_EDGE)), j = (int)((v + 1) * (0.5 * SP_BINS_EDGE));
+    i = i < 0 ? 0 : i >= SP_BINS_EDGE ? SP_BINS_EDGE - 1 : i;
+    j = j < 0 ? 0 : j >= SP_BINS_EDGE ? SP_BINS_EDGE - 1 : j;
+    return (size_t)(j * SP_BINS_EDGE + i);
+}
+
+static void bins_create(sp_bins *bins)
+{
+    const double edge = 2.0 / SP_BINS_EDGE;
+    for (size_t b = 0; b < SP_BINS; b++) {
+        double u = (double)(b % SP_BINS_EDGE) * edge - 1, v = (double)(b / SP_BINS_EDGE) * edge - 1;
+        sp_vec3 centre = decode(u + 0.5 * edge, v + 0.5 * edge);
+        double cosine = 1;
+        /* A cell's sides are arcs of great circles, so that its corners lie farthest out. */
+        for (int corner = 0; corner < 4; corner++)
+            cosine = fmin(cosine, sp_dot(centre, decode(u + edge * (corner & 1), v + edge * (corner >> 1))));
+        bins->x[b] = (float)centre.x;
+        bins->y[b] = (float)centre.y;
+        bins->z[b] = (float)centre.z;
+        bins->radius[b] = (float)(acos(cosine) + 1e-3);
+    }
+}
+
+double sp_visibility_texel(const sp_evaluator *evaluator, const sp_sites *sites, const sp_candidates *candidates)
+{
+    double views = (double)sites->count * (double)candidates->speed_count;
+    double patches = fmax(PATCHES_LEAST, fmin(PATCHES_MOST, MEMORY / ARRIVAL_BYTES / views));
+    return sqrt(sp_evaluator_patches(evaluator)->total_area / patches);
+}
+
+/* Half-angle about the site's axis that holds all that its candidates at this speed can reach; negative: none. */
+static double needed(const sp_place_options *options, const sp_candidates *candidates, const sp_site *site, size_t speed)
+{
+    double reach = -1;
+    for (size_t k = 0; k < candidates->make_count; k++)
+        if (candidates->makes[k].speed_class == speed && sp_candidates_axes(candidates, site->mount, k)->count)
+            reach = fmax(reach, candidates->makes[k].reach);
+    return reach < 0 ? reach : fmin(M_PI, reach + options->mounts[site->mount].tilt + 1e-6);
+}
+
+static bool view_allocate(sp_view *view, size_t count)
+{
+    /* one block: the bins' starts first, then the arrays */
+    char *block = malloc((SP_BINS + 1) * sizeof(uint32_t) + count * (4 * sizeof(float) + sizeof(uint32_t)));
+    if (!block)
+        return false;
+    view->count = (uint32_t)count;
+    view->start = (uint32_t *)block;
+    view->patch = view->start + SP_BINS + 1;
+    view->x = (float *)(view->patch + count);
+    view->y = view->x + count;
+    view->z = view->y + count;
+    view->transfer = view->z + count;
+    return true;
+}
+
+static bool view_create(const sp_reach *reach, sp_view *view)
+{
+    size_t passing = 0;
+    for (size_t i = 0; i < reach->count; i++)
+        passing += reach->arrivals[i].passes;
+    if (!view_allocate(view, passing))
+        return false;
+    uint32_t *start = view->start;
+    for (size_t b = 0; b <= SP_BINS; b++)
+        start[b] = 0;
+    for (size_t i = 0; i < reach->count; i++)
+        if (reach->arrivals[i].passes)
+            start[bin_of(reach->arrivals[i].direction) + 1]++;
+    for (size_t b = 0; b < SP_BINS; b++)
+        start[b + 1] += start[b];
+    uint32_t next[SP_BINS];
+    for (size_t b = 0; b < SP_BINS; b++)
+        next[b] = start[b];
+    for (size_t i = 0; i < reach->count; i++) {
+        const sp_arrival *arrival = &reach->arrivals[i];
+        if (!arrival->passes)
+            continue;
+        uint32_t at = next[bin_of(arrival->direction)]++;
+        view->x[at] = (float)arrival->direction.x;
+        view->y[at] = (float)arrival->direction.y;
+        view->z[at] = (float)arrival->direction.z;
+        view->transfer[at] = (float)arrival->transfer;
+        view->patch[at] = arrival->patch;
+    }
+    return true;
+}
+
+static bool site_trace(const sp_place_options *options, const sp_site *site, const sp_candidates *candidates,
+                       const sp_evaluator *coarse, sp_view *views, sp_error *error)
+{
+    for (size_t s = 0; s < candidates->speed_count; s++) {
+        double half_angle = needed(options, candidates, site, s);
+        if (half_angle < 0)
+            continue;
+        sp_reach *reach =
+            sp_evaluator_reach(coarse, site->position, candidates->speeds[s], site->axis, half_angle, error);
+        if (!reach)
+            return false;
+        bool done = view_create(reach, &views[s]);
+        sp_reach_destroy(reach);
+        if (!done)
+            return sp_fail_memory(error);
+    }
+    return true;
+}
+
+/* Site `i` of the order in which to trace: strided, so that a run that ends early has seen something of every mount. */
+static size_t strided(size_t i, size_t count)
+{
+    size_t stride = (size_t)(0.6180339887 * (double)count) | 1;
+    for (;; stride += 2) {
+        size_t a = stride, b = count;
+        while (b) {
+            size_t r = a % b;
+            a = b;
+            b = r;
+        }
+        if (a == 1)
+            return i * stride % count;
+    }
+}
+
+bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
+                          const sp_candidates *candidates, sp_watch *watch, sp_visibility *visibility, sp_error *error)
+{
+    *visibility =
+        (sp_visibility){.evaluator = coarse, .site_count = sites->count, .speed_count = candidates->speed_count};
+    bins_create(&visibility->bins);
+    if (!coarse)
+        return false;
+    visibility->views = calloc(sites->count, candidates->speed_count * sizeof *visibility->views);
+    if (!visibility->views)
+        return sp_fail_memory(error);
+    int threads = sp_threads(&options->run);
+    size_t batch = (size_t)threads * BATCH;
+    sp_error failure = {0};
+    for (size_t first = 0; first < sites->count && failure.kind == SP_OK; first += batch) {
+        if (!sp_watch_goes_on(watch, "visibility", (double)first / (double)sites->count))
+            break;
+        if (first && options->run.time_limit > 0 && sp_watch_elapsed(watch) > TIME_SHARE * options->run.time_limit) {
+            watch->interrupted = true;
+            break;
+        }
+        size_t end = first + batch < sites->count ? first + batch : sites->count;
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+        for (size_t i = first; i < end; i++) {
+            size_t site = strided(i, sites->count);
+            sp_error mine = {0};
+            if (!site_trace(options, &sites->items[site], candidates, coarse,
+                            &visibility->views[site * candidates->speed_count], &mine)) {
+#pragma omp critical(sp_visibility_failure)
+                failure = mine;
+            }
+        }
+    }
+    if (failure.kind == SP_OK)
+        return true;
+    sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
+    sp_visibility_free(visibility);
+    return false;
+}
+
+void sp_visibility_free(sp_visibility *visibility)
+{
+    for (size_t i = 0; visibility->views && i < visibility->site_count * visibility->speed_count; i++)
+        free(visibility->views[i].start);
+    free(visibility->views);
+    *visibility = (sp_visibility){0};
+}

@@ -1,0 +1,45 @@
+/* Visibility: what each mounting point can reach at each speed, traced once, whatever the nozzle's axis, roll and type. */
+#ifndef OPTIMIZER_VISIBILITY_H
+#define OPTIMIZER_VISIBILITY_H
+
+#include "candidates.h"
+#include "watch.h"
+
+#define SP_BINS_EDGE 32
+#define SP_BINS (SP_BINS_EDGE * SP_BINS_EDGE)
+
+/* Arrivals that pass the criterion's speed and incidence, sorted by the octahedral bin of their direction, then by patch. */
+typedef struct {
+    uint32_t count;
+    uint32_t *start;               /* [SP_BINS + 1]; NULL: not traced */
+    float *x, *y, *z;              /* [count], unit direction at the nozzle */
+    float *transfer;               /* [count], 1/m² */
+    uint32_t *patch;               /* [count] */
+} sp_view;
+
+/* The bins' cones: all directions of a bin are within acos(cosine) of its centre. */
+typedef struct {
+    float x[SP_BINS], y[SP_BINS], z[SP_BINS];
+    float radius[SP_BINS]; /* rad */
+} sp_bins;
+
+typedef struct {
+    const sp_evaluator *evaluator; /* borrowed: the coarse one that was traced on */
+    size_t site_count, speed_count;
+    sp_view *views; /* [site_count x speed_count] */
+    sp_bins bins;
+} sp_visibility;
+
+/* The texel edge (m) at which all views together keep within the memory that a placement may take. */
+double sp_visibility_texel(const sp_evaluator *evaluator, const sp_sites *sites, const sp_candidates *candidates);
+/* Sites left out when the time ends see nothing. */
+bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
+                          const sp_candidates *candidates, sp_watch *watch, sp_visibility *visibility, sp_error *error);
+void sp_visibility_free(sp_visibility *visibility);
+
+static inline const sp_view *sp_visibility_view(const sp_visibility *visibility, uint32_t site, size_t speed)
+{
+    return &visibility->views[site * visibility->speed_count + speed];
+}
+
+#endif

@@ -1,0 +1,30 @@
+/* Time, progress, cancelling and threads of a placement. */
+#ifndef OPTIMIZER_WATCH_H
+#define OPTIMIZER_WATCH_H
+
+#include <sprayplan/run.h>
+
+#include <sprayplan/place.h>
+
+typedef struct {
+    sp_run run;
+    double start;     /* s, of a monotonic clock */
+    bool cancelled;   /* the progress callback said so */
+    bool interrupted; /* cancelled, or something was left out for want of time */
+    size_t stage_count, stage_capacity;
+    sp_stage *stages;
+    double stage_start;
+} sp_watch;
+
+sp_watch sp_watch_start(const sp_run *run);
+/* Seconds since the start. */
+double sp_watch_elapsed(const sp_watch *watch);
+/* Reports progress; false once cancelled or out of time. Call from one thread at a time. */
+bool sp_watch_goes_on(sp_watch *watch, const char *stage, double done);
+/* Books the time since the last stage's end, or the start, under `name`; stages of equal name add up. */
+bool sp_watch_stage(sp_watch *watch, const char *name, sp_error *error);
+
+/* The number of threads that a run asks for. */
+int sp_threads(const sp_run *run);
+
+#endif
