@@ -1,0 +1,69 @@
+/* Flat fans: a patch of the sphere projected on a plane. */
+#include "measure.h"
+
+/* On the plane at distance h, longitude atan(x/h) is within a and latitude asin(y/r) within b: x within X = h tan(a)
+ * and y within tan(b) √(x² + h²), so the area is 2 tan(b) (X √(X² + h²) + h² asinh(X/h)). */
+static double fan_area(double h, double a, double b)
+{
+    double x = h * tan(a);
+    return 2 * tan(b) * (x * sqrt(x * x + h * h) + h * h * asinh(x / h));
+}
+
+static void assert_fan(const char *what, double degrees, double thickness, double texel, int methods)
+{
+    const double h = 0.8;
+    sp_nozzle_type type = spray_type(SP_PATTERN_FLAT_FAN, degrees);
+    type.thickness = deg(thickness);
+    sp_nozzle nozzle = nozzle_at(&type, sp_v(0.013, -0.007, h), sp_v(0, 0, -1), 0);
+    scene s;
+    rectangle floor = level_rectangle(2.2, 2.2, 0);
+    scene_open(&s, mesh_of_rectangles(&floor, 1), SP_TRAJECTORY_LINE, texel);
+    assert_covers(what, &s, &nozzle, 1, fan_area(h, deg(degrees / 2), deg(thickness / 2)), methods);
+    scene_close(&s);
+}
+
+static void thick_fan_on_a_plane(void **state)
+{
+    (void)state;
+    assert_fan("fan of 70 by 30 degrees", 70, 30, 0.003, BY_BOTH);
+}
+
+/* Only the inverse evaluator: counting every texel that a jet touches widens so thin a strip by more than the bound. */
+static void thin_fan_on_a_plane(void **state)
+{
+    (void)state;
+    assert_fan("fan of 90 by 4 degrees", 90, 4, 0.003, BY_INVERSE);
+}
+
+/* A fan thinner than a texel must not fall between the texels' points: all its liquid arrives, on the texels that it cuts. */
+static void fan_thinner_than_a_texel(void **state)
+{
+    (void)state;
+    const double h = 0.8, texel = 0.02;
+    sp_nozzle_type type = spray_type(SP_PATTERN_FLAT_FAN, 70);
+    type.thickness = deg(0.5);
+    sp_nozzle nozzle = nozzle_at(&type, sp_v(0.013, -0.007, h), sp_v(0, 0, -1), 0);
+    scene s;
+    rectangle floor = level_rectangle(2.2, 2.2, 0);
+    scene_open(&s, mesh_of_rectangles(&floor, 1), SP_TRAJECTORY_LINE, texel / COARSER);
+    sp_evaluator *evaluator = scene_evaluator(&s);
+    sp_coverage *inverse = scene_cover(evaluator, &nozzle, 1, true),
+                *forward = scene_cover(evaluator, &nozzle, 1, false);
+    compare_with("thin fan's liquid", "inverse", inverse->flux_mean * inverse->area, inverse->flow, 0.005);
+    compare_with("thin fan's liquid", "forward", forward->flux_mean * forward->area, forward->flow, 1e-9);
+    compare_with("thin fan's texels, as forward", "inverse", inverse->covered_area, forward->covered_area, 0.02);
+    sp_coverage_destroy(inverse);
+    sp_coverage_destroy(forward);
+    sp_evaluator_destroy(evaluator);
+    scene_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(thick_fan_on_a_plane),
+        cmocka_unit_test(thin_fan_on_a_plane),
+        cmocka_unit_test(fan_thinner_than_a_texel),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
