@@ -35,7 +35,8 @@ static void thin_fan_on_a_plane(void **state)
     assert_fan("fan of 90 by 4 degrees", 90, 4, 0.003, BY_INVERSE);
 }
 
-/* A fan thinner than a texel must not fall between the texels' points: all its liquid arrives, on the texels that it cuts. */
+/* A fan thinner than a texel must not fall between the texels' points: all its liquid arrives, on the texels that it
+ * cuts. */
 static void fan_thinner_than_a_texel(void **state)
 {
     (void)state;

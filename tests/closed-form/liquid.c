@@ -14,7 +14,7 @@ static void make_nozzles(double speed)
         sp_pattern pattern;
         double degrees;
     } kinds[COUNT] = {{SP_PATTERN_FULL_CONE, 360}, {SP_PATTERN_FULL_CONE, 75},   {SP_PATTERN_HOLLOW_CONE, 100},
-                      {SP_PATTERN_FLAT_FAN, 80},   {SP_PATTERN_SOLID_STREAM, 1}, {SP_PATTERN_SOLID_STREAM, 4},
+                      {SP_PATTERN_FLAT_FAN, 80},   {SP_PATTERN_SOLID_STREAM, 1}, {SP_PATTERN_SOLID_STREAM, 1.5},
                       {SP_PATTERN_FLAT_FAN, 110}};
     for (int i = 0; i < COUNT; i++) {
         types[i] = spray_type(kinds[i].pattern, kinds[i].degrees);
