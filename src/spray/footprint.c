@@ -158,14 +158,6 @@ static void integrate_cell(patch_integral *integral, const cell *whole)
         add_sample(integral, flight, share, area);
 }
 
-/* Whether a fragment's triangle belongs to the patch, by role and wet side. */
-static bool is_counted(const sp_evaluator *evaluator, uint32_t triangle, sp_side side)
-{
-    if (!evaluator->setup.surfaces[evaluator->setup.mesh->part[triangle]].clean)
-        return false;
-    return side == SP_SIDE_BOTH || (evaluator->wet[triangle] & (side == SP_SIDE_FRONT ? 1u : 2u));
-}
-
 static sp_footprint integrate_patch(const sp_emitter *emitter, uint32_t patch)
 {
     const sp_evaluator *evaluator = emitter->source.evaluator;
@@ -177,7 +169,7 @@ static sp_footprint integrate_patch(const sp_emitter *emitter, uint32_t patch)
         double before = integral.sum.gain;
         for (uint32_t f = atlas->fragment_start[texel]; f < atlas->fragment_start[texel + 1]; f++) {
             uint32_t triangle = atlas->fragments[f].triangle;
-            if (!is_counted(evaluator, triangle, integral.target.side))
+            if (!sp_side_is_counted(evaluator, triangle, integral.target.side == SP_SIDE_BACK))
                 continue;
             sp_vec3 polygon[SP_FRAGMENT_POINTS], normal = sp_triangle_normal(evaluator->setup.mesh, triangle);
             integral.target.triangle = triangle;

@@ -7,8 +7,7 @@
  * of sight would have to choose between neighbouring triangles. */
 #define INWARDS 1e-4
 
-/* Whether a triangle's `side` (0 front, or both where no cavity is named; 1 back) is cleaned and counted. */
-static bool is_counted(const sp_evaluator *evaluator, uint32_t triangle, unsigned side)
+bool sp_side_is_counted(const sp_evaluator *evaluator, uint32_t triangle, unsigned side)
 {
     const sp_setup *setup = &evaluator->setup;
     if (!setup->surfaces[setup->mesh->part[triangle]].clean)
@@ -19,7 +18,7 @@ static bool is_counted(const sp_evaluator *evaluator, uint32_t triangle, unsigne
 uint32_t sp_patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back)
 {
     unsigned side = evaluator->setup.cavity != SP_CAVITY_NONE && back;
-    if (!is_counted(evaluator, triangle, side))
+    if (!sp_side_is_counted(evaluator, triangle, side))
         return SP_NONE;
     return evaluator->texel_patch[sp_atlas_texel(evaluator->atlas, triangle, u, v)][side];
 }
@@ -81,7 +80,7 @@ static bool patch_centroid(const sp_evaluator *evaluator, uint32_t texel, unsign
     double drawn = 0;
     *area = 0;
     for (uint32_t f = atlas->fragment_start[texel]; f < atlas->fragment_start[texel + 1]; f++) {
-        if (!is_counted(evaluator, atlas->fragments[f].triangle, side))
+        if (!sp_side_is_counted(evaluator, atlas->fragments[f].triangle, side))
             continue;
         sp_vec3 polygon[SP_FRAGMENT_POINTS];
         int corners = sp_atlas_fragment_polygon(atlas, evaluator->setup.mesh, texel, f, polygon);
@@ -106,7 +105,7 @@ static bool place_patch(const sp_evaluator *evaluator, uint32_t texel, unsigned 
     double least = INFINITY;
     for (uint32_t f = atlas->fragment_start[texel]; f < atlas->fragment_start[texel + 1]; f++) {
         uint32_t triangle = atlas->fragments[f].triangle;
-        if (!is_counted(evaluator, triangle, side))
+        if (!sp_side_is_counted(evaluator, triangle, side))
             continue;
         sp_vec3 polygon[SP_FRAGMENT_POINTS];
         int corners = sp_atlas_fragment_polygon(atlas, evaluator->setup.mesh, texel, f, polygon);
