@@ -232,7 +232,8 @@ static bool fill_node(const source *s, struct fy_event *event, sp_yaml *node, in
     node->text = token_text(event->scalar.value);
     if (!node->text)
         return sp_fail_memory(s->error);
-    node->empty = !node->text[0] && fy_event_get_node_style(event) == FYNS_PLAIN;
+    enum fy_node_style style = fy_event_get_node_style(event);
+    node->empty = !node->text[0] && (style == FYNS_ANY || style == FYNS_PLAIN);
     return true;
 }
 
