@@ -41,8 +41,8 @@ static bool check_pattern_key(const sp_reader *reader, const sp_yaml *node, cons
 }
 
 /* `key` is a list of two values, rising, around `value`; absent: the value alone. */
-static bool read_adjustable(const sp_reader *reader, const sp_yaml *node, const char *key, const sp_dimension *dimension,
-                            sp_range range, double value, double limits[2])
+static bool read_adjustable(const sp_reader *reader, const sp_yaml *node, const char *key,
+                            const sp_dimension *dimension, sp_range range, double value, double limits[2])
 {
     const sp_yaml *list = sp_yaml_get(node, key);
     limits[0] = limits[1] = value;
@@ -57,7 +57,8 @@ static bool read_adjustable(const sp_reader *reader, const sp_yaml *node, const 
         return sp_read_message(reader, list, key, "found '%.60s' before '%.60s', expected the smaller first",
                                list->first->text, list->last->text);
     if (value < limits[0] || value > limits[1])
-        return sp_read_message(reader, list, key, "found '%.60s' to '%.60s', expected a range that contains the type's own",
+        return sp_read_message(reader, list, key,
+                               "found '%.60s' to '%.60s', expected a range that contains the type's own",
                                list->first->text, list->last->text);
     return true;
 }
@@ -74,7 +75,7 @@ static bool read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_t
     if (!check_pattern_key(reader, node, type, "hollow", SP_PATTERN_HOLLOW_CONE) ||
         !check_pattern_key(reader, node, type, "thickness", SP_PATTERN_FLAT_FAN) ||
         !sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_above_to(0, 2 * pi), &type->angle) ||
-        !sp_read_quantity(reader, node, "hollow", &sp_ratio_unit, sp_from_below(0, 1), &type->hollow) ||
+        !sp_read_quantity(reader, node, "hollow", &sp_share_unit, sp_from_below(0, 1), &type->hollow) ||
         !sp_read_quantity(reader, node, "thickness", &sp_angle_unit, sp_above_to(0, pi), &type->thickness) ||
         !read_adjustable(reader, node, "angle_range", &sp_angle_unit, sp_above_to(0, 2 * pi), type->angle, limits))
         return false;
@@ -103,10 +104,11 @@ static bool read_flow(const sp_reader *reader, const sp_yaml *node, sp_nozzle_ty
 
 static bool read_type(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
-    static const sp_key keys[] = {{"name", true},      {"pattern", true},   {"angle", false},       {"hollow", false},
-                                  {"thickness", false}, {"flow", true},      {"at", true},           {"exponent", false},
-                                  {"cv", false},        {"drop", false},     {"angle_range", false}, {"flow_range", false},
-                                  {"image", false},     {"members", false},  {"rotation", false},    {NULL, false}};
+    static const sp_key keys[] = {
+        {"name", true},       {"pattern", true},  {"angle", false},       {"hollow", false},
+        {"thickness", false}, {"flow", true},     {"at", true},           {"exponent", false},
+        {"cv", false},        {"drop", false},    {"angle_range", false}, {"flow_range", false},
+        {"image", false},     {"members", false}, {"rotation", false},    {NULL, false}};
     *type = (sp_nozzle_type){0};
     /* What is not built yet is said before what such a type may lack. */
     return (node->kind != SP_YAML_MAP || read_pattern(reader, node, type)) &&
@@ -120,7 +122,8 @@ static bool read_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *
     if (!sp_read_is_list(reader, list, "nozzles", "catalogue types"))
         return false;
     if (list->count > SP_MAX_ITEMS)
-        return sp_read_message(reader, list, "nozzles", "found %zu types, expected at most %d", list->count, SP_MAX_ITEMS);
+        return sp_read_message(reader, list, "nozzles", "found %zu types, expected at most %d", list->count,
+                               SP_MAX_ITEMS);
     scene->types = calloc(list->count ? list->count : 1, sizeof *scene->types);
     if (!scene->types)
         return sp_fail_memory(reader->error);
@@ -156,13 +159,16 @@ const sp_nozzle_type *sp_scene_find_type(const sp_scene *scene, const sp_reader 
 {
     const char *name = sp_read_text(reader, node, key, "the name of a type in the catalogue");
     const char *near = NULL;
+    size_t least = SIZE_MAX;
     if (!name)
         return NULL;
     for (size_t i = 0; i < scene->type_count; i++) {
         if (strcmp(scene->types[i].name, name) == 0)
             return &scene->types[i];
-        if (!near && sp_text_near(name, scene->types[i].name))
+        size_t slips = sp_text_slips(name, scene->types[i].name);
+        if (slips < least)
             near = scene->types[i].name;
+        least = slips < least ? slips : least;
     }
     if (scene->type_count == 0)
         sp_read_fail(reader, node, key, "a type of the catalogue, of which this scene has none (catalogue:)");

@@ -37,7 +37,10 @@ static void add_bytes(builder *out, const char *bytes, size_t size)
     out->text[out->size] = '\0';
 }
 
-static void add(builder *out, const char *text) { add_bytes(out, text, strlen(text)); }
+static void add(builder *out, const char *text)
+{
+    add_bytes(out, text, strlen(text));
+}
 
 static void add_indent(builder *out, int indent)
 {
@@ -64,7 +67,11 @@ static bool is_plain(const char *text)
 static size_t decode(const char *text, unsigned *point)
 {
     const unsigned char *c = (const unsigned char *)text;
-    size_t size = c[0] < 0x80 ? 1 : (c[0] & 0xe0) == 0xc0 ? 2 : (c[0] & 0xf0) == 0xe0 ? 3 : (c[0] & 0xf8) == 0xf0 ? 4 : 0;
+    size_t size = c[0] < 0x80             ? 1
+                  : (c[0] & 0xe0) == 0xc0 ? 2
+                  : (c[0] & 0xf0) == 0xe0 ? 3
+                  : (c[0] & 0xf8) == 0xf0 ? 4
+                                          : 0;
     static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
     *point = size == 1 ? c[0] : c[0] & (0x7fu >> size);
     for (size_t i = 1; i < size; i++) {

@@ -45,8 +45,8 @@ static bool read_rotation(const sp_reader *reader, const sp_yaml *node, sp_trans
 
 static bool read_piece(const sp_reader *reader, const sp_yaml *node, piece *p)
 {
-    static const sp_key keys[] = {{"file", true},      {"unit", false},   {"scale", false},       {"role", false},
-                                  {"translate", false}, {"rotate", false}, {"restitution", false}, {"rebound", false},
+    static const sp_key keys[] = {{"file", true},         {"unit", false},   {"scale", false},       {"role", false},
+                                  {"translate", false},   {"rotate", false}, {"restitution", false}, {"rebound", false},
                                   {"clean_parts", false}, {NULL, false}};
     static const char *const roles[] = {"clean", "obstacle", NULL};
     int role = 0;
@@ -56,13 +56,14 @@ static bool read_piece(const sp_reader *reader, const sp_yaml *node, piece *p)
         !sp_read_choice(reader, node, "role", roles, &role) ||
         !sp_read_vector(reader, node, "translate", &sp_length_unit, &p->transform.translate) ||
         !read_rotation(reader, node, &p->transform) ||
-        !sp_read_quantity(reader, node, "restitution", &sp_ratio_unit, sp_between(0, 1), &p->restitution) ||
-        !sp_read_quantity(reader, node, "rebound", &sp_ratio_unit, sp_between(0, 1), &p->rebound))
+        !sp_read_quantity(reader, node, "restitution", &sp_share_unit, sp_between(0, 1), &p->restitution) ||
+        !sp_read_quantity(reader, node, "rebound", &sp_share_unit, sp_between(0, 1), &p->rebound))
         return false;
     p->obstacle = role == 1;
     const sp_yaml *parts = sp_yaml_get(node, "clean_parts");
     if (parts && p->obstacle)
-        return sp_read_message(reader, parts, "clean_parts", "found beside role: obstacle, expected with role: clean only");
+        return sp_read_message(reader, parts, "clean_parts",
+                               "found beside role: obstacle, expected with role: clean only");
     return true;
 }
 
@@ -109,7 +110,8 @@ static bool clean_part(sp_scene *scene, const sp_reader *reader, const sp_yaml *
         if (strcmp(pattern, part->name) == 0 || fnmatch(pattern, part->name, 0) == 0)
             scene->surfaces[i].clean = found = true;
     }
-    return found || sp_read_fail(reader, node, "clean_parts", "a name or glob that fits a part of this file: %s", names);
+    return found ||
+           sp_read_fail(reader, node, "clean_parts", "a name or glob that fits a part of this file: %s", names);
 }
 
 static bool set_surfaces(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, uint32_t index, const piece *p)
@@ -167,8 +169,8 @@ bool sp_scene_read_geometry(sp_scene *scene, const sp_reader *reader)
         return sp_read_fail(reader, list, "geometry", "a list of 1 to %d files", SP_MAX_ITEMS);
     sp_mesh **meshes = calloc(list->count, sizeof *meshes);
     piece *pieces = calloc(list->count, sizeof *pieces);
-    bool good = meshes && pieces ? read_pieces(scene, reader, list, meshes, pieces)
-                                 : sp_fail_memory(reader->error) != NULL;
+    bool good =
+        meshes && pieces ? read_pieces(scene, reader, list, meshes, pieces) : sp_fail_memory(reader->error) != NULL;
     for (size_t i = 0; meshes && i < list->count; i++)
         sp_mesh_destroy(meshes[i]);
     free(meshes);

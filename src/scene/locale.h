@@ -1,4 +1,5 @@
-/* Numbers in files have a decimal point whatever language the program speaks: the C locale for this thread, for a while. */
+/* Numbers in files have a decimal point whatever language the program speaks: the C locale for this thread, for a
+ * while. */
 #ifndef SCENE_LOCALE_H
 #define SCENE_LOCALE_H
 

@@ -14,8 +14,8 @@ static bool read_angle(const sp_reader *reader, const sp_yaml *node, sp_nozzle *
     if (!child)
         return true;
     if (!(type->angle_min < type->angle_max))
-        return sp_read_fail(reader, child, "angle", "this key only with an adjustable type, and '%s' has no angle_range",
-                            type->name);
+        return sp_read_fail(reader, child, "angle",
+                            "this key only with an adjustable type, and '%s' has no angle_range", type->name);
     if (!sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_above_to(0, 2 * pi), &nozzle->angle))
         return false;
     const double slack = 1e-12 * type->angle_max;
@@ -48,10 +48,11 @@ static bool read_flow(const sp_scene *scene, const sp_reader *reader, const sp_y
 
 static bool read_nozzle(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_nozzle *nozzle)
 {
-    static const sp_key keys[] = {{"name", true},   {"type", true},  {"position", true}, {"axis", true},
-                                  {"roll", false},  {"pressure", true}, {"angle", false}, {"flow", false},
-                                  {"speed", false}, {"jets", false}, {"keep", false},    {NULL, false}};
-    return sp_read_keys(reader, node, "nozzles", "a nozzle", keys) && sp_read_name(reader, node, "name", nozzle->name) &&
+    static const sp_key keys[] = {{"name", true},   {"type", true},     {"position", true}, {"axis", true},
+                                  {"roll", false},  {"pressure", true}, {"angle", false},   {"flow", false},
+                                  {"speed", false}, {"jets", false},    {"keep", false},    {NULL, false}};
+    return sp_read_keys(reader, node, "nozzles", "a nozzle", keys) &&
+           sp_read_name(reader, node, "name", nozzle->name) &&
            (nozzle->type = sp_scene_find_type(scene, reader, sp_yaml_get(node, "type"), "type")) &&
            sp_read_vector(reader, node, "position", &sp_length_unit, &nozzle->position) &&
            sp_read_axis(reader, node, "axis", &nozzle->axis) &&

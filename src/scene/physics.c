@@ -1,14 +1,14 @@
 /* up, cavity, liquid, air, gravity, criterion. */
 #include "scene/state.h"
 
-static bool read_fluid(const sp_scene *scene, const sp_reader *reader, const char *key, const char *what, sp_fluid *fluid)
+static bool read_fluid(const sp_scene *scene, const sp_reader *reader, const char *key, const char *what,
+                       sp_fluid *fluid)
 {
     static const sp_key keys[] = {{"density", false}, {"viscosity", false}, {NULL, false}};
     const sp_yaml *node = sp_yaml_get(scene->tree, key);
-    return !node ||
-           (sp_read_keys(reader, node, key, what, keys) &&
-            sp_read_quantity(reader, node, "density", &sp_density_unit, sp_above(0), &fluid->density) &&
-            sp_read_quantity(reader, node, "viscosity", &sp_viscosity_unit, sp_above(0), &fluid->viscosity));
+    return !node || (sp_read_keys(reader, node, key, what, keys) &&
+                     sp_read_quantity(reader, node, "density", &sp_density_unit, sp_above(0), &fluid->density) &&
+                     sp_read_quantity(reader, node, "viscosity", &sp_viscosity_unit, sp_above(0), &fluid->viscosity));
 }
 
 static bool read_cavity(sp_scene *scene, const sp_reader *reader)
@@ -38,7 +38,8 @@ static bool read_criterion(const sp_scene *scene, const sp_reader *reader, sp_cr
     if (!sp_read_keys(reader, node, "criterion", "the criterion", keys) ||
         !sp_read_quantity(reader, node, "flux", &sp_flux_unit, sp_from(0), &criterion->flux) ||
         !sp_read_quantity(reader, node, "impact_speed", &sp_speed_unit, sp_from(0), &criterion->impact_speed) ||
-        !sp_read_quantity(reader, node, "incidence", &sp_angle_unit, sp_above_to(0, acos(-1) / 2), &criterion->incidence) ||
+        !sp_read_quantity(reader, node, "incidence", &sp_angle_unit, sp_above_to(0, acos(-1) / 2),
+                          &criterion->incidence) ||
         !sp_read_choice(reader, node, "combine", combines, &combine))
         return false;
     criterion->combine = combine == 1 ? SP_COMBINE_SINGLE : SP_COMBINE_SUM;

@@ -24,10 +24,11 @@ static bool check_spacing(const sp_reader *reader, const sp_yaml *node, double s
     if (flat)
         return true;
     if (!sp_yaml_get(node, "spacing"))
-        return sp_read_message(reader, node, "spacing", "found nothing, expected this key where there is more than a point");
+        return sp_read_message(reader, node, "spacing",
+                               "found nothing, expected this key where there is more than a point");
     if (points > max_points)
-        return sp_read_fail(reader, sp_yaml_get(node, "spacing"), "spacing", "one that gives at most %g points, not %.3g",
-                            max_points, points);
+        return sp_read_fail(reader, sp_yaml_get(node, "spacing"), "spacing",
+                            "one that gives at most %g points, not %.3g", max_points, points);
     return true;
 }
 
@@ -43,14 +44,15 @@ static bool read_depth(const sp_reader *reader, const sp_yaml *node, sp_mount *m
         !sp_read_quantity(reader, depth, "spacing", &sp_length_unit, sp_above(0), &mount->depth_spacing))
         return false;
     if (mount->depth_to < mount->depth_from)
-        return sp_read_fail(reader, sp_yaml_get(depth, "to"), "to", "a length of at least `from`, %g m", mount->depth_from);
+        return sp_read_fail(reader, sp_yaml_get(depth, "to"), "to", "a length of at least `from`, %g m",
+                            mount->depth_from);
     return check_spacing(reader, depth, mount->depth_spacing, sp_v(mount->depth_to - mount->depth_from, 0, 0));
 }
 
 static bool read_port(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"name", true}, {"position", true}, {"axis", false}, {"tilt", false},
-                                  {"depth", false}, {"types", false}, {NULL, false}};
+    static const sp_key keys[] = {{"name", true},   {"position", true}, {"axis", false}, {"tilt", false},
+                                  {"depth", false}, {"types", false},   {NULL, false}};
     const sp_nozzle_type ***types = &scene->mount_types[scene->mount_count];
     if (!sp_read_keys(reader, node, "port", "a port", keys) || !sp_read_name(reader, node, "name", mount->name) ||
         !sp_read_vector(reader, node, "position", &sp_length_unit, &mount->position) ||
@@ -87,8 +89,8 @@ static bool find_part(const sp_scene *scene, const sp_reader *reader, const sp_y
 
 static bool read_surface(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"geometry", true}, {"part", false}, {"spacing", true}, {"standoff", false},
-                                  {"tilt", false},    {NULL, false}};
+    static const sp_key keys[] = {{"geometry", true},  {"part", false}, {"spacing", true},
+                                  {"standoff", false}, {"tilt", false}, {NULL, false}};
     uint64_t geometry = 0;
     mount->axis = sp_v(0, 0, 0);
     mount->part = SP_NONE;
@@ -105,8 +107,8 @@ static bool read_surface(sp_scene *scene, const sp_reader *reader, const sp_yaml
 
 static bool read_line(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"from", true}, {"to", true}, {"spacing", false}, {"axis", false},
-                                  {"tilt", false}, {NULL, false}};
+    static const sp_key keys[] = {{"from", true},  {"to", true},    {"spacing", false},
+                                  {"axis", false}, {"tilt", false}, {NULL, false}};
     (void)scene;
     return sp_read_keys(reader, node, "line", "a line", keys) &&
            sp_read_vector(reader, node, "from", &sp_length_unit, &mount->from) &&
@@ -118,8 +120,8 @@ static bool read_line(sp_scene *scene, const sp_reader *reader, const sp_yaml *n
 
 static bool read_box(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"min", true}, {"max", true}, {"spacing", false}, {"axis", false},
-                                  {"tilt", false}, {NULL, false}};
+    static const sp_key keys[] = {{"min", true},   {"max", true},   {"spacing", false},
+                                  {"axis", false}, {"tilt", false}, {NULL, false}};
     (void)scene;
     if (!sp_read_keys(reader, node, "box", "a box", keys) ||
         !sp_read_vector(reader, node, "min", &sp_length_unit, &mount->from) ||
@@ -136,8 +138,8 @@ static bool read_box(sp_scene *scene, const sp_reader *reader, const sp_yaml *no
 static bool read_mount(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
     static const sp_key keys[] = {{"port", false}, {"surface", false}, {"line", false}, {"box", false}, {NULL, false}};
-    static bool (*const readers[])(sp_scene *, const sp_reader *, const sp_yaml *, sp_mount *) = {read_port, read_surface,
-                                                                                                read_line, read_box};
+    static bool (*const readers[])(sp_scene *, const sp_reader *, const sp_yaml *,
+                                   sp_mount *) = {read_port, read_surface, read_line, read_box};
     if (!sp_read_keys(reader, node, "mounts", "a mount", keys))
         return false;
     if (node->count != 1)
@@ -157,7 +159,8 @@ static bool read_mounts(sp_scene *scene, const sp_reader *reader, const sp_yaml 
     if (!sp_read_is_list(reader, list, "mounts", "mounts"))
         return false;
     if (list->count > SP_MAX_ITEMS)
-        return sp_read_message(reader, list, "mounts", "found %zu mounts, expected at most %d", list->count, SP_MAX_ITEMS);
+        return sp_read_message(reader, list, "mounts", "found %zu mounts, expected at most %d", list->count,
+                               SP_MAX_ITEMS);
     scene->mounts = calloc(list->count + 1, sizeof *scene->mounts);
     scene->mount_types = calloc(list->count + 1, sizeof *scene->mount_types);
     if (!scene->mounts || !scene->mount_types)
@@ -178,7 +181,7 @@ static bool read_pressures(sp_scene *scene, const sp_reader *reader, const sp_ya
         return true;
     bool list = node->kind == SP_YAML_LIST;
     if (list && node->count == 0)
-        return sp_read_message(reader, node, "pressure", "found an empty list, expected a pressure or several");
+        return sp_read_fail(reader, node, "pressure", "a pressure or several");
     if (list && node->count > SP_MAX_ITEMS)
         return sp_read_message(reader, node, "pressure", "found %zu pressures, expected at most %d", node->count,
                                SP_MAX_ITEMS);
@@ -186,7 +189,8 @@ static bool read_pressures(sp_scene *scene, const sp_reader *reader, const sp_ya
     if (!scene->pressures)
         return sp_fail_memory(reader->error);
     for (const sp_yaml *child = list ? node->first : node; child; child = list ? child->next : NULL)
-        if (!sp_read_quantity_at(reader, child, "pressure", &sp_pressure_unit, sp_above(0), &scene->pressures[(*count)++]))
+        if (!sp_read_quantity_at(reader, child, "pressure", &sp_pressure_unit, sp_above(0),
+                                 &scene->pressures[(*count)++]))
             return false;
     return true;
 }
@@ -209,7 +213,7 @@ static bool read_refine(const sp_reader *reader, const sp_yaml *node, sp_refine 
            sp_read_quantity(reader, node, "axis", &sp_angle_unit, sp_between(0, pi), &refine->axis) &&
            sp_read_flag(reader, node, "roll", &refine->roll) &&
            sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_between(0, 2 * pi), &refine->angle) &&
-           sp_read_quantity(reader, node, "flow", &sp_ratio_unit, sp_from(0), &refine->flow);
+           sp_read_quantity(reader, node, "flow", &sp_share_unit, sp_from(0), &refine->flow);
 }
 
 static bool read_aims(const sp_reader *reader, const sp_yaml *node, sp_place_options *place)
@@ -218,7 +222,7 @@ static bool read_aims(const sp_reader *reader, const sp_yaml *node, sp_place_opt
     int objective = place->objective;
     uint64_t nozzles = place->max_nozzles;
     if (!sp_read_choice(reader, node, "objective", objectives, &objective) ||
-        !sp_read_quantity(reader, node, "coverage", &sp_ratio_unit, sp_above_to(0, 1), &place->coverage) ||
+        !sp_read_quantity(reader, node, "coverage", &sp_share_unit, sp_above_to(0, 1), &place->coverage) ||
         !sp_read_count(reader, node, "max_nozzles", 1, SP_MAX_ITEMS, &nozzles) ||
         !sp_read_quantity(reader, node, "max_water", &sp_flow_unit, sp_above(0), &place->max_water) ||
         !sp_read_quantity(reader, node, "clearance", &sp_length_unit, sp_from(0), &place->clearance))
@@ -244,9 +248,9 @@ static bool read_place_types(sp_scene *scene, const sp_reader *reader, const sp_
 
 bool sp_scene_read_place(sp_scene *scene, const sp_reader *reader)
 {
-    static const sp_key keys[] = {{"objective", false}, {"coverage", false}, {"max_nozzles", false}, {"max_water", false},
-                                  {"types", false},     {"pressure", false}, {"clearance", false},   {"mounts", false},
-                                  {"refine", false},    {NULL, false}};
+    static const sp_key keys[] = {
+        {"objective", false}, {"coverage", false},  {"max_nozzles", false}, {"max_water", false}, {"types", false},
+        {"pressure", false},  {"clearance", false}, {"mounts", false},      {"refine", false},    {NULL, false}};
     const sp_yaml *node = sp_yaml_get(scene->tree, "place");
     sp_place_options *place = &scene->place;
     if (node && (!sp_read_keys(reader, node, "place", "the placement", keys) || !read_aims(reader, node, place) ||

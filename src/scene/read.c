@@ -11,6 +11,7 @@ enum { TEXT = 400 };
 const sp_dimension sp_length_unit = {"a length", "m", "250 mm", true};
 const sp_dimension sp_angle_unit = {"an angle", "rad", "30 deg", false};
 const sp_dimension sp_ratio_unit = {"a number without unit", "1", "0.5", true};
+const sp_dimension sp_share_unit = {"a share", "1", "95 %", true};
 const sp_dimension sp_pressure_unit = {"a pressure", "Pa", "2 bar", false};
 const sp_dimension sp_flow_unit = {"a flow", "m3/s", "12 L/min", false};
 const sp_dimension sp_flux_unit = {"a flux", "m3/s/m2", "1 L/min/m2", false};
@@ -22,8 +23,10 @@ const sp_dimension sp_acceleration_unit = {"an acceleration", "m/s2", "9.81 m/s2
 /* What stands at a node, as an error message says it. */
 static void describe(const sp_yaml *node, char text[TEXT])
 {
-    if (node->kind == SP_YAML_LIST)
-        snprintf(text, TEXT, "a list");
+    if (node->kind == SP_YAML_LIST && node->count == 0)
+        snprintf(text, TEXT, "an empty list");
+    else if (node->kind == SP_YAML_LIST)
+        snprintf(text, TEXT, "a list of %zu", node->count);
     else if (node->kind == SP_YAML_MAP)
         snprintf(text, TEXT, "a block of keys");
     else if (node->empty)
@@ -43,8 +46,8 @@ bool sp_read_fail(const sp_reader *reader, const sp_yaml *node, const char *key,
     vsnprintf(expected, sizeof expected, format, arguments);
     va_end(arguments);
     describe(node, found);
-    return sp_fail(reader->error, SP_ERROR_INPUT, node->file, node->line, node->column, "%s: found %s, expected %s", key,
-                   found, expected);
+    return sp_fail(reader->error, SP_ERROR_INPUT, node->file, node->line, node->column, "%s: found %s, expected %s",
+                   key, found, expected);
 }
 
 bool sp_read_unsupported(const sp_reader *reader, const sp_yaml *node, const char *key, const char *expected)
@@ -66,12 +69,12 @@ bool sp_read_message(const sp_reader *reader, const sp_yaml *node, const char *k
 }
 
 /* Levenshtein's distance of two short words, up to 31 bytes. */
-bool sp_text_near(const char *text, const char *name)
+size_t sp_text_slips(const char *text, const char *name)
 {
     enum { LONGEST = 31 };
     size_t n = strlen(text), m = strlen(name), row[LONGEST + 1];
     if (n > LONGEST || m > LONGEST)
-        return false;
+        return SIZE_MAX;
     for (size_t j = 0; j <= m; j++)
         row[j] = j;
     for (size_t i = 1; i <= n; i++) {
@@ -84,7 +87,7 @@ bool sp_text_near(const char *text, const char *name)
             row[j] = row[j - 1] + 1 < least ? row[j - 1] + 1 : least;
         }
     }
-    return row[m] <= 2 && row[m] < m && row[m] < n;
+    return row[m] <= 2 && row[m] < m && row[m] < n ? row[m] : SIZE_MAX;
 }
 
 static void append(char text[TEXT], const char *more)
@@ -96,11 +99,15 @@ static void append(char text[TEXT], const char *more)
 static bool fail_unknown(const sp_reader *reader, const sp_yaml *child, const char *what, const sp_key *keys)
 {
     char text[TEXT] = "";
-    for (const sp_key *key = keys; key->name && !text[0]; key++)
-        if (sp_text_near(child->key, key->name))
+    size_t least = SIZE_MAX;
+    for (const sp_key *key = keys; key->name; key++) {
+        size_t slips = sp_text_slips(child->key, key->name);
+        if (slips < least)
             snprintf(text, sizeof text, "'%s'", key->name);
-    for (const sp_key *key = keys; key->name && text[0] != '\''; key++) {
-        append(text, text[0] ? ", " : "one of ");
+        least = slips < least ? slips : least;
+    }
+    for (const sp_key *key = keys; key->name && least == SIZE_MAX; key++) {
+        append(text, text[0] ? ", " : keys[1].name ? "one of " : "");
         append(text, key->name);
     }
     return sp_fail(reader->error, SP_ERROR_INPUT, child->file, child->key_line, child->key_column,
@@ -194,10 +201,8 @@ bool sp_read_vector(const sp_reader *reader, const sp_yaml *map, const char *key
     const sp_yaml *node = sp_yaml_get(map, key);
     if (!node)
         return true;
-    if (node->kind != SP_YAML_LIST)
+    if (node->kind != SP_YAML_LIST || node->count != 3)
         return sp_read_fail(reader, node, key, "a list of three values such as [0, 0, 1]");
-    if (node->count != 3)
-        return sp_read_message(reader, node, key, "found a list of %zu values, expected three", node->count);
     double v[3];
     const sp_yaml *child = node->first;
     for (int i = 0; i < 3; i++, child = child->next)
@@ -281,7 +286,8 @@ bool sp_read_flag(const sp_reader *reader, const sp_yaml *map, const char *key, 
     return true;
 }
 
-bool sp_read_choice(const sp_reader *reader, const sp_yaml *map, const char *key, const char *const *choices, int *value)
+bool sp_read_choice(const sp_reader *reader, const sp_yaml *map, const char *key, const char *const *choices,
+                    int *value)
 {
     const sp_yaml *node = sp_yaml_get(map, key);
     if (!node)

@@ -25,15 +25,33 @@ typedef struct {
     bool low_out, high_out; /* the ends themselves are not allowed */
 } sp_range;
 
-static inline sp_range sp_any(void) { return (sp_range){-INFINITY, INFINITY, false, false}; }
-static inline sp_range sp_from(double low) { return (sp_range){low, INFINITY, false, false}; }
-static inline sp_range sp_above(double low) { return (sp_range){low, INFINITY, true, false}; }
-static inline sp_range sp_between(double low, double high) { return (sp_range){low, high, false, false}; }
-static inline sp_range sp_above_to(double low, double high) { return (sp_range){low, high, true, false}; }
-static inline sp_range sp_from_below(double low, double high) { return (sp_range){low, high, false, true}; }
+static inline sp_range sp_any(void)
+{
+    return (sp_range){-INFINITY, INFINITY, false, false};
+}
+static inline sp_range sp_from(double low)
+{
+    return (sp_range){low, INFINITY, false, false};
+}
+static inline sp_range sp_above(double low)
+{
+    return (sp_range){low, INFINITY, true, false};
+}
+static inline sp_range sp_between(double low, double high)
+{
+    return (sp_range){low, high, false, false};
+}
+static inline sp_range sp_above_to(double low, double high)
+{
+    return (sp_range){low, high, true, false};
+}
+static inline sp_range sp_from_below(double low, double high)
+{
+    return (sp_range){low, high, false, true};
+}
 
-extern const sp_dimension sp_length_unit, sp_angle_unit, sp_ratio_unit, sp_pressure_unit, sp_flow_unit, sp_flux_unit,
-    sp_speed_unit, sp_density_unit, sp_viscosity_unit, sp_acceleration_unit;
+extern const sp_dimension sp_length_unit, sp_angle_unit, sp_ratio_unit, sp_share_unit, sp_pressure_unit, sp_flow_unit,
+    sp_flux_unit, sp_speed_unit, sp_density_unit, sp_viscosity_unit, sp_acceleration_unit;
 
 /* "key: found WHAT STANDS AT node, expected ..." at the node's place. False always. */
 bool sp_read_fail(const sp_reader *reader, const sp_yaml *node, const char *key, const char *format, ...)
@@ -44,8 +62,8 @@ bool sp_read_unsupported(const sp_reader *reader, const sp_yaml *node, const cha
 bool sp_read_message(const sp_reader *reader, const sp_yaml *node, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* The node is a map (or nothing, if no key is required) with none but these keys, each once, none required missing. `key`
- * names it in errors, `what` says what it describes ("a nozzle"). */
+/* The node is a map (or nothing, if no key is required) with none but these keys, each once, none required missing.
+ * `key` names it in errors, `what` says what it describes ("a nozzle"). */
 bool sp_read_keys(const sp_reader *reader, const sp_yaml *node, const char *key, const char *what, const sp_key *keys);
 bool sp_read_is_list(const sp_reader *reader, const sp_yaml *node, const char *key, const char *of);
 
@@ -63,12 +81,13 @@ bool sp_read_count(const sp_reader *reader, const sp_yaml *map, const char *key,
                    uint64_t *value);
 bool sp_read_flag(const sp_reader *reader, const sp_yaml *map, const char *key, bool *value);
 /* `choices` ends with NULL; *value is the index of the one found. */
-bool sp_read_choice(const sp_reader *reader, const sp_yaml *map, const char *key, const char *const *choices, int *value);
+bool sp_read_choice(const sp_reader *reader, const sp_yaml *map, const char *key, const char *const *choices,
+                    int *value);
 
 /* Text of a scalar, NULL with an error for anything else. */
 const char *sp_read_text(const sp_reader *reader, const sp_yaml *node, const char *key, const char *expected);
 bool sp_text_is(const sp_yaml *node, const char *text);
-/* One is at most two slips of the pen from the other. */
-bool sp_text_near(const char *text, const char *name);
+/* Slips of the pen from one to the other; SIZE_MAX for more than two, or than the words have letters. */
+size_t sp_text_slips(const char *text, const char *name);
 
 #endif

@@ -7,9 +7,9 @@
 
 static bool read_tree(sp_scene *scene, const sp_reader *reader)
 {
-    static const sp_key keys[] = {{"up", false},        {"geometry", true}, {"cavity", false},    {"liquid", false},
-                                  {"air", false},       {"gravity", false}, {"criterion", false}, {"catalogue", false},
-                                  {"nozzles", false},   {"simulate", false}, {"place", false},    {NULL, false}};
+    static const sp_key keys[] = {{"up", false},      {"geometry", true},  {"cavity", false},    {"liquid", false},
+                                  {"air", false},     {"gravity", false},  {"criterion", false}, {"catalogue", false},
+                                  {"nozzles", false}, {"simulate", false}, {"place", false},     {NULL, false}};
     return sp_read_keys(reader, scene->tree, "scene", "a scene", keys) && sp_scene_read_physics(scene, reader) &&
            sp_scene_read_catalogue(scene, reader) && sp_scene_read_nozzles(scene, reader) &&
            sp_scene_read_simulate(scene, reader) && sp_scene_read_geometry(scene, reader) &&
@@ -63,7 +63,10 @@ sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, siz
     return scene;
 }
 
-sp_scene *sp_scene_load(const char *path, sp_error *error) { return sp_scene_load_with(path, NULL, 0, error); }
+sp_scene *sp_scene_load(const char *path, sp_error *error)
+{
+    return sp_scene_load_with(path, NULL, 0, error);
+}
 
 void sp_scene_destroy(sp_scene *scene)
 {
@@ -85,14 +88,26 @@ void sp_scene_destroy(sp_scene *scene)
     free(scene);
 }
 
-const char *sp_scene_path(const sp_scene *scene) { return scene ? scene->path : NULL; }
-const sp_setup *sp_scene_setup(const sp_scene *scene) { return scene ? &scene->setup : NULL; }
-const sp_layout *sp_scene_layout(const sp_scene *scene) { return scene ? scene->layout : NULL; }
+const char *sp_scene_path(const sp_scene *scene)
+{
+    return scene ? scene->path : NULL;
+}
+const sp_setup *sp_scene_setup(const sp_scene *scene)
+{
+    return scene ? &scene->setup : NULL;
+}
+const sp_layout *sp_scene_layout(const sp_scene *scene)
+{
+    return scene ? scene->layout : NULL;
+}
 sp_place_options sp_scene_place_options(const sp_scene *scene)
 {
     return scene ? scene->place : sp_place_options_default();
 }
-bool sp_scene_has_place(const sp_scene *scene) { return scene && scene->mount_count > 0; }
+bool sp_scene_has_place(const sp_scene *scene)
+{
+    return scene && scene->mount_count > 0;
+}
 
 static bool parse_quantity(const char *text, const char *unit, double *value, sp_error *error)
 {

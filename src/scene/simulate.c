@@ -49,7 +49,7 @@ bool sp_scene_read_simulate(sp_scene *scene, const sp_reader *reader)
     if (!sp_read_keys(reader, node, "simulate", "the simulation", keys) || !read_trajectory(reader, node, fidelity) ||
         !sp_read_choice(reader, node, "evaluator", methods, &method) || !read_sizes(reader, node, fidelity) ||
         !sp_read_choice(reader, node, "splat", splats, &splat) ||
-        !sp_read_quantity(reader, node, "accuracy", &sp_ratio_unit, sp_above_to(0, 1), &fidelity->accuracy) ||
+        !sp_read_quantity(reader, node, "accuracy", &sp_share_unit, sp_above_to(0, 1), &fidelity->accuracy) ||
         !sp_read_count(reader, node, "seed", 0, UINT64_MAX, &fidelity->seed))
         return false;
     fidelity->method = (sp_method)method;

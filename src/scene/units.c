@@ -50,8 +50,8 @@ void sp_units_destroy(sp_units *units)
     free(units);
 }
 
-/* udunits takes far more than units: "10 mm" (a scaled unit), "s since 2000", "lg(re 1 mW)". What is left here are names
- * with exponents, products and quotients, and a leading "1/". */
+/* udunits takes far more than units: "10 mm" (a scaled unit), "s since 2000", "lg(re 1 mW)". What is left here are
+ * names with exponents, products and quotients, and a leading "1/". */
 static bool plain_unit(const char *unit)
 {
     if (strlen(unit) > 60 || (!isalpha((unsigned char)unit[0]) && !strchr("1%", unit[0]) && !(unit[0] & 0x80)))

@@ -20,7 +20,8 @@ typedef struct {
 sp_units *sp_units_create(sp_error *error);
 void sp_units_destroy(sp_units *units);
 
-/* Reads "12.5 L/min" to SI. On failure returns false with what is wrong in `why`, empty where it is not a quantity at all. */
+/* Reads "12.5 L/min" to SI. On failure returns false with what is wrong in `why`, empty where it is not a quantity at
+ * all. */
 bool sp_units_read(const sp_units *units, const char *text, const sp_dimension *dimension, double *value, char *why,
                    size_t size);
 /* The same for a unit alone: "mm" to 0.001. */

@@ -68,7 +68,8 @@ static void put_nozzle(writer *w, sp_yaml *list, const sp_nozzle *nozzle, const 
     put_number(w, map, "pressure", nozzle->pressure, "Pa");
     if (says_more(nozzle->angle, type->angle, type->angle_min, type->angle_max))
         put_number(w, map, "angle", nozzle->angle, "rad");
-    if (says_more(nozzle->flow, sp_type_flow(type, type->flow, nozzle->pressure, liquid), type->flow_min, type->flow_max))
+    if (says_more(nozzle->flow, sp_type_flow(type, type->flow, nozzle->pressure, liquid), type->flow_min,
+                  type->flow_max))
         put_number(w, map, "flow", nozzle->flow, "m3/s");
     if (nozzle->speed > 0)
         put_number(w, map, "speed", nozzle->speed, "m/s");
@@ -127,7 +128,8 @@ static bool move_files(const sp_scene *scene, sp_yaml *tree, const char *directo
     return move_file(scene, tree, "catalogue", directory, w);
 }
 
-/* What is about to be written must load again: names twice, angles that a type cannot have, numbers that are not finite. */
+/* What is about to be written must load again: names twice, angles that a type cannot have, numbers that are not
+ * finite. */
 static bool check_readable(const sp_scene *scene, sp_yaml *tree, sp_error *error)
 {
     sp_scene copy = {.tree = tree, .types = scene->types, .type_count = scene->type_count, .setup = scene->setup};
@@ -156,8 +158,9 @@ static char *write_tree(const sp_scene *scene, sp_yaml *tree, const sp_layout *l
 
 static bool decided(const sp_fidelity *fidelity)
 {
-    return fidelity->trajectory != SP_TRAJECTORY_AUTO && fidelity->method != SP_METHOD_AUTO && fidelity->reflections >= 0 &&
-           fidelity->texel > 0 && (fidelity->jets > 0 || fidelity->method == SP_METHOD_INVERSE);
+    return fidelity->trajectory != SP_TRAJECTORY_AUTO && fidelity->method != SP_METHOD_AUTO &&
+           fidelity->reflections >= 0 && fidelity->texel > 0 &&
+           (fidelity->jets > 0 || fidelity->method == SP_METHOD_INVERSE);
 }
 
 char *sp_scene_text(const sp_scene *scene, const sp_layout *layout, const sp_fidelity *fidelity, const char *directory,

@@ -122,7 +122,14 @@ static char *token_text(struct fy_token *token)
 
 static bool fail_at(const source *s, const struct fy_mark *mark, const char *what)
 {
-    return sp_fail(s->error, SP_ERROR_INPUT, s->file, mark ? mark->line + 1 : 0, mark ? mark->column + 1 : 0, "%s", what);
+    return sp_fail(s->error, SP_ERROR_INPUT, s->file, mark ? mark->line + 1 : 0, mark ? mark->column + 1 : 0, "%s",
+                   what);
+}
+
+/* For what starts with a sign (& or *), behind which libfyaml's mark stands. */
+static bool fail_before(const source *s, const struct fy_mark *mark, const char *what)
+{
+    return sp_fail(s->error, SP_ERROR_INPUT, s->file, mark ? mark->line + 1 : 0, mark ? mark->column : 0, "%s", what);
 }
 
 /* What libfyaml says is wrong, the first of it, where it says. */
@@ -146,19 +153,28 @@ static struct fy_event *next_event(const source *s)
 
 static bool check_event(const source *s, struct fy_event *event, int depth)
 {
-    const struct fy_mark *mark = fy_event_start_mark(event);
+    struct fy_token *anchor = fy_event_get_anchor_token(event), *tag = fy_event_get_tag_token(event);
     if (event->type == FYET_ALIAS)
-        return fail_at(s, mark, "YAML: found an alias, expected its value written out");
-    if (fy_event_get_anchor_token(event))
-        return fail_at(s, mark, "YAML: found an anchor, expected a value without one");
-    if (fy_event_get_tag_token(event))
-        return fail_at(s, mark, "YAML: found a tag, expected a value without one");
+        return fail_before(s, fy_event_start_mark(event), "YAML: found an alias, expected its value written out");
+    if (anchor)
+        return fail_before(s, fy_token_start_mark(anchor), "YAML: found an anchor, expected a value without one");
+    if (tag)
+        return fail_at(s, fy_token_start_mark(tag), "YAML: found a tag, expected a value without one");
     if (depth > MAX_DEPTH)
-        return fail_at(s, mark, "YAML: found more than 32 levels of nesting, expected fewer");
+        return fail_at(s, fy_event_start_mark(event), "YAML: found more than 32 levels of nesting, expected fewer");
     return true;
 }
 
 static sp_yaml *read_node(const source *s, struct fy_event *event, int depth);
+
+/* Where nothing is written there is nothing to mark: its key's or list's place stands in for it. */
+static void stand_in(sp_yaml *node, int line, int column)
+{
+    if (node->line > 0)
+        return;
+    node->line = line;
+    node->column = column;
+}
 
 static bool read_list(const source *s, sp_yaml *node, int depth)
 {
@@ -171,6 +187,7 @@ static bool read_list(const source *s, sp_yaml *node, int depth)
         fy_parser_event_free(s->parser, event);
         if (!child)
             return end;
+        stand_in(child, node->line, node->column);
         sp_yaml_append(node, child);
     }
 }
@@ -188,10 +205,7 @@ static bool read_value(const source *s, sp_yaml *node, sp_yaml *key, int depth)
     key->text = NULL;
     child->key_line = key->line;
     child->key_column = key->column;
-    if (child->line == 0) {
-        child->line = key->line;
-        child->column = key->column;
-    }
+    stand_in(child, key->line, key->column);
     sp_yaml_append(node, child);
     return true;
 }
@@ -234,6 +248,8 @@ static bool fill_node(const source *s, struct fy_event *event, sp_yaml *node, in
         return sp_fail_memory(s->error);
     enum fy_node_style style = fy_event_get_node_style(event);
     node->empty = !node->text[0] && (style == FYNS_ANY || style == FYNS_PLAIN);
+    /* libfyaml's mark stands behind the quote. */
+    node->column -= style == FYNS_SINGLE_QUOTED || style == FYNS_DOUBLE_QUOTED;
     return true;
 }
 

@@ -21,7 +21,10 @@ static sp_scene *load(const char *text)
     return scene;
 }
 
-static void near(double value, double expected) { assert_true(fabs(value - expected) <= 1e-14 * (fabs(expected) + 1e-3)); }
+static void near(double value, double expected)
+{
+    assert_true(fabs(value - expected) <= 1e-14 * (fabs(expected) + 1e-3));
+}
 
 static void near_vector(sp_vec3 value, double x, double y, double z)
 {
@@ -228,7 +231,7 @@ static void types(void **state)
 static void overrides(void **state)
 {
     (void)state;
-    const char *const settings[] = {"simulate.jets=777",       "place.refine=none", "place.max_water=60 L/min",
+    const char *const settings[] = {"simulate.jets=777", "place.refine=none", "place.max_water=60 L/min",
                                     "place.pressure=[1.5 bar]", "simulate.reflections=auto"};
     sp_error error = {0};
     scratch_write("scene.yaml", full_scene);
@@ -272,9 +275,14 @@ static void nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(defaults),  cmocka_unit_test(place_defaults), cmocka_unit_test(surfaces_and_physics),
-        cmocka_unit_test(nozzles_and_simulation), cmocka_unit_test(mounts), cmocka_unit_test(types),
-        cmocka_unit_test(overrides), cmocka_unit_test(nothing),
+        cmocka_unit_test(defaults),
+        cmocka_unit_test(place_defaults),
+        cmocka_unit_test(surfaces_and_physics),
+        cmocka_unit_test(nozzles_and_simulation),
+        cmocka_unit_test(mounts),
+        cmocka_unit_test(types),
+        cmocka_unit_test(overrides),
+        cmocka_unit_test(nothing),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

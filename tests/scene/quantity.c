@@ -68,12 +68,15 @@ static void refusals(void **state)
     is_not("2 furlogs", "m",
            "found '2 furlogs', expected a number and a unit that measures the same as m: 'furlogs' is no known unit");
     is_not("5 gal/min", "m3/s",
-           "found '5 gal/min', expected a number and a unit that measures the same as m3/s: gal is the Galileo here: write gpm "
+           "found '5 gal/min', expected a number and a unit that measures the same as m3/s: gal is the Galileo here: "
+           "write gpm "
            "for US gallons per minute, or L/min");
     is_not("981 gal", "m/s2",
-           "found '981 gal', expected a number and a unit that measures the same as m/s2: gal is the Galileo here: write gpm "
+           "found '981 gal', expected a number and a unit that measures the same as m/s2: gal is the Galileo here: "
+           "write gpm "
            "for US gallons per minute, or L/min");
-    is_not("1e400 m", "m", "found '1e400 m', expected a number and a unit that measures the same as m: it is not finite");
+    is_not("1e400 m", "m",
+           "found '1e400 m', expected a number and a unit that measures the same as m: it is not finite");
     is_not("0.5 rad", "1", "found '0.5 rad', expected a number without unit: 'rad' measures something else");
     is_not("20 %", "rad",
            "found '20 %', expected a number and a unit that measures the same as rad: '%' measures something else");
@@ -83,8 +86,8 @@ static void refusals(void **state)
 static void no_quantities(void **state)
 {
     (void)state;
-    static const char *const lengths[] = {"1 10 mm", "5 2",   "inf m",       "nan",       "0x10 m", "1,5 m", "1 1/m",
-                                          "2 m m",   "1 m 2", "3 lg(re 1 m)", "3 m from 2", "3 m @ 2", "1 m;", "1 -m"};
+    static const char *const lengths[] = {"1 10 mm", "5 2",   "inf m",        "nan",        "0x10 m",  "1,5 m", "1 1/m",
+                                          "2 m m",   "1 m 2", "3 lg(re 1 m)", "3 m from 2", "3 m @ 2", "1 m;",  "1 -m"};
     for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
         double value = 42;
         sp_error error = {0};

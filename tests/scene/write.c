@@ -131,7 +131,7 @@ static void same_place(const sp_place_options *a, const sp_place_options *b)
     same(a->refine.flow, b->refine.flow);
 }
 
-static const sp_fidelity decided = {SP_TRAJECTORY_PARABOLA, SP_METHOD_FORWARD, 2, 12345678901, 1.0 / 300,
+static const sp_fidelity decided = {SP_TRAJECTORY_PARABOLA, SP_METHOD_FORWARD, 2,         12345678901, 1.0 / 300,
                                     SP_SPLAT_LINEAR,        1.0 / 77,          UINT64_MAX};
 
 /* Reads what was written for `directory` from there and compares everything. */
@@ -268,7 +268,8 @@ static void refusals(void **state)
     refused(scene, layout, &decided, "position: found 'nan m', expected a length such as 250 mm");
     layout->nozzles[1].position.y = 0;
     layout->nozzles[1].angle = 3;
-    refused(scene, layout, &decided, "angle: found '3 rad', expected an angle within the range of 'set', 60 deg to 120 deg");
+    refused(scene, layout, &decided,
+            "angle: found '3 rad', expected an angle within the range of 'set', 60 deg to 120 deg");
     layout->nozzles[1].angle = 0;
     layout->nozzles[0].angle = 1;
     refused(scene, layout, &decided,
