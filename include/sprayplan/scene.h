@@ -8,6 +8,7 @@
 extern "C" {
 #endif
 
+/* Loading, writing and sp_quantity_parse are for one thread at a time: the parser of udunits2 is not reentrant. */
 typedef struct sp_scene sp_scene;
 
 /* Reads a scene, its catalogue and its geometry. Every error names file, line, column and key, what was found and what was

@@ -90,15 +90,16 @@ static bool needs_escape(unsigned point)
            point == 0xfffe || point == 0xffff;
 }
 
-static void add_quoted(builder *out, const char *text)
+static void add_quoted(builder *out, const char *whole)
 {
+    const char *text = whole;
     add(out, "\"");
     while (*text) {
         unsigned point;
         size_t size = decode(text, &point);
         char escape[16];
         if (!size) {
-            sp_fail(out->error, SP_ERROR_INPUT, NULL, 0, 0, "found '%.200s', expected text in UTF-8", text);
+            sp_fail(out->error, SP_ERROR_INPUT, NULL, 0, 0, "found '%.200s', expected text in UTF-8", whole);
             out->failed = true;
             return;
         }

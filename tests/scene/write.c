@@ -282,13 +282,26 @@ static void refusals(void **state)
     sp_scene_destroy(scene);
 }
 
+/* A path that is no text cannot stand in a text. */
+static void no_text(void **state)
+{
+    (void)state;
+    sp_error error = {0};
+    mkdir("latin\xe9", 0700);
+    scratch_write("latin\xe9/tank.obj", tetrahedron);
+    scratch_write("latin\xe9/scene.yaml", "geometry: [{file: tank.obj}]\n");
+    sp_scene *scene = load("latin\xe9/scene.yaml");
+    assert_null(sp_scene_text(scene, sp_scene_layout(scene), &decided, ".", &error));
+    assert_string_equal(error.message, "found 'latin\xe9/tank.obj', expected text in UTF-8");
+    check_in(scene, sp_scene_layout(scene), "latin\xe9", "latin\xe9/again.yaml");
+    sp_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(elsewhere),
-        cmocka_unit_test(paths),
-        cmocka_unit_test(overridden),
-        cmocka_unit_test(refusals),
+        cmocka_unit_test(elsewhere), cmocka_unit_test(paths),   cmocka_unit_test(overridden),
+        cmocka_unit_test(refusals),  cmocka_unit_test(no_text),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }
