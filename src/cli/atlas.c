@@ -1,0 +1,137 @@
+/* sprayplan atlas: a mesh's texture atlas, its figures and pictures. */
+#include "cli.h"
+
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PAGE_EDGE = 4096 };
+
+typedef struct {
+    sp_mesh *mesh;
+    sp_charts *charts;
+    sp_atlas *atlas;
+    sp_atlas_figures figures;
+    cli_clock clock;
+} atlas_work;
+
+static bool build(atlas_work *work, const cli_options *options, sp_error *error)
+{
+    work->mesh = sp_mesh_load(options->inputs[0], 1, error);
+    if (!work->mesh)
+        return false;
+    double texel = options->texel > 0 ? options->texel : sqrt(sp_mesh_area(work->mesh) / (1 << 20));
+    cli_clock_start(&work->clock);
+    work->charts = sp_charts_create(work->mesh, (PAGE_EDGE - 2) * texel, error);
+    cli_clock_stage(&work->clock, "charts");
+    if (!work->charts)
+        return false;
+    work->atlas = sp_atlas_create(work->mesh, work->charts, &(sp_atlas_options){texel, PAGE_EDGE}, error);
+    cli_clock_stage(&work->clock, "texels");
+    return work->atlas && sp_atlas_measure(work->atlas, work->mesh, &work->figures, error);
+}
+
+static bool write_pages(const sp_atlas *atlas, sp_output *output, const char *stem, sp_error *error)
+{
+    for (size_t page = 0; page < atlas->page_count; page++) {
+        char name[512];
+        size_t size;
+        snprintf(name, sizeof name, "%s-page_%zu.png", stem, page);
+        uint8_t *pixels = sp_report_charts(atlas, page, error);
+        uint8_t *png = pixels ? sp_image_encode_png(pixels, (int)atlas->page_edge, (int)atlas->page_edge, 3, &size,
+                                                    error)
+                              : NULL;
+        bool good = png && sp_output_bytes(output, name, png, size, error);
+        free(png);
+        free(pixels);
+        if (!good)
+            return false;
+    }
+    return true;
+}
+
+static bool write_files(const atlas_work *work, const cli_options *options, sp_error *error)
+{
+    const char *slash = strrchr(options->output, '/');
+    const char *name = slash ? slash + 1 : options->output;
+    const char *dot = strrchr(name, '.');
+    if (!dot || dot == name || strcmp(dot, ".obj"))
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "-o: found \"%s\", expected a file name ending in .obj",
+                       options->output);
+    char *directory = slash ? strndup(options->output, (size_t)(slash - options->output) + 1) : strdup(".");
+    char *stem = strndup(name, (size_t)(dot - name));
+    if (!directory || !stem) {
+        free(directory);
+        free(stem);
+        return sp_fail_memory(error);
+    }
+    sp_output *output = sp_output_open(directory, error);
+    bool safe = output && sp_output_protect(output, options->inputs[0], error);
+    char *obj = safe ? sp_atlas_obj(work->atlas, work->mesh, error) : NULL;
+    bool good = obj && sp_output_text(output, name, obj, error) && write_pages(work->atlas, output, stem, error);
+    free(obj);
+    free(stem);
+    free(directory);
+    if (good)
+        return sp_output_commit(output, error);
+    sp_output_discard(output);
+    return false;
+}
+
+static double seconds(const cli_clock *clock)
+{
+    double sum = 0;
+    for (size_t i = 0; i < clock->count; i++)
+        sum += clock->stages[i].seconds;
+    return sum;
+}
+
+static bool print_json(const atlas_work *work)
+{
+    const sp_atlas_figures *f = &work->figures;
+    json_t *stages = json_array();
+    for (size_t i = 0; i < work->clock.count; i++)
+        json_array_append_new(stages, json_pack("{s:s, s:f}", "name", work->clock.stages[i].name, "seconds",
+                                                work->clock.stages[i].seconds));
+    json_t *object = json_pack(
+        "{s:s, s:s, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:o}", "sprayplan",
+        SP_VERSION, "command", "atlas", "triangles", (json_int_t)f->triangles, "charts", (json_int_t)f->charts,
+        "charts_le4", (json_int_t)f->charts_le4, "seam_over_sqrt_area", f->seam_over_sqrt_area, "strain_mean",
+        f->strain_mean, "strain95", f->strain95, "strain_max", f->strain_max, "utilisation", f->utilisation, "pages",
+        (json_int_t)f->pages, "texels", (json_int_t)f->texels, "shared_texels", (json_int_t)f->shared_texels,
+        "overlaps", (json_int_t)f->overlaps, "area_error", f->area_error, "texel_m", work->atlas->texel, "uv_scale_m",
+        work->atlas->texel * work->atlas->page_edge, "seconds", seconds(&work->clock), "stages", stages);
+    bool good = object && json_dumpf(object, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) == 0;
+    puts("");
+    json_decref(object);
+    return good;
+}
+
+static void print_table(const atlas_work *work)
+{
+    const sp_atlas_figures *f = &work->figures;
+    printf("triangles        %zu\ncharts           %zu (%zu with at most 4 triangles)\n", f->triangles, f->charts,
+           f->charts_le4);
+    printf("pages            %zu of %u x %u texels of %.4g m\n", f->pages, work->atlas->page_edge,
+           work->atlas->page_edge, work->atlas->texel);
+    printf("texels           %zu, shared %zu, overlaps %zu\n", f->texels, f->shared_texels, f->overlaps);
+    printf("seams            %.3g x square root of the area\n", f->seam_over_sqrt_area);
+    printf("strain           mean %.3g, 95th percentile %.3g, max %.3g\n", f->strain_mean, f->strain95, f->strain_max);
+    printf("utilisation      %.3f\narea error       %.3g\nseconds          %.3f\n", f->utilisation, f->area_error,
+           seconds(&work->clock));
+}
+
+int cli_atlas(const cli_options *options)
+{
+    sp_error error = {0};
+    atlas_work work = {0};
+    bool good = build(&work, options, &error) && (!options->output || write_files(&work, options, &error));
+    if (good && options->json)
+        good = print_json(&work) || sp_fail_memory(&error);
+    else if (good && !options->quiet)
+        print_table(&work);
+    sp_atlas_destroy(work.atlas);
+    sp_charts_destroy(work.charts);
+    sp_mesh_destroy(work.mesh);
+    return good ? EXIT_DONE : cli_fail(&error);
+}

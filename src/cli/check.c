@@ -1,0 +1,190 @@
+/* sprayplan check: what is in a scene and what is wrong with it. */
+#include "cli.h"
+
+#include <jansson.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+enum { MAX_WARNINGS = 100 };
+
+typedef struct {
+    const cli_scene *opened;
+    sp_mesh_diagnosis mesh;
+    double *part_area, *part_wet; /* [part_count], m²: all triangles; their wet sides */
+    size_t *part_triangles;
+    char warnings[MAX_WARNINGS][256];
+    size_t warning_count;
+} findings;
+
+__attribute__((format(printf, 2, 3))) static void warn(findings *found, const char *format, ...)
+{
+    if (found->warning_count == MAX_WARNINGS)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(found->warnings[found->warning_count++], sizeof *found->warnings, format, arguments);
+    va_end(arguments);
+}
+
+static const sp_setup *setup_of(const findings *found) { return sp_evaluator_setup(found->opened->evaluator); }
+
+static bool measure_parts(findings *found, sp_error *error)
+{
+    const sp_mesh *mesh = setup_of(found)->mesh;
+    bool sided = setup_of(found)->cavity != SP_CAVITY_NONE;
+    found->part_area = calloc(mesh->part_count, sizeof *found->part_area);
+    found->part_wet = calloc(mesh->part_count, sizeof *found->part_wet);
+    found->part_triangles = calloc(mesh->part_count, sizeof *found->part_triangles);
+    if (!found->part_area || !found->part_wet || !found->part_triangles)
+        return sp_fail_memory(error);
+    for (size_t i = 0; i < mesh->triangle_count; i++) {
+        double area = sp_triangle_area(mesh, (uint32_t)i);
+        unsigned wet = sp_evaluator_wet(found->opened->evaluator, (uint32_t)i);
+        found->part_area[mesh->part[i]] += area;
+        found->part_wet[mesh->part[i]] += sided ? area * ((wet & 1) + (wet >> 1 & 1)) : area;
+        found->part_triangles[mesh->part[i]]++;
+    }
+    return true;
+}
+
+static void warn_of_mesh(findings *found)
+{
+    const sp_mesh_diagnosis *mesh = &found->mesh;
+    if (setup_of(found)->cavity == SP_CAVITY_NONE && mesh->closed_shells)
+        warn(found, "cavity: found none, and %zu bodies are closed: both sides of their walls take liquid and count "
+                    "once; name a point of the space where the liquid flies", mesh->closed_shells);
+    if (mesh->degenerate)
+        warn(found, "geometry: %zu degenerate triangles are left out", mesh->degenerate);
+    if (mesh->non_manifold_edges)
+        warn(found, "geometry: %zu edges belong to three or more triangles", mesh->non_manifold_edges);
+    if (mesh->flipped_edges)
+        warn(found, "geometry: at %zu edges neighbours disagree which side is the front", mesh->flipped_edges);
+    if (mesh->duplicate_triangles)
+        warn(found, "geometry: %zu triangles are there twice", mesh->duplicate_triangles);
+}
+
+static void warn_of_nozzles(findings *found)
+{
+    const sp_layout *layout = sp_scene_layout(found->opened->scene);
+    for (size_t i = 0; i < layout->count; i++)
+        if (!sp_evaluator_inside(found->opened->evaluator, layout->nozzles[i].position))
+            warn(found, "nozzles: %s is not inside the cavity", layout->nozzles[i].name);
+}
+
+static void print_table(const findings *found)
+{
+    const sp_setup *setup = setup_of(found);
+    const sp_mesh *mesh = setup->mesh;
+    const sp_fidelity *fidelity = sp_evaluator_fidelity(found->opened->evaluator);
+    const sp_patches *patches = sp_evaluator_patches(found->opened->evaluator);
+    printf("triangles   %zu (%.4f m2), %zu vertices, box %.4g x %.4g x %.4g m\n", mesh->triangle_count, found->mesh.area,
+           mesh->vertex_count, found->mesh.maximum.x - found->mesh.minimum.x,
+           found->mesh.maximum.y - found->mesh.minimum.y, found->mesh.maximum.z - found->mesh.minimum.z);
+    printf("shells      %zu, %zu closed; %zu open edges, %zu non-manifold, %zu flipped; %zu degenerate, %zu double "
+           "triangles\n", found->mesh.shells, found->mesh.closed_shells, found->mesh.open_edges,
+           found->mesh.non_manifold_edges, found->mesh.flipped_edges, found->mesh.degenerate,
+           found->mesh.duplicate_triangles);
+    printf("to clean    %.4f m2 in %zu patches of texels of %.4g m\n\n", patches->total_area, patches->count,
+           fidelity->texel);
+    printf("%-8s %-24s %-9s %10s %12s %12s\n", "geometry", "part", "role", "triangles", "area m2", "wet m2");
+    for (size_t i = 0; i < mesh->part_count; i++)
+        printf("%-8lu %-24s %-9s %10zu %12.4f %12.4f\n", (unsigned long)mesh->parts[i].geometry, mesh->parts[i].name,
+               setup->surfaces[i].clean ? "clean" : "obstacle", found->part_triangles[i], found->part_area[i],
+               found->part_wet[i]);
+    const sp_layout *layout = sp_scene_layout(found->opened->scene);
+    if (layout->count)
+        printf("\n%-16s %-20s %12s %11s %10s\n", "nozzle", "type", "flow L/min", "speed m/s", "angle deg");
+    for (size_t i = 0; i < layout->count; i++)
+        printf("%-16s %-20s %12.3f %11.3f %10.2f\n", layout->nozzles[i].name, layout->nozzles[i].type->name,
+               6e4 * sp_nozzle_flow(&layout->nozzles[i], &setup->liquid),
+               sp_nozzle_speed(&layout->nozzles[i], &setup->liquid),
+               sp_nozzle_angle(&layout->nozzles[i]) * 180 / M_PI);
+    printf("\n");
+    for (size_t i = 0; i < found->warning_count; i++)
+        printf("warning: %s\n", found->warnings[i]);
+    if (!found->warning_count)
+        printf("nothing wrong found\n");
+}
+
+static json_t *mesh_json(const findings *found)
+{
+    const sp_mesh_diagnosis *m = &found->mesh;
+    return json_pack("{s:I, s:I, s:f, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:[fff], s:[fff]}", "triangles",
+                     (json_int_t)setup_of(found)->mesh->triangle_count, "vertices",
+                     (json_int_t)setup_of(found)->mesh->vertex_count, "area_m2", m->area, "degenerate",
+                     (json_int_t)m->degenerate, "open_edges", (json_int_t)m->open_edges, "non_manifold_edges",
+                     (json_int_t)m->non_manifold_edges, "flipped_edges", (json_int_t)m->flipped_edges,
+                     "duplicate_triangles", (json_int_t)m->duplicate_triangles, "shells", (json_int_t)m->shells,
+                     "closed_shells", (json_int_t)m->closed_shells, "minimum_m", m->minimum.x, m->minimum.y,
+                     m->minimum.z, "maximum_m", m->maximum.x, m->maximum.y, m->maximum.z);
+}
+
+static json_t *parts_json(const findings *found)
+{
+    const sp_setup *setup = setup_of(found);
+    json_t *parts = json_array();
+    for (size_t i = 0; i < setup->mesh->part_count; i++)
+        json_array_append_new(
+            parts, json_pack("{s:I, s:s, s:s, s:I, s:f, s:f}", "geometry", (json_int_t)setup->mesh->parts[i].geometry,
+                             "name", setup->mesh->parts[i].name, "role",
+                             setup->surfaces[i].clean ? "clean" : "obstacle", "triangles",
+                             (json_int_t)found->part_triangles[i], "area_m2", found->part_area[i], "wet_area_m2",
+                             found->part_wet[i]));
+    return parts;
+}
+
+static bool print_json(const findings *found)
+{
+    json_t *warnings = json_array();
+    for (size_t i = 0; i < found->warning_count; i++)
+        json_array_append_new(warnings, json_string(found->warnings[i]));
+    json_t *object = json_pack(
+        "{s:s, s:s, s:s, s:o, s:o, s:f, s:I, s:f, s:I, s:o}", "sprayplan", SP_VERSION, "command", "check", "scene",
+        sp_scene_path(found->opened->scene), "mesh", mesh_json(found), "parts", parts_json(found), "clean_area_m2",
+        sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
+        (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
+        sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",
+        (json_int_t)sp_scene_layout(found->opened->scene)->count, "warnings", warnings);
+    bool good = object && json_dumpf(object, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) == 0;
+    puts("");
+    json_decref(object);
+    return good;
+}
+
+static bool check(const cli_options *options, findings *found, sp_error *error)
+{
+    if (!measure_parts(found, error) || !sp_mesh_diagnose(setup_of(found)->mesh, &found->mesh, error))
+        return false;
+    warn_of_mesh(found);
+    warn_of_nozzles(found);
+    cli_progress_end();
+    if (options->json)
+        return print_json(found) || sp_fail_memory(error);
+    if (!options->quiet)
+        print_table(found);
+    return true;
+}
+
+int cli_check(const cli_options *options)
+{
+    sp_error error = {0};
+    cli_clock clock;
+    cli_scene opened;
+    cli_clock_start(&clock);
+    if (!cli_scene_open(&opened, options->inputs[0], options, &clock, &error))
+        return cli_fail(&error);
+    findings *found = calloc(1, sizeof *found);
+    if (found)
+        found->opened = &opened;
+    else
+        sp_fail_memory(&error);
+    bool good = found && check(options, found, &error);
+    if (found) {
+        free(found->part_area);
+        free(found->part_wet);
+        free(found->part_triangles);
+    }
+    free(found);
+    cli_scene_close(&opened);
+    return good ? EXIT_DONE : cli_fail(&error);
+}

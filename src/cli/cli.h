@@ -1,0 +1,89 @@
+/* The program: options that commands share, and one function a command. */
+#ifndef CLI_H
+#define CLI_H
+
+#include <sprayplan/sprayplan.h>
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* Exit status, DESIGN §4. */
+enum { EXIT_DONE = 0, EXIT_OTHER = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_SHORT = 4, EXIT_INTERRUPTED = 130 };
+
+#define MAX_OVERRIDES 64
+
+typedef struct {
+    const char *const *inputs; /* what stands on the command line besides options */
+    int input_count;
+    bool json, quiet;
+    int threads;
+    double time_limit;   /* s, 0: none */
+    const char *output;  /* -o, or NULL */
+    const char *overrides[MAX_OVERRIDES];
+    size_t override_count;
+    double texel;        /* m, 0: not given */
+    const char *rays;    /* file, or NULL */
+    sp_vec3 gravity;     /* m/s² */
+    sp_accelerator accelerator;
+} cli_options;
+
+typedef struct {
+    const char *name;
+    const char *arguments; /* for the usage line */
+    const char *summary;
+    unsigned options; /* set of option_flag */
+    int (*run)(const cli_options *options);
+    int least_inputs, most_inputs;
+} cli_command;
+
+enum option_flag {
+    OPTION_OUTPUT = 1,
+    OPTION_SET = 2,
+    OPTION_TEXEL = 4,
+    OPTION_RAYS = 8, /* with --gravity and --accel */
+    OPTION_TIME_LIMIT = 16,
+};
+
+/* options.c: fills options from the arguments after the command's name; false after a message on standard error. */
+bool cli_parse(const cli_command *command, int count, char **arguments, cli_options *options, bool *help);
+
+/* progress.c: Ctrl-C and the bar on standard error. */
+sp_run cli_run(const cli_options *options);
+bool cli_interrupted(void);
+void cli_progress_end(void);
+
+/* progress.c: wall seconds of what a command does, in order. */
+typedef struct {
+    sp_stage stages[8];
+    size_t count;
+    double since;
+} cli_clock;
+void cli_clock_start(cli_clock *clock);
+void cli_clock_stage(cli_clock *clock, const char *name);
+
+/* main.c: the error on standard error; the exit status that it means. */
+int cli_fail(const sp_error *error);
+
+/* One a command. */
+int cli_check(const cli_options *options);
+int cli_simulate(const cli_options *options);
+int cli_place(const cli_options *options);
+int cli_compare(const cli_options *options);
+int cli_trace(const cli_options *options);
+int cli_atlas(const cli_options *options);
+
+/* scene.c: what simulate, place and check begin with. */
+typedef struct {
+    sp_scene *scene;
+    sp_evaluator *evaluator;
+} cli_scene;
+bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *options, cli_clock *clock, sp_error *error);
+void cli_scene_close(cli_scene *opened);
+
+/* output.c: what simulate, place and compare end with. `layout` NULL: no layout.yaml. */
+bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *scene, const sp_layout *layout,
+               sp_error *error);
+/* The result as JSON or as a table on standard output. */
+bool cli_print(const cli_options *options, const sp_result *result, sp_error *error);
+
+#endif

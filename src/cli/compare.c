@@ -1,0 +1,132 @@
+/* sprayplan compare: scenes and results side by side. */
+#include "cli.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* One input of the command line: a scene that is evaluated, or the figures of a result.json. */
+typedef struct {
+    cli_scene opened;
+    sp_coverage *coverage;
+    sp_figures *figures;
+    size_t figure_count;
+} compared;
+
+typedef struct {
+    compared *inputs; /* [input_count] */
+    sp_design *designs;
+    char **names; /* of the designs, where a result holds several */
+    size_t design_count;
+    cli_clock clock;
+} comparison;
+
+static bool is_result(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && !strcasecmp(dot, ".json");
+}
+
+static bool open_input(compared *input, const char *path, const cli_options *options, cli_clock *clock,
+                       sp_error *error)
+{
+    if (is_result(path)) {
+        input->figures = sp_figures_read(path, &input->figure_count, error);
+        return input->figures != NULL;
+    }
+    if (!cli_scene_open(&input->opened, path, options, clock, error))
+        return false;
+    const sp_layout *layout = sp_scene_layout(input->opened.scene);
+    if (layout->count == 0)
+        return sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "nozzles: found none, expected at least one to compare");
+    input->coverage = sp_evaluate(input->opened.evaluator, layout, error);
+    cli_clock_stage(clock, "simulate");
+    return input->coverage != NULL;
+}
+
+static char *name_of(const char *path, const char *layout)
+{
+    size_t size = strlen(path) + strlen(layout) + 4;
+    char *name = malloc(size);
+    if (name)
+        snprintf(name, size, *layout ? "%s (%s)" : "%s", path, layout);
+    return name;
+}
+
+static bool add_design(comparison *all, sp_design design, const char *path, const char *layout, sp_error *error)
+{
+    char *name = name_of(path, layout);
+    if (!name)
+        return sp_fail_memory(error);
+    design.name = all->names[all->design_count] = name;
+    all->designs[all->design_count++] = design;
+    return true;
+}
+
+static bool add_input(comparison *all, const compared *input, const char *path, sp_error *error)
+{
+    if (!input->figures)
+        return add_design(all,
+                          (sp_design){.evaluator = input->opened.evaluator,
+                                      .layout = sp_scene_layout(input->opened.scene),
+                                      .coverage = input->coverage},
+                          path, "", error);
+    for (size_t i = 0; i < input->figure_count; i++)
+        if (!add_design(all, (sp_design){.figures = &input->figures[i]}, path,
+                        input->figure_count > 1 ? input->figures[i].name : "", error))
+            return false;
+    return true;
+}
+
+static bool list_designs(comparison *all, const cli_options *options, sp_error *error)
+{
+    size_t most = 0;
+    for (int i = 0; i < options->input_count; i++)
+        most += 1 + all->inputs[i].figure_count;
+    all->designs = calloc(most, sizeof *all->designs);
+    all->names = calloc(most, sizeof *all->names);
+    if (!all->designs || !all->names)
+        return sp_fail_memory(error);
+    for (int i = 0; i < options->input_count; i++)
+        if (!add_input(all, &all->inputs[i], options->inputs[i], error))
+            return false;
+    return true;
+}
+
+static bool compare(comparison *all, const cli_options *options, sp_error *error)
+{
+    all->inputs = calloc((size_t)options->input_count, sizeof *all->inputs);
+    if (!all->inputs)
+        return sp_fail_memory(error);
+    for (int i = 0; i < options->input_count; i++)
+        if (!open_input(&all->inputs[i], options->inputs[i], options, &all->clock, error))
+            return false;
+    if (!list_designs(all, options, error))
+        return false;
+    sp_result result = {.command = "compare",
+                        .scene = options->inputs[0],
+                        .design_count = all->design_count,
+                        .designs = all->designs,
+                        .stage_count = all->clock.count,
+                        .stages = all->clock.stages};
+    return cli_write(options, &result, NULL, NULL, error) && cli_print(options, &result, error);
+}
+
+int cli_compare(const cli_options *options)
+{
+    sp_error error = {0};
+    comparison all = {0};
+    cli_clock_start(&all.clock);
+    bool good = compare(&all, options, &error);
+    for (int i = 0; all.inputs && i < options->input_count; i++) {
+        sp_coverage_destroy(all.inputs[i].coverage);
+        cli_scene_close(&all.inputs[i].opened);
+        sp_figures_destroy(all.inputs[i].figures, all.inputs[i].figure_count);
+    }
+    for (size_t i = 0; i < all.design_count; i++)
+        free(all.names[i]);
+    free(all.names);
+    free(all.designs);
+    free(all.inputs);
+    return good ? EXIT_DONE : cli_fail(&error);
+}

@@ -1,0 +1,126 @@
+/* sprayplan: the program. */
+#include "cli.h"
+
+#include <string.h>
+
+static const cli_command commands[] = {
+    {"check", "SCENE", "what is in it, what is wrong with it, mesh diagnostics", OPTION_SET, cli_check, 1, 1},
+    {"simulate", "SCENE [-o DIR]", "evaluate the scene's own nozzles", OPTION_SET | OPTION_OUTPUT, cli_simulate, 1, 1},
+    {"place", "SCENE [-o DIR]", "propose a layout; compares with the scene's own nozzles",
+     OPTION_SET | OPTION_OUTPUT | OPTION_TIME_LIMIT, cli_place, 1, 1},
+    {"compare", "A B... [-o DIR]", "scenes or results side by side, one report", OPTION_SET | OPTION_OUTPUT,
+     cli_compare, 2, 64},
+    {"atlas", "MESH -o OUT.obj [--texel L]", "texture atlas only: mesh with UVs, chart pictures beside it, figures",
+     OPTION_OUTPUT | OPTION_TEXEL, cli_atlas, 1, 1},
+    {"trace", "MESH --rays FILE", "nearest hits of given lines or parabolas, as CSV", OPTION_RAYS, cli_trace, 1, 1},
+};
+enum { COMMANDS = sizeof commands / sizeof *commands };
+
+static const char *const later[] = {"study", "bench"};
+
+int cli_fail(const sp_error *error)
+{
+    char text[1400];
+    cli_progress_end();
+    sp_error_text(error, text, sizeof text);
+    fprintf(stderr, "%s\n", text);
+    switch (error->kind) {
+    case SP_ERROR_INPUT:
+    case SP_ERROR_UNSUPPORTED:
+        return EXIT_INPUT;
+    case SP_ERROR_INTERRUPTED:
+        return EXIT_INTERRUPTED;
+    default:
+        return EXIT_OTHER;
+    }
+}
+
+static void print_usage(FILE *to)
+{
+    fprintf(to, "usage: sprayplan COMMAND ...\n\n");
+    for (int i = 0; i < COMMANDS; i++)
+        fprintf(to, "  sprayplan %-8s %-28s %s\n", commands[i].name, commands[i].arguments, commands[i].summary);
+    fprintf(to, "\n"
+                "  --json            one JSON object on standard output and nothing else there\n"
+                "  --threads N       how many threads to use (default: one per core); the answer does not depend on it\n"
+                "  --quiet           no progress and no summary\n"
+                "  --set KEY=VALUE   override a setting, as --set simulate.jets=20000 or --set place.refine=none\n"
+                "  --time-limit S    place returns its best so far after S seconds\n"
+                "  --version, --help\n"
+                "\n"
+                "exit status: 0 done; 2 wrong usage; 3 bad input; 4 done, but the proposal does not reach the coverage\n"
+                "asked for; 130 interrupted; 1 anything else\n");
+}
+
+static void print_command_usage(FILE *to, const cli_command *command)
+{
+    fprintf(to, "usage: sprayplan %s %s\n%s\n", command->name, command->arguments, command->summary);
+    if (command->options & OPTION_OUTPUT)
+        fprintf(to, "  -o PATH                    where to write; without it nothing is written\n");
+    if (command->options & OPTION_SET)
+        fprintf(to, "  --set KEY=VALUE            override a setting of simulate: or place:\n");
+    if (command->options & OPTION_TIME_LIMIT)
+        fprintf(to, "  --time-limit S             return the best so far after S seconds\n");
+    if (command->options & OPTION_TEXEL)
+        fprintf(to, "  --texel L                  edge length of a texel, as 10mm or 0.01\n");
+    if (command->options & OPTION_RAYS)
+        fprintf(to, "  --rays FILE                lines ox,oy,oz,vx,vy,vz in m and m/s; # begins a comment\n"
+                    "  --gravity gx,gy,gz         m/s2; makes parabolas\n"
+                    "  --accel sah|naive|none     accelerator (default sah)\n");
+    fprintf(to, "  --json --threads N --quiet\n");
+}
+
+static const cli_command *find_command(const char *name)
+{
+    for (int i = 0; i < COMMANDS; i++)
+        if (!strcmp(commands[i].name, name))
+            return &commands[i];
+    return NULL;
+}
+
+static int wrong_command(const char *name)
+{
+    for (size_t i = 0; i < sizeof later / sizeof *later; i++)
+        if (!strcmp(later[i], name)) {
+            fprintf(stderr, "sprayplan: the command %s is not built yet\n", name);
+            return EXIT_USAGE;
+        }
+    fprintf(stderr, "sprayplan: unknown command \"%s\"; see sprayplan --help\n", name);
+    return EXIT_USAGE;
+}
+
+int main(int count, char **arguments)
+{
+    if (count < 2) {
+        print_usage(stderr);
+        return EXIT_USAGE;
+    }
+    if (!strcmp(arguments[1], "--help") || !strcmp(arguments[1], "-h")) {
+        print_usage(stdout);
+        return EXIT_DONE;
+    }
+    if (!strcmp(arguments[1], "--version")) {
+        printf("sprayplan %s\n", SP_VERSION);
+        return EXIT_DONE;
+    }
+    const cli_command *command = find_command(arguments[1]);
+    if (!command)
+        return wrong_command(arguments[1]);
+    cli_options options;
+    bool help = false;
+    if (!cli_parse(command, count - 1, arguments + 1, &options, &help)) {
+        print_command_usage(stderr, command);
+        return EXIT_USAGE;
+    }
+    if (help) {
+        print_command_usage(stdout, command);
+        return EXIT_DONE;
+    }
+    int status = command->run(&options);
+    cli_progress_end();
+    if (fflush(stdout) || ferror(stdout)) {
+        fprintf(stderr, "sprayplan: standard output could not be written\n");
+        return EXIT_OTHER;
+    }
+    return status;
+}

@@ -1,0 +1,63 @@
+/* What a command leaves: files in a folder, and a summary or JSON on standard output. */
+#include "cli.h"
+
+#include <stdlib.h>
+
+bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *scene, const sp_layout *layout,
+               sp_error *error)
+{
+    if (!options->output)
+        return true;
+    sp_output *output = sp_output_open(options->output, error);
+    bool good = output != NULL;
+    for (int i = 0; i < options->input_count && good; i++)
+        good = sp_output_protect(output, options->inputs[i], error);
+    good = good && sp_report_write(result, output, error);
+    if (good && layout) {
+        const sp_fidelity *fidelity = sp_evaluator_fidelity(result->designs[0].evaluator);
+        char *text = sp_scene_text(scene, layout, fidelity, options->output, error);
+        good = text && sp_output_text(output, "layout.yaml", text, error);
+        free(text);
+    }
+    if (good)
+        return sp_output_commit(output, error);
+    sp_output_discard(output);
+    return false;
+}
+
+static void print_figures(const sp_figures *figures, const char *name)
+{
+    printf("%-16s %8zu %12.1f %13.3f %10.1f", name, figures->nozzle_count, 6e4 * figures->flow, figures->covered_area,
+           100 * figures->coverage);
+    if (!isnan(figures->of_attainable))
+        printf(" %15.1f", 100 * figures->of_attainable);
+    else
+        printf(" %15s", "");
+    printf(" %14.4f\n", isnan(figures->area_per_water) ? 0 : figures->area_per_water / 6e4);
+}
+
+static bool print_summary(const sp_result *result, sp_error *error)
+{
+    sp_figures *figures = sp_result_figures(result, error);
+    if (!figures)
+        return false;
+    printf("%-16s %8s %12s %13s %10s %15s %14s\n", "layout", "nozzles", "water L/min", "covered m2", "coverage %",
+           "of attainable %", "m2 per L/min");
+    for (size_t i = 0; i < result->design_count; i++)
+        print_figures(&figures[i], result->designs[i].name);
+    sp_figures_destroy(figures, result->design_count);
+    return true;
+}
+
+bool cli_print(const cli_options *options, const sp_result *result, sp_error *error)
+{
+    cli_progress_end();
+    if (options->json) {
+        char *text = sp_result_json(result, error);
+        if (text)
+            fputs(text, stdout);
+        free(text);
+        return text != NULL;
+    }
+    return options->quiet || print_summary(result, error);
+}

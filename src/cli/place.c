@@ -1,0 +1,80 @@
+/* sprayplan place: a proposed layout, compared with the scene's own nozzles. */
+#include "cli.h"
+
+typedef struct {
+    sp_coverage *manual; /* NULL where the scene has no nozzles */
+    sp_proposal *proposal;
+} placement;
+
+static sp_design design(const cli_scene *opened, const char *name, const sp_layout *layout, const sp_coverage *coverage)
+{
+    return (sp_design){.name = name, .evaluator = opened->evaluator, .layout = layout, .coverage = coverage};
+}
+
+static size_t list_designs(const cli_scene *opened, const placement *found, sp_design designs[3])
+{
+    size_t count = 0;
+    if (found->manual)
+        designs[count++] = design(opened, "manual", sp_scene_layout(opened->scene), found->manual);
+    designs[count++] = design(opened, "greedy", found->proposal->greedy, found->proposal->greedy_coverage);
+    designs[count++] = design(opened, "proposed", found->proposal->layout, found->proposal->coverage);
+    return count;
+}
+
+static int report(const cli_options *options, const cli_scene *opened, const placement *found, const cli_clock *clock,
+                  sp_error *error)
+{
+    sp_design designs[3];
+    sp_result result = {.command = "place",
+                        .scene = options->inputs[0],
+                        .design_count = list_designs(opened, found, designs),
+                        .designs = designs,
+                        .proposal = found->proposal,
+                        .stage_count = clock->count,
+                        .stages = clock->stages};
+    if (!cli_write(options, &result, opened->scene, found->proposal->layout, error) ||
+        !cli_print(options, &result, error))
+        return cli_fail(error);
+    if (cli_interrupted()) {
+        fprintf(stderr, "sprayplan: interrupted; this is the best layout so far\n");
+        return EXIT_INTERRUPTED;
+    }
+    if (!found->proposal->reached) {
+        fprintf(stderr, "sprayplan: the proposal covers %.3f m2 of the %.3f m2 asked for\n",
+                found->proposal->coverage->covered_area, found->proposal->target_area);
+        return EXIT_SHORT;
+    }
+    return EXIT_DONE;
+}
+
+static int place(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error)
+{
+    placement found = {0};
+    const sp_layout *own = sp_scene_layout(opened->scene);
+    if (!sp_scene_has_place(opened->scene))
+        sp_fail(error, SP_ERROR_INPUT, sp_scene_path(opened->scene), 0, 0,
+                "place: found no mounts, expected where nozzles may be mounted");
+    else if (own->count == 0 || (found.manual = sp_evaluate(opened->evaluator, own, error))) {
+        cli_clock_stage(clock, "simulate");
+        sp_place_options how = sp_scene_place_options(opened->scene);
+        how.run = cli_run(options);
+        found.proposal = sp_place(opened->evaluator, &how, error);
+    }
+    int status = found.proposal ? report(options, opened, &found, clock, error) : cli_fail(error);
+    sp_proposal_destroy(found.proposal);
+    sp_coverage_destroy(found.manual);
+    return status;
+}
+
+int cli_place(const cli_options *options)
+{
+    sp_error error = {0};
+    cli_clock clock;
+    cli_scene opened;
+    cli_clock_start(&clock);
+    if (!cli_scene_open(&opened, options->inputs[0], options, &clock, &error))
+        return cli_fail(&error);
+    int status = place(options, &opened, &clock, &error);
+    cli_scene_close(&opened);
+    return status;
+}

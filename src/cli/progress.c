@@ -1,0 +1,98 @@
+/* Ctrl-C, and the progress bar on standard error, only when that is a terminal. */
+#include "cli.h"
+
+#include <signal.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+/* The program's own state, not the library's: a signal handler has no argument to find it by. */
+static volatile sig_atomic_t interrupted;
+static struct {
+    char stage[64];
+    double began, drawn;
+    bool on_screen;
+} bar;
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static void on_interrupt(int number)
+{
+    (void)number;
+    interrupted = 1;
+}
+
+bool cli_interrupted(void) { return interrupted; }
+
+void cli_progress_end(void)
+{
+    if (bar.on_screen)
+        fputs("\r\033[K", stderr);
+    bar.on_screen = false;
+}
+
+static void draw(const char *stage, double done)
+{
+    enum { WIDTH = 30 };
+    char cells[WIDTH + 1];
+    double time = now();
+    if (strcmp(stage, bar.stage)) {
+        snprintf(bar.stage, sizeof bar.stage, "%s", stage);
+        bar.began = time;
+        bar.drawn = 0;
+    }
+    if (time - bar.drawn < 0.1)
+        return;
+    bar.drawn = time;
+    int filled = done < 0 ? 0 : done > 1 ? WIDTH : (int)(done * WIDTH);
+    memset(cells, ' ', WIDTH);
+    memset(cells, '#', (size_t)filled);
+    cells[WIDTH] = 0;
+    fprintf(stderr, "\r\033[K%-14s [%s] %3.0f %%", stage, cells, 100 * done);
+    if (done > 0.02 && time - bar.began > 1)
+        fprintf(stderr, "  %.0f s left", (time - bar.began) * (1 - done) / done);
+    fflush(stderr);
+    bar.on_screen = true;
+}
+
+static bool progress(void *user, const char *stage, double done)
+{
+    const bool *visible = user;
+    if (*visible)
+        draw(stage, done);
+    return !interrupted;
+}
+
+sp_run cli_run(const cli_options *options)
+{
+    static bool visible;
+    visible = !options->quiet && isatty(STDERR_FILENO);
+    /* The second Ctrl-C ends the program at once. */
+    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL);
+    return (sp_run){.threads = options->threads,
+                    .progress = progress,
+                    .user = &visible,
+                    .time_limit = options->time_limit};
+}
+
+void cli_clock_start(cli_clock *clock)
+{
+    *clock = (cli_clock){.since = now()};
+}
+
+void cli_clock_stage(cli_clock *clock, const char *name)
+{
+    double time = now();
+    if (clock->count < sizeof clock->stages / sizeof *clock->stages) {
+        sp_stage *stage = &clock->stages[clock->count++];
+        snprintf(stage->name, sizeof stage->name, "%s", name);
+        stage->seconds = time - clock->since;
+    }
+    clock->since = time;
+}

@@ -1,0 +1,25 @@
+/* A scene and its evaluator, opened with the command line's overrides. */
+#include "cli.h"
+
+bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *options, cli_clock *clock, sp_error *error)
+{
+    *opened = (cli_scene){0};
+    opened->scene = sp_scene_load_with(path, options->overrides, options->override_count, error);
+    if (!opened->scene)
+        return false;
+    cli_clock_stage(clock, "load");
+    sp_setup setup = *sp_scene_setup(opened->scene);
+    setup.run = cli_run(options);
+    opened->evaluator = sp_evaluator_create(&setup, error);
+    cli_clock_stage(clock, "atlas");
+    if (!opened->evaluator)
+        cli_scene_close(opened);
+    return opened->evaluator != NULL;
+}
+
+void cli_scene_close(cli_scene *opened)
+{
+    sp_evaluator_destroy(opened->evaluator);
+    sp_scene_destroy(opened->scene);
+    *opened = (cli_scene){0};
+}

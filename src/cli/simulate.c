@@ -1,0 +1,40 @@
+/* sprayplan simulate: what the scene's own nozzles do. */
+#include "cli.h"
+
+static int simulate(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error)
+{
+    const sp_layout *layout = sp_scene_layout(opened->scene);
+    if (layout->count == 0) {
+        sp_fail(error, SP_ERROR_INPUT, sp_scene_path(opened->scene), 0, 0,
+                "nozzles: found none, expected at least one to simulate");
+        return cli_fail(error);
+    }
+    sp_coverage *coverage = sp_evaluate(opened->evaluator, layout, error);
+    cli_clock_stage(clock, "simulate");
+    if (!coverage)
+        return cli_fail(error);
+    sp_design design = {
+        .name = "manual", .evaluator = opened->evaluator, .layout = layout, .coverage = coverage};
+    sp_result result = {.command = "simulate",
+                        .scene = options->inputs[0],
+                        .design_count = 1,
+                        .designs = &design,
+                        .stage_count = clock->count,
+                        .stages = clock->stages};
+    bool good = cli_write(options, &result, opened->scene, layout, error) && cli_print(options, &result, error);
+    sp_coverage_destroy(coverage);
+    return good ? EXIT_DONE : cli_fail(error);
+}
+
+int cli_simulate(const cli_options *options)
+{
+    sp_error error = {0};
+    cli_clock clock;
+    cli_scene opened;
+    cli_clock_start(&clock);
+    if (!cli_scene_open(&opened, options->inputs[0], options, &clock, &error))
+        return cli_fail(&error);
+    int status = simulate(options, &opened, &clock, &error);
+    cli_scene_close(&opened);
+    return status;
+}
