@@ -4,6 +4,10 @@
 
 #include <sprayplan/trace.h>
 
+/* fmin and fmax without their rule for NaN, which costs a call. */
+static inline double lesser(double a, double b) { return a < b ? a : b; }
+static inline double greater(double a, double b) { return a > b ? a : b; }
+
 /* The real roots of a t² + b t + c, ascending; returns how many (2 where they coincide). The discriminant is computed with its
  * round-off (Kahan, "On the Cost of Floating-Point Computation Without Extra-Precise Arithmetic", 2004), the roots without
  * cancellation. */
@@ -22,8 +26,8 @@ static inline int parabola_roots(double a, double b, double c, double roots[2])
         return 0;
     double q = -0.5 * (b + copysign(sqrt(discriminant), b));
     double first = q / a, second = q == 0 ? 0 : c / q;
-    roots[0] = fmin(first, second);
-    roots[1] = fmax(first, second);
+    roots[0] = lesser(first, second);
+    roots[1] = greater(first, second);
     return 2;
 }
 
@@ -37,17 +41,17 @@ static inline bool parabola_below(double height, double speed, double pull, doub
         return pull < 0 || (pull == 0 && height <= 0);
     if (count == 1) {
         if (speed > 0)
-            *to = fmin(*to, roots[0]);
+            *to = lesser(*to, roots[0]);
         else
-            *from = fmax(*from, roots[0]);
+            *from = greater(*from, roots[0]);
     } else if (pull > 0) { /* below between the roots */
-        *from = fmax(*from, roots[0]);
-        *to = fmin(*to, roots[1]);
+        *from = greater(*from, roots[0]);
+        *to = lesser(*to, roots[1]);
     } else { /* below before the first and after the second */
         if (*from > roots[0])
-            *from = fmax(*from, roots[1]);
+            *from = greater(*from, roots[1]);
         if (*to < roots[1])
-            *to = fmin(*to, roots[0]);
+            *to = lesser(*to, roots[0]);
     }
     return *from <= *to;
 }
@@ -85,7 +89,7 @@ static inline bool parabola_triangle(const parabola_plane *plane, const double o
         double v = (plane->e1[0] * y - plane->e1[1] * x) * plane->inverse;
         if (u < -plane->slack || v < -plane->slack || u + v > 1 + plane->slack)
             continue;
-        *hit = (sp_hit){t, fmin(fmax(u, 0), 1), fmin(fmax(v, 0), 1), triangle};
+        *hit = (sp_hit){t, lesser(greater(u, 0), 1), lesser(greater(v, 0), 1), triangle};
         if (hit->u + hit->v > 1)
             hit->v = 1 - hit->u;
         return true;

@@ -130,15 +130,15 @@ typedef struct {
 static inline bool clip(const walk *w, int axis, double bound, double sign, double *from, double *to)
 {
     double height = sign * (w->origin[axis] - bound) - w->margin, speed = sign * w->velocity[axis];
-    if (w->curved && w->gravity[axis] != 0)
+    if (w->gravity[axis] != 0)
         return parabola_below(height, speed, sign * w->gravity[axis], from, to);
     if (speed == 0)
         return height <= 0;
     double t = -height * (sign * w->inverse[axis]);
     if (speed > 0)
-        *to = fmin(*to, t);
+        *to = lesser(*to, t);
     else
-        *from = fmax(*from, t);
+        *from = greater(*from, t);
     return *from <= *to;
 }
 
