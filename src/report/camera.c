@@ -1,0 +1,111 @@
+#include "camera.h"
+
+#define REACH 0.3 /* tangent of half the opening angle: about 33 degrees in all, little distortion */
+#define MARGIN 1.04
+#define RAD (M_PI / 180)
+
+/* From behind one looks up, so that the lid's underside shows; nozzles often leave it dry. */
+const sp_view sp_views[SP_VIEWS] = {
+    {"From the front", 0, 10 * RAD},
+    {"From behind, looking up", 150 * RAD, -28 * RAD},
+    {"From above, into the bottom", 0, 72 * RAD},
+};
+
+static bool is_wet(const sp_evaluator *evaluator, uint32_t triangle)
+{
+    return sp_evaluator_wet(evaluator, triangle) != 0;
+}
+
+static void wet_box(const sp_evaluator *evaluator, sp_vec3 *low, sp_vec3 *high)
+{
+    const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
+    *low = sp_v(INFINITY, INFINITY, INFINITY);
+    *high = sp_v(-INFINITY, -INFINITY, -INFINITY);
+    for (uint32_t t = 0; t < mesh->triangle_count; ++t)
+        for (int k = 0; k < 3 && is_wet(evaluator, t); ++k) {
+            sp_vec3 p = mesh->vertices[mesh->triangles[t][k]];
+            *low = sp_v(fmin(low->x, p.x), fmin(low->y, p.y), fmin(low->z, p.z));
+            *high = sp_v(fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z));
+        }
+    if (low->x > high->x)
+        *low = *high = sp_v(0, 0, 0);
+}
+
+/* Most lines of sight from the middle meet something. Directions by the golden spiral. */
+static bool encloses(const sp_evaluator *evaluator, sp_vec3 middle)
+{
+    enum { LINES = 200 };
+    int hits = 0;
+    for (int i = 0; i < LINES; ++i) {
+        double z = 1 - (2 * i + 1.0) / LINES, turn = i * M_PI * (3 - sqrt(5));
+        sp_ray ray = {middle, sp_v(sqrt(1 - z * z) * cos(turn), sqrt(1 - z * z) * sin(turn), z), 0, INFINITY, SP_NONE};
+        hits += sp_trace_occluded(sp_evaluator_tracer(evaluator), &ray, sp_v(0, 0, 0));
+    }
+    return hits > 0.6 * LINES;
+}
+
+static void set_axes(sp_camera *camera, const sp_view *view, sp_vec3 up)
+{
+    sp_vec3 right = sp_v(1, 0, 0), front = sp_cross(right, up);
+    sp_vec3 level = sp_add(sp_scale(front, cos(view->azimuth)), sp_scale(right, sin(view->azimuth)));
+    sp_vec3 towards_eye = sp_add(sp_scale(level, cos(view->elevation)), sp_scale(up, sin(view->elevation)));
+    camera->forward = sp_scale(towards_eye, -1);
+    camera->right = sp_unit(sp_cross(camera->forward, up));
+    camera->up = sp_cross(camera->right, camera->forward);
+}
+
+/* The eye goes back until every wet corner is inside REACH, then the picture is trimmed to what it shows. */
+static void frame_all(sp_camera *camera, const sp_evaluator *evaluator, int pixels)
+{
+    const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
+    double distance = camera->size * 1e-3, reach_x = 1e-6, reach_y = 1e-6;
+    for (int pass = 0; pass < 2; ++pass) {
+        for (uint32_t t = 0; t < mesh->triangle_count; ++t)
+            for (int k = 0; k < 3 && is_wet(evaluator, t); ++k) {
+                sp_vec3 p = sp_sub(mesh->vertices[mesh->triangles[t][k]], camera->centre);
+                double x = fabs(sp_dot(p, camera->right)), y = fabs(sp_dot(p, camera->up));
+                double depth = sp_dot(p, camera->forward);
+                if (pass == 0)
+                    distance = fmax(distance, fmax(x, y) * MARGIN / REACH - depth);
+                reach_x = pass == 0 ? reach_x : fmax(reach_x, MARGIN * x / (distance + depth));
+                reach_y = pass == 0 ? reach_y : fmax(reach_y, MARGIN * y / (distance + depth));
+            }
+    }
+    double longest = fmax(reach_x, reach_y);
+    camera->reach_x = fmax(reach_x, 0.5 * longest);
+    camera->reach_y = fmax(reach_y, 0.5 * longest);
+    camera->width = (int)ceil(pixels * camera->reach_x / longest);
+    camera->height = (int)ceil(pixels * camera->reach_y / longest);
+    camera->eye = sp_along(camera->centre, -distance, camera->forward);
+}
+
+sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_view *view, int pixels)
+{
+    sp_camera camera = {0};
+    const sp_setup *setup = sp_evaluator_setup(evaluator);
+    sp_vec3 low, high;
+    wet_box(evaluator, &low, &high);
+    camera.centre = sp_scale(sp_add(low, high), 0.5);
+    camera.size = fmax(sp_distance(low, high), 1e-9);
+    camera.cut = setup->cavity == SP_CAVITY_NONE && encloses(evaluator, camera.centre);
+    set_axes(&camera, view, setup->up);
+    frame_all(&camera, evaluator, pixels);
+    return camera;
+}
+
+sp_vec3 sp_camera_direction(const sp_camera *camera, double x, double y)
+{
+    double right = (2 * x / camera->width - 1) * camera->reach_x, up = (1 - 2 * y / camera->height) * camera->reach_y;
+    return sp_along(sp_along(camera->forward, right, camera->right), up, camera->up);
+}
+
+bool sp_camera_project(const sp_camera *camera, sp_vec3 point, double xy[2])
+{
+    sp_vec3 p = sp_sub(point, camera->eye);
+    double depth = sp_dot(p, camera->forward);
+    if (depth < 1e-6 * camera->size)
+        return false;
+    xy[0] = 0.5 * camera->width * (1 + sp_dot(p, camera->right) / (depth * camera->reach_x));
+    xy[1] = 0.5 * camera->height * (1 - sp_dot(p, camera->up) / (depth * camera->reach_y));
+    return true;
+}

@@ -1,0 +1,33 @@
+/* Pinhole cameras on a vessel. */
+#ifndef REPORT_CAMERA_H
+#define REPORT_CAMERA_H
+
+#include <sprayplan/evaluator.h>
+
+typedef struct {
+    const char *caption;      /* "From the front" */
+    double azimuth, elevation; /* rad: about up from the front, above the horizon */
+} sp_view;
+
+#define SP_VIEWS 3
+extern const sp_view sp_views[SP_VIEWS];
+
+typedef struct {
+    sp_vec3 eye;                /* m */
+    sp_vec3 right, up, forward; /* unit */
+    double reach_x, reach_y;    /* tangents of half the opening angles */
+    int width, height;          /* pixels */
+    bool cut;                   /* what lies in front of the plane through `centre` across the line of sight is taken off */
+    sp_vec3 centre;             /* m, of the box around what is wet */
+    double size;                /* m, the box's diagonal */
+} sp_camera;
+
+/* Holds everything wet, the longer side of the picture being `pixels`. Cut where no cavity says which sides to look
+ * through and the geometry encloses its middle. */
+sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_view *view, int pixels);
+/* Direction (not unit, forward component 1) through a point of the picture, in pixels from its top left. */
+sp_vec3 sp_camera_direction(const sp_camera *camera, double x, double y);
+/* Where a point appears, in pixels; false behind the eye. */
+bool sp_camera_project(const sp_camera *camera, sp_vec3 point, double xy[2]);
+
+#endif

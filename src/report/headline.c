@@ -1,0 +1,78 @@
+/* What the report says first. */
+#include "page.h"
+
+static void add_statement(const sp_page *page, sp_text *text, size_t design)
+{
+    const sp_figures *figures = &page->figures[design];
+    sp_text_add(text, "covers <strong>");
+    sp_markup_decimals(text, 100 * sp_page_fraction(page, figures), 1);
+    sp_text_add(text, "&nbsp;%%</strong> of the %s with <strong>",
+                page->of_attainable ? "attainable area" : "surface to be cleaned");
+    sp_markup_decimals(text, 6e4 * figures->flow, 1);
+    sp_text_add(text, "&nbsp;L/min</strong>");
+}
+
+static void add_card(const sp_page *page, sp_text *text, const char *title, const char *unit, const double values[2],
+                     int decimals, bool points)
+{
+    sp_text_add(text, "<div class=\"card\"><div class=\"title\">%s</div><div class=\"value\">", title);
+    sp_markup_decimals(text, values[0], decimals);
+    sp_text_add(text, " <span class=\"unit\">%s</span></div>", unit);
+    if (page->manual != SP_UNKNOWN && page->manual != page->main && isfinite(values[1])) {
+        sp_text_add(text, "<div class=\"against\">manual ");
+        sp_markup_decimals(text, values[1], decimals);
+        sp_text_add(text, " %s (", unit);
+        sp_markup_signed(text, points ? values[0] - values[1] : 100 * (values[0] / values[1] - 1), points ? 1 : 0);
+        sp_text_add(text, points ? "&nbsp;points)</div>" : "&nbsp;%%)</div>");
+    }
+    sp_text_add(text, "</div>\n");
+}
+
+static void add_cards(const sp_page *page, sp_text *text)
+{
+    const sp_figures *main = &page->figures[page->main];
+    const sp_figures *manual = &page->figures[page->manual == SP_UNKNOWN ? page->main : page->manual];
+    const double coverage[2] = {100 * sp_page_fraction(page, main), 100 * sp_page_fraction(page, manual)};
+    const double water[2] = {6e4 * main->flow, 6e4 * manual->flow};
+    const double ratio[2] = {main->area_per_water / 6e4, manual->area_per_water / 6e4};
+    const double count[2] = {(double)main->nozzle_count, (double)manual->nozzle_count};
+    sp_text_add(text, "<div class=\"cards\">\n");
+    add_card(page, text, page->of_attainable ? "Coverage of attainable area" : "Coverage", "%", coverage, 1, true);
+    add_card(page, text, "Water", "L/min", water, 1, false);
+    add_card(page, text, "Area per water", "m\xc2\xb2 per L/min", ratio, 3, false);
+    add_card(page, text, "Nozzles", "", count, 0, false);
+    sp_text_add(text, "</div>\n");
+}
+
+static void add_warnings(const sp_proposal *proposal, sp_text *text)
+{
+    if (proposal->interrupted)
+        sp_text_add(text, "<p class=\"warning\"><strong>Interrupted.</strong> The search was stopped before its end; this is "
+                          "the best layout found until then.</p>\n");
+    if (proposal->reached)
+        return;
+    sp_text_add(text, "<p class=\"warning\"><strong>The coverage asked for is not reached.</strong> ");
+    sp_markup_significant(text, proposal->target_area, 4);
+    sp_text_add(text, "&nbsp;m\xc2\xb2 were asked for within the limits on nozzles, water and ports; the proposal covers ");
+    sp_markup_significant(text, proposal->coverage->covered_area, 4);
+    sp_text_add(text, "&nbsp;m\xc2\xb2.</p>\n");
+}
+
+void sp_page_headline(const sp_page *page, sp_text *text)
+{
+    sp_text_add(text, "<p class=\"headline\">");
+    if (page->main == SP_UNKNOWN) {
+        sp_text_add(text, "%zu designs side by side.</p>\n", page->result->design_count);
+        return;
+    }
+    sp_text_add(text, page->result->proposal ? "The proposed layout " : "The layout ");
+    add_statement(page, text, page->main);
+    if (page->manual != SP_UNKNOWN && page->manual != page->main) {
+        sp_text_add(text, "; the engineer&#39;s own ");
+        add_statement(page, text, page->manual);
+    }
+    sp_text_add(text, ".</p>\n");
+    if (page->result->proposal)
+        add_warnings(page->result->proposal, text);
+    add_cards(page, text);
+}

@@ -1,0 +1,162 @@
+/* The report as one self-contained page: no scripts, nothing fetched. */
+#include "page.h"
+
+#include <sprayplan/sprayplan.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const style[] = {
+    "<style>\n:root{--ink:#1b2730;--soft:#55636f;--line:#d6dde3;--pale:#f3f6f8;--accent:#0b6670}\n"
+    "*{box-sizing:border-box}\nbody{margin:0;background:#fff;color:var(--ink);"
+    "font:16px/1.5 system-ui,\"Segoe UI\",Roboto,\"Helvetica Neue\",\"DejaVu Sans\",Arial,sans-serif}\n"
+    "main{max-width:1120px;margin:0 auto;padding:0 28px 40px}\nheader{border-top:6px solid var(--accent);padding:26px 0 8px}\n"
+    "h1{font-size:27px;line-height:1.25;margin:0;overflow-wrap:anywhere}\n"
+    "h2{font-size:20px;margin:42px 0 12px;padding-bottom:5px;border-bottom:1px solid var(--line)}\n"
+    "h3{font-size:16px;margin:22px 0 8px;color:var(--soft);font-weight:600}\n"
+    ".about{color:var(--soft);margin:4px 0 0}\n.headline{font-size:20px;line-height:1.45;margin:18px 0}\n"
+    ".warning{border-left:4px solid #c42636;background:#fcf1f1;padding:10px 14px;margin:12px 0}\n"
+    ".note,.unit{color:var(--soft);font-weight:400}\n.note{font-size:14px;max-width:80ch}\n.unit{font-size:.86em}\n",
+    ".cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(190px,1fr));gap:14px}\n"
+    ".card{background:var(--pale);border-radius:6px;padding:12px 16px}\n.card .title{font-size:14px;color:var(--soft)}\n"
+    ".card .value{font-size:27px;font-weight:600;line-height:1.35}\n.card .against{font-size:14px;color:var(--soft)}\n"
+    ".wide{overflow-x:auto;margin:0 0 18px}\ntable{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}\n"
+    "caption{text-align:left;font-weight:600;padding:8px 0}\n"
+    "th,td{padding:6px 10px;border-bottom:1px solid var(--line);text-align:right;vertical-align:top}\n"
+    "thead th{border-bottom:2px solid var(--ink);font-size:14px;vertical-align:bottom}\n"
+    "th[scope=row],th:first-child,.text{text-align:left}\nth[scope=row]{font-weight:500;overflow-wrap:anywhere}\n"
+    "td:last-child{font-weight:600}\n.small{font-size:13.5px}\n.small td:last-child{font-weight:400}\n"
+    ".small th,.small td{padding:4px 7px}\n.narrow{width:auto;min-width:280px}\n",
+    ".views{display:grid;gap:18px;align-items:end}\n.of1{grid-template-columns:minmax(0,640px)}\n"
+    ".of2{grid-template-columns:repeat(2,minmax(0,1fr))}\n.of3{grid-template-columns:repeat(3,minmax(0,1fr))}\n"
+    "figure{margin:0}\nfigcaption{text-align:center;font-size:14px;font-weight:600;overflow-wrap:anywhere}\n"
+    ".view{display:block;width:100%;height:auto;max-height:640px}\n"
+    ".spray{fill:#fff;fill-opacity:.13;stroke:#10202a;stroke-width:2;stroke-linejoin:round}\n"
+    ".rim{fill:none;stroke:#10202a;stroke-width:1.2;stroke-opacity:.6}\n"
+    ".nozzle{fill:#fff;stroke:#10202a;stroke-width:4}\n"
+    ".name{font-size:26px;font-weight:600;fill:#10202a;stroke:#fff;stroke-width:6;stroke-linejoin:round;paint-order:stroke}\n"
+    ".chart,.bar{display:block;width:100%;max-width:860px;height:auto;font-size:13px}\n.chart text,.bar text{fill:var(--ink)}\n"
+    ".grid{stroke:var(--line)}\n.tick{stroke:var(--ink);fill:none}\n.swatch{stroke:#8b97a1}\n"
+    ".front{fill:none;stroke:#0b6670;stroke-width:2}\n.point{fill:#0b6670}\n"
+    "dl{display:grid;grid-template-columns:max-content 1fr;gap:6px 22px;margin:0}\ndt{font-weight:600}\ndd{margin:0}\n"
+    "footer{margin-top:44px;padding-top:12px;border-top:1px solid var(--line);color:var(--soft);font-size:14px}\n"
+    "@media (max-width:640px){.of2,.of3{grid-template-columns:1fr}dl{grid-template-columns:1fr}}\n"
+    "@media print{body{font-size:11pt;-webkit-print-color-adjust:exact;print-color-adjust:exact}main{max-width:none;padding:0}"
+    ".wide{overflow:visible}figure,.card,tr,dl,.chart,.block{break-inside:avoid}h2,h3{break-after:avoid}}\n</style>\n",
+};
+
+double sp_page_fraction(const sp_page *page, const sp_figures *figures)
+{
+    return page->of_attainable ? figures->of_attainable : figures->coverage;
+}
+
+void sp_page_name(const sp_page *page, sp_text *text, size_t design)
+{
+    const char *name = page->figures[design].name;
+    if (design == page->manual)
+        sp_text_add(text, "Manual");
+    else if (design == page->greedy)
+        sp_text_add(text, "Greedy, before refinement");
+    else if (design == page->main && strcmp(name, "proposed") == 0)
+        sp_text_add(text, "Proposed");
+    else
+        sp_markup_escape(text, name);
+}
+
+const char *sp_page_colour(const sp_page *page, size_t design)
+{
+    static const char *const others[] = {"#3b5b92", "#b5542e", "#0b6670", "#7a4b8f", "#6b7a87", "#8a6d1d"};
+    if (design == page->manual)
+        return "#b5542e";
+    if (design == page->greedy)
+        return "#6b7a87";
+    if (design == page->main)
+        return "#10202a";
+    return others[design % (sizeof others / sizeof *others)];
+}
+
+/* Roles by name, but only in a result of place; in a comparison a file may be called anything. */
+static void find_roles(sp_page *page)
+{
+    const sp_result *result = page->result;
+    page->main = result->design_count == 1 ? 0 : SP_UNKNOWN;
+    page->manual = page->greedy = SP_UNKNOWN;
+    if (strcmp(result->command, "compare") == 0)
+        return;
+    for (size_t i = 0; i < result->design_count; ++i) {
+        if (strcmp(result->designs[i].name, "proposed") == 0)
+            page->main = i;
+        if (strcmp(result->designs[i].name, "manual") == 0)
+            page->manual = i;
+        if (strcmp(result->designs[i].name, "greedy") == 0)
+            page->greedy = i;
+    }
+}
+
+static void add_head(sp_text *text, const char *scene)
+{
+    sp_text_add(text, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+                      "content=\"width=device-width, initial-scale=1\">\n<meta name=\"generator\" content=\"sprayplan " SP_VERSION
+                      "\">\n<title>Spray nozzle layout: ");
+    sp_markup_escape(text, scene);
+    sp_text_add(text, "</title>\n");
+    for (size_t i = 0; i < sizeof style / sizeof *style; ++i)
+        sp_text_append(text, style[i], strlen(style[i]));
+    sp_text_add(text, "</head>\n<body>\n<main>\n");
+}
+
+static void add_title(const sp_page *page, sp_text *text, const char *scene)
+{
+    sp_text_add(text, "<header><h1>%s</h1>\n<p class=\"about\">",
+                page->result->proposal            ? "Proposed spray nozzle layout"
+                : page->result->design_count == 1 ? "Spray nozzle layout"
+                                                  : "Spray nozzle layouts compared");
+    sp_markup_escape(text, scene);
+    if (page->result->design_count > 0 && page->figures[0].triangles != SP_UNKNOWN) {
+        sp_text_add(text, " \xc2\xb7 %zu triangles, ", page->figures[0].triangles);
+        sp_markup_significant(text, page->figures[0].clean_area, 4);
+        sp_text_add(text, "&nbsp;m\xc2\xb2 to be cleaned");
+    }
+    sp_text_add(text, "</p></header>\n");
+}
+
+static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *error)
+{
+    add_head(text, scene);
+    add_title(page, text, scene);
+    sp_page_headline(page, text);
+    sp_page_figures(page, text);
+    sp_page_comparison(page, text);
+    sp_page_front_chart(page, text);
+    if (!sp_page_pictures(page, text, error))
+        return false;
+    sp_page_nozzles(page, text);
+    sp_page_shadows(page, text);
+    sp_page_attainable(page, text);
+    sp_page_assumptions(page, text);
+    sp_page_stages(page, text);
+    sp_text_add(text, "<footer>Made by sprayplan " SP_VERSION ".</footer>\n</main>\n</body>\n</html>\n");
+    return true;
+}
+
+char *sp_report_html(const sp_result *result, sp_error *error)
+{
+    sp_page page = {.result = result, .scale = sp_flux_scale_of(result->designs, result->design_count)};
+    sp_figures *figures = sp_result_figures(result, error);
+    char *scene = sp_text_utf8(result->scene), *html = NULL;
+    page.figures = figures;
+    page.of_attainable = result->design_count > 0;
+    for (size_t i = 0; figures && i < result->design_count; ++i)
+        page.of_attainable = page.of_attainable && isfinite(figures[i].of_attainable);
+    find_roles(&page);
+    sp_text text = {0};
+    if (!scene)
+        sp_fail_memory(error);
+    else if (figures && add_page(&page, &text, scene, error))
+        html = sp_text_finish(&text, error);
+    if (!html)
+        free(text.text);
+    sp_figures_destroy(figures, result->design_count);
+    free(scene);
+    return html;
+}

@@ -1,0 +1,33 @@
+/* The atlas seen from each side: which patch lies under a texel or a point of the surface, and pages as pictures. */
+#ifndef REPORT_LAYERS_H
+#define REPORT_LAYERS_H
+
+#include "false_colour.h"
+
+/* Layer 0 is the front (or both sides as one), layer 1 the back. */
+typedef struct {
+    const sp_evaluator *evaluator;
+    uint32_t *patch[2]; /* [texel_count], SP_NONE where that side of the texel is not cleaned */
+    bool two_sided;     /* no cavity: the back shows what the front does */
+    bool has_back;      /* layer 1 holds something */
+} sp_layers;
+
+bool sp_layers_create(sp_layers *layers, const sp_evaluator *evaluator, sp_error *error);
+void sp_layers_free(sp_layers *layers);
+
+/* True where that side of the triangle faces the liquid, cleaned or not. */
+bool sp_layers_wet(const sp_layers *layers, uint32_t triangle, int back);
+/* True where that side of the triangle is cleaned and counted. */
+bool sp_layers_clean(const sp_layers *layers, uint32_t triangle, int back);
+/* The patch at (1-u-v, u, v) of a triangle, SP_NONE where that side is not cleaned there. */
+uint32_t sp_layers_patch(const sp_layers *layers, uint32_t triangle, double u, double v, int back);
+
+/* Pixels of a page are texels; the first row is the highest y, as pictures and OBJ textures have it. */
+size_t sp_layers_pixel(const sp_atlas *atlas, uint32_t texel);
+
+/* One page in false colour, malloc'd RGB of page_edge² pixels. What is not cleaned is grey, what holds no surface
+ * `background`; with `spread` the charts run one texel over their rims, so that a texture leaves no seams. */
+uint8_t *sp_layers_picture(const sp_layers *layers, const sp_coverage *coverage, sp_flux_scale scale, size_t page,
+                           int layer, const uint8_t background[3], bool spread, sp_error *error);
+
+#endif

@@ -1,0 +1,65 @@
+#include "markup.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *entity(char character)
+{
+    switch (character) {
+    case '&':
+        return "&amp;";
+    case '<':
+        return "&lt;";
+    case '>':
+        return "&gt;";
+    case '"':
+        return "&quot;";
+    case '\'':
+        return "&#39;";
+    default:
+        return NULL;
+    }
+}
+
+void sp_markup_escape(sp_text *text, const char *value)
+{
+    for (const char *at = value; *at; ++at) {
+        const char *safe = entity(*at);
+        sp_text_append(text, safe ? safe : at, safe ? strlen(safe) : 1);
+    }
+}
+
+void sp_markup_base64(sp_text *text, const uint8_t *bytes, size_t size)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) {
+        uint32_t group = (uint32_t)bytes[i] << 16;
+        group |= i + 1 < size ? (uint32_t)bytes[i + 1] << 8 : 0;
+        group |= i + 2 < size ? bytes[i + 2] : 0;
+        const char four[4] = {digits[group >> 18], digits[group >> 12 & 63],
+                              i + 1 < size ? digits[group >> 6 & 63] : '=', i + 2 < size ? digits[group & 63] : '='};
+        sp_text_append(text, four, 4);
+    }
+}
+
+void sp_markup_decimals(sp_text *text, double value, int decimals)
+{
+    if (!isfinite(value))
+        sp_text_add(text, "\xe2\x80\x93");
+    else
+        sp_text_add(text, "%s%.*f", value < 0 ? "\xe2\x88\x92" : "", decimals, fabs(value));
+}
+
+void sp_markup_significant(sp_text *text, double value, int digits)
+{
+    double size = fabs(value);
+    int decimals = isfinite(value) && size > 0 ? digits - 1 - (int)floor(log10(size) + 1e-9) : 0;
+    sp_markup_decimals(text, value, decimals < 0 ? 0 : decimals > 9 ? 9 : decimals);
+}
+
+void sp_markup_signed(sp_text *text, double value, int decimals)
+{
+    if (isfinite(value) && value >= 0)
+        sp_text_add(text, "+");
+    sp_markup_decimals(text, value, decimals);
+}

@@ -1,0 +1,110 @@
+#include "overlay.h"
+
+#include <stdlib.h>
+
+#define RIM 32       /* points on a spray's rim */
+#define LENGTH 0.12  /* of the box's diagonal that an outline reaches */
+
+/* Direction i of RIM along the edge of the spray, in the nozzle's frame. */
+static sp_vec3 rim_direction(const sp_spray *spray, int i)
+{
+    if (spray->outer > 0) {
+        double turn = 2 * M_PI * i / RIM;
+        return sp_v(sin(spray->outer) * cos(turn), sin(spray->outer) * sin(turn), cos(spray->outer));
+    }
+    double way = (i % (RIM / 2)) / (RIM / 2 - 1.0), side = i < RIM / 2 ? 1 : -1;
+    double longitude = spray->half_width * (2 * way - 1) * side, latitude = spray->half_thickness * side;
+    return sp_v(cos(latitude) * sin(longitude), sin(latitude), cos(latitude) * cos(longitude));
+}
+
+typedef struct {
+    double x, y;
+} spot;
+
+static int by_x(const void *a, const void *b)
+{
+    const spot *p = a, *q = b;
+    if (p->x != q->x)
+        return p->x < q->x ? -1 : 1;
+    return p->y < q->y ? -1 : p->y > q->y;
+}
+
+static bool turns_left(const spot *hull, size_t count, const spot *next)
+{
+    const spot *a = &hull[count - 2], *b = &hull[count - 1];
+    return (b->x - a->x) * (next->y - a->y) - (b->y - a->y) * (next->x - a->x) > 0;
+}
+
+/* Convex hull by Andrew's monotone chain; `hull` has room for count + 1. Returns how many corners. */
+static size_t convex_hull(spot *spots, size_t count, spot *hull)
+{
+    qsort(spots, count, sizeof *spots, by_x);
+    size_t used = 0;
+    for (int half = 0; half < 2; ++half) {
+        size_t start = used;
+        for (size_t i = 0; i < count; ++i) {
+            const spot *next = &spots[half ? count - 1 - i : i];
+            while (used >= start + 2 && !turns_left(hull, used, next))
+                used--;
+            hull[used++] = *next;
+        }
+        used--; /* the last one starts the other half */
+    }
+    return used;
+}
+
+static void add_path(sp_text *text, const char *class_name, const spot *spots, size_t count)
+{
+    if (count < 2)
+        return;
+    sp_text_add(text, "<path class=\"%s\" d=\"M", class_name);
+    for (size_t i = 0; i < count; ++i)
+        sp_text_add(text, "%.1f %.1f ", spots[i].x, spots[i].y);
+    sp_text_add(text, "z\"/>");
+}
+
+/* So far that it stays clear of what the axis meets. */
+static double outline_length(const sp_camera *camera, const sp_evaluator *evaluator, const sp_nozzle *nozzle)
+{
+    sp_ray ray = {nozzle->position, nozzle->axis, 0, INFINITY, SP_NONE};
+    sp_hit hit = sp_trace_nearest(sp_evaluator_tracer(evaluator), &ray, sp_v(0, 0, 0));
+    return fmin(LENGTH * camera->size, 0.8 * hit.t);
+}
+
+static void add_outline(sp_text *text, const sp_camera *camera, const sp_evaluator *evaluator, const sp_nozzle *nozzle)
+{
+    spot spots[RIM + 1], rim[RIM], hull[RIM + 3];
+    double xy[2], length = outline_length(camera, evaluator, nozzle);
+    sp_frame frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, sp_evaluator_setup(evaluator)->up);
+    sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
+    for (int i = 0; i < RIM; ++i) {
+        sp_vec3 d = rim_direction(&spray, i);
+        sp_vec3 world = sp_add(sp_add(sp_scale(frame.x, d.x), sp_scale(frame.y, d.y)), sp_scale(frame.z, d.z));
+        if (!sp_camera_project(camera, sp_along(nozzle->position, length, world), xy))
+            return;
+        spots[i] = rim[i] = (spot){xy[0], xy[1]};
+    }
+    if (!sp_camera_project(camera, nozzle->position, xy))
+        return;
+    spots[RIM] = (spot){xy[0], xy[1]};
+    add_path(text, "spray", hull, convex_hull(spots, RIM + 1, hull));
+    add_path(text, "rim", rim, RIM);
+}
+
+void sp_overlay_nozzles(sp_text *text, const sp_camera *camera, const sp_evaluator *evaluator, const sp_layout *layout)
+{
+    double xy[2];
+    for (size_t i = 0; i < layout->count; ++i)
+        add_outline(text, camera, evaluator, &layout->nozzles[i]);
+    for (size_t i = 0; i < layout->count; ++i) {
+        if (!sp_camera_project(camera, layout->nozzles[i].position, xy))
+            continue;
+        char *name = sp_text_utf8(layout->nozzles[i].name);
+        sp_text_add(text, "<circle class=\"nozzle\" cx=\"%.1f\" cy=\"%.1f\" r=\"7\"/><text class=\"name\" x=\"%.1f\" y=\"%.1f\">",
+                    xy[0], xy[1], xy[0] + 12, xy[1] - 8);
+        sp_markup_escape(text, name ? name : "");
+        sp_text_add(text, "</text>\n");
+        text->failed |= !name;
+        free(name);
+    }
+}

@@ -1,0 +1,157 @@
+/* Three views of every design, with the colour bar. */
+#include "overlay.h"
+#include "page.h"
+#include "render.h"
+
+#include <sprayplan/image.h>
+
+#include <stdlib.h>
+
+#define PIXELS 900
+#define PIXELS_OF_MANY 600 /* each, from the fifth design on */
+#define STOPS 16
+
+static void add_gradient(sp_text *text)
+{
+    sp_text_add(text, "<defs><linearGradient id=\"viridis\">");
+    for (int i = 0; i <= STOPS; ++i) {
+        uint8_t rgb[3];
+        sp_viridis((double)i / STOPS, rgb);
+        sp_text_add(text, "<stop offset=\"%g\" stop-color=\"#%02x%02x%02x\"/>", (double)i / STOPS, rgb[0], rgb[1], rgb[2]);
+    }
+    sp_text_add(text,
+                "</linearGradient><pattern id=\"hatch\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\" "
+                "patternTransform=\"rotate(45)\"><rect width=\"8\" height=\"8\" fill=\"#%02x%02x%02x\"/><rect width=\"2.2\" "
+                "height=\"8\" fill=\"#%02x%02x%02x\"/></pattern></defs>\n",
+                sp_colour_hatch[0][0], sp_colour_hatch[0][1], sp_colour_hatch[0][2], sp_colour_hatch[1][0],
+                sp_colour_hatch[1][1], sp_colour_hatch[1][2]);
+}
+
+static void add_ticks(sp_text *text, sp_flux_scale scale)
+{
+    const double steps[] = {1, 2, 5};
+    double low = 6e4 * scale.low, high = 6e4 * scale.high;
+    for (int power = (int)floor(log10(low)) - 1; power <= (int)ceil(log10(high)); ++power)
+        for (int k = 0; k < 3; ++k) {
+            double value = steps[k] * pow(10, power);
+            if (value < low * (1 - 1e-9) || value > high * (1 + 1e-9))
+                continue;
+            double x = 10 + 400 * sp_flux_scale_place(scale, value / 6e4);
+            sp_text_add(text, "<path class=\"tick\" d=\"M%.1f 38v6\"/><text x=\"%.1f\" y=\"58\" text-anchor=\"middle\">%g</text>", x,
+                        x, value);
+        }
+}
+
+static void add_colour_bar(const sp_page *page, sp_text *text)
+{
+    sp_text_add(text, "<svg class=\"bar\" viewBox=\"0 0 760 64\" role=\"img\" aria-label=\"Colour bar: liquid flux in litres a "
+                      "minute per square metre, from dark violet for little to yellow for much; hatched red: not covered; grey: "
+                      "needs no cleaning\">\n");
+    add_gradient(text);
+    sp_text_add(text, "<text x=\"10\" y=\"13\">Liquid flux, L/min per m\xc2\xb2</text><rect x=\"10\" y=\"20\" width=\"400\" "
+                      "height=\"18\" fill=\"url(#viridis)\"/>");
+    add_ticks(text, page->scale);
+    sp_text_add(text,
+                "<rect class=\"swatch\" x=\"450\" y=\"20\" width=\"36\" height=\"18\" fill=\"url(#hatch)\"/><text x=\"494\" "
+                "y=\"34\">not covered</text><rect class=\"swatch\" x=\"600\" y=\"20\" width=\"36\" height=\"18\" "
+                "fill=\"#%02x%02x%02x\"/><text x=\"644\" y=\"34\">no cleaning asked</text>\n</svg>\n",
+                sp_colour_obstacle[0], sp_colour_obstacle[1], sp_colour_obstacle[2]);
+}
+
+static bool add_picture(const sp_page *page, sp_text *text, size_t design, const sp_view *view, const sp_camera *camera,
+                        const sp_shot *shot, sp_error *error)
+{
+    const sp_design *shown = &page->result->designs[design];
+    uint8_t *pixels = sp_shot_picture(shot, shown->coverage, page->scale, error);
+    size_t size = 0;
+    uint8_t *png = pixels ? sp_image_encode_png(pixels, shot->width, shot->height, 3, &size, error) : NULL;
+    free(pixels);
+    if (!png)
+        return false;
+    sp_text_add(text, "<figure><svg class=\"view\" viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"", shot->width,
+                shot->height);
+    sp_page_name(page, text, design);
+    sp_text_add(text, ", %s: coverage in false colour with %zu nozzles\"><image width=\"%d\" height=\"%d\" "
+                      "href=\"data:image/png;base64,",
+                view->caption, shown->layout->count, shot->width, shot->height);
+    sp_markup_base64(text, png, size);
+    sp_text_add(text, "\"/>\n");
+    free(png);
+    sp_overlay_nozzles(text, camera, shown->evaluator, shown->layout);
+    sp_text_add(text, "</svg><figcaption>");
+    sp_page_name(page, text, design);
+    sp_text_add(text, "<br><span class=\"unit\">");
+    sp_markup_decimals(text, 100 * sp_page_fraction(page, &page->figures[design]), 1);
+    sp_text_add(text, "&nbsp;%% with ");
+    sp_markup_decimals(text, 6e4 * page->figures[design].flow, 1);
+    sp_text_add(text, "&nbsp;L/min</span></figcaption></figure>\n");
+    return true;
+}
+
+/* What is traced once serves all designs in a row that share an evaluator. */
+static bool add_view(const sp_page *page, sp_text *text, const sp_view *view, int pixels, sp_error *error)
+{
+    sp_camera camera = {0};
+    sp_layers layers = {0};
+    sp_shot shot = {0};
+    bool done = true;
+    for (size_t i = 0; done && i < page->result->design_count; ++i) {
+        const sp_evaluator *evaluator = page->result->designs[i].evaluator;
+        if (!evaluator)
+            continue;
+        if (layers.evaluator != evaluator) {
+            sp_layers_free(&layers);
+            sp_shot_free(&shot);
+            camera = sp_camera_create(evaluator, view, pixels);
+            done = sp_layers_create(&layers, evaluator, error) &&
+                   sp_shot_create(&shot, &layers, &camera, sp_evaluator_setup(evaluator)->run.threads, error);
+        }
+        done = done && add_picture(page, text, i, view, &camera, &shot, error);
+    }
+    sp_shot_free(&shot);
+    sp_layers_free(&layers);
+    return done;
+}
+
+/* How the geometry was opened, which a reader must know to understand the pictures. */
+static void add_note(const sp_page *page, sp_text *text, const sp_evaluator *first)
+{
+    sp_cavity_kind cavity = sp_evaluator_setup(first)->cavity;
+    sp_camera camera = sp_camera_create(first, &sp_views[0], PIXELS);
+    sp_text_add(text, "<p class=\"note\">One colour scale for all pictures. %s Dots are nozzles; the outlines show where and how "
+                      "wide they spray, not how far.",
+                cavity == SP_CAVITY_POINT ? "Walls are looked through from outside, so that their wet inner sides show."
+                : camera.cut              ? "The geometry is cut open across the line of sight at its middle."
+                                          : "");
+    for (size_t i = 0; i < page->result->design_count; ++i)
+        if (!page->result->designs[i].evaluator) {
+            sp_text_add(text, " Designs known only from a result.json have no pictures.");
+            break;
+        }
+    sp_text_add(text, "</p>\n");
+}
+
+bool sp_page_pictures(const sp_page *page, sp_text *text, sp_error *error)
+{
+    const sp_evaluator *first = NULL;
+    size_t drawn = 0;
+    for (size_t i = 0; i < page->result->design_count; ++i)
+        if (page->result->designs[i].evaluator) {
+            first = first ? first : page->result->designs[i].evaluator;
+            drawn++;
+        }
+    if (drawn == 0)
+        return true;
+    sp_text_add(text, "<section id=\"pictures\"><h2>Coverage in pictures</h2>\n");
+    add_colour_bar(page, text);
+    add_note(page, text, first);
+    bool done = true;
+    for (int i = 0; done && i < SP_VIEWS; ++i) {
+        sp_text_add(text, "<div class=\"block\"><h3>%s</h3>\n<div class=\"views of%zu\">\n", sp_views[i].caption,
+                    drawn < 3 ? drawn : 3);
+        done = add_view(page, text, &sp_views[i], drawn > 4 ? PIXELS_OF_MANY : PIXELS, error);
+        sp_text_add(text, "</div></div>\n");
+    }
+    sp_text_add(text, "</section>\n");
+    return done;
+}
