@@ -1,7 +1,7 @@
-/* Is the engineer's layout as good as a careful engineer would draw it? Tries every choice of catalogue types at every two
- * and every three of a scene's ports, the axes along the ports, at every depth and pressure that the scene allows (fans also
- * turned about their axis), and says what the best of them cover for how much water, and what stands beside the scene's own
- * layout: more area with no more water, or as much with less. */
+/* Is the engineer's layout as good as a careful engineer would draw it? Tries every choice of catalogue types at every
+ * two and every three of a scene's ports, the axes along the ports, at every depth and pressure that the scene allows
+ * (fans also turned about their axis), and says what the best of them cover for how much water, and what stands beside
+ * the scene's own layout: more area with no more water, or as much with less. */
 #include <sprayplan/sprayplan.h>
 
 #include <stdio.h>
@@ -33,7 +33,7 @@ typedef struct {
     float *area;                      /* [padded] */
     option *options;
     size_t count, capacity;
-    float *sums[MOST_USED]; /* [padded], of the first 0, 1, 2 options of a choice */
+    float *sums[MOST_USED];  /* [padded], of the first 0, 1, 2 options of a choice */
     choice best[FRONT_BINS]; /* by flow, of FLOW_STEP each */
     double tried;
 } search;
@@ -99,7 +99,8 @@ static bool round_about_axis(const sp_nozzle_type *type)
 static void add_port(search *search, const sp_place_options *place, size_t number)
 {
     const sp_mount *port = &place->mounts[number];
-    size_t depths = port->depth_spacing > 0 ? (size_t)((port->depth_to - port->depth_from) / port->depth_spacing + 1.5) : 1;
+    size_t depths =
+        port->depth_spacing > 0 ? (size_t)((port->depth_to - port->depth_from) / port->depth_spacing + 1.5) : 1;
     for (size_t t = 0; t < place->type_count; ++t)
         for (size_t d = 0; d < depths && fits(port, place->types[t]); ++d)
             for (size_t p = 0; p < place->pressure_count; ++p)

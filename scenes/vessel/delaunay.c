@@ -69,7 +69,7 @@ static void insert(state *state, int p)
 
 static int (*inner_triangles(const state *state, int *count))[3]
 {
-    int (*inner)[3] = malloc(((size_t)state->triangle_count + 1) * sizeof *inner);
+    int(*inner)[3] = malloc(((size_t)state->triangle_count + 1) * sizeof *inner);
     *count = 0;
     for (int i = 0; inner && i < state->triangle_count; ++i) {
         const int *c = state->triangles[i].corners;
@@ -90,7 +90,7 @@ int (*delaunay(const double (*points)[2], int count, int *triangle_count))[3]
     state state = {.points = points, .count = count, .around = {{-far, -far}, {far, -far}, {0, far}}};
     state.triangles = malloc(most * sizeof *state.triangles);
     state.edges = malloc(3 * most * sizeof *state.edges);
-    int (*result)[3] = NULL;
+    int(*result)[3] = NULL;
     if (state.triangles && state.edges) {
         state.triangles[state.triangle_count++] = circled(&state, count, count + 1, count + 2);
         for (int i = 0; i < count; ++i)

@@ -1,5 +1,5 @@
-/* Torispherical heads: a dome of radius `crown` that a torus of radius `knuckle` joins to the cylinder. With crown = diameter
- * and knuckle = diameter / 10 it is the Klöpper head of DIN 28011. */
+/* Torispherical heads: a dome of radius `crown` that a torus of radius `knuckle` joins to the cylinder. With crown =
+ * diameter and knuckle = diameter / 10 it is the Klöpper head of DIN 28011. */
 #include "delaunay.h"
 #include "shapes.h"
 
@@ -31,8 +31,8 @@ double head_z(const head *head, double r)
     return head->tangent_z + head->direction * height;
 }
 
-/* Length of the meridian from the apex to radius r: the radius of the plan in which triangles keep their shape, although the
- * knuckle stands upright. And its inverse. */
+/* Length of the meridian from the apex to radius r: the radius of the plan in which triangles keep their shape,
+ * although the knuckle stands upright. And its inverse. */
 static double meridian(const head *head, double r)
 {
     double joint = joint_angle(head);
@@ -89,7 +89,8 @@ static bool clear_of_openings(const circle *openings, int count, double x, doubl
 }
 
 /* Rings of points, every ring turned by the golden angle against the one before, so that no four lie on a circle. */
-static void add_rings(cloud *cloud, const head *head, const circle *openings, int opening_count, int segments, double size)
+static void add_rings(cloud *cloud, const head *head, const circle *openings, int opening_count, int segments,
+                      double size)
 {
     double length = meridian(head, head->radius);
     int rings = (int)ceil(length / size);
@@ -140,7 +141,7 @@ bool head_surface(model *model, const head *head, const circle *openings, int op
     size_t most = (size_t)most_points(head, openings, opening_count, segments, size);
     cloud cloud = {malloc(most * sizeof *cloud.plan), malloc(most * sizeof *cloud.position),
                    malloc(most * sizeof *cloud.opening), 0};
-    int (*triangles)[3] = NULL;
+    int(*triangles)[3] = NULL;
     int count = 0;
     if (cloud.plan && cloud.position && cloud.opening) {
         add_openings(&cloud, head, openings, opening_count);

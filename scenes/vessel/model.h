@@ -14,9 +14,9 @@ model *model_create(void);
 void model_destroy(model *model);
 /* Faces that follow belong to the part of this name (borrowed, a literal). */
 void model_part(model *model, const char *name);
-/* A convex face of three or four corners, anticlockwise seen from its front. Coordinates are rounded to 0.1 µm, so that faces
- * which meet at a point name the same vertex whatever the last bits of the computation. Corners that coincide are merged; a
- * face with fewer than three left is dropped. */
+/* A convex face of three or four corners, anticlockwise seen from its front. Coordinates are rounded to 0.1 µm, so that
+ * faces which meet at a point name the same vertex whatever the last bits of the computation. Corners that coincide are
+ * merged; a face with fewer than three left is dropped. */
 void model_face(model *model, const sp_vec3 *corners, int count);
 /* Once all faces fan out into triangles. */
 size_t model_triangles(const model *model);

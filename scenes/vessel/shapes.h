@@ -11,8 +11,8 @@ typedef struct {
 } circle;
 sp_vec3 circle_corner(const circle *circle, int corner, double z);
 
-/* Turns a profile of (radius, z) about a vertical axis through (x, y). The front is to the right of the profile's direction,
- * with the radius to the right and z upwards. Stretches longer than `step` are divided. */
+/* Turns a profile of (radius, z) about a vertical axis through (x, y). The front is to the right of the profile's
+ * direction, with the radius to the right and z upwards. Stretches longer than `step` are divided. */
 void turn(model *model, double x, double y, int segments, const double (*profile)[2], int count, double step);
 
 /* Height of a surface over a point of the plan. */
@@ -28,13 +28,13 @@ double head_z(const head *head, double r);
 /* A pipe wall between its circle on the head and its flat end at z. `inward`: the front is the bore. */
 void pipe_to_head(model *model, const head *head, const circle *circle, double z, bool inward);
 
-/* The head with round openings, triangles about `size` long, its rim cut into `segments`. `upward`: its front is its upper
- * side. Returns false when memory runs out. */
+/* The head with round openings, triangles about `size` long, its rim cut into `segments`. `upward`: its front is its
+ * upper side. Returns false when memory runs out. */
 bool head_surface(model *model, const head *head, const circle *openings, int opening_count, int segments, double size,
                   bool upward);
 
-/* A plate: outline points origin + u·p.u + v·p.v, anticlockwise about u × v, thickness t along u × v, centred on origin's
- * plane. The outline's face is given as quads of its corners. */
+/* A plate: outline points origin + u·p.u + v·p.v, anticlockwise about u × v, thickness t along u × v, centred on
+ * origin's plane. The outline's face is given as quads of its corners. */
 typedef struct {
     sp_vec3 origin, u, v;
     double thickness;

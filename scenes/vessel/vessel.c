@@ -1,9 +1,10 @@
-/* Writes vessel.obj: a stirred vessel of 2 m³ as CAD would export it, in millimetres, z up, bottom tangent line at z = 0.
+/* Writes vessel.obj: a stirred vessel of 2 m³ as CAD would export it, in millimetres, z up, bottom tangent line at z =
+ * 0.
  *
- * Inner diameter 1200, cylinder 1460 tall, Klöpper heads (DIN 28011), walls 6 thick: one closed body whose front faces away
- * from the metal, with an open outlet neck. Shaft, hubs and dip tube grow out of the upper head and share its vertices.
- * Blades and brackets are bodies of their own which end 1 mm before what carries them, so that no face runs through metal;
- * baffles are sheets without thickness, wet on both sides. */
+ * Inner diameter 1200, cylinder 1460 tall, Klöpper heads (DIN 28011), walls 6 thick: one closed body whose front faces
+ * away from the metal, with an open outlet neck. Shaft, hubs and dip tube grow out of the upper head and share its
+ * vertices. Blades and brackets are bodies of their own which end 1 mm before what carries them, so that no face runs
+ * through metal; baffles are sheets without thickness, wet on both sides. */
 #include "shapes.h"
 
 #include <stdio.h>
@@ -15,8 +16,8 @@ enum {
     ROUND = 32 /* of shaft and necks */
 };
 
-/* Size of the heads' triangles. On the knuckle they cut the corner by size² / (8 · 126), which has to stay well below the wall's
- * thickness, or the two skins would meet. */
+/* Size of the heads' triangles. On the knuckle they cut the corner by size² / (8 · 126), which has to stay well below
+ * the wall's thickness, or the two skins would meet. */
 static const double INNER = 32, OUTER = 40;
 
 static const double WALL = 6;
@@ -70,8 +71,8 @@ static bool bottom(model *model)
     return true;
 }
 
-/* The upper head with openings for the shaft, the dip tube, the manway and the ports. Outside, a lantern stands over the
- * shaft. */
+/* The upper head with openings for the shaft, the dip tube, the manway and the ports. Outside, a lantern stands over
+ * the shaft. */
 static bool top(model *model, const head *outer, const circle *lantern)
 {
     circle inside[3 + PORTS] = {SHAFT, MANWAY, round_at(DIP_CIRCLE, DIP_ANGLE, DIP_RADIUS)};
@@ -110,9 +111,8 @@ static void manway(model *model, const head *outer)
     /* Rings of WIDE segments meet the neck; the port's bore has the same corners. */
     turn(model, MANWAY.x, MANWAY.y, WIDE, (const double[][2]){{port, MANWAY_Z}, {MANWAY.r, MANWAY_Z}}, 2, 30);
     turn(model, MANWAY.x, MANWAY.y, WIDE,
-         (const double[][2]){
-             {outside.r, MANWAY_Z - 20}, {flange, MANWAY_Z - 20}, {flange, lid}, {port + WALL, lid}},
-         4, 100);
+         (const double[][2]){{outside.r, MANWAY_Z - 20}, {flange, MANWAY_Z - 20}, {flange, lid}, {port + WALL, lid}}, 4,
+         100);
     model_part(model, "port_4");
     turn(model, MANWAY.x, MANWAY.y, WIDE, (const double[][2]){{0, blind}, {port, blind}, {port, MANWAY_Z}}, 3, 30);
     turn(model, MANWAY.x, MANWAY.y, WIDE,
@@ -132,8 +132,8 @@ static void dip_tube(model *model, const head *outer)
     circle tube = round_at(DIP_CIRCLE, DIP_ANGLE, DIP_RADIUS);
     const double cap = DIP_TOP + WALL;
     model_part(model, "dip_tube");
-    turn(model, tube.x, tube.y, ROUND, (const double[][2]){{DIP_BORE, DIP_END}, {DIP_RADIUS, DIP_END}, {DIP_RADIUS, 1550}},
-         3, 80);
+    turn(model, tube.x, tube.y, ROUND,
+         (const double[][2]){{DIP_BORE, DIP_END}, {DIP_RADIUS, DIP_END}, {DIP_RADIUS, 1550}}, 3, 80);
     pipe_to_head(model, &TOP_HEAD, &tube, 1550, false);
     pipe_to_head(model, outer, &tube, cap, false);
     turn(model, tube.x, tube.y, ROUND, (const double[][2]){{DIP_RADIUS, cap}, {0, cap}}, 2, 40);
@@ -145,13 +145,19 @@ static void dip_tube(model *model, const head *outer)
 /* A Rushton turbine: six upright blades, slotted over the rim of a disc. */
 static void rushton(model *model, double z)
 {
-    const double outline[8][2] = {{200, -40},  {200, 40},    {100, 40},    {100, 3.5},
+    const double outline[8][2] = {{200, -40},   {200, 40},     {100, 40},   {100, 3.5},
                                   {151.5, 3.5}, {151.5, -3.5}, {100, -3.5}, {100, -40}};
     const int quads[3][4] = {{2, 3, 4, 1}, {4, 5, 0, 1}, {6, 7, 0, 5}};
     model_part(model, "impeller_rushton");
     turn(model, 0, 0, ROUND,
-         (const double[][2]){{25, z - 50}, {45, z - 50}, {45, z - 2.5}, {150, z - 2.5}, {150, z + 2.5}, {45, z + 2.5},
-                             {45, z + 50}, {25, z + 50}},
+         (const double[][2]){{25, z - 50},
+                             {45, z - 50},
+                             {45, z - 2.5},
+                             {150, z - 2.5},
+                             {150, z + 2.5},
+                             {45, z + 2.5},
+                             {45, z + 50},
+                             {25, z + 50}},
          8, 30);
     for (int i = 0; i < 6; ++i) {
         double angle = i * M_PI / 3;

@@ -10,9 +10,8 @@ static json_t *layout_named(json_t *result, const char *name)
 {
     size_t i;
     json_t *layout;
-    json_array_foreach(json_object_get(result, "layouts"), i, layout)
-        if (strcmp(json_string_value(json_object_get(layout, "name")), name) == 0)
-            return layout;
+    json_array_foreach(json_object_get(result, "layouts"), i,
+                       layout) if (strcmp(json_string_value(json_object_get(layout, "name")), name) == 0) return layout;
     fail_msg("no layout %s", name);
     return NULL;
 }
@@ -54,8 +53,8 @@ static void check_warns_where_bodies_are_closed_and_no_cavity_is_named(void **st
     json_decref(object);
 }
 
-/* The cone of 120 deg, 0.4 m under the ceiling's height above a floor of 1 m²: 12 L/min over pi sr. On the floor the flux is
- * Q cos^3(a) / (pi h²), above 1 L/min/m² all over it. */
+/* The cone of 120 deg, 0.4 m under the ceiling's height above a floor of 1 m²: 12 L/min over pi sr. On the floor the
+ * flux is Q cos^3(a) / (pi h²), above 1 L/min/m² all over it. */
 static void simulate_gives_the_figures(void **state)
 {
     (void)state;
@@ -136,16 +135,17 @@ static void same_file(const char *a, const char *b, const char *name)
 static void place_gives_the_same_bytes_for_any_number_of_threads(void **state)
 {
     (void)state;
-    outcome one = run_program("place room.yaml --threads 1 -o one"), three = run_program("place room.yaml --threads 3 -o three");
+    outcome one = run_program("place room.yaml --threads 1 -o one"),
+            three = run_program("place room.yaml --threads 3 -o three");
     assert_int_equal(one.status, three.status);
     assert_true(one.status == 0 || one.status == 4);
     assert_string_equal(one.out, three.out);
     forget(&one);
     forget(&three);
     static const char *const files[] = {
-        "layout.yaml",          "nozzles.csv",          "coverage.png",         "deposits.exr",        "model.glb",
-        "coverage-manual.png",  "deposits-manual.exr",  "model-manual.glb",     "coverage-greedy.png", "deposits-greedy.exr",
-        "model-greedy.glb",
+        "layout.yaml",         "nozzles.csv",         "coverage.png",        "deposits.exr",
+        "model.glb",           "coverage-manual.png", "deposits-manual.exr", "model-manual.glb",
+        "coverage-greedy.png", "deposits-greedy.exr", "model-greedy.glb",
     };
     for (size_t i = 0; i < sizeof files / sizeof *files; ++i)
         same_file("one", "three", files[i]);
@@ -157,8 +157,8 @@ static void place_gives_the_same_bytes_for_any_number_of_threads(void **state)
     json_decref(b);
 }
 
-/* The proposal is at least as good as what it was made from, and simulating the layout.yaml that was written, from another
- * folder, gives its figures back. */
+/* The proposal is at least as good as what it was made from, and simulating the layout.yaml that was written, from
+ * another folder, gives its figures back. */
 static void the_written_layout_gives_the_same_figures(void **state)
 {
     (void)state;
@@ -184,7 +184,8 @@ static void place_says_whether_the_coverage_asked_for_is_reached(void **state)
     (void)state;
     json_decref(expect_json("place room.yaml --json --set 'place.coverage=20 %'", 0));
     json_t *object = expect_json("place room.yaml --json --set place.max_nozzles=1 --set 'place.coverage=100 %' "
-                                 "--set 'place.max_water=13 L/min'", 4);
+                                 "--set 'place.max_water=13 L/min'",
+                                 4);
     json_t *proposed = layout_named(object, "proposed");
     assert_int_equal(json_array_size(json_object_get(proposed, "nozzles")), 1);
     assert_true(number(proposed, "water_l_min") <= 13);

@@ -3,8 +3,8 @@
 
 #define HEADER "ray,t,triangle,u,v,x,y,z,speed,incidence_deg\n"
 
-/* In the room: down on the floor's first and second triangle (a quad is a fan: 1 2 3 and 1 3 4), slantwise on the floor,
- * a ray that starts outside and points away. */
+/* In the room: down on the floor's first and second triangle (a quad is a fan: 1 2 3 and 1 3 4), slantwise on the
+ * floor, a ray that starts outside and points away. */
 static const char rays[] = "# ox,oy,oz,vx,vy,vz\n"
                            "0.75, 0.25, 0.5, 0, 0, -2\n"
                            "\n"
@@ -27,8 +27,8 @@ static void lines_hit_where_they_must(void **state)
     forget(&result);
 }
 
-/* From (1/2, 1/4, 1/2) at 1 m/s along x, g = 4: falls 1/2 m in 1/2 s, 1/2 m on: at the foot of the wall; from lower it meets
- * the floor. z = 1/8 - 2 t² = 0 at t = 1/4, with v = (1, 0, -1). */
+/* From (1/2, 1/4, 1/2) at 1 m/s along x, g = 4: falls 1/2 m in 1/2 s, 1/2 m on: at the foot of the wall; from lower it
+ * meets the floor. z = 1/8 - 2 t² = 0 at t = 1/4, with v = (1, 0, -1). */
 static void parabolas_fall(void **state)
 {
     (void)state;
@@ -51,8 +51,8 @@ static void every_accelerator_and_thread_count_gives_the_same_bytes(void **state
             seed = seed * 1664525 + 1013904223;
             number[k] = (seed >> 8) * 0x1p-24 - (k < 3 ? 0 : 0.5);
         }
-        at += sprintf(at, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", number[0], number[1], number[2], number[3], number[4],
-                      number[5]);
+        at += sprintf(at, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", number[0], number[1], number[2], number[3],
+                      number[4], number[5]);
     }
     write_file("many.csv", text);
     free(text);

@@ -10,7 +10,7 @@ static void says_its_version(void **state)
 static void help_goes_to_standard_output(void **state)
 {
     (void)state;
-    static const char *const calls[] = {"--help", "check --help", "simulate --help", "place --help",
+    static const char *const calls[] = {"--help",         "check --help", "simulate --help", "place --help",
                                         "compare --help", "trace --help", "atlas --help"};
     for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {
         outcome result = run_program(calls[i]);

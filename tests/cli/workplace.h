@@ -47,8 +47,10 @@ static const char room_yaml[] =
     "  max_nozzles: 4\n"
     "  pressure: 2 bar\n"
     "  mounts:\n"
-    "    - port: {name: P1, position: [0.3 m, 0.3 m, 1 m], axis: [0, 0, -1], tilt: 30 deg, depth: {from: 100 mm, to: 500 mm, spacing: 200 mm}}\n"
-    "    - port: {name: P2, position: [0.7 m, 0.7 m, 1 m], axis: [0, 0, -1], tilt: 30 deg, depth: {from: 100 mm, to: 500 mm, spacing: 200 mm}}\n";
+    "    - port: {name: P1, position: [0.3 m, 0.3 m, 1 m], axis: [0, 0, -1], tilt: 30 deg, depth: {from: 100 mm, to: "
+    "500 mm, spacing: 200 mm}}\n"
+    "    - port: {name: P2, position: [0.7 m, 0.7 m, 1 m], axis: [0, 0, -1], tilt: 30 deg, depth: {from: 100 mm, to: "
+    "500 mm, spacing: 200 mm}}\n";
 
 static char workplace[512];
 
@@ -136,8 +138,8 @@ static inline json_t *expect_json(const char *arguments, int status)
 static inline char *list_folder(const char *folder)
 {
     char line[2048];
-    snprintf(line, sizeof line, "cd '%s/%s' && LC_ALL=C ls -A | grep -v -x -e .out -e .err -e .list >'%s/.list'", workplace,
-             folder, workplace);
+    snprintf(line, sizeof line, "cd '%s/%s' && LC_ALL=C ls -A | grep -v -x -e .out -e .err -e .list >'%s/.list'",
+             workplace, folder, workplace);
     assert_true(WIFEXITED(system(line)));
     return read_file(".list", NULL);
 }
