@@ -73,7 +73,7 @@ static void bad_input_ends_with_3_and_says_where(void **state)
     } calls[] = {
         {"check unit.yaml", "unit.yaml:4:9: ", "flux"},
         {"check key.yaml", "key.yaml:3:5: ", "colour"},
-        {"check type.yaml", "type.yaml:5:22: ", "hose"},
+        {"check type.yaml", "type.yaml:5:21: ", "hose"},
         {"check mesh.yaml", "broken.obj:4", "4"},
         {"check syntax.yaml", "syntax.yaml:", ""},
         {"check nowhere.yaml", "nowhere.yaml", ""},
