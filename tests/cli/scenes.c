@@ -108,7 +108,8 @@ static void no_input_is_overwritten(void **state)
     expect("simulate room.yaml -o simulated --quiet", 0, "", "");
     char *before = read_file("simulated/layout.yaml", NULL);
     outcome result = run_program("simulate simulated/layout.yaml -o simulated");
-    assert_int_equal(result.status, 3);
+    assert_int_equal(result.status, 1);
+    assert_non_null(strstr(result.err, "would replace a file that was read"));
     char *after = read_file("simulated/layout.yaml", NULL);
     assert_string_equal(before, after);
     free(before);
