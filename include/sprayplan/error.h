@@ -10,8 +10,8 @@ extern "C" {
 
 typedef enum {
     SP_OK = 0,
-    SP_ERROR_INPUT,       /* a file or a setting holds something that is not allowed */
-    SP_ERROR_FILE,        /* a file cannot be opened, read or written */
+    SP_ERROR_INPUT,       /* a file that is read is missing, or holds something that is not allowed; a wrong setting */
+    SP_ERROR_FILE,        /* a file cannot be written */
     SP_ERROR_MEMORY,      /* an allocation failed */
     SP_ERROR_ARGUMENT,    /* a function was called with arguments that make no sense */
     SP_ERROR_UNSUPPORTED, /* well formed, but not built yet */

@@ -68,7 +68,7 @@ static bool read_batch(ray_reader *reader, sp_ray *rays, size_t *count, sp_error
         ++*count;
     }
     if (ferror(reader->file))
-        return sp_fail(error, SP_ERROR_FILE, reader->path, 0, 0, "cannot be read");
+        return sp_fail(error, SP_ERROR_INPUT, reader->path, 0, 0, "cannot be read");
     return true;
 }
 

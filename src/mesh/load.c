@@ -12,7 +12,7 @@ static char *read_file(const char *path, size_t *size, sp_error *error)
 {
     FILE *file = fopen(path, "rb");
     if (!file) {
-        sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot be opened: %s", strerror(errno));
+        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "cannot be opened: %s", strerror(errno));
         return NULL;
     }
     size_t room = 1 << 16;
@@ -31,7 +31,7 @@ static char *read_file(const char *path, size_t *size, sp_error *error)
     if (!text) {
         sp_fail_memory(error);
     } else if (ferror(file)) {
-        sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot be read: %s", strerror(errno));
+        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "cannot be read: %s", strerror(errno));
         free(text);
         text = NULL;
     } else {

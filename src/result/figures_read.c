@@ -259,7 +259,7 @@ static json_t *parse(const char *path, sp_error *error)
     struct stat status;
     FILE *file = fopen(path, "rb");
     if (!file || fstat(fileno(file), &status) != 0 || !S_ISREG(status.st_mode) || status.st_size > LARGEST_FILE) {
-        sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot be read, expected a file of at most %ld MiB",
+        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "cannot be read, expected a file of at most %ld MiB",
                 LARGEST_FILE >> 20);
         if (file)
             fclose(file);

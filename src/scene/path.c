@@ -41,11 +41,11 @@ char *sp_scene_file(const sp_scene *scene, const sp_reader *reader, const sp_yam
     if (!path)
         return NULL;
     if (stat(path, &status) != 0)
-        sp_fail(reader->error, SP_ERROR_FILE, node->file, node->line, node->column,
+        sp_fail(reader->error, SP_ERROR_INPUT, node->file, node->line, node->column,
                 "%s: found '%.300s', which cannot be opened (%s), expected a file, relative to the scene", key, name,
                 strerror(errno));
     else if (!S_ISREG(status.st_mode))
-        sp_fail(reader->error, SP_ERROR_FILE, node->file, node->line, node->column,
+        sp_fail(reader->error, SP_ERROR_INPUT, node->file, node->line, node->column,
                 "%s: found '%.300s', which is no regular file, expected a file, relative to the scene", key, name);
     else
         return path;

@@ -267,7 +267,7 @@ static sp_yaml *load_stream(FILE *stream, const char *file, sp_error *error)
     size_t size = fread(text, 1, MAX_BYTES + 1, stream);
     sp_yaml *root = NULL;
     if (ferror(stream))
-        sp_fail(error, SP_ERROR_FILE, file, 0, 0, "cannot read: %s", strerror(errno));
+        sp_fail(error, SP_ERROR_INPUT, file, 0, 0, "cannot read: %s", strerror(errno));
     else if (size > MAX_BYTES)
         sp_fail(error, SP_ERROR_INPUT, file, 0, 0, "found more than 16 MiB, expected a smaller file");
     else
@@ -280,7 +280,7 @@ sp_yaml *sp_yaml_load(const char *file, sp_error *error)
 {
     FILE *stream = fopen(file, "rb");
     if (!stream) {
-        sp_fail(error, SP_ERROR_FILE, file, 0, 0, "cannot open: %s", strerror(errno));
+        sp_fail(error, SP_ERROR_INPUT, file, 0, 0, "cannot open: %s", strerror(errno));
         return NULL;
     }
     sp_yaml *root = load_stream(stream, file, error);

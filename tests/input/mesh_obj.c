@@ -231,7 +231,7 @@ static void files_that_cannot_be_read(void **state)
     (void)state;
     sp_error error = {0};
     assert_null(sp_mesh_load("no/such/file.obj", 1, &error));
-    assert_int_equal(error.kind, SP_ERROR_FILE);
+    assert_int_equal(error.kind, SP_ERROR_INPUT);
     error = (sp_error){0};
     assert_null(sp_mesh_load("mesh.step", 1, &error));
     assert_int_equal(error.kind, SP_ERROR_INPUT);

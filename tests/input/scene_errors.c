@@ -498,7 +498,7 @@ static void scene_kinds(void **state)
 static void scene_files(void **state)
 {
     (void)state;
-    try_scenes(missing_files, COUNT(missing_files), SP_ERROR_FILE);
+    try_scenes(missing_files, COUNT(missing_files), SP_ERROR_INPUT);
     try_scenes(files, COUNT(files), SP_ERROR_INPUT);
 }
 

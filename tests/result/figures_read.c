@@ -122,10 +122,10 @@ static void rejects_what_is_no_file(void **state)
     size_t count;
     sp_error error = {0};
     assert_null(sp_figures_read(BINARY_DIR "/none.json", &count, &error));
-    assert_int_equal(error.kind, SP_ERROR_FILE);
+    assert_int_equal(error.kind, SP_ERROR_INPUT);
     error = (sp_error){0};
     assert_null(sp_figures_read(BINARY_DIR, &count, &error));
-    assert_int_equal(error.kind, SP_ERROR_FILE);
+    assert_int_equal(error.kind, SP_ERROR_INPUT);
 }
 
 int main(void)
