@@ -151,7 +151,7 @@ static bool print_json(const findings *found)
     return good;
 }
 
-static bool check(const cli_options *options, findings *found, sp_error *error)
+static bool examine(const cli_options *options, findings *found, sp_error *error)
 {
     if (!measure_parts(found, error) || !sp_mesh_diagnose(setup_of(found)->mesh, &found->mesh, error))
         return false;
@@ -165,26 +165,21 @@ static bool check(const cli_options *options, findings *found, sp_error *error)
     return true;
 }
 
-int cli_check(const cli_options *options)
+static int check(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error)
 {
-    sp_error error = {0};
-    cli_clock clock;
-    cli_scene opened;
-    cli_clock_start(&clock);
-    if (!cli_scene_open(&opened, options->inputs[0], options, &clock, &error))
-        return cli_fail(&error);
+    (void)clock; /* check is not timed */
     findings *found = calloc(1, sizeof *found);
-    if (found)
-        found->opened = &opened;
-    else
-        sp_fail_memory(&error);
-    bool good = found && check(options, found, &error);
-    if (found) {
-        free(found->part_area);
-        free(found->part_wet);
-        free(found->part_triangles);
+    if (!found) {
+        sp_fail_memory(error);
+        return cli_fail(error);
     }
+    found->opened = opened;
+    bool good = examine(options, found, error);
+    free(found->part_area);
+    free(found->part_wet);
+    free(found->part_triangles);
     free(found);
-    cli_scene_close(&opened);
-    return good ? EXIT_DONE : cli_fail(&error);
+    return good ? EXIT_DONE : cli_fail(error);
 }
+
+int cli_check(const cli_options *options) { return cli_with_scene(options, check); }

@@ -79,6 +79,9 @@ typedef struct {
 } cli_scene;
 bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *options, cli_clock *clock, sp_error *error);
 void cli_scene_close(cli_scene *opened);
+/* Opens the first input, does the work with it and closes it; the exit status. */
+typedef int cli_work(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error);
+int cli_with_scene(const cli_options *options, cli_work *work);
 
 /* output.c: what simulate, place and compare end with. `layout` NULL: no layout.yaml. */
 bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *scene, const sp_layout *layout,

@@ -66,15 +66,4 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
     return status;
 }
 
-int cli_place(const cli_options *options)
-{
-    sp_error error = {0};
-    cli_clock clock;
-    cli_scene opened;
-    cli_clock_start(&clock);
-    if (!cli_scene_open(&opened, options->inputs[0], options, &clock, &error))
-        return cli_fail(&error);
-    int status = place(options, &opened, &clock, &error);
-    cli_scene_close(&opened);
-    return status;
-}
+int cli_place(const cli_options *options) { return cli_with_scene(options, place); }

@@ -23,3 +23,16 @@ void cli_scene_close(cli_scene *opened)
     sp_scene_destroy(opened->scene);
     *opened = (cli_scene){0};
 }
+
+int cli_with_scene(const cli_options *options, cli_work *work)
+{
+    sp_error error = {0};
+    cli_clock clock;
+    cli_scene opened;
+    cli_clock_start(&clock);
+    if (!cli_scene_open(&opened, options->inputs[0], options, &clock, &error))
+        return cli_fail(&error);
+    int status = work(options, &opened, &clock, &error);
+    cli_scene_close(&opened);
+    return status;
+}

@@ -26,15 +26,4 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
     return good ? EXIT_DONE : cli_fail(error);
 }
 
-int cli_simulate(const cli_options *options)
-{
-    sp_error error = {0};
-    cli_clock clock;
-    cli_scene opened;
-    cli_clock_start(&clock);
-    if (!cli_scene_open(&opened, options->inputs[0], options, &clock, &error))
-        return cli_fail(&error);
-    int status = simulate(options, &opened, &clock, &error);
-    cli_scene_close(&opened);
-    return status;
-}
+int cli_simulate(const cli_options *options) { return cli_with_scene(options, simulate); }
