@@ -1,35 +1,11 @@
 #include <sprayplan/atlas.h>
 
-#include "atlas/edges.h"
 #include "atlas/orient.h"
 #include "atlas/unfold.h"
+#include "mesh/half_edge.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-/* twin [3 triangle_count]: the half-edge across each half-edge. SP_NONE at open edges, at edges of three or more
- * triangles and where the two triangles do not agree which side is the front. */
-static bool find_twins(const sp_mesh *mesh, uint32_t *twin)
-{
-    size_t count = 3 * mesh->triangle_count;
-    uint32_t *order = sp_edges_in_order(mesh);
-    if (!order)
-        return false;
-    for (size_t h = 0; h < count; h++)
-        twin[h] = SP_NONE;
-    for (size_t i = 0, end; i < count; i = end) {
-        uint64_t key = sp_edge_key(mesh, order[i]);
-        for (end = i + 1; end < count && sp_edge_key(mesh, order[end]) == key;)
-            end++;
-        uint32_t a = order[i], b = order[end - 1];
-        if (end - i != 2 || mesh->triangles[a / 3][a % 3] == mesh->triangles[b / 3][b % 3])
-            continue;
-        twin[a] = b;
-        twin[b] = a;
-    }
-    free(order);
-    return true;
-}
 
 sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error)
 {
@@ -52,12 +28,13 @@ sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error)
     charts->extent = extent;
     charts->chart = malloc((count + 1) * sizeof *charts->chart);
     charts->flat = malloc((count + 1) * sizeof *charts->flat);
-    uint32_t *twin = malloc((count + 1) * 3 * sizeof *twin);
-    bool done = charts->chart && charts->flat && twin && find_twins(mesh, twin);
+    sp_half_edges edges = {0};
+    bool done = charts->chart && charts->flat;
     if (!done)
         sp_fail_memory(error);
-    done = done && sp_unfold(charts, mesh, twin, error) && sp_orient_charts(charts, error);
-    free(twin);
+    done = done && sp_half_edges_create(mesh, &edges, error) && sp_unfold(charts, mesh, edges.opposite, error) &&
+           sp_orient_charts(charts, error);
+    sp_half_edges_destroy(&edges);
     if (done)
         return charts;
     sp_charts_destroy(charts);

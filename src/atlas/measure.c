@@ -1,6 +1,6 @@
 /* How good an atlas is: cuts, distortion, use of the pages, and checks that hold for every atlas. */
-#include "atlas/edges.h"
 #include "atlas/overlap.h"
+#include "mesh/half_edge.h"
 
 #include <sprayplan/atlas.h>
 
@@ -89,20 +89,22 @@ static bool is_cut(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t a, uint3
     return gap > SP_OVERLAP_TOLERANCE * hypot(p[end_a][0] - p[start_a][0], p[end_a][1] - p[start_a][1]);
 }
 
-static bool measure_seams(const sp_atlas *atlas, const sp_mesh *mesh, double surface, sp_atlas_figures *figures)
+static bool measure_seams(const sp_atlas *atlas, const sp_mesh *mesh, double surface, sp_atlas_figures *figures,
+                          sp_error *error)
 {
-    uint32_t *order = sp_edges_in_order(mesh);
-    if (!order)
+    sp_half_edges edges = {0};
+    if (!sp_half_edges_create(mesh, &edges, error))
         return false;
     double length = 0;
-    for (size_t i = 1; i < 3 * mesh->triangle_count; i++) {
-        uint32_t a = order[i - 1], b = order[i];
-        if (sp_edge_key(mesh, a) != sp_edge_key(mesh, b) || !is_cut(atlas, mesh, a, b))
-            continue;
-        const uint32_t *corner = mesh->triangles[a / 3];
-        length += sp_distance(mesh->vertices[corner[a % 3]], mesh->vertices[corner[(a % 3 + 1) % 3]]);
+    for (size_t i = 0, of_edge; i < 3 * mesh->triangle_count; i += of_edge) {
+        of_edge = sp_half_edges_of_edge(mesh, &edges, i);
+        uint32_t a = edges.order[i];
+        double edge = sp_distance(mesh->vertices[sp_half_edge_from(mesh, a)],
+                                       mesh->vertices[sp_half_edge_to(mesh, a)]);
+        for (size_t k = 1; k < of_edge; k++)
+            length += is_cut(atlas, mesh, edges.order[i + k - 1], edges.order[i + k]) ? edge : 0;
     }
-    free(order);
+    sp_half_edges_destroy(&edges);
     figures->seam_over_sqrt_area = surface > 0 ? length / sqrt(surface) : 0;
     return true;
 }
@@ -170,7 +172,7 @@ bool sp_atlas_measure(const sp_atlas *atlas, const sp_mesh *mesh, sp_atlas_figur
     figures->area_error = whole > 0 ? fabs(difference) / whole : 0;
     double page = (double)atlas->page_edge * atlas->page_edge;
     figures->utilisation = (flat.sum + flat.rest) / (page * (double)atlas->page_count);
-    if (!measure_strain(atlas, mesh, figures) || !measure_seams(atlas, mesh, whole, figures) ||
+    if (!measure_strain(atlas, mesh, figures) || !measure_seams(atlas, mesh, whole, figures, error) ||
         !count_small_charts(atlas, figures)) {
         sp_fail_memory(error);
         return false;

@@ -1,8 +1,8 @@
 /* Which texels touch: inside a triangle, and across the edges of the mesh whether or not the atlas is cut there. Two
  * lips of a cut that merely lie side by side on the page do not touch. */
-#include "atlas/edges.h"
 #include "atlas/order.h"
 #include "atlas/texels.h"
+#include "mesh/half_edge.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -92,14 +92,16 @@ static bool pair_across(pairs *p, const sp_atlas *atlas, const sp_mesh *mesh, ui
 }
 
 /* Pairs across every edge that two or more triangles share, whichever way they face. */
-static bool pair_edges(pairs *p, const sp_atlas *atlas, const sp_mesh *mesh)
+static bool pair_edges(pairs *p, const sp_atlas *atlas, const sp_mesh *mesh, sp_error *error)
 {
-    uint32_t *order = sp_edges_in_order(mesh);
-    bool done = order;
-    for (size_t i = 1; done && i < 3 * mesh->triangle_count; i++)
-        if (sp_edge_key(mesh, order[i - 1]) == sp_edge_key(mesh, order[i]))
-            done = pair_across(p, atlas, mesh, order[i - 1], order[i]);
-    free(order);
+    sp_half_edges edges = {0};
+    bool done = sp_half_edges_create(mesh, &edges, error);
+    for (size_t i = 0, of_edge; done && i < 3 * mesh->triangle_count; i += of_edge) {
+        of_edge = sp_half_edges_of_edge(mesh, &edges, i);
+        for (size_t k = 1; done && k < of_edge; k++)
+            done = pair_across(p, atlas, mesh, edges.order[i + k - 1], edges.order[i + k]);
+    }
+    sp_half_edges_destroy(&edges);
     return done;
 }
 
@@ -130,7 +132,7 @@ bool sp_atlas_connect(sp_atlas *atlas, const sp_mesh *mesh, sp_error *error)
     bool done = true;
     for (uint32_t t = 0; t < mesh->triangle_count && done; t++)
         done = pair_inside(&p, atlas, t);
-    done = done && pair_edges(&p, atlas, mesh) && collect(atlas, &p);
+    done = done && pair_edges(&p, atlas, mesh, error) && collect(atlas, &p);
     free(p.items);
     if (!done)
         sp_fail_memory(error);
