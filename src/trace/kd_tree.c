@@ -1,153 +1,88 @@
-/* Building kd-trees: cells are split by planes that a chooser names. */
 #include "trace/kd_tree.h"
 
-#include <float.h>
 #include <stdlib.h>
-#include <string.h>
 
-static bool add_node(kd_tree *tree, kd_node node)
+sp_kd_box *sp_kd_boxes(const sp_mesh *mesh)
 {
-    if (tree->node_count == tree->node_capacity) {
-        size_t capacity = tree->node_capacity ? 2 * tree->node_capacity : 64;
-        kd_node *nodes = realloc(tree->nodes, capacity * sizeof *nodes);
-        if (!nodes)
-            return false;
-        tree->nodes = nodes;
-        tree->node_capacity = capacity;
+    sp_kd_box *boxes = malloc((mesh->triangle_count + 1) * sizeof *boxes);
+    for (size_t t = 0; boxes && t < mesh->triangle_count; t++) {
+        const uint32_t *corners = mesh->triangles[t];
+        sp_vec3 a = mesh->vertices[corners[0]], b = mesh->vertices[corners[1]], c = mesh->vertices[corners[2]];
+        boxes[t][0][0] = fmin(a.x, fmin(b.x, c.x));
+        boxes[t][0][1] = fmin(a.y, fmin(b.y, c.y));
+        boxes[t][0][2] = fmin(a.z, fmin(b.z, c.z));
+        boxes[t][1][0] = fmax(a.x, fmax(b.x, c.x));
+        boxes[t][1][1] = fmax(a.y, fmax(b.y, c.y));
+        boxes[t][1][2] = fmax(a.z, fmax(b.z, c.z));
     }
-    tree->nodes[tree->node_count++] = node;
-    return true;
-}
-
-static bool add_leaf(kd_tree *tree, const kd_cell *cell)
-{
-    if (tree->ref_count + cell->count > SP_NONE)
-        return false;
-    while (tree->ref_count + cell->count > tree->ref_capacity) {
-        size_t capacity = tree->ref_capacity ? 2 * tree->ref_capacity : 256;
-        uint32_t *refs = realloc(tree->refs, capacity * sizeof *refs);
-        if (!refs)
-            return false;
-        tree->refs = refs;
-        tree->ref_capacity = capacity;
-    }
-    kd_node leaf = {.axis = KD_LEAF, .right = (uint32_t)cell->count, .first = (uint32_t)tree->ref_count};
-    if (cell->count)
-        memcpy(tree->refs + tree->ref_count, cell->triangles, cell->count * sizeof *tree->refs);
-    tree->ref_count += cell->count;
-    return add_node(tree, leaf);
-}
-
-static kd_box *triangle_boxes(const sp_mesh *mesh)
-{
-    kd_box *boxes = malloc((mesh->triangle_count + 1) * sizeof *boxes);
-    for (size_t t = 0; boxes && t < mesh->triangle_count; t++)
-        for (int axis = 0; axis < 3; axis++) {
-            boxes[t][0][axis] = DBL_MAX;
-            boxes[t][1][axis] = -DBL_MAX;
-            for (int i = 0; i < 3; i++) {
-                sp_vec3 p = mesh->vertices[mesh->triangles[t][i]];
-                double x = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-                boxes[t][0][axis] = fmin(boxes[t][0][axis], x);
-                boxes[t][1][axis] = fmax(boxes[t][1][axis], x);
-            }
-        }
     return boxes;
 }
 
-static bool whole_mesh(const sp_mesh *mesh, const kd_box *boxes, kd_tree *tree, kd_cell *cell)
+void sp_kd_enclose(const sp_kd_box *boxes, size_t count, sp_kd_tree *tree)
 {
-    *cell = (kd_cell){.count = mesh->triangle_count,
-                      .triangles = malloc((mesh->triangle_count + 1) * sizeof *cell->triangles)};
     for (int axis = 0; axis < 3; axis++) {
-        double low = DBL_MAX, high = -DBL_MAX;
-        for (size_t t = 0; t < mesh->triangle_count; t++) {
-            low = fmin(low, boxes[t][0][axis]);
-            high = fmax(high, boxes[t][1][axis]);
+        tree->low[axis] = count ? boxes[0][0][axis] : 0;
+        tree->high[axis] = count ? boxes[0][1][axis] : 0;
+        for (size_t t = 1; t < count; t++) {
+            tree->low[axis] = fmin(tree->low[axis], boxes[t][0][axis]);
+            tree->high[axis] = fmax(tree->high[axis], boxes[t][1][axis]);
         }
-        cell->low[axis] = tree->low[axis] = low;
-        cell->high[axis] = tree->high[axis] = high;
     }
-    for (size_t t = 0; cell->triangles && t < mesh->triangle_count; t++)
-        cell->triangles[t] = (uint32_t)t;
-    return cell->triangles != NULL;
 }
 
-/* A triangle within the plane goes left; one that only touches it goes to its own side: the walk widens every plane by more
- * than round-off. */
-static bool split_cell(const kd_box *boxes, const kd_cell *cell, kd_plane plane, kd_cell *left, kd_cell *right)
+int sp_kd_depth(size_t triangle_count)
 {
-    *left = *right = *cell;
-    left->high[plane.axis] = right->low[plane.axis] = plane.position;
-    left->count = right->count = 0;
-    left->triangles = malloc((cell->count + 1) * sizeof *left->triangles);
-    right->triangles = malloc((cell->count + 1) * sizeof *right->triangles);
-    if (!left->triangles || !right->triangles)
+    int depth = (int)(8 + 1.3 * log2((double)triangle_count + 1));
+    return depth < SP_KD_DEPTH ? depth : SP_KD_DEPTH;
+}
+
+/* Room for `count` more items of `size` bytes. */
+static bool make_room(void **items, size_t *room, size_t used, size_t count, size_t size)
+{
+    if (count <= *room - used)
+        return true;
+    size_t more = 2 * *room > used + count ? 2 * *room : used + count + 64;
+    void *larger = more < SP_NONE ? realloc(*items, more * size) : NULL;
+    if (!larger)
         return false;
-    for (size_t i = 0; i < cell->count; i++) {
-        uint32_t t = cell->triangles[i];
-        double low = boxes[t][0][plane.axis], high = boxes[t][1][plane.axis];
-        if (low < plane.position || high <= plane.position)
-            left->triangles[left->count++] = t;
-        if (high > plane.position)
-            right->triangles[right->count++] = t;
-    }
+    *items = larger;
+    *room = more;
     return true;
 }
 
-/* Takes over the cell's triangles. */
-static bool build_node(const kd_box *boxes, kd_choose *choose, kd_cell *cell, int depth, kd_tree *tree)
+static bool add_node(sp_kd_tree *tree, sp_kd_node node)
 {
-    kd_plane plane = {.axis = KD_LEAF};
-    kd_cell left = {0}, right = {0};
-    bool good = depth == 0 || choose(boxes, cell, &plane);
-    if (good && plane.axis == KD_LEAF)
-        good = add_leaf(tree, cell);
-    else if (good)
-        good = split_cell(boxes, cell, plane, &left, &right);
-    free(cell->triangles);
-    cell->triangles = NULL;
-    if (good && plane.axis != KD_LEAF) {
-        size_t here = tree->node_count;
-        good = add_node(tree, (kd_node){.split = plane.position, .axis = plane.axis}) &&
-               build_node(boxes, choose, &left, depth - 1, tree);
-        if (good) {
-            tree->nodes[here].right = (uint32_t)tree->node_count;
-            good = build_node(boxes, choose, &right, depth - 1, tree);
-        }
-    }
-    free(left.triangles);
-    free(right.triangles);
+    void *items = tree->nodes;
+    bool good = make_room(&items, &tree->node_room, tree->node_count, 1, sizeof node);
+    tree->nodes = items;
+    if (good)
+        tree->nodes[tree->node_count++] = node;
     return good;
 }
 
-bool kd_tree_build(const sp_mesh *mesh, kd_choose *choose, kd_tree *tree)
+bool sp_kd_add_inner(sp_kd_tree *tree, double split, uint32_t axis, uint32_t *node)
 {
-    *tree = (kd_tree){0};
-    kd_box *boxes = triangle_boxes(mesh);
-    kd_cell cell;
-    int depth = (int)(8 + 1.3 * log2((double)mesh->triangle_count + 1));
-    bool good = boxes && whole_mesh(mesh, boxes, tree, &cell) &&
-                build_node(boxes, choose, &cell, depth < KD_DEPTH ? depth : KD_DEPTH, tree);
-    free(boxes);
-    if (!good)
-        kd_tree_free(tree);
-    return good;
+    *node = (uint32_t)tree->node_count;
+    return add_node(tree, (sp_kd_node){split, 0, axis});
 }
 
-static bool choose_none(const kd_box *boxes, const kd_cell *cell, kd_plane *plane)
+uint32_t *sp_kd_add_leaf(sp_kd_tree *tree, size_t count)
 {
-    (void)boxes;
-    (void)cell;
-    plane->axis = KD_LEAF;
-    return true;
+    size_t first = tree->reference_count;
+    void *items = tree->references;
+    /* One more, so that an empty leaf has a place too. */
+    bool good =
+        count < SP_NONE / 4 && make_room(&items, &tree->reference_room, first, count + 1, sizeof *tree->references);
+    tree->references = items;
+    if (!good || !add_node(tree, (sp_kd_node){0, (uint32_t)first, (uint32_t)(4 * count) + SP_KD_LEAF}))
+        return NULL;
+    tree->reference_count += count;
+    return tree->references + first;
 }
 
-bool kd_tree_leaf(const sp_mesh *mesh, kd_tree *tree) { return kd_tree_build(mesh, choose_none, tree); }
-
-void kd_tree_free(kd_tree *tree)
+void sp_kd_clear(sp_kd_tree *tree)
 {
     free(tree->nodes);
-    free(tree->refs);
-    *tree = (kd_tree){0};
+    free(tree->references);
+    *tree = (sp_kd_tree){0};
 }

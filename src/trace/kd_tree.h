@@ -1,52 +1,46 @@
-/* A kd-tree over the triangles of a mesh: the study's two ways of building one. */
-#ifndef TRACE_KD_TREE_H
-#define TRACE_KD_TREE_H
+/* Kd-trees over the triangles of a mesh (the study's chapter 3.2.2), and how they are built. */
+#ifndef SPRAYPLAN_TRACE_KD_TREE_H
+#define SPRAYPLAN_TRACE_KD_TREE_H
 
-#include <sprayplan/trace.h>
+#include <sprayplan/mesh.h>
 
-/* An inner node's left child follows it; a leaf lists triangles. */
+/* An inner node's left child follows it. */
 typedef struct {
-    double split;   /* m; inner nodes */
-    uint32_t axis;  /* 0, 1, 2; KD_LEAF for a leaf */
-    uint32_t right; /* inner nodes: the right child; leaves: how many triangles */
-    uint32_t first; /* leaves: index into refs */
-} kd_node;
+    double split;   /* m, of an inner node */
+    uint32_t right; /* of an inner node; of a leaf, where its triangles begin in `references` */
+    uint32_t size;  /* 4 times the number of triangles of a leaf, plus the split axis or SP_KD_LEAF */
+} sp_kd_node;
 
-enum { KD_LEAF = 3, KD_DEPTH = 60 };
+enum {
+    SP_KD_LEAF = 3,
+    SP_KD_DEPTH = 64,       /* no node is deeper */
+    SP_KD_DUPLICATION = 32, /* no more references than this times the number of triangles */
+};
 
 typedef struct {
-    kd_node *nodes;
-    size_t node_count, node_capacity;
-    uint32_t *refs; /* triangles of the leaves */
-    size_t ref_count, ref_capacity;
-    double low[3], high[3]; /* box around the mesh, m */
-} kd_tree;
+    sp_kd_node *nodes;
+    size_t node_count, node_room;
+    uint32_t *references; /* the triangles of the leaves */
+    size_t reference_count, reference_room;
+    double low[3], high[3]; /* box around all triangles, m */
+} sp_kd_tree;
 
-/* The whole mesh as one leaf; what the two builders begin with, and all there is without a tree. */
-bool kd_tree_leaf(const sp_mesh *mesh, kd_tree *tree);
-/* kd_naive.c, kd_sah.c. False when memory runs out. */
-bool kd_tree_naive(const sp_mesh *mesh, kd_tree *tree);
-bool kd_tree_sah(const sp_mesh *mesh, kd_tree *tree);
-void kd_tree_free(kd_tree *tree);
+/* Box of a triangle: low, high. */
+typedef double sp_kd_box[2][3];
+/* [triangle_count]; NULL when memory runs out. */
+sp_kd_box *sp_kd_boxes(const sp_mesh *mesh);
+/* Sets tree->low and tree->high. */
+void sp_kd_enclose(const sp_kd_box *boxes, size_t count, sp_kd_tree *tree);
+/* How deep a tree over so many triangles may grow: 8 + 1.3 log2 n (Havran, "Heuristic Ray Shooting Algorithms", 2000). */
+int sp_kd_depth(size_t triangle_count);
+/* Both false when memory, or the numbers for references, run out. */
+bool sp_kd_add_inner(sp_kd_tree *tree, double split, uint32_t axis, uint32_t *node);
+/* Room for a leaf's triangles, to be filled by the caller; NULL as above. */
+uint32_t *sp_kd_add_leaf(sp_kd_tree *tree, size_t count);
 
-/* A box and the triangles that reach into it, while building. */
-typedef struct {
-    double low[3], high[3];
-    size_t count;
-    uint32_t *triangles; /* malloc'd */
-} kd_cell;
-
-/* The plane that a builder chooses for a cell; axis KD_LEAF for none. */
-typedef struct {
-    double position;
-    uint32_t axis;
-} kd_plane;
-
-/* boxes: [triangle_count], the box of each triangle, low then high. */
-typedef double kd_box[2][3];
-/* Sets *plane; false when memory runs out. */
-typedef bool kd_choose(const kd_box *boxes, const kd_cell *cell, kd_plane *plane);
-/* Splits by `choose` until it chooses none or the depth is spent (8 + 1.3 log2 n, Havran 2000). */
-bool kd_tree_build(const sp_mesh *mesh, kd_choose *choose, kd_tree *tree);
+/* The two ways to build, each into a tree of zeros. False when memory runs out. */
+bool sp_kd_build_sah(const sp_mesh *mesh, sp_kd_tree *tree);
+bool sp_kd_build_naive(const sp_mesh *mesh, sp_kd_tree *tree);
+void sp_kd_clear(sp_kd_tree *tree);
 
 #endif

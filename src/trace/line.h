@@ -1,49 +1,23 @@
-/* A line against a triangle, watertight: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2013, in double
- * precision. Triangles that share an edge decide it by the same operations, so that nothing slips between them. */
-#ifndef TRACE_LINE_H
-#define TRACE_LINE_H
+/* Lines against triangles and through kd-trees. */
+#ifndef SPRAYPLAN_TRACE_LINE_H
+#define SPRAYPLAN_TRACE_LINE_H
 
-#include <sprayplan/trace.h>
+#include "trace/kd_tree.h"
+#include "trace/search.h"
 
-#include <stdint.h>
-
-/* What depends on the line alone: the axis it follows most, and the shear that lays it along z. */
+/* A line x(t) = origin + velocity t, made ready. */
 typedef struct {
-    int kx, ky, kz;
-    double sx, sy, sz;
-} line_shear;
+    double origin[3], velocity[3];
+    int x, y, z;              /* axes; z is the one of the largest component of velocity */
+    double shear_x, shear_y;  /* velocity[x], velocity[y] over velocity[z] */
+    double inverse_z;         /* 1 / velocity[z] */
+} sp_line;
 
-static inline line_shear line_prepare(const double velocity[3])
-{
-    int kz = 0;
-    for (int axis = 1; axis < 3; axis++)
-        if (fabs(velocity[axis]) > fabs(velocity[kz]))
-            kz = axis;
-    int kx = (kz + 1) % 3, ky = (kz + 2) % 3;
-    return (line_shear){kx, ky, kz, velocity[kx] / velocity[kz], velocity[ky] / velocity[kz], 1 / velocity[kz]};
-}
-
-static inline bool line_triangle(const line_shear *line, const double origin[3], const double corners[3][3], double *t,
-                                 double *u, double *v)
-{
-    double x[3], y[3], z[3];
-    for (int i = 0; i < 3; i++) {
-        z[i] = corners[i][line->kz] - origin[line->kz];
-        x[i] = corners[i][line->kx] - origin[line->kx] - line->sx * z[i];
-        y[i] = corners[i][line->ky] - origin[line->ky] - line->sy * z[i];
-    }
-    double a = x[2] * y[1] - y[2] * x[1];
-    double b = x[0] * y[2] - y[0] * x[2];
-    double c = x[1] * y[0] - y[1] * x[0];
-    if ((a < 0 || b < 0 || c < 0) && (a > 0 || b > 0 || c > 0))
-        return false;
-    double sum = a + b + c;
-    if (sum == 0)
-        return false;
-    *t = line->sz * ((a * z[0] + b * z[1] + c * z[2]) / sum);
-    *u = b / sum;
-    *v = c / sum;
-    return true;
-}
+/* False where the velocity is zero or not finite: such a line hits nothing. */
+bool sp_line_start(sp_line *line, const sp_ray *ray);
+/* Searches all triangles. */
+void sp_line_search_all(const sp_line *line, const sp_corners *corners, size_t count, sp_search *search);
+/* Searches those that the line passes in the tree. */
+void sp_line_search_tree(const sp_line *line, const sp_corners *corners, const sp_kd_tree *tree, sp_search *search);
 
 #endif

@@ -1,0 +1,165 @@
+#include "trace/line.h"
+
+bool sp_line_start(sp_line *line, const sp_ray *ray)
+{
+    sp_to_array(ray->origin, line->origin);
+    sp_to_array(ray->velocity, line->velocity);
+    line->z = 0;
+    for (int axis = 1; axis < 3; axis++)
+        if (fabs(line->velocity[axis]) > fabs(line->velocity[line->z]))
+            line->z = axis;
+    line->x = (line->z + 1) % 3;
+    line->y = (line->z + 2) % 3;
+    double along = line->velocity[line->z];
+    line->shear_x = line->velocity[line->x] / along;
+    line->shear_y = line->velocity[line->y] / along;
+    line->inverse_z = 1 / along;
+    return along != 0 && isfinite(line->shear_x + line->shear_y + line->inverse_z);
+}
+
+/* a b - c d to the last bit but one: Kahan's algorithm (Jeannerod, Louvet, Muller, "Further analysis of Kahan's algorithm for
+ * the accurate computation of 2x2 determinants", 2013). */
+static double difference_of_products(double a, double b, double c, double d)
+{
+    double cd = c * d, error = fma(-c, d, cd);
+    return fma(a, b, -cd) + error;
+}
+
+/* Weights of the corners of a triangle that is seen almost edge-on: there the plain ones are mostly round-off, and the time
+ * would be anywhere along the triangle. */
+static bool weigh_sliver(const double x[3], const double y[3], double weights[3])
+{
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        weights[i] = difference_of_products(x[k], y[j], y[k], x[j]);
+    }
+    bool below = weights[0] < 0 || weights[1] < 0 || weights[2] < 0;
+    bool above = weights[0] > 0 || weights[1] > 0 || weights[2] > 0;
+    return above != below;
+}
+
+/* Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2013, in double precision. The triangle is sheared so that
+ * the line becomes the z axis; triangles that share an edge decide by the same numbers on which side of it the line passes,
+ * and a line through the edge belongs to both. */
+static inline void test(const sp_line *line, const sp_corners corners, uint32_t triangle, sp_search *search)
+{
+    double x[3], y[3], z[3], weights[3];
+    for (int i = 0; i < 3; i++) {
+        z[i] = corners[i][line->z] - line->origin[line->z];
+        x[i] = corners[i][line->x] - line->origin[line->x] - line->shear_x * z[i];
+        y[i] = corners[i][line->y] - line->origin[line->y] - line->shear_y * z[i];
+    }
+    weights[0] = x[2] * y[1] - y[2] * x[1];
+    weights[1] = x[0] * y[2] - y[0] * x[2];
+    weights[2] = x[1] * y[0] - y[1] * x[0];
+    if ((weights[0] < 0 || weights[1] < 0 || weights[2] < 0) && (weights[0] > 0 || weights[1] > 0 || weights[2] > 0))
+        return;
+    double sum = weights[0] + weights[1] + weights[2];
+    double reach = fmax(fmax(fabs(x[0]) + fabs(y[0]), fabs(x[1]) + fabs(y[1])), fabs(x[2]) + fabs(y[2]));
+    if (!(fabs(sum) > 0x1p-8 * reach * reach)) {
+        if (!weigh_sliver(x, y, weights))
+            return;
+        sum = weights[0] + weights[1] + weights[2];
+    }
+    double t = (weights[0] * z[0] + weights[1] * z[1] + weights[2] * z[2]) / sum * line->inverse_z;
+    if (triangle != search->skip && sp_search_wants(search, t, triangle))
+        sp_search_take(search, t, weights[1] / sum, weights[2] / sum, triangle);
+}
+
+void sp_line_search_all(const sp_line *line, const sp_corners *corners, size_t count, sp_search *search)
+{
+    for (size_t t = 0; t < count && !sp_search_done(search); t++)
+        test(line, corners[t], (uint32_t)t, search);
+}
+
+/* A line on its way through a tree. Every plane is taken as thick as `margin`, so that rounding never decides which cells are
+ * visited. Where the line is at the time of a hit, it is less than 2^-40 of the distance of the farthest corner away from the
+ * triangle: the corners' rounding is 2^-52 of that distance, and the sliver's test keeps the weights' from exceeding it by more
+ * than 2^8 and a small factor. */
+typedef struct {
+    const sp_line *line;
+    double margin;     /* m */
+    double inverse[3]; /* 1 / velocity */
+    double slack[3];   /* s, the time that the margin takes */
+    bool rising[3];    /* velocity > 0 */
+    bool still[3];     /* moves less than the margin along this axis */
+} walk;
+
+static bool enter(walk *w, const sp_kd_tree *tree, double *from, double *to)
+{
+    const sp_line *line = w->line;
+    double farthest = 0;
+    for (int axis = 0; axis < 3; axis++)
+        farthest = fmax(farthest, fmax(fabs(tree->low[axis] - line->origin[axis]), fabs(tree->high[axis] - line->origin[axis])));
+    w->margin = 0x1p-36 * farthest;
+    for (int axis = 0; axis < 3; axis++) {
+        double low = tree->low[axis] - w->margin - line->origin[axis];
+        double high = tree->high[axis] + w->margin - line->origin[axis];
+        double speed = line->velocity[axis];
+        w->rising[axis] = speed > 0;
+        w->inverse[axis] = 1 / speed;
+        w->slack[axis] = w->margin * fabs(w->inverse[axis]);
+        if (speed == 0 && (low > 0 || high < 0))
+            return false;
+        if (speed != 0) {
+            *from = fmax(*from, (speed > 0 ? low : high) / speed);
+            *to = fmin(*to, (speed > 0 ? high : low) / speed);
+        }
+    }
+    for (int axis = 0; axis < 3; axis++)
+        w->still[axis] = fabs(line->velocity[axis]) * fmax(fabs(*from), fabs(*to)) <= w->margin;
+    return *from <= *to;
+}
+
+typedef struct {
+    uint32_t node;
+    double from, to; /* s */
+} pending;
+
+/* Goes on to one child; puts the other, if the line passes it too, on the stack. */
+static inline void step(const walk *w, const sp_kd_node *node, pending *at, pending stack[], int *height)
+{
+    uint32_t axis = node->size & 3, left = at->node + 1, right = node->right;
+    double offset = node->split - w->line->origin[axis];
+    if (w->still[axis]) {
+        if (fabs(offset) <= w->margin * 2)
+            stack[(*height)++] = (pending){right, at->from, at->to};
+        at->node = offset >= -2 * w->margin ? left : right;
+        return;
+    }
+    uint32_t near = w->rising[axis] ? left : right, far = w->rising[axis] ? right : left;
+    double crossing = offset * w->inverse[axis], arrival = crossing - w->slack[axis], departure = crossing + w->slack[axis];
+    if (departure < at->from) {
+        at->node = far;
+    } else {
+        if (arrival <= at->to)
+            stack[(*height)++] = (pending){far, fmax(at->from, arrival), at->to};
+        at->node = near;
+        at->to = fmin(at->to, departure);
+    }
+}
+
+void sp_line_search_tree(const sp_line *line, const sp_corners *corners, const sp_kd_tree *tree, sp_search *search)
+{
+    walk w = {.line = line};
+    pending stack[SP_KD_DEPTH + 1], at = {0, search->t_min, search->limit};
+    int height = 0;
+    if (!enter(&w, tree, &at.from, &at.to))
+        return;
+    for (;;) {
+        const sp_kd_node *node = &tree->nodes[at.node];
+        while ((node->size & 3) != SP_KD_LEAF) {
+            step(&w, node, &at, stack, &height);
+            node = &tree->nodes[at.node];
+        }
+        const uint32_t *references = tree->references + node->right;
+        for (uint32_t i = 0; i < node->size / 4; i++)
+            test(line, corners[references[i]], references[i], search);
+        do {
+            if (height == 0 || sp_search_done(search))
+                return;
+            at = stack[--height];
+        } while (at.from > search->limit);
+        at.to = fmin(at.to, search->limit);
+    }
+}

@@ -1,0 +1,44 @@
+/* What a ray is looking for, and what it has found. */
+#ifndef SPRAYPLAN_TRACE_SEARCH_H
+#define SPRAYPLAN_TRACE_SEARCH_H
+
+#include <sprayplan/trace.h>
+
+/* Corners of a triangle, m. */
+typedef double sp_corners[3][3];
+
+typedef struct {
+    double t_min; /* hits are later than this */
+    double limit; /* and not later than this: the best so far, or at first the last time before t_max */
+    uint32_t skip;
+    bool any; /* the first hit found will do */
+    sp_hit best;
+} sp_search;
+
+static inline sp_search sp_search_start(const sp_ray *ray, bool any)
+{
+    return (sp_search){ray->t_min, nextafter(ray->t_max, -INFINITY), ray->skip, any, {INFINITY, 0, 0, SP_NONE}};
+}
+
+/* Of equal times the lowest triangle wins, in whatever order they come. */
+static inline bool sp_search_wants(const sp_search *search, double t, uint32_t triangle)
+{
+    return t > search->t_min && (t < search->limit || (t == search->limit && triangle < search->best.triangle));
+}
+
+static inline void sp_search_take(sp_search *search, double t, double u, double v, uint32_t triangle)
+{
+    search->limit = t;
+    search->best = (sp_hit){t, u, v, triangle};
+}
+
+static inline bool sp_search_done(const sp_search *search) { return search->any && search->best.triangle != SP_NONE; }
+
+static inline void sp_to_array(sp_vec3 p, double array[3])
+{
+    array[0] = p.x;
+    array[1] = p.y;
+    array[2] = p.z;
+}
+
+#endif
