@@ -82,31 +82,39 @@ static bool touches(const crossing *c, double *t)
     return fabs(beyond) <= uncertainty(c, *t);
 }
 
-/* Square of the distance from the origin to the segment between two points of the plane. */
-static double distance_to_segment(const double a[2], const double b[2])
+/* Where the segment between two points of the plane is nearest to the origin, 0 at a, 1 at b; the square of that distance. */
+static double nearest_on_segment(const double a[2], const double b[2], double *square)
 {
     double along[2] = {b[0] - a[0], b[1] - a[1]};
     double length = along[0] * along[0] + along[1] * along[1];
     double share = length > 0 ? -(a[0] * along[0] + a[1] * along[1]) / length : 0;
     share = fmin(fmax(share, 0), 1);
     double x = a[0] + share * along[0], y = a[1] + share * along[1];
-    return x * x + y * y;
+    *square = x * x + y * y;
+    return share;
 }
 
 /* Whether a point outside the triangle is no farther from it than rounding may have moved it in its plane: a flight that crosses
  * the plane at a flat angle is in it at a time that is the less certain. So nothing slips between two triangles. `corner`
- * holds the corners as seen from the point, projected. */
-static bool is_at_rim(const crossing *c, const double corner[3][2], double t)
+ * holds the corners as seen from the point, projected. Sets the weights of the rim's nearest point. */
+static bool is_at_rim(const crossing *c, const double corner[3][2], double t, double weight[3])
 {
     double speed[3];
     for (int k = 0; k < 3; k++)
         speed[k] = c->flight->velocity[k] + t * c->flight->gravity[k];
     double flatness = sqrt(dot(speed, speed) * dot(c->normal, c->normal)) / fabs(dot(speed, c->normal));
     double blur = fmin(uncertainty(c, t) * flatness, SP_PARABOLA_GRAZING * sp_parabola_summed(c->flight, t));
-    for (int i = 0; i < 3; i++)
-        if (distance_to_segment(corner[i], corner[(i + 1) % 3]) <= blur * blur)
-            return true;
-    return false;
+    double least = INFINITY;
+    for (int i = 0; i < 3; i++) {
+        double square, share = nearest_on_segment(corner[i], corner[(i + 1) % 3], &square);
+        if (square >= least)
+            continue;
+        least = square;
+        weight[i] = 1 - share;
+        weight[(i + 1) % 3] = share;
+        weight[(i + 2) % 3] = 0;
+    }
+    return least <= blur * blur;
 }
 
 /* Whether a point with that share of corner i lies so far beyond the opposite edge that it cannot be at the rim. */
@@ -125,7 +133,7 @@ static bool is_inside(const crossing *c, double t, double weights[2])
     const double *n = c->normal;
     int z = fabs(n[0]) > fabs(n[1]) ? 0 : 1;
     z = fabs(n[2]) > fabs(n[z]) ? 2 : z;
-    double corner[3][2], share[3];
+    double corner[3][2], weight[3];
     for (int k = 0; k < 2; k++) {
         int axis = (z + 1 + k) % 3;
         double way = t * (c->flight->velocity[axis] + 0.5 * t * c->flight->gravity[axis]);
@@ -135,16 +143,16 @@ static bool is_inside(const crossing *c, double t, double weights[2])
     bool outside = false;
     for (int i = 0; i < 3; i++) {
         const double *a = corner[(i + 1) % 3], *b = corner[(i + 2) % 3];
-        share[i] = (a[0] * b[1] - a[1] * b[0]) / n[z];
-        if (share[i] < 0 && is_far_outside(c, i, share[i], t))
+        weight[i] = (a[0] * b[1] - a[1] * b[0]) / n[z];
+        if (weight[i] < 0 && is_far_outside(c, i, weight[i], t))
             return false;
-        outside |= !(share[i] >= 0);
+        outside |= !(weight[i] >= 0);
     }
-    if (outside && !is_at_rim(c, (const double(*)[2])corner, t))
+    if (outside && !is_at_rim(c, (const double(*)[2])corner, t, weight))
         return false;
-    double sum = fmax(share[0], 0) + fmax(share[1], 0) + fmax(share[2], 0);
-    weights[0] = fmax(share[1], 0) / sum;
-    weights[1] = fmax(share[2], 0) / sum;
+    double sum = weight[0] + weight[1] + weight[2];
+    weights[0] = weight[1] / sum;
+    weights[1] = weight[2] / sum;
     return sum > 0;
 }
 
