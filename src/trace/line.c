@@ -55,7 +55,7 @@ static inline void test(const sp_line *line, const sp_corners corners, uint32_t 
     if ((weights[0] < 0 || weights[1] < 0 || weights[2] < 0) && (weights[0] > 0 || weights[1] > 0 || weights[2] > 0))
         return;
     double sum = weights[0] + weights[1] + weights[2];
-    double reach = fmax(fmax(fabs(x[0]) + fabs(y[0]), fabs(x[1]) + fabs(y[1])), fabs(x[2]) + fabs(y[2]));
+    double reach = sp_greater(sp_greater(fabs(x[0]) + fabs(y[0]), fabs(x[1]) + fabs(y[1])), fabs(x[2]) + fabs(y[2]));
     if (!(fabs(sum) > 0x1p-8 * reach * reach)) {
         if (!weigh_sliver(x, y, weights))
             return;
@@ -90,7 +90,7 @@ static bool enter(walk *w, const sp_kd_tree *tree, double *from, double *to)
     const sp_line *line = w->line;
     double farthest = 0;
     for (int axis = 0; axis < 3; axis++)
-        farthest = fmax(farthest, fmax(fabs(tree->low[axis] - line->origin[axis]), fabs(tree->high[axis] - line->origin[axis])));
+        farthest = sp_greater(farthest, sp_greater(fabs(tree->low[axis] - line->origin[axis]), fabs(tree->high[axis] - line->origin[axis])));
     w->margin = 0x1p-36 * farthest;
     for (int axis = 0; axis < 3; axis++) {
         double low = tree->low[axis] - w->margin - line->origin[axis];
@@ -102,12 +102,12 @@ static bool enter(walk *w, const sp_kd_tree *tree, double *from, double *to)
         if (speed == 0 && (low > 0 || high < 0))
             return false;
         if (speed != 0) {
-            *from = fmax(*from, (speed > 0 ? low : high) / speed);
-            *to = fmin(*to, (speed > 0 ? high : low) / speed);
+            *from = sp_greater(*from, (speed > 0 ? low : high) / speed);
+            *to = sp_lesser(*to, (speed > 0 ? high : low) / speed);
         }
     }
     for (int axis = 0; axis < 3; axis++)
-        w->still[axis] = fabs(line->velocity[axis]) * fmax(fabs(*from), fabs(*to)) <= w->margin;
+        w->still[axis] = fabs(line->velocity[axis]) * sp_greater(fabs(*from), fabs(*to)) <= w->margin;
     return *from <= *to;
 }
 
@@ -133,9 +133,9 @@ static inline void step(const walk *w, const sp_kd_node *node, pending *at, pend
         at->node = far;
     } else {
         if (arrival <= at->to)
-            stack[(*height)++] = (pending){far, fmax(at->from, arrival), at->to};
+            stack[(*height)++] = (pending){far, sp_greater(at->from, arrival), at->to};
         at->node = near;
-        at->to = fmin(at->to, departure);
+        at->to = sp_lesser(at->to, departure);
     }
 }
 
@@ -160,6 +160,6 @@ void sp_line_search_tree(const sp_line *line, const sp_corners *corners, const s
                 return;
             at = stack[--height];
         } while (at.from > search->limit);
-        at.to = fmin(at.to, search->limit);
+        at.to = sp_lesser(at.to, search->limit);
     }
 }

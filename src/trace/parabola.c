@@ -13,13 +13,13 @@ static void bound_time(sp_parabola *p, const sp_ray *ray)
 {
     double reach = 2 * p->farthest; /* a space diagonal has at most √3 */
     double along = fabs(dot(p->velocity, p->gravity)) / p->pull;
-    double across = sqrt(fmax(0, p->speed * p->speed - along * along));
+    double across = sqrt(sp_greater(0, p->speed * p->speed - along * along));
     double longest = (along + sqrt(along * along + 2 * p->pull * reach)) / p->pull;
     if (across > 0x1p-20 * p->speed) /* else it is mostly rounding */
-        longest = fmin(longest, 2 * reach / across);
-    longest = fmin(1.01 * longest, 1e100);
-    p->first = fmax(ray->t_min, -longest);
-    p->last = fmin(nextafter(ray->t_max, -INFINITY), longest);
+        longest = sp_lesser(longest, 2 * reach / across);
+    longest = sp_lesser(1.01 * longest, 1e100);
+    p->first = sp_greater(ray->t_min, -longest);
+    p->last = sp_lesser(nextafter(ray->t_max, -INFINITY), longest);
 }
 
 bool sp_parabola_start(sp_parabola *p, const sp_ray *ray, sp_vec3 gravity, const double low[3], const double high[3])
@@ -31,7 +31,7 @@ bool sp_parabola_start(sp_parabola *p, const sp_ray *ray, sp_vec3 gravity, const
     p->pull = sqrt(dot(p->gravity, p->gravity));
     p->farthest = 0;
     for (int axis = 0; axis < 3; axis++)
-        p->farthest = fmax(p->farthest, fmax(fabs(low[axis] - p->origin[axis]), fabs(high[axis] - p->origin[axis])));
+        p->farthest = sp_greater(p->farthest, sp_greater(fabs(low[axis] - p->origin[axis]), fabs(high[axis] - p->origin[axis])));
     bound_time(p, ray);
     return p->first <= p->last && isfinite(sp_parabola_summed(p, p->first) + sp_parabola_summed(p, p->last));
 }
@@ -67,7 +67,7 @@ static inline crossing cross_plane(const sp_parabola *p, const sp_corners corner
  * counts the more the thinner the triangle. */
 static double uncertainty(const crossing *c, double t)
 {
-    double longest = fmax(dot(c->edge[0], c->edge[0]), dot(c->edge[1], c->edge[1]));
+    double longest = sp_greater(dot(c->edge[0], c->edge[0]), dot(c->edge[1], c->edge[1]));
     double normal_error = longest * sqrt(longest) / sqrt(dot(c->normal, c->normal));
     return rounding * (sp_parabola_summed(c->flight, t) + normal_error);
 }
@@ -88,7 +88,7 @@ static double nearest_on_segment(const double a[2], const double b[2], double *s
     double along[2] = {b[0] - a[0], b[1] - a[1]};
     double length = along[0] * along[0] + along[1] * along[1];
     double share = length > 0 ? -(a[0] * along[0] + a[1] * along[1]) / length : 0;
-    share = fmin(fmax(share, 0), 1);
+    share = sp_lesser(sp_greater(share, 0), 1);
     double x = a[0] + share * along[0], y = a[1] + share * along[1];
     *square = x * x + y * y;
     return share;
@@ -103,7 +103,7 @@ static bool is_at_rim(const crossing *c, const double corner[3][2], double t, do
     for (int k = 0; k < 3; k++)
         speed[k] = c->flight->velocity[k] + t * c->flight->gravity[k];
     double flatness = sqrt(dot(speed, speed) * dot(c->normal, c->normal)) / fabs(dot(speed, c->normal));
-    double blur = fmin(uncertainty(c, t) * flatness, SP_PARABOLA_GRAZING * sp_parabola_summed(c->flight, t));
+    double blur = sp_lesser(uncertainty(c, t) * flatness, SP_PARABOLA_GRAZING * sp_parabola_summed(c->flight, t));
     double least = INFINITY;
     for (int i = 0; i < 3; i++) {
         double square, share = nearest_on_segment(corner[i], corner[(i + 1) % 3], &square);

@@ -19,19 +19,19 @@ typedef struct {
 static double time_at(const sp_parabola *p, int axis, double value, bool rising)
 {
     double v = p->velocity[axis], g = p->gravity[axis], way = value - p->origin[axis];
-    double speed = sqrt(fmax(0, v * v + 2 * g * way));
+    double speed = sqrt(sp_greater(0, v * v + 2 * g * way));
     if (!rising)
         speed = -speed;
     return g == 0 || speed * v > 0 ? 2 * way / (speed + v) : (speed - v) / g;
 }
 
-static inline double clamp(double t, double from, double to) { return fmin(fmax(t, from), to); }
+static inline double clamp(double t, double from, double to) { return sp_lesser(sp_greater(t, from), to); }
 
 /* Cuts the piece to when the coordinate is between low and high. */
 static bool cut(const sp_parabola *p, int axis, double low, double high, double *from, double *to)
 {
     double a = sp_parabola_coordinate(p, axis, *from), b = sp_parabola_coordinate(p, axis, *to);
-    if (fmax(a, b) < low || fmin(a, b) > high)
+    if (sp_greater(a, b) < low || sp_lesser(a, b) > high)
         return false;
     bool rising = b > a;
     double enter = rising ? low : high, leave = rising ? high : low, start = *from, end = *to;
@@ -47,7 +47,7 @@ static bool enter(walk *w, const sp_kd_tree *tree, double *from, double *to)
 {
     const sp_parabola *p = w->flight;
     for (int pass = 0; pass < 2; pass++) {
-        w->margin = MARGIN * sp_parabola_summed(p, fmax(fabs(*from), fabs(*to)));
+        w->margin = MARGIN * sp_parabola_summed(p, sp_greater(fabs(*from), fabs(*to)));
         for (int axis = 0; axis < 3; axis++)
             if (!cut(p, axis, tree->low[axis] - w->margin, tree->high[axis] + w->margin, from, to))
                 return false;
@@ -108,9 +108,9 @@ static inline void step(const walk *w, const sp_kd_node *node, pending *at, pend
         at->node = far;
     } else {
         if (arrival <= at->to)
-            stack[(*height)++] = (pending){far, fmax(at->from, arrival), at->to};
+            stack[(*height)++] = (pending){far, sp_greater(at->from, arrival), at->to};
         at->node = near;
-        at->to = fmin(at->to, departure);
+        at->to = sp_lesser(at->to, departure);
     }
 }
 
@@ -134,21 +134,21 @@ static void search_piece(const sp_parabola *flight, const sp_corners *corners, c
                 return;
             at = stack[--height];
         } while (at.from > search->limit);
-        at.to = fmin(at.to, search->limit);
+        at.to = sp_lesser(at.to, search->limit);
     }
 }
 
 void sp_parabola_search_tree(const sp_parabola *p, const sp_corners *corners, const sp_kd_tree *tree, sp_search *search)
 {
     double from = p->first;
-    while (from <= fmin(p->last, search->limit) && !sp_search_done(search)) {
+    while (from <= sp_lesser(p->last, search->limit) && !sp_search_done(search)) {
         double to = p->last;
         for (int axis = 0; axis < 3; axis++) {
             double turn = -p->velocity[axis] / p->gravity[axis];
             if (p->gravity[axis] != 0 && turn > from && turn < to)
                 to = turn;
         }
-        search_piece(p, corners, tree, from, fmin(to, search->limit), search);
+        search_piece(p, corners, tree, from, sp_lesser(to, search->limit), search);
         if (to == p->last)
             return;
         from = to;

@@ -4,6 +4,10 @@
 
 #include <sprayplan/trace.h>
 
+/* fmin and fmax without their rule for NaN, which costs a call. */
+static inline double sp_lesser(double a, double b) { return a < b ? a : b; }
+static inline double sp_greater(double a, double b) { return a > b ? a : b; }
+
 /* Corners of a triangle, m. */
 typedef double sp_corners[3][3];
 

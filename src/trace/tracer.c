@@ -85,8 +85,8 @@ static sp_hit trace(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity,
         sp_parabola parabola;
         if (!sp_parabola_start(&parabola, ray, gravity, tracer->tree.low, tracer->tree.high))
             return search.best;
-        search.t_min = fmax(search.t_min, parabola.first);
-        search.limit = fmin(search.limit, parabola.last);
+        search.t_min = sp_greater(search.t_min, parabola.first);
+        search.limit = sp_lesser(search.limit, parabola.last);
         if (tracer->has_tree)
             sp_parabola_search_tree(&parabola, corners, &tracer->tree, &search);
         else
