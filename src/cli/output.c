@@ -2,6 +2,7 @@
 #include "cli.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *scene, const sp_layout *layout,
                sp_error *error)
@@ -25,10 +26,10 @@ bool cli_write(const cli_options *options, const sp_result *result, const sp_sce
     return false;
 }
 
-static void print_figures(const sp_figures *figures, const char *name)
+static void print_figures(const sp_figures *figures, const char *name, int width)
 {
-    printf("%-16s %8zu %12.1f %13.3f %10.1f", name, figures->nozzle_count, 6e4 * figures->flow, figures->covered_area,
-           100 * figures->coverage);
+    printf("%-*s %8zu %12.1f %13.3f %10.1f", width, name, figures->nozzle_count, 6e4 * figures->flow,
+           figures->covered_area, 100 * figures->coverage);
     if (!isnan(figures->of_attainable))
         printf(" %15.1f", 100 * figures->of_attainable);
     else
@@ -41,10 +42,13 @@ static bool print_summary(const sp_result *result, sp_error *error)
     sp_figures *figures = sp_result_figures(result, error);
     if (!figures)
         return false;
-    printf("%-16s %8s %12s %13s %10s %15s %14s\n", "layout", "nozzles", "water L/min", "covered m2", "coverage %",
+    int width = 0;
+    for (size_t i = 0; i < result->design_count; i++)
+        width = (int)strlen(result->designs[i].name) > width ? (int)strlen(result->designs[i].name) : width;
+    printf("%-*s %8s %12s %13s %10s %15s %14s\n", width, "layout", "nozzles", "water L/min", "covered m2", "coverage %",
            "of attainable %", "m2 per L/min");
     for (size_t i = 0; i < result->design_count; i++)
-        print_figures(&figures[i], result->designs[i].name);
+        print_figures(&figures[i], result->designs[i].name, width);
     sp_figures_destroy(figures, result->design_count);
     return true;
 }
