@@ -53,11 +53,13 @@ typedef struct {
 /* Reads an OBJ or STL file (told by its extension, .obj or .stl in any case; STL text or binary told by its content).
  * Coordinates are multiplied by `unit` (m per unit of the file). Triangles before any group get the part "default"
  * (STL: the solid's name, or "default"). Returns NULL with file and line for whatever does not follow the format, for
- * indices out of range, numbers that are not finite, and for files without a triangle of some area. The caller destroys. */
+ * indices out of range, numbers that are not finite or beyond 1e30 m, and for files without a triangle of some area. Names of
+ * parts are UTF-8; what is not is taken for Latin-1. The caller destroys. */
 sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error);
 
 /* Builds a welded mesh from `vertex_count` points and `triangle_count` triangles, all copied. `part` may be NULL: all in one
- * part; `part_names` [part_count] likewise. Fails for indices out of range and numbers that are not finite. */
+ * part; `part_names` [part_count] likewise. Fails for indices out of range and numbers that are not finite or beyond 1e30 m; a
+ * mesh without triangles is allowed. */
 sp_mesh *sp_mesh_create(const sp_vec3 *vertices, size_t vertex_count, const uint32_t (*triangles)[3],
                         size_t triangle_count, const uint32_t *part, const char *const *part_names, size_t part_count,
                         sp_error *error);
@@ -79,7 +81,8 @@ void sp_transform_rotation(sp_transform *transform, sp_vec3 axis, double angle);
 sp_vec3 sp_transform_point(const sp_transform *transform, sp_vec3 point);
 
 /* One mesh of several, in order, mesh i moved by transforms[i]; its parts get geometry = i. Vertices of different meshes are
- * not welded. A mirroring transform is not possible by construction. The inputs are copied and stay the caller's. */
+ * not welded; within each, points that rounding makes equal are. Fails for transforms that mirror or flatten. The inputs are
+ * copied and stay the caller's. */
 sp_mesh *sp_mesh_join(const sp_mesh *const *meshes, const sp_transform *transforms, size_t count, sp_error *error);
 
 /* Returns false only when memory runs out. */
