@@ -7,13 +7,17 @@
 
 #define ROUNDS_MOST 8   /* annealings that improve, for one design */
 #define FLOW_TRIALS 7   /* measurements to find how far the flow can be turned down */
-#define SNAPSHOTS 3     /* of an annealing's steps, the best on the coarse patches are measured */
+#define GAIN_LEAST 1e-4 /* of area or water: less is no reason to go on */
+#define MISS_MOST 0.003 /* of the area, that a design may seem worse on the coarse patches and still be measured */
+#define SHARE_LEAST 0.2 /* of a step, that is tried before it is given up */
+#define CAREFUL 3       /* from this width on a step must improve what it starts from */
+#define SNAPSHOTS 2     /* of an annealing's steps, the best on the coarse patches are measured */
 
 static const sp_width widths[] = {{0.8, 0.085}, {0.4, 0.06}, {0.2, 0.042},   {0.1, 0.03},
                                   {0.05, 0.021}, {0.025, 0.015}, {0.0125, 0.006}};
 #define WIDTHS (sizeof widths / sizeof *widths)
-/* Where an annealing starts: a wide one may find what a narrow one cannot see, or lose what was there. */
-static const size_t starts[] = {0, 2, 4};
+/* Where an annealing starts. A narrow one keeps what is there; a wide one forgets it, and may find what is better. */
+static const size_t starts[] = {4, 2, 0};
 #define STARTS (sizeof starts / sizeof *starts)
 
 typedef struct {
@@ -96,8 +100,49 @@ static bool retrace(const sp_search *search, sp_design *design, sp_error *error)
     return true;
 }
 
+/* Takes over a share of the way from each freedom's start to its values, and traces again. */
+static bool go(const sp_refining *refining, const sp_freedom *freedoms, double (*values)[SP_UNKNOWNS], double share,
+               double budget, sp_design *design)
+{
+    for (size_t i = 0; i < design->count; i++) {
+        double part[SP_UNKNOWNS];
+        for (size_t k = 0; k < freedoms[i].count; k++)
+            part[k] = freedoms[i].value[k] + share * (values[i][k] - freedoms[i].value[k]);
+        apply(refining->search, &design->items[i], &freedoms[i], part);
+    }
+    turn_down(refining->search, design, budget);
+    return retrace(refining->search, design, refining->error);
+}
+
+/* Goes the whole way; where `careful`, half or a quarter of it if that is what covers more than before, or stays. */
+static bool line_search(const sp_refining *refining, const sp_freedom *freedoms, double (*values)[SP_UNKNOWNS],
+                        bool careful, double budget, sp_design *design, bool *stayed)
+{
+    *stayed = false;
+    if (!careful)
+        return go(refining, freedoms, values, 1, budget, design);
+    for (double share = 1; share >= SHARE_LEAST; share /= 2) {
+        sp_design trial;
+        if (!sp_design_copy(refining->search, design, &trial, refining->error))
+            return false;
+        if (!go(refining, freedoms, values, share, budget, &trial)) {
+            sp_design_free(&trial);
+            return false;
+        }
+        bool better = trial.value > design->value;
+        sp_design_free(better ? design : &trial);
+        if (better) {
+            *design = trial;
+            return true;
+        }
+    }
+    *stayed = true;
+    return true;
+}
+
 /* One outer step: solve with visibility frozen, apply, trace again. */
-static bool step(const sp_refining *refining, sp_width width, double budget, sp_design *design)
+static bool step(const sp_refining *refining, sp_width width, bool careful, double budget, sp_design *design,
+                 bool *stayed)
 {
     const sp_search *search = refining->search;
     sp_freedom *freedoms = malloc(design->count * sizeof *freedoms);
@@ -110,15 +155,11 @@ static bool step(const sp_refining *refining, sp_width width, double budget, sp_
         for (size_t k = 0; k < freedoms[i].count; k++)
             values[i][k] = freedoms[i].value[k];
     }
-    done = done && sp_soft_solve(search, freedoms, design->count, width, budget, values, refining->error);
-    for (size_t i = 0; done && i < design->count; i++)
-        apply(search, &design->items[i], &freedoms[i], values[i]);
+    done = done && sp_soft_solve(search, freedoms, design->count, width, budget, values, refining->error) &&
+           line_search(refining, freedoms, values, careful, budget, design, stayed);
     free(freedoms);
     free(values);
-    if (!done)
-        return false;
-    turn_down(search, design, budget);
-    return retrace(search, design, refining->error);
+    return done;
 }
 
 /* Keeps the designs that cover most on the coarse patches, best first. Takes the design over. */
@@ -144,6 +185,7 @@ static bool anneal(const sp_refining *refining, const sp_design *from, size_t st
 {
     const sp_search *search = refining->search;
     double budget = fmin(from->flow, search->options->max_water);
+    double spare = MISS_MOST * sp_evaluator_patches(search->coarse)->total_area;
     sp_design design, snapshots[SNAPSHOTS];
     size_t count = 0;
     if (!sp_design_copy(search, from, &design, refining->error))
@@ -151,8 +193,9 @@ static bool anneal(const sp_refining *refining, const sp_design *from, size_t st
     bool done = true;
     for (size_t w = start; done && w < WIDTHS && sp_watch_goes_on(refining->watch, "refine", (double)w / WIDTHS); w++) {
         sp_design copy;
-        done = step(refining, widths[w], budget, &design) && sp_design_copy(search, &design, &copy, refining->error);
-        if (done && copy.flow <= budget * (1 + 1e-9))
+        bool stayed;
+        done = step(refining, widths[w], w >= CAREFUL, budget, &design, &stayed) && sp_design_copy(search, &design, &copy, refining->error);
+        if (done && copy.flow <= budget * (1 + 1e-9) && copy.covered >= from->covered - spare)
             keep_snapshot(snapshots, &count, &copy);
         else if (done)
             sp_design_free(&copy);
@@ -168,7 +211,7 @@ static bool anneal(const sp_refining *refining, const sp_design *from, size_t st
 
 static bool same(const sp_front_point *a, const sp_front_point *b)
 {
-    return a->area == b->area && a->flow == b->flow && a->nozzles == b->nozzles;
+    return fabs(a->area - b->area) <= GAIN_LEAST * b->area && fabs(a->flow - b->flow) <= GAIN_LEAST * b->flow;
 }
 
 /* Anneals the best design again and again, while it improves. */
