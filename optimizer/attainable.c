@@ -34,21 +34,6 @@ typedef struct {
     size_t count;
 } sp_offers;
 
-void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high)
-{
-    *low = fmax(type->angle_min, type->angle - options->refine.angle);
-    *high = fmin(type->angle_max, type->angle + options->refine.angle);
-}
-
-void sp_flow_range(const sp_place_options *options, const sp_fluid *liquid, const sp_nozzle_type *type, double pressure,
-                   double *low, double *high)
-{
-    double least = fmax(type->flow_min, type->flow * (1 - options->refine.flow));
-    double most = fmin(type->flow_max, type->flow * (1 + options->refine.flow));
-    *low = sp_type_flow(type, least, pressure, liquid);
-    *high = sp_type_flow(type, most, pressure, liquid);
-}
-
 /* Flux per flow and transfer (1/sr) in a direction that lies `away` (rad) from the mount's axis, at best over the axes
  * within the tilt and the angles allowed; 0: not at all. */
 static double best_intensity(const sp_make *make, const sp_scope *scope, double away, double tilt)

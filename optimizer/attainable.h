@@ -11,9 +11,4 @@
 bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *watch, bool *attainable,
                    sp_error *error);
 
-/* The range that refinement may set: angle (rad), and flow (m³/s) of a type at a pressure. */
-void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high);
-void sp_flow_range(const sp_place_options *options, const sp_fluid *liquid, const sp_nozzle_type *type, double pressure,
-                   double *low, double *high);
-
 #endif

@@ -8,11 +8,28 @@
 #define AXIS_STEP_LEAST (8 * M_PI / 180)
 #define AXIS_STEP_MOST (20 * M_PI / 180)
 #define FAN_ROLLS 8
+#define ANGLES 3
 
-static bool make_create(const sp_setup *setup, const sp_nozzle_type *type, double pressure, sp_candidates *candidates)
+void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high)
+{
+    *low = fmax(type->angle_min, type->angle - options->refine.angle);
+    *high = fmin(type->angle_max, type->angle + options->refine.angle);
+}
+
+void sp_flow_range(const sp_place_options *options, const sp_fluid *liquid, const sp_nozzle_type *type, double pressure,
+                   double *low, double *high)
+{
+    double least = fmax(type->flow_min, type->flow * (1 - options->refine.flow));
+    double most = fmin(type->flow_max, type->flow * (1 + options->refine.flow));
+    *low = sp_type_flow(type, least, pressure, liquid);
+    *high = sp_type_flow(type, most, pressure, liquid);
+}
+
+static bool make_create(const sp_setup *setup, const sp_nozzle_type *type, double pressure, double angle,
+                        sp_candidates *candidates)
 {
     sp_nozzle nozzle = {.type = type, .pressure = pressure};
-    sp_make make = {.type = type, .pressure = pressure, .spray = sp_spray_create(type, type->angle)};
+    sp_make make = {.type = type, .pressure = pressure, .angle = angle, .spray = sp_spray_create(type, angle)};
     make.flow = sp_nozzle_flow(&nozzle, &setup->liquid);
     make.speed = sp_nozzle_speed(&nozzle, &setup->liquid);
     make.reach = sp_spray_reach(&make.spray);
@@ -27,22 +44,33 @@ static bool make_create(const sp_setup *setup, const sp_nozzle_type *type, doubl
     return true;
 }
 
+/* An adjustable type at its own angle and at the ends of what refinement may set: the search must see that it helps. */
+static bool type_makes(const sp_setup *setup, const sp_place_options *options, const sp_nozzle_type *type,
+                       double pressure, sp_candidates *candidates)
+{
+    double low, high;
+    sp_angle_range(options, type, &low, &high);
+    return make_create(setup, type, pressure, type->angle, candidates) &&
+           (low >= type->angle || make_create(setup, type, pressure, low, candidates)) &&
+           (high <= type->angle || make_create(setup, type, pressure, high, candidates));
+}
+
 static bool makes_create(const sp_setup *setup, const sp_place_options *options, sp_candidates *candidates,
                          sp_error *error)
 {
     if (!options->type_count || !options->pressure_count)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: no %s to choose from",
                        options->type_count ? "pressure" : "type");
-    if (options->pressure_count > SIZE_MAX / sizeof(sp_make) / options->type_count)
+    if (options->pressure_count > SIZE_MAX / ANGLES / sizeof(sp_make) / options->type_count)
         return sp_fail_memory(error);
-    size_t most = options->type_count * options->pressure_count;
+    size_t most = options->type_count * options->pressure_count * ANGLES;
     candidates->makes = calloc(most, sizeof *candidates->makes);
     candidates->speeds = calloc(most, sizeof *candidates->speeds);
     if (!candidates->makes || !candidates->speeds)
         return sp_fail_memory(error);
     for (size_t t = 0; t < options->type_count; t++)
         for (size_t p = 0; p < options->pressure_count; p++)
-            if (!make_create(setup, options->types[t], options->pressures[p], candidates))
+            if (!type_makes(setup, options, options->types[t], options->pressures[p], candidates))
                 return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: type %s at %g Pa sprays nothing",
                                options->types[t]->name, options->pressures[p]);
     return true;
@@ -88,7 +116,9 @@ static bool axes_create(const sp_place_options *options, sp_candidates *candidat
             if (!fits(&options->mounts[m], make->type))
                 continue;
             double step = fmin(AXIS_STEP_MOST, fmax(AXIS_STEP_LEAST, AXIS_SHARE * make->reach));
-            double tilt = fmin(M_PI, options->mounts[m].tilt);
+            /* what sprays all round is the same whatever its axis */
+            bool all_round = make->spray.kind != SP_PATTERN_FLAT_FAN && make->spray.outer >= M_PI && make->spray.inner <= 0;
+            double tilt = all_round ? 0 : fmin(M_PI, options->mounts[m].tilt);
             sp_axes *axes = &candidates->axes[m * candidates->make_count + k];
             axes->axes = malloc(rings(tilt, step, NULL) * sizeof *axes->axes);
             if (!axes->axes)
@@ -153,5 +183,6 @@ sp_nozzle sp_pose_nozzle(const sp_candidates *candidates, const sp_sites *sites,
                        .position = site->position,
                        .axis = sp_site_axis(site, axes->axes[pose.axis], up),
                        .roll = sp_make_roll(make, pose.roll),
-                       .pressure = make->pressure};
+                       .pressure = make->pressure,
+                       .angle = make->angle == make->type->angle ? 0 : make->angle};
 }

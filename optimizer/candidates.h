@@ -1,13 +1,14 @@
-/* Candidate poses: mounting point x type x pressure x axis x roll. */
+/* Candidate poses: mounting point x type x pressure x angle x axis x roll. */
 #ifndef OPTIMIZER_CANDIDATES_H
 #define OPTIMIZER_CANDIDATES_H
 
 #include "mounts.h"
 
-/* A type at a pressure. */
+/* A type at a pressure and an angle. */
 typedef struct {
     const sp_nozzle_type *type;
     double pressure; /* Pa */
+    double angle;    /* rad */
     double flow;     /* m³/s */
     double speed;    /* m/s */
     size_t speed_class;
@@ -24,7 +25,7 @@ typedef struct {
 
 typedef struct {
     size_t make_count;
-    sp_make *makes; /* types outer, pressures inner */
+    sp_make *makes; /* by type, then pressure, then angle */
     size_t speed_count;
     double *speeds; /* m/s, distinct */
     size_t mount_count;
@@ -47,6 +48,10 @@ static inline const sp_axes *sp_candidates_axes(const sp_candidates *candidates,
 }
 /* Turns axis `i` about +z to lie about the site's own axis. */
 sp_vec3 sp_site_axis(const sp_site *site, sp_vec3 axis, sp_vec3 up);
+/* What refinement may set: angle (rad), and flow (m³/s) of a type at a pressure. */
+void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high);
+void sp_flow_range(const sp_place_options *options, const sp_fluid *liquid, const sp_nozzle_type *type, double pressure,
+                   double *low, double *high);
 /* The roll of step i. */
 double sp_make_roll(const sp_make *make, size_t i);
 /* The pose as a nozzle without a name. */

@@ -21,20 +21,33 @@ static bool replace(const sp_search *search, const sp_pool *pool, double budget,
     return sp_design_add_pose(search, design, pose, error);
 }
 
+static bool sweep(const sp_search *search, const sp_pool *pool, double budget, double *scores, sp_watch *watch,
+                  sp_design *design, sp_error *error)
+{
+    bool done = true, changed = true;
+    sp_design_refresh(search, design);
+    for (int i = 0; done && changed && i < SWEEPS_MOST && sp_watch_goes_on(watch, "exchange", 0); i++) {
+        changed = false;
+        done = sp_greedy_pool(search, pool, 1, INFINITY, budget, design, error);
+        /* what is replaced or put back goes to the end, so that the first is always the next */
+        for (size_t k = 0; done && k < design->count; k++)
+            done = replace(search, pool, budget, scores, design, 0, &changed, error);
+    }
+    return done;
+}
+
 bool sp_improve(const sp_search *search, const sp_pool *pool, double budget, sp_watch *watch, sp_design *design,
                 sp_error *error)
 {
     double *scores = malloc((pool->count ? pool->count : 1) * sizeof *scores);
     if (!scores)
         return sp_fail_memory(error);
-    bool done = true, changed = true;
-    for (int sweep = 0; done && changed && sweep < SWEEPS_MOST && sp_watch_goes_on(watch, "exchange", 0); sweep++) {
-        changed = false;
-        done = sp_greedy_pool(search, pool, 1, INFINITY, budget, design, error);
-        /* what is replaced or put back goes to the end, so that the first is always the next */
-        for (size_t i = 0; done && i < design->count; i++)
-            done = replace(search, pool, budget, scores, design, 0, &changed, error);
-    }
+    /* credit leads to where nozzles complete one another; in the end only what is covered counts */
+    sp_search exact = *search;
+    exact.credit = 0;
+    bool done = sweep(search, pool, budget, scores, watch, design, error) &&
+                sweep(&exact, pool, budget, scores, watch, design, error);
+    sp_design_refresh(search, design);
     free(scores);
     return done;
 }

@@ -1,7 +1,5 @@
 #include "freedom.h"
 
-#include "attainable.h"
-
 static void add(sp_freedom *freedom, sp_unknown kind, sp_vec3 move, double value, double low, double high)
 {
     if (!(high - low > 1e-9 * (fabs(high) + fabs(low))))

@@ -62,6 +62,18 @@ typedef struct {
     bool started;
 } sp_rounds;
 
+static void forget_rooms(sp_rounds *rounds)
+{
+    for (size_t i = 0; i < rounds->search->candidates->pose_start[rounds->search->sites->count]; i++)
+        rounds->room[i] = INFINITY;
+}
+
+/* Credit is for what later nozzles complete: the last one gets none. */
+static bool is_last(const sp_search *search, const sp_design *design)
+{
+    return search->options->max_nozzles && search->kept_count + design->count + 1 >= search->options->max_nozzles;
+}
+
 static bool rounds_create(const sp_search *search, double power, double budget, sp_rounds *rounds, sp_error *error)
 {
     size_t sites = search->sites->count, poses = search->candidates->pose_start[sites];
@@ -70,8 +82,7 @@ static bool rounds_create(const sp_search *search, double power, double budget, 
     rounds->best = calloc(sites, search->candidates->make_count * sizeof *rounds->best);
     if (!rounds->room || !rounds->best)
         return sp_fail_memory(error);
-    for (size_t i = 0; i < poses; i++)
-        rounds->room[i] = INFINITY;
+    forget_rooms(rounds);
     return true;
 }
 
@@ -188,7 +199,13 @@ bool sp_greedy(const sp_search *search, double power, double target, double budg
     double least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
     bool done = rounds_create(search, power, budget, &rounds, error);
     bool first = true;
+    sp_search exact = *search;
+    exact.credit = 0;
     while (done && design->covered < target && sp_watch_goes_on(watch, "greedy", fmin(1, design->covered / target))) {
+        if (is_last(search, design) && rounds.search != &exact) {
+            rounds.search = &exact;
+            forget_rooms(&rounds);
+        }
         scan(&rounds, design);
         const sp_round_best *best = round_best(&rounds);
         if (best->merit <= 0 || best->gain < least)

@@ -99,7 +99,7 @@ static void conclude(sp_placement *placement, sp_proposal *proposal)
         proposal->attainable[p] = proposal->attainable[p] || proposal->coverage->deposits.covered[p] ||
                                   proposal->greedy_coverage->deposits.covered[p];
     proposal->attainable_area = area_of(placement->fine, proposal->attainable);
-    proposal->reached = proposal->coverage->covered_area >= proposal->target_area &&
+    proposal->reached = proposal->target_area > 0 && proposal->coverage->covered_area >= proposal->target_area &&
                         proposal->coverage->flow <= options->max_water &&
                         (!options->max_nozzles || proposal->layout->count <= options->max_nozzles);
     proposal->interrupted = placement->watch.interrupted;

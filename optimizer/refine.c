@@ -1,17 +1,16 @@
 #include "refine.h"
 
-#include "attainable.h"
+#include "compass.h"
+#include "move.h"
 #include "soft.h"
 
 #include <stdlib.h>
 
-#define ROUNDS_MOST 8   /* annealings that improve, for one design */
+#define ROUNDS_MOST 6   /* annealings of one design */
 #define FLOW_TRIALS 7   /* measurements to find how far the flow can be turned down */
 #define GAIN_LEAST 1e-4 /* of area or water: less is no reason to go on */
-#define MISS_MOST 0.003 /* of the area, that a design may seem worse on the coarse patches and still be measured */
 #define SHARE_LEAST 0.2 /* of a step, that is tried before it is given up */
 #define CAREFUL 3       /* from this width on a step must improve what it starts from */
-#define SNAPSHOTS 2     /* of an annealing's steps, the best on the coarse patches are measured */
 
 static const sp_width widths[] = {{0.8, 0.085}, {0.4, 0.06}, {0.2, 0.042},   {0.1, 0.03},
                                   {0.05, 0.021}, {0.025, 0.015}, {0.0125, 0.006}};
@@ -27,41 +26,6 @@ typedef struct {
     sp_front *front;
     sp_error *error;
 } sp_refining;
-
-/* Where a nozzle moved to `position` would be mounted; false where it must not be there. */
-static bool moved_site(const sp_search *search, const sp_placed *placed, sp_vec3 position, sp_site *site)
-{
-    const sp_place_options *options = search->options;
-    const sp_mount *mount = &options->mounts[placed->site.mount];
-    *site = placed->site;
-    site->position = position;
-    if (mount->kind == SP_MOUNT_SURFACE) {
-        double limit = options->refine.position < 0 ? 0.5 * mount->spacing : options->refine.position;
-        *site = placed->site;
-        if (!sp_site_project(search->coarse, options, site, position) ||
-            sp_distance(site->position, placed->origin.position) > limit)
-            return false;
-    }
-    return sp_site_allowed(search->coarse, options, site);
-}
-
-/* Takes the values over, the place only where the mount allows it. */
-static void apply(const sp_search *search, sp_placed *placed, const sp_freedom *freedom, const double *values)
-{
-    sp_site site = placed->site;
-    sp_nozzle nozzle = sp_freedom_nozzle(freedom, values);
-    if (sp_distance(nozzle.position, placed->nozzle.position) > 0 &&
-        moved_site(search, placed, nozzle.position, &site)) {
-        sp_nozzle there = sp_freedom_nozzle_at(freedom, values, &site);
-        double turn = sp_dot(there.axis, placed->origin.axis);
-        /* a curved surface may turn the axis more than refinement is allowed to */
-        if (turn < cos(freedom->axis_limit) - 1e-9)
-            site = placed->site;
-    }
-    placed->nozzle = sp_freedom_nozzle_at(freedom, values, &site);
-    placed->site = site;
-    placed->flow = sp_nozzle_flow(&placed->nozzle, &sp_evaluator_setup(search->coarse)->liquid);
-}
 
 /* The flow that a nozzle may be turned down to; its own where that is fixed. */
 static double least_flow(const sp_search *search, const sp_placed *placed)
@@ -108,7 +72,7 @@ static bool go(const sp_refining *refining, const sp_freedom *freedoms, double (
         double part[SP_UNKNOWNS];
         for (size_t k = 0; k < freedoms[i].count; k++)
             part[k] = freedoms[i].value[k] + share * (values[i][k] - freedoms[i].value[k]);
-        apply(refining->search, &design->items[i], &freedoms[i], part);
+        sp_placed_move(refining->search, &design->items[i], &freedoms[i], part);
     }
     turn_down(refining->search, design, budget);
     return retrace(refining->search, design, refining->error);
@@ -162,49 +126,64 @@ static bool step(const sp_refining *refining, sp_width width, bool careful, doub
     return done;
 }
 
-/* Keeps the designs that cover most on the coarse patches, best first. Takes the design over. */
-static void keep_snapshot(sp_design *snapshots, size_t *count, sp_design *design)
+/* Takes the copy over where it covers more on the coarse patches with no more water. */
+static void keep_better(sp_design *design, sp_design *copy, double budget)
 {
-    size_t at = *count;
-    while (at > 0 && snapshots[at - 1].covered < design->covered)
-        at--;
-    if (at == SNAPSHOTS) {
-        sp_design_free(design);
-        return;
-    }
-    if (*count == SNAPSHOTS)
-        sp_design_free(&snapshots[--*count]);
-    for (size_t i = *count; i > at; i--)
-        snapshots[i] = snapshots[i - 1];
-    snapshots[at] = *design;
-    ++*count;
+    bool better = copy->covered > design->covered && copy->flow <= budget * (1 + 1e-9);
+    sp_design_free(better ? design : copy);
+    if (better)
+        *design = *copy;
 }
 
-/* Anneals a copy of the design from the given width and measures the best of its steps; the front takes what is better. */
-static bool anneal(const sp_refining *refining, const sp_design *from, size_t start)
+/* Anneals from the given width on and leaves the design at the best of its steps on the coarse patches. */
+static bool anneal(const sp_refining *refining, sp_design *design, size_t start, double budget)
 {
     const sp_search *search = refining->search;
-    double budget = fmin(from->flow, search->options->max_water);
-    double spare = MISS_MOST * sp_evaluator_patches(search->coarse)->total_area;
-    sp_design design, snapshots[SNAPSHOTS];
-    size_t count = 0;
-    if (!sp_design_copy(search, from, &design, refining->error))
+    sp_design moving;
+    if (!sp_design_copy(search, design, &moving, refining->error))
         return false;
     bool done = true;
     for (size_t w = start; done && w < WIDTHS && sp_watch_goes_on(refining->watch, "refine", (double)w / WIDTHS); w++) {
         sp_design copy;
         bool stayed;
-        done = step(refining, widths[w], w >= CAREFUL, budget, &design, &stayed) && sp_design_copy(search, &design, &copy, refining->error);
-        if (done && copy.flow <= budget * (1 + 1e-9) && copy.covered >= from->covered - spare)
-            keep_snapshot(snapshots, &count, &copy);
-        else if (done)
-            sp_design_free(&copy);
+        done = step(refining, widths[w], w >= CAREFUL, budget, &moving, &stayed) &&
+               sp_design_copy(search, &moving, &copy, refining->error);
+        if (done)
+            keep_better(design, &copy, budget);
     }
-    for (size_t i = 0; i < count; i++) {
-        done = done && (!sp_watch_goes_on(refining->watch, "refine", 1) ||
-                        sp_front_measure(refining->front, search, &snapshots[i], NULL, refining->error));
-        sp_design_free(&snapshots[i]);
+    sp_design_free(&moving);
+    return done;
+}
+
+/* Refines a design at equal water: annealed with Ceres while that gains, then by compass. The front measures each. */
+static bool refine(const sp_refining *refining, sp_design *design)
+{
+    const sp_search *search = refining->search;
+    double budget = fmin(design->flow, search->options->max_water), before = design->covered;
+    size_t start = 0;
+    for (int round = 0; round < ROUNDS_MOST && start < STARTS && design->count; round++) {
+        if (!sp_watch_goes_on(refining->watch, "refine", 0))
+            return true;
+        double last = design->covered;
+        if (!anneal(refining, design, starts[start], budget))
+            return false;
+        start += design->covered <= last * (1 + GAIN_LEAST);
     }
+    if (design->covered > before && !sp_front_measure(refining->front, search, design, NULL, refining->error))
+        return false;
+    before = design->covered;
+    return sp_compass(search, budget, refining->watch, design, refining->error) &&
+           (design->covered <= before ||
+            sp_front_measure(refining->front, search, design, NULL, refining->error));
+}
+
+/* Refines a copy of the best design; the front takes what is better. */
+static bool polish(const sp_refining *refining)
+{
+    sp_design design;
+    if (!sp_design_copy(refining->search, &refining->front->best, &design, refining->error))
+        return false;
+    bool done = refine(refining, &design);
     sp_design_free(&design);
     return done;
 }
@@ -212,23 +191,6 @@ static bool anneal(const sp_refining *refining, const sp_design *from, size_t st
 static bool same(const sp_front_point *a, const sp_front_point *b)
 {
     return fabs(a->area - b->area) <= GAIN_LEAST * b->area && fabs(a->flow - b->flow) <= GAIN_LEAST * b->flow;
-}
-
-/* Anneals the best design again and again, while it improves. */
-static bool polish(const sp_refining *refining)
-{
-    sp_front *front = refining->front;
-    size_t start = 0;
-    for (int round = 0; round < ROUNDS_MOST && start < STARTS && front->best.count; round++) {
-        sp_front_point before = front->measured;
-        if (!sp_watch_goes_on(refining->watch, "refine", 0))
-            return true;
-        if (!anneal(refining, &front->best, starts[start]))
-            return false;
-        if (same(&before, &front->measured))
-            start++;
-    }
-    return true;
 }
 
 /* Turns adjustable nozzles down while the target holds. */
@@ -281,8 +243,8 @@ static bool save_share(const sp_refining *refining, double share, bool *saved)
     if (!found)
         return true;
     bool done = sp_front_measure(front, search, &reduced, NULL, refining->error);
-    for (size_t s = 0; done && s + 1 < STARTS && same(&before, &front->measured); s++)
-        done = anneal(refining, &reduced, starts[s]);
+    if (done && same(&before, &front->measured))
+        done = refine(refining, &reduced);
     sp_design_free(&reduced);
     *saved = done && !same(&before, &front->measured);
     return done;

@@ -97,16 +97,11 @@ void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
     }
 }
 
-bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, float *field, sp_error *error)
+void sp_field_reach(const sp_search *search, const sp_nozzle *nozzle, const sp_reach *reach, float *field)
 {
     const sp_setup *setup = sp_evaluator_setup(search->coarse);
     sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
     sp_frame frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up);
-    sp_reach *reach =
-        sp_evaluator_reach(search->coarse, nozzle->position, sp_nozzle_speed(nozzle, &setup->liquid), nozzle->axis,
-                           fmin(M_PI, sp_spray_reach(&spray) + 1e-6), error);
-    if (!reach)
-        return false;
     double flow = sp_nozzle_flow(nozzle, &setup->liquid);
     for (size_t p = 0; p < search->patch_count; p++)
         field[p] = 0;
@@ -119,6 +114,17 @@ bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, float *fi
             field[arrival->patch] +=
                 search->threshold > 0 ? (float)(flow * intensity * arrival->transfer / search->threshold) : INFINITY;
     }
+}
+
+bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, float *field, sp_error *error)
+{
+    sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
+    double speed = sp_nozzle_speed(nozzle, &sp_evaluator_setup(search->coarse)->liquid);
+    sp_reach *reach = sp_evaluator_reach(search->coarse, nozzle->position, speed, nozzle->axis,
+                                         fmin(M_PI, sp_spray_reach(&spray) + 1e-6), error);
+    if (!reach)
+        return false;
+    sp_field_reach(search, nozzle, reach, field);
     sp_reach_destroy(reach);
     return true;
 }

@@ -1,0 +1,115 @@
+#include "compass.h"
+
+#include "move.h"
+#include "scoring.h"
+
+#include <stdlib.h>
+
+#define STEP_FIRST 0.25  /* of half an unknown's range */
+#define STEP_LEAST 0.007
+#define PLACE_LEAST 0.05 /* of half the range: each move of a place is traced */
+#define SWEEPS_MOST 4    /* at one size of step */
+#define GAIN_LEAST 1e-6  /* of the area, for a step to count */
+
+/* The nozzle in hand: the design without it, and what can be reached from where it is. */
+typedef struct {
+    const sp_search *search;
+    sp_design *design; /* without the nozzle */
+    double budget, least;
+    sp_placed placed;
+    sp_reach *reach; /* from its position, in all directions */
+    double gain;     /* of its field, exact, m² */
+    float *trial;    /* [patch_count] */
+    sp_error *error;
+} sp_needle;
+
+static sp_reach *look(const sp_needle *needle, const sp_nozzle *nozzle)
+{
+    double speed = sp_nozzle_speed(nozzle, &sp_evaluator_setup(needle->search->coarse)->liquid);
+    return sp_evaluator_reach(needle->search->coarse, nozzle->position, speed, nozzle->axis, M_PI, needle->error);
+}
+
+/* Tries one value of one unknown and keeps it where more is covered. */
+static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
+{
+    sp_freedom freedom = sp_freedom_create(needle->search, &needle->placed);
+    double values[SP_UNKNOWNS], half = 0.5 * (freedom.high[k] - freedom.low[k]);
+    for (size_t j = 0; j < freedom.count; j++)
+        values[j] = freedom.value[j];
+    values[k] = fmin(freedom.high[k], fmax(freedom.low[k], values[k] + step * half));
+    if (values[k] == freedom.value[k])
+        return true;
+    sp_placed trial = needle->placed;
+    sp_placed_move(needle->search, &trial, &freedom, values);
+    if (needle->design->flow + trial.flow > needle->budget * (1 + 1e-12))
+        return true;
+    sp_reach *reach = needle->reach;
+    bool elsewhere = sp_distance(trial.nozzle.position, needle->placed.nozzle.position) > 0;
+    if (freedom.kind[k] == SP_UNKNOWN_PLACE && !elsewhere)
+        return true;
+    if (elsewhere && !(reach = look(needle, &trial.nozzle)))
+        return false;
+    sp_field_reach(needle->search, &trial.nozzle, reach, needle->trial);
+    double gain = sp_field_gain(needle->search, needle->design->wet, needle->trial);
+    bool better = gain > needle->gain + needle->least;
+    if (better) {
+        trial.field = needle->trial;
+        needle->trial = needle->placed.field;
+        needle->placed = trial;
+        needle->gain = gain;
+        *moved = true;
+    }
+    if (elsewhere) {
+        sp_reach_destroy(better ? needle->reach : reach);
+        needle->reach = better ? reach : needle->reach;
+    }
+    return true;
+}
+
+/* Both ways along every unknown of the design's first nozzle, which then stands last. */
+static bool try_nozzle(const sp_search *search, double budget, double step, sp_design *design, bool *moved,
+                       sp_error *error)
+{
+    sp_needle needle = {.search = search, .design = design, .budget = budget, .error = error,
+                        .least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area};
+    needle.placed = sp_design_take(search, design, 0);
+    needle.trial = malloc(search->patch_count * sizeof *needle.trial);
+    bool done = needle.trial || sp_fail_memory(error);
+    if (done) {
+        needle.gain = sp_field_gain(search, design->wet, needle.placed.field);
+        needle.reach = look(&needle, &needle.placed.nozzle);
+        done = needle.reach != NULL;
+    }
+    sp_freedom freedom = sp_freedom_create(search, &needle.placed);
+    for (size_t k = 0; done && k < freedom.count; k++) {
+        if (freedom.kind[k] == SP_UNKNOWN_PLACE && step < PLACE_LEAST)
+            continue;
+        bool forth = false;
+        done = try_value(&needle, k, step, &forth) && (forth || try_value(&needle, k, -step, &forth));
+        *moved |= forth;
+    }
+    sp_reach_destroy(needle.reach);
+    free(needle.trial);
+    return sp_design_add(search, design, needle.placed, error) && done;
+}
+
+bool sp_compass(const sp_search *search, double budget, sp_watch *watch, sp_design *design, sp_error *error)
+{
+    sp_search exact = *search;
+    exact.credit = 0;
+    bool done = true;
+    int sweeps = 0;
+    for (double step = STEP_FIRST; done && step >= STEP_LEAST;) {
+        bool moved = false;
+        if (!sp_watch_goes_on(watch, "refine", 1))
+            break;
+        for (size_t i = 0; done && i < design->count; i++)
+            done = try_nozzle(&exact, budget, step, design, &moved, error);
+        if (moved && ++sweeps < SWEEPS_MOST)
+            continue;
+        step /= 2;
+        sweeps = 0;
+    }
+    sp_design_refresh(search, design);
+    return done;
+}

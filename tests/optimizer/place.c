@@ -1,0 +1,348 @@
+/* Placement on rooms small enough to try every layout, and what its limits ask. */
+#include "room.h"
+
+#define PRESSURE 2e5
+
+typedef struct {
+    room room;
+    sp_nozzle_type types[3];
+    const sp_nozzle_type *type_list[3];
+    double pressure;
+    sp_mount mounts[4];
+    sp_place_options options;
+} job;
+
+/* A closed room of 2 m x 1.4 m x 1.2 m, every spot of which needs 2 L/min/m². */
+static void job_open(job *j)
+{
+    *j = (job){.pressure = PRESSURE};
+    room_builder b = {0};
+    room_box(&b, sp_v(-1, -0.7, 0), sp_v(1, 0.7, 1.2), "walls", "lid");
+    j->room.setup = sp_setup_default();
+    j->room.setup.cavity = SP_CAVITY_POINT;
+    j->room.setup.cavity_point = sp_v(0, 0, 0.5);
+    j->room.setup.criterion.flux = 2 * LITRES_PER_MINUTE;
+    room_open(&j->room, &b, 0.05);
+    j->types[0] = room_cone("wide", 120 * DEGREE, 16);
+    j->types[1] = room_cone("narrow", 60 * DEGREE, 6);
+    j->types[2] = room_cone("ball", 360 * DEGREE, 40);
+    for (int i = 0; i < 3; i++)
+        j->type_list[i] = &j->types[i];
+    j->options = room_options();
+    j->options.types = j->type_list;
+    j->options.type_count = 2;
+    j->options.pressures = &j->pressure;
+    j->options.pressure_count = 1;
+    j->options.mounts = j->mounts;
+    j->options.clearance = 0.02;
+    j->mounts[0] = (sp_mount){.kind = SP_MOUNT_LINE, .axis = sp_v(0, 0, -1), .spacing = 0.4, .from = sp_v(-0.8, 0.1, 1),
+                              .to = sp_v(0.8, 0.1, 1)};
+    j->options.mount_count = 1;
+}
+
+static sp_proposal *job_place(job *j)
+{
+    sp_error error = {0};
+    sp_proposal *proposal = sp_place(j->room.evaluator, &j->options, &error);
+    assert_string_equal(error.message, "");
+    assert_non_null(proposal);
+    room_check(proposal, &j->options);
+    return proposal;
+}
+
+static double area_of(const job *j, const sp_nozzle *nozzles, size_t count)
+{
+    sp_error error = {0};
+    sp_layout *layout = sp_layout_create(nozzles, count, &error);
+    sp_coverage *coverage = sp_evaluate(j->room.evaluator, layout, &error);
+    assert_non_null(coverage);
+    double area = coverage->covered_area;
+    sp_coverage_destroy(coverage);
+    sp_layout_destroy(layout);
+    return area;
+}
+
+/* The most that any one or two of the five places and two types cover, a place holding more than one. */
+static double best_of_two(const job *j)
+{
+    sp_nozzle poses[10];
+    for (int i = 0; i < 10; i++)
+        poses[i] = (sp_nozzle){.type = j->type_list[i % 2], .position = sp_v(-0.8 + 0.4 * (i / 2), 0.1, 1),
+                               .axis = sp_v(0, 0, -1), .pressure = PRESSURE};
+    double best = 0;
+    for (int a = 0; a < 10; a++)
+        for (int b = a; b < 10; b++) {
+            sp_nozzle pair[2] = {poses[a], poses[b]};
+            best = fmax(best, area_of(j, pair, 2));
+        }
+    return best;
+}
+
+static void two_nozzles_are_the_best_two(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    j.options.max_nozzles = 2;
+    j.options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    sp_proposal *proposal = job_place(&j);
+    assert_int_equal(proposal->positions, 5);
+    assert_int_equal(proposal->candidates, 10);
+    assert_true(proposal->coverage->covered_area >= best_of_two(&j) * (1 - 1e-9));
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
+static void least_water_for_a_target(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    j.options.max_nozzles = 2;
+    j.options.coverage = 0.5;
+    j.options.objective = SP_OBJECTIVE_MIN_WATER;
+    sp_proposal *proposal = job_place(&j);
+    double best = INFINITY;
+    for (int a = 0; a < 10; a++)
+        for (int b = -1; b < a; b++) {
+            sp_nozzle pair[2];
+            size_t count = 0;
+            double flow = 0;
+            for (int i = 0; i < 2; i++) {
+                int pose = i ? b : a;
+                if (pose < 0)
+                    continue;
+                pair[count++] = (sp_nozzle){.type = j.type_list[pose % 2], .position = sp_v(-0.8 + 0.4 * (pose / 2), 0.1, 1),
+                                            .axis = sp_v(0, 0, -1), .pressure = PRESSURE};
+                flow += j.type_list[pose % 2]->flow;
+            }
+            if (flow < best && area_of(&j, pair, count) >= proposal->target_area)
+                best = flow;
+        }
+    assert_true(isfinite(best));
+    assert_true(proposal->reached);
+    assert_true(proposal->coverage->covered_area >= proposal->target_area);
+    assert_true(proposal->coverage->flow <= best * (1 + 1e-9));
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
+static void limits_hold(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    j.options.max_water = 23 * LITRES_PER_MINUTE;
+    sp_proposal *proposal = job_place(&j);
+    assert_false(proposal->reached);
+    assert_in_range(proposal->layout->count, 1, 3);
+    sp_proposal_destroy(proposal);
+
+    /* nothing fits: no nozzle, no error */
+    j.options.max_water = 5 * LITRES_PER_MINUTE;
+    proposal = job_place(&j);
+    assert_int_equal(proposal->layout->count, 0);
+    assert_false(proposal->reached);
+    assert_true(proposal->attainable_area == 0);
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
+static void a_port_holds_one(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    j.mounts[0] = (sp_mount){.kind = SP_MOUNT_PORT, .name = "P1", .position = sp_v(-0.5, 0, 1.1), .axis = sp_v(0, 0, -1),
+                             .tilt = 30 * DEGREE, .depth_to = 0.4, .depth_spacing = 0.2};
+    j.mounts[1] = j.mounts[0];
+    j.mounts[1].position.x = 0.5;
+    /* of equal name, and only for narrow cones */
+    j.mounts[1].types = &j.type_list[1];
+    j.mounts[1].type_count = 1;
+    j.options.mount_count = 2;
+    sp_proposal *proposal = job_place(&j);
+    assert_int_equal(proposal->layout->count, 2);
+    size_t wide = 0;
+    for (size_t i = 0; i < 2; i++) {
+        const sp_nozzle *nozzle = &proposal->layout->nozzles[i];
+        assert_true(!strcmp(nozzle->name, "P1") || !strcmp(nozzle->name, "P1-2"));
+        assert_true(nozzle->axis.z <= -cos(30 * DEGREE) + 1e-9);
+        if (nozzle->type == &j.types[0]) {
+            wide++;
+            assert_true(nozzle->position.x < 0);
+        }
+    }
+    assert_in_range(wide, 0, 1);
+    sp_proposal_destroy(proposal);
+
+    /* a kept nozzle on the lance takes the port */
+    sp_nozzle kept = {.name = "mine", .type = &j.types[2], .position = sp_v(-0.5, 0, 0.9), .axis = sp_v(0, 0, -1),
+                      .pressure = PRESSURE, .keep = true};
+    sp_nozzle lost = kept;
+    lost.keep = false;
+    strcpy(lost.name, "lost");
+    const sp_nozzle own[2] = {lost, kept};
+    sp_error error = {0};
+    sp_layout *layout = sp_layout_create(own, 2, &error);
+    j.options.kept = layout;
+    j.options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    proposal = job_place(&j);
+    size_t named = 0;
+    for (size_t i = 0; i < proposal->layout->count; i++) {
+        const sp_nozzle *nozzle = &proposal->layout->nozzles[i];
+        named += !strcmp(nozzle->name, "mine");
+        assert_true(!strcmp(nozzle->name, "mine") || nozzle->position.x > 0);
+        assert_string_not_equal(nozzle->name, "lost");
+    }
+    assert_int_equal(named, 1);
+    sp_proposal_destroy(proposal);
+
+    /* and counts */
+    j.options.max_nozzles = 1;
+    proposal = job_place(&j);
+    assert_int_equal(proposal->layout->count, 1);
+    sp_proposal_destroy(proposal);
+    sp_layout_destroy(layout);
+    room_close(&j.room);
+}
+
+static void attainable_is_what_one_could_cover(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    /* one narrow cone straight down from one point: just its own footprint */
+    j.mounts[0].from = j.mounts[0].to = sp_v(0, 0, 1);
+    j.options.types = &j.type_list[1];
+    j.options.type_count = 1;
+    j.options.max_nozzles = 1;
+    sp_proposal *proposal = job_place(&j);
+    sp_nozzle nozzle = {.type = &j.types[1], .position = sp_v(0, 0, 1), .axis = sp_v(0, 0, -1), .pressure = PRESSURE};
+    double alone = area_of(&j, &nozzle, 1);
+    assert_true(alone > 0.5);
+    assert_true(fabs(proposal->attainable_area - alone) < 0.01 * alone);
+    assert_true(proposal->reached);
+    sp_proposal_destroy(proposal);
+
+    /* the flux needed tenfold: ten nozzles at that point could, one could not */
+    j.room.setup.criterion.flux *= 10;
+    sp_evaluator_destroy(j.room.evaluator);
+    sp_error error = {0};
+    j.room.evaluator = sp_evaluator_create(&j.room.setup, &error);
+    proposal = job_place(&j);
+    double one = proposal->attainable_area;
+    sp_proposal_destroy(proposal);
+    j.options.max_nozzles = 10;
+    proposal = job_place(&j);
+    assert_true(one < 0.5 * alone);
+    assert_true(fabs(proposal->attainable_area - alone) < 0.02 * alone);
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
+static bool stop_at_greedy(void *user, const char *stage, double done)
+{
+    (void)done;
+    size_t *calls = user;
+    (*calls)++;
+    return strcmp(stage, "greedy") != 0;
+}
+
+static void cancelling_gives_the_best_so_far(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    size_t calls = 0;
+    j.options.run.progress = stop_at_greedy;
+    j.options.run.user = &calls;
+    sp_proposal *proposal = job_place(&j);
+    assert_true(proposal->interrupted);
+    assert_true(calls > 0);
+    assert_false(proposal->reached);
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
+static void bad_options_are_errors(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    for (int i = 0; i < 4; i++) {
+        sp_place_options options = j.options;
+        if (i == 0)
+            options.mount_count = 0;
+        if (i == 1)
+            options.type_count = 0;
+        if (i == 2)
+            options.pressure_count = 0;
+        if (i == 3)
+            options.clearance = 5;
+        sp_error error = {0};
+        assert_null(sp_place(j.room.evaluator, &options, &error));
+        assert_int_equal(error.kind, SP_ERROR_INPUT);
+    }
+    sp_error error = {.kind = SP_ERROR_FILE};
+    assert_null(sp_place(NULL, &j.options, &error));
+    assert_int_equal(error.kind, SP_ERROR_FILE);
+    sp_proposal_destroy(NULL);
+    room_close(&j.room);
+}
+
+static void same_layout(const sp_layout *a, const sp_layout *b)
+{
+    assert_int_equal(a->count, b->count);
+    for (size_t i = 0; i < a->count; i++) {
+        const sp_nozzle *p = &a->nozzles[i], *q = &b->nozzles[i];
+        assert_string_equal(p->name, q->name);
+        assert_ptr_equal(p->type, q->type);
+        assert_memory_equal(&p->position, &q->position, sizeof p->position);
+        assert_memory_equal(&p->axis, &q->axis, sizeof p->axis);
+        assert_memory_equal(&p->roll, &q->roll, sizeof p->roll);
+        assert_memory_equal(&p->angle, &q->angle, sizeof p->angle);
+        assert_memory_equal(&p->flow, &q->flow, sizeof p->flow);
+    }
+}
+
+static void threads_do_not_matter(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    j.mounts[0].tilt = 40 * DEGREE;
+    j.mounts[0].spacing = 0.8;
+    j.types[0].angle_min = 80 * DEGREE;
+    j.types[0].flow_min *= 0.8;
+    j.types[0].flow_max *= 1.2;
+    j.options.refine = sp_place_options_default().refine;
+    j.options.max_nozzles = 4;
+    j.options.coverage = 0.7;
+    j.options.run.threads = 1;
+    sp_proposal *one = job_place(&j);
+    j.options.run.threads = 3;
+    sp_proposal *three = job_place(&j);
+    same_layout(one->layout, three->layout);
+    same_layout(one->greedy, three->greedy);
+    assert_int_equal(one->front_count, three->front_count);
+    assert_memory_equal(one->front, three->front, one->front_count * sizeof *one->front);
+    assert_int_equal(one->coverage->deposits.count, three->coverage->deposits.count);
+    assert_memory_equal(one->coverage->deposits.counted, three->coverage->deposits.counted,
+                        one->coverage->deposits.count * sizeof(double));
+    assert_memory_equal(one->attainable, three->attainable, one->coverage->deposits.count * sizeof(bool));
+    sp_proposal_destroy(one);
+    sp_proposal_destroy(three);
+    room_close(&j.room);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(two_nozzles_are_the_best_two), cmocka_unit_test(least_water_for_a_target),
+        cmocka_unit_test(limits_hold), cmocka_unit_test(a_port_holds_one),
+        cmocka_unit_test(attainable_is_what_one_could_cover), cmocka_unit_test(cancelling_gives_the_best_so_far),
+        cmocka_unit_test(bad_options_are_errors), cmocka_unit_test(threads_do_not_matter),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
