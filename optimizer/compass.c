@@ -23,10 +23,21 @@ typedef struct {
     sp_error *error;
 } sp_needle;
 
-static sp_reach *look(const sp_needle *needle, const sp_nozzle *nozzle)
+/* What can be reached from where the nozzle is, by its own pattern or by that turned and opened as far as allowed. */
+static sp_reach *look(const sp_search *search, const sp_nozzle *nozzle, double spare, sp_error *error)
 {
-    double speed = sp_nozzle_speed(nozzle, &sp_evaluator_setup(needle->search->coarse)->liquid);
-    return sp_evaluator_reach(needle->search->coarse, nozzle->position, speed, nozzle->axis, M_PI, needle->error);
+    double speed = sp_nozzle_speed(nozzle, &sp_evaluator_setup(search->coarse)->liquid);
+    sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
+    return sp_evaluator_reach(search->coarse, nozzle->position, speed, nozzle->axis,
+                              fmin(M_PI, sp_spray_reach(&spray) + spare + 1e-6), error);
+}
+
+/* How far beyond its pattern a nozzle could come to reach, whichever way its axis lies within its limits now. */
+static double spare_of(const sp_search *search, const sp_nozzle *nozzle)
+{
+    double low, high;
+    sp_angle_range(search->options, nozzle->type, &low, &high);
+    return 0.5 * fmax(0, high - sp_nozzle_angle(nozzle)) + 2 * fmin(M_PI, search->options->refine.axis);
 }
 
 /* Tries one value of one unknown and keeps it where more is covered. */
@@ -43,32 +54,35 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
     sp_placed_move(needle->search, &trial, &freedom, values);
     if (needle->design->flow + trial.flow > needle->budget * (1 + 1e-12))
         return true;
-    sp_reach *reach = needle->reach;
     bool elsewhere = sp_distance(trial.nozzle.position, needle->placed.nozzle.position) > 0;
     if (freedom.kind[k] == SP_UNKNOWN_PLACE && !elsewhere)
         return true;
-    if (elsewhere && !(reach = look(needle, &trial.nozzle)))
-        return false;
-    sp_field_reach(needle->search, &trial.nozzle, reach, needle->trial);
-    double gain = sp_field_gain(needle->search, needle->design->wet, needle->trial);
-    bool better = gain > needle->gain + needle->least;
-    if (better) {
-        trial.field = needle->trial;
-        needle->trial = needle->placed.field;
-        needle->placed = trial;
-        needle->gain = gain;
-        *moved = true;
-    }
     if (elsewhere) {
-        sp_reach_destroy(better ? needle->reach : reach);
-        needle->reach = better ? reach : needle->reach;
+        if (!sp_field_nozzle(needle->search, &trial.nozzle, needle->trial, needle->error))
+            return false;
+    } else {
+        sp_field_reach(needle->search, &trial.nozzle, needle->reach, needle->trial);
     }
-    return true;
+    double gain = sp_field_gain(needle->search, needle->design->wet, needle->trial);
+    if (gain <= needle->gain + needle->least)
+        return true;
+    trial.field = needle->trial;
+    needle->trial = needle->placed.field;
+    needle->placed = trial;
+    needle->gain = gain;
+    *moved = true;
+    if (elsewhere) {
+        sp_reach_destroy(needle->reach);
+        needle->reach =
+            look(needle->search, &trial.nozzle, spare_of(needle->search, &trial.nozzle), needle->error);
+    }
+    return needle->reach != NULL;
 }
 
-/* Both ways along every unknown of the design's first nozzle, which then stands last. */
-static bool try_nozzle(const sp_search *search, double budget, double step, sp_design *design, bool *moved,
-                       sp_error *error)
+/* Both ways along every unknown of the design's first nozzle, which then stands last. *reach is what it can reach, NULL
+ * where that is not known. */
+static bool try_nozzle(const sp_search *search, double budget, double step, sp_design *design, sp_reach **reach,
+                       bool *moved, sp_error *error)
 {
     sp_needle needle = {.search = search, .design = design, .budget = budget, .error = error,
                         .least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area};
@@ -77,7 +91,8 @@ static bool try_nozzle(const sp_search *search, double budget, double step, sp_d
     bool done = needle.trial || sp_fail_memory(error);
     if (done) {
         needle.gain = sp_field_gain(search, design->wet, needle.placed.field);
-        needle.reach = look(&needle, &needle.placed.nozzle);
+        needle.reach = *reach ? *reach
+                              : look(search, &needle.placed.nozzle, spare_of(search, &needle.placed.nozzle), error);
         done = needle.reach != NULL;
     }
     sp_freedom freedom = sp_freedom_create(search, &needle.placed);
@@ -88,7 +103,7 @@ static bool try_nozzle(const sp_search *search, double budget, double step, sp_d
         done = try_value(&needle, k, step, &forth) && (forth || try_value(&needle, k, -step, &forth));
         *moved |= forth;
     }
-    sp_reach_destroy(needle.reach);
+    *reach = needle.reach;
     free(needle.trial);
     return sp_design_add(search, design, needle.placed, error) && done;
 }
@@ -97,19 +112,26 @@ bool sp_compass(const sp_search *search, double budget, sp_watch *watch, sp_desi
 {
     sp_search exact = *search;
     exact.credit = 0;
+    sp_reach **reaches = calloc(design->count ? design->count : 1, sizeof *reaches);
+    if (!reaches)
+        return sp_fail_memory(error);
     bool done = true;
     int sweeps = 0;
     for (double step = STEP_FIRST; done && step >= STEP_LEAST;) {
         bool moved = false;
         if (!sp_watch_goes_on(watch, "refine", 1))
             break;
+        /* after all turns the first nozzle is the first again */
         for (size_t i = 0; done && i < design->count; i++)
-            done = try_nozzle(&exact, budget, step, design, &moved, error);
+            done = try_nozzle(&exact, budget, step, design, &reaches[i], &moved, error);
         if (moved && ++sweeps < SWEEPS_MOST)
             continue;
         step /= 2;
         sweeps = 0;
     }
+    for (size_t i = 0; i < design->count; i++)
+        sp_reach_destroy(reaches[i]);
+    free(reaches);
     sp_design_refresh(search, design);
     return done;
 }

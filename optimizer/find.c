@@ -1,6 +1,7 @@
 #include "find.h"
 
-#define ROUNDS_MOST 4 /* corrections for what the coarse patches misjudge */
+#define ROUNDS_MOST 4   /* corrections for what the coarse patches misjudge */
+#define FRONT_BUDGETS 8 /* about as many points of the front are searched for */
 
 typedef struct {
     const sp_search *search;
@@ -70,22 +71,52 @@ static bool shrink_best(const sp_finding *finding)
     return done;
 }
 
-/* The front below the best: the first designs of the greedy order, each improved within its own water. */
-static bool fill_front(const sp_finding *finding, const sp_design *greedy)
+/* The best that three starts improve to within a budget: the first of the greedy order, and the pool's greedy by less
+ * regard for water. */
+static bool at_budget(const sp_finding *finding, const sp_design *greedy, double budget)
 {
-    bool done = true;
-    for (size_t count = 1; done && count < greedy->count && sp_watch_goes_on(finding->watch, "front", 0); count++) {
+    static const double powers[] = {1, 0.5, 0};
+    sp_design best;
+    bool done = sp_design_create(finding->search, &best, finding->error);
+    if (!done)
+        return false;
+    for (int i = 0; done && i < 3 && sp_watch_goes_on(finding->watch, "front", 0); i++) {
         sp_design design;
-        done = sp_design_copy(finding->search, greedy, &design, finding->error);
+        done = i == 0 ? sp_design_copy(finding->search, greedy, &design, finding->error)
+                      : sp_design_create(finding->search, &design, finding->error);
         if (!done)
             break;
-        while (design.count > count)
+        while (design.count && design.flow > budget)
             sp_design_remove(finding->search, &design, design.count - 1);
-        done =
-            sp_improve(finding->search, finding->pool, design.flow, finding->watch, &design, finding->error) &&
-            sp_front_measure(finding->front, finding->search, &design, NULL, finding->error);
-        sp_design_free(&design);
+        done = (i == 0 || sp_greedy_pool(finding->search, finding->pool, powers[i], INFINITY, budget, &design,
+                                         finding->error)) &&
+               sp_improve(finding->search, finding->pool, budget, finding->watch, &design, finding->error);
+        bool better = design.covered > best.covered;
+        sp_design_free(better ? &best : &design);
+        if (better)
+            best = design;
     }
+    done = done && sp_front_measure(finding->front, finding->search, &best, NULL, finding->error);
+    sp_design_free(&best);
+    return done;
+}
+
+/* The front besides the best: at the water that the greedy order used as it went, and at that of the scene's own layout,
+ * with which the proposal will be compared. */
+static bool fill_front(const sp_finding *finding, const sp_design *greedy)
+{
+    const sp_search *search = finding->search;
+    const sp_layout *own = search->options->kept;
+    double flow = search->kept_flow, engineers = own ? sp_layout_flow(own, &sp_evaluator_setup(search->coarse)->liquid) : 0;
+    size_t stride = greedy->count / (FRONT_BUDGETS + 1) + 1;
+    bool done = true;
+    for (size_t i = 0; done && i + 1 < greedy->count; i++) {
+        flow += greedy->items[i].flow;
+        if ((i + 1) % stride == 0)
+            done = at_budget(finding, greedy, flow);
+    }
+    if (done && engineers > search->kept_flow && engineers <= finding->budget)
+        done = at_budget(finding, greedy, engineers);
     return done;
 }
 

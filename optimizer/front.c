@@ -1,6 +1,7 @@
 #include "front.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b)
 {
@@ -16,17 +17,39 @@ bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_fr
     return a->flow < b->flow || (a->flow == b->flow && a->area > b->area);
 }
 
-static bool note(sp_front *front, const sp_front_point *point, sp_error *error)
+static bool grow(sp_front *front, sp_error *error)
 {
-    if (front->count == front->capacity) {
-        size_t capacity = front->capacity ? 2 * front->capacity : 32;
-        sp_front_point *points = realloc(front->points, capacity * sizeof *points);
-        if (!points)
-            return sp_fail_memory(error);
-        front->points = points;
-        front->capacity = capacity;
-    }
-    front->points[front->count++] = *point;
+    if (front->count < front->capacity)
+        return true;
+    size_t capacity = front->capacity ? 2 * front->capacity : 32;
+    sp_front_entry *entries = realloc(front->entries, capacity * sizeof *entries);
+    if (!entries)
+        return sp_fail_memory(error);
+    front->entries = entries;
+    front->capacity = capacity;
+    return true;
+}
+
+/* Enters the design at its place unless some entry covers as much with no more water, and drops what it betters. */
+static bool note(sp_front *front, const sp_search *search, const sp_design *design, const sp_front_point *point,
+                 sp_error *error)
+{
+    size_t at = 0;
+    while (at < front->count && front->entries[at].point.flow <= point->flow)
+        at++;
+    if (at > 0 && front->entries[at - 1].point.area >= point->area)
+        return true;
+    sp_design copy;
+    if (!grow(front, error) || !sp_design_copy(search, design, &copy, error))
+        return false;
+    if (at > 0 && front->entries[at - 1].point.flow == point->flow)
+        at--;
+    size_t end = at;
+    for (; end < front->count && front->entries[end].point.area <= point->area; end++)
+        sp_design_free(&front->entries[end].design);
+    memmove(&front->entries[at + 1], &front->entries[end], (front->count - end) * sizeof *front->entries);
+    front->entries[at] = (sp_front_entry){*point, copy};
+    front->count += at + 1 - end;
     return true;
 }
 
@@ -41,7 +64,7 @@ bool sp_front_measure(sp_front *front, const sp_search *search, const sp_design 
     bool done = coverage != NULL;
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
-    if (!done || !note(front, &measured, error))
+    if (!done || !note(front, search, design, &measured, error))
         return false;
     if (point)
         *point = measured;
@@ -58,30 +81,23 @@ bool sp_front_measure(sp_front *front, const sp_search *search, const sp_design 
     return true;
 }
 
-static int compare_points(const void *a, const void *b)
+sp_front_point *sp_front_points(const sp_front *front, size_t *count, sp_error *error)
 {
-    const sp_front_point *p = a, *q = b;
-    if (p->flow != q->flow)
-        return p->flow < q->flow ? -1 : 1;
-    if (p->area != q->area)
-        return p->area > q->area ? -1 : 1;
-    return p->nozzles < q->nozzles ? -1 : p->nozzles > q->nozzles;
-}
-
-void sp_front_settle(sp_front *front)
-{
-    if (front->count)
-        qsort(front->points, front->count, sizeof *front->points, compare_points);
-    size_t kept = 0;
+    sp_front_point *points = malloc((front->count ? front->count : 1) * sizeof *points);
+    if (!points)
+        return sp_fail_memory(error);
+    *count = 0;
     for (size_t i = 0; i < front->count; i++)
-        if (front->points[i].flow > 0 && front->points[i].area > (kept ? front->points[kept - 1].area : 0))
-            front->points[kept++] = front->points[i];
-    front->count = kept;
+        if (front->entries[i].point.flow > 0 && front->entries[i].point.area > 0)
+            points[(*count)++] = front->entries[i].point;
+    return points;
 }
 
 void sp_front_free(sp_front *front)
 {
+    for (size_t i = 0; i < front->count; i++)
+        sp_design_free(&front->entries[i].design);
     sp_design_free(&front->best);
-    free(front->points);
+    free(front->entries);
     *front = (sp_front){0};
 }

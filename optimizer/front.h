@@ -5,11 +5,16 @@
 #include "design.h"
 
 typedef struct {
+    sp_front_point point;
+    sp_design design;
+} sp_front_entry;
+
+typedef struct {
     const sp_evaluator *fine;
     sp_objective objective;
-    double target;    /* m² */
+    double target; /* m² */
     size_t count, capacity;
-    sp_front_point *points; /* all that was measured */
+    sp_front_entry *entries; /* by rising flow, all areas rising too: what nothing measured betters with no more water */
     bool found;
     sp_design best;          /* with what follows, the best measured yet by the objective */
     sp_front_point measured; /* of it */
@@ -21,8 +26,8 @@ bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_fr
 /* Measures the design, notes it, and keeps a copy where it is the best yet. *point may be NULL. */
 bool sp_front_measure(sp_front *front, const sp_search *search, const sp_design *design, sp_front_point *point,
                       sp_error *error);
-/* Sorts by water and keeps what rises. */
-void sp_front_settle(sp_front *front);
+/* The points, without one of no water; malloc'd, the caller frees. */
+sp_front_point *sp_front_points(const sp_front *front, size_t *count, sp_error *error);
 void sp_front_free(sp_front *front);
 
 #endif

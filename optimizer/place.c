@@ -92,7 +92,7 @@ static bool write_down(const sp_placement *placement, sp_layout **layout, sp_cov
     return *coverage != NULL;
 }
 
-static void conclude(sp_placement *placement, sp_proposal *proposal)
+static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
     const sp_place_options *options = placement->options;
     for (size_t p = 0; p < proposal->coverage->deposits.count; p++)
@@ -105,13 +105,11 @@ static void conclude(sp_placement *placement, sp_proposal *proposal)
     proposal->interrupted = placement->watch.interrupted;
     proposal->positions = placement->sites.count;
     proposal->candidates = placement->candidates.pose_start[placement->sites.count];
-    sp_front_settle(&placement->front);
-    proposal->front_count = placement->front.count;
-    proposal->front = placement->front.points;
-    placement->front.points = NULL;
+    proposal->front = sp_front_points(&placement->front, &proposal->front_count, error);
     proposal->stage_count = placement->watch.stage_count;
     proposal->stages = placement->watch.stages;
     placement->watch.stages = NULL;
+    return proposal->front != NULL;
 }
 
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error)
@@ -127,9 +125,7 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
                 write_down(&placement, &proposal->greedy, &proposal->greedy_coverage, error) &&
                 sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
                 write_down(&placement, &proposal->layout, &proposal->coverage, error) &&
-                sp_watch_stage(&placement.watch, "refine", error);
-    if (done)
-        conclude(&placement, proposal);
+                sp_watch_stage(&placement.watch, "refine", error) && conclude(&placement, proposal, error);
     placement_free(&placement);
     if (done)
         return proposal;

@@ -6,9 +6,12 @@
 
 #include <stdlib.h>
 
-#define ROUNDS_MOST 6   /* annealings of one design */
+#define ROUNDS_MOST 5   /* annealings of one design */
 #define FLOW_TRIALS 7   /* measurements to find how far the flow can be turned down */
-#define GAIN_LEAST 1e-4 /* of area or water: less is no reason to go on */
+#define GAIN_LEAST 1e-4 /* of area or water: less is no improvement */
+#define ROUNDS_SAVING 2 /* the same, for a design that may turn out short of the target */
+#define MISSING_MOST 0.02 /* of the target: more, refinement is not expected to make up for */
+#define GAIN_REPEAT 1e-3 /* of the area: less is no reason to anneal the same way again */
 #define SHARE_LEAST 0.2 /* of a step, that is tried before it is given up */
 #define CAREFUL 3       /* from this width on a step must improve what it starts from */
 
@@ -156,18 +159,18 @@ static bool anneal(const sp_refining *refining, sp_design *design, size_t start,
 }
 
 /* Refines a design at equal water: annealed with Ceres while that gains, then by compass. The front measures each. */
-static bool refine(const sp_refining *refining, sp_design *design)
+static bool refine(const sp_refining *refining, sp_design *design, int rounds)
 {
     const sp_search *search = refining->search;
     double budget = fmin(design->flow, search->options->max_water), before = design->covered;
     size_t start = 0;
-    for (int round = 0; round < ROUNDS_MOST && start < STARTS && design->count; round++) {
+    for (int round = 0; round < rounds && start < STARTS && design->count; round++) {
         if (!sp_watch_goes_on(refining->watch, "refine", 0))
             return true;
         double last = design->covered;
         if (!anneal(refining, design, starts[start], budget))
             return false;
-        start += design->covered <= last * (1 + GAIN_LEAST);
+        start += design->covered <= last * (1 + GAIN_REPEAT);
     }
     if (design->covered > before && !sp_front_measure(refining->front, search, design, NULL, refining->error))
         return false;
@@ -183,7 +186,7 @@ static bool polish(const sp_refining *refining)
     sp_design design;
     if (!sp_design_copy(refining->search, &refining->front->best, &design, refining->error))
         return false;
-    bool done = refine(refining, &design);
+    bool done = refine(refining, &design, ROUNDS_MOST);
     sp_design_free(&design);
     return done;
 }
@@ -243,8 +246,9 @@ static bool save_share(const sp_refining *refining, double share, bool *saved)
     if (!found)
         return true;
     bool done = sp_front_measure(front, search, &reduced, NULL, refining->error);
-    if (done && same(&before, &front->measured))
-        done = refine(refining, &reduced);
+    double missing = front->target - front->bias - reduced.covered;
+    if (done && same(&before, &front->measured) && missing < MISSING_MOST * front->target)
+        done = refine(refining, &reduced, ROUNDS_SAVING);
     sp_design_free(&reduced);
     *saved = done && !same(&before, &front->measured);
     return done;
@@ -264,6 +268,30 @@ static bool save_water(const sp_refining *refining)
     return true;
 }
 
+/* The front's other designs get a quick refinement each. */
+static bool polish_front(const sp_refining *refining)
+{
+    const sp_search *search = refining->search;
+    sp_front *front = refining->front;
+    bool done = true;
+    double passed = search->kept_flow; /* what has been refined reaches up to this water */
+    for (size_t i = 0; done && i < front->count && sp_watch_goes_on(refining->watch, "refine", 1);) {
+        sp_design design;
+        double flow = front->entries[i].point.flow;
+        if (flow <= passed || flow >= front->measured.flow) {
+            i++;
+            continue;
+        }
+        passed = flow;
+        done = sp_design_copy(search, &front->entries[i].design, &design, refining->error);
+        if (!done)
+            break;
+        done = refine(refining, &design, 1);
+        sp_design_free(&design);
+    }
+    return done;
+}
+
 bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error)
 {
     const sp_refine *allowed = &search->options->refine;
@@ -273,7 +301,7 @@ bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watc
     if (!polish(&refining))
         return false;
     bool saves = front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
-    if (!saves)
-        return true;
-    return save_water(&refining) && polish(&refining) && save_flow(&refining);
+    if (saves && !(save_water(&refining) && polish(&refining) && save_flow(&refining)))
+        return false;
+    return polish_front(&refining);
 }

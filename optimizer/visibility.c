@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#define PATCHES_MOST 25000.0
+#define PATCHES_MOST 20000.0
 #define PATCHES_LEAST 500.0
 #define MEMORY 1.0e9         /* bytes, for all views */
 #define ARRIVAL_BYTES 20.0
