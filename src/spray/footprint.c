@@ -7,7 +7,7 @@
 #define NARROW 2.0         /* texels: wider sprays are judged at the patch's point */
 #define COARSE 0.125       /* texels: the largest cell, for what changes smoothly and for shadows */
 #define FINE 0.125         /* of the spray's width: the largest cell at its edge */
-#define FINEST (1.0 / 256) /* texels: no cell is halved below it, whatever the width */
+#define FINEST (1.0 / 256) /* texels: no cell is halved below it, whatever the width; spots are an exception */
 #define BEND 1.5           /* how much more a parabola's direction may turn across a cell than at its middle */
 
 static double least_opening(const sp_spray *spray)
@@ -24,6 +24,7 @@ sp_emitter sp_emitter_of(const sp_evaluator *evaluator, const sp_nozzle *nozzle)
                           .frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up),
                           .spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle))};
     emitter.width = least_opening(&emitter.spray);
+    emitter.is_spot = emitter.spray.kind != SP_PATTERN_FLAT_FAN && !(emitter.spray.inner > 0);
     return emitter;
 }
 
@@ -33,11 +34,43 @@ sp_vec3 sp_emitter_local(const sp_emitter *emitter, sp_vec3 direction)
     return sp_v(sp_dot(direction, frame->x), sp_dot(direction, frame->y), sp_dot(direction, frame->z));
 }
 
+/* How far the end of a flight moves per angle at the nozzle, across the plane of the flight: v t, the distance of a line. Where a
+ * point is beyond reach, as at the envelope next to it, where T = 2 r / g. */
+static double lever(const sp_emitter *emitter, sp_vec3 point)
+{
+    const sp_source *source = &emitter->source;
+    sp_vec3 gravity = source->evaluator->gravity;
+    double distance = sp_distance(point, source->position), g = sp_length(gravity);
+    if (g == 0)
+        return distance;
+    sp_flight flights[2];
+    int count = sp_flights(source->position, point, source->speed, gravity, flights);
+    return source->speed * (count > 0 ? flights[0].time : sqrt(2 * distance / g));
+}
+
 bool sp_emitter_is_narrow(const sp_emitter *emitter, uint32_t patch)
 {
     const sp_evaluator *evaluator = emitter->source.evaluator;
-    double distance = sp_distance(evaluator->patches.point[patch], emitter->source.position);
-    return emitter->width * distance < NARROW * evaluator->fidelity.texel;
+    return emitter->width * lever(emitter, evaluator->patches.point[patch]) < NARROW * evaluator->fidelity.texel;
+}
+
+/* For a point beyond reach: whether liquid may reach what lies within `radius` of it. With h the drop along gravity and w the
+ * way across it, the parabola of safety is v⁴ + 2 v² g h = g² w²; the jets that touch it halve the angle between upwards and
+ * the point, and one that leaves at another angle a falls short of it as a² v t. */
+static bool may_reach_near(const sp_emitter *emitter, sp_vec3 point, double radius)
+{
+    const sp_source *source = &emitter->source;
+    sp_vec3 r = sp_sub(point, source->position), gravity = source->evaluator->gravity;
+    double g = sp_length(gravity), v2 = source->speed * source->speed, distance = sp_length(r);
+    if (g == 0 || distance < 2 * radius)
+        return true;
+    double drop = sp_dot(r, gravity) / g;
+    double across = fmax(sp_length(sp_along(r, -drop / g, gravity)) - radius, 0);
+    if (v2 * (v2 + 2 * g * (drop + radius)) < g * g * across * across)
+        return false;
+    sp_vec3 outermost = sp_unit(sp_along(sp_scale(r, 1 / distance), -1 / g, gravity));
+    double margin = sp_spray_margin(&emitter->spray, sp_emitter_local(emitter, outermost));
+    return margin > -BEND * sqrt(2 * radius / lever(emitter, point));
 }
 
 /* How the spray lies about one flight. */
@@ -46,10 +79,11 @@ typedef struct {
     double turn;   /* rad per m: how much the direction turns at most as the end moves */
 } bearing;
 
-static bearing take_bearing(const sp_emitter *emitter, const sp_flight *flight, double distance)
+static bearing take_bearing(const sp_emitter *emitter, const sp_flight *flight)
 {
-    /* a line turns by 1/r either way; for a parabola the product of both turns is speed/spread */
-    double across = 1 / distance, along = sp_length(flight->velocity) / flight->spread * distance;
+    /* across the plane of the flight by 1 / v t; the product of both turns is the arriving speed over the spread */
+    double lever = emitter->source.speed * flight->time;
+    double across = 1 / lever, along = sp_length(flight->velocity) / flight->spread * lever;
     return (bearing){sp_spray_margin(&emitter->spray, sp_emitter_local(emitter, flight->direction)),
                      BEND * fmax(across, along)};
 }
@@ -65,8 +99,10 @@ static bool may_touch(const sp_emitter *emitter, uint32_t patch)
         return true;
     sp_flight flights[2];
     int count = sp_flights(source->position, point, source->speed, source->evaluator->gravity, flights);
+    if (count == 0)
+        return may_reach_near(emitter, point, radius);
     for (int k = 0; k < count; k++) {
-        bearing bearing = take_bearing(emitter, &flights[k], distance);
+        bearing bearing = take_bearing(emitter, &flights[k]);
         if (bearing.margin > -radius * bearing.turn)
             return true;
     }
@@ -125,6 +161,13 @@ static void integrate_quarters(patch_integral *integral, const cell *whole)
     integrate_cell(integral, &quarter);
 }
 
+/* What share of a cell a strip covers is known without halving the cell; of a spot it is not. */
+static double finest_cell(const sp_emitter *emitter, const sp_flight *flight)
+{
+    double finest = FINEST * emitter->source.evaluator->fidelity.texel;
+    return emitter->is_spot ? fmin(finest, FINE * emitter->width * emitter->source.speed * flight->time) : finest;
+}
+
 static void integrate_cell(patch_integral *integral, const cell *whole)
 {
     const sp_emitter *emitter = integral->emitter;
@@ -132,21 +175,21 @@ static void integrate_cell(patch_integral *integral, const cell *whole)
     const sp_vec3 *c = whole->corner;
     sp_vec3 middle = sp_scale(sp_add(c[0], sp_add(c[1], c[2])), 1.0 / 3);
     double radius = fmax(sp_distance(middle, c[0]), fmax(sp_distance(middle, c[1]), sp_distance(middle, c[2])));
-    double texel = source->evaluator->fidelity.texel, distance = sp_distance(middle, source->position);
+    double texel = source->evaluator->fidelity.texel;
     sp_flight flights[2];
     int count = sp_flights(source->position, middle, source->speed, source->evaluator->gravity, flights);
     bool coarse = radius > COARSE * texel;
     if (integral->arc >= count) { /* beyond reach, though perhaps not everywhere */
-        if (coarse)
+        if (radius > FINEST * texel && may_reach_near(emitter, middle, radius))
             integrate_quarters(integral, whole);
         return;
     }
     const sp_flight *flight = &flights[integral->arc];
-    bearing bearing = take_bearing(emitter, flight, distance);
+    bearing bearing = take_bearing(emitter, flight);
     double extent = radius * bearing.turn;
     if (bearing.margin < -extent)
         return;
-    bool at_edge = fabs(bearing.margin) < extent && extent > FINE * emitter->width && radius > FINEST * texel;
+    bool at_edge = fabs(bearing.margin) < extent && extent > FINE * emitter->width && radius > finest_cell(emitter, flight);
     if (coarse || at_edge) {
         integrate_quarters(integral, whole);
         return;

@@ -11,6 +11,7 @@ typedef struct {
     sp_frame frame;
     sp_spray spray;
     double width; /* rad, the least opening of the spray */
+    bool is_spot; /* a full cone: as narrow both ways */
 } sp_emitter;
 
 sp_emitter sp_emitter_of(const sp_evaluator *evaluator, const sp_nozzle *nozzle);

@@ -73,7 +73,7 @@ static sp_hit trace(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity,
     sp_search search = sp_search_start(ray, any);
     const sp_corners *corners = (const sp_corners *)tracer->corners;
     size_t count = tracer->mesh->triangle_count;
-    if (gravity.x == 0 && gravity.y == 0 && gravity.z == 0) {
+    if (sp_length(gravity) == 0) { /* or so weak that its square is nothing */
         sp_line line;
         if (!sp_line_start(&line, ray))
             return search.best;
