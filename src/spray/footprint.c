@@ -7,7 +7,8 @@
 #define NARROW 2.0         /* texels: wider sprays are judged at the patch's point */
 #define COARSE 0.125       /* texels: the largest cell, for what changes smoothly and for shadows */
 #define FINE 0.125         /* of the spray's width: the largest cell at its edge */
-#define FINEST (1.0 / 256) /* texels: no cell is halved below it, whatever the width; spots are an exception */
+#define FINEST (1.0 / 256) /* texels: no cell is halved below it, whatever the width; but for spots: */
+#define FINEST_SPOT 0x1p-20 /* texels */
 #define BEND 1.5           /* how much more a parabola's direction may turn across a cell than at its middle */
 
 static double least_opening(const sp_spray *spray)
@@ -164,8 +165,8 @@ static void integrate_quarters(patch_integral *integral, const cell *whole)
 /* What share of a cell a strip covers is known without halving the cell; of a spot it is not. */
 static double finest_cell(const sp_emitter *emitter, const sp_flight *flight)
 {
-    double finest = FINEST * emitter->source.evaluator->fidelity.texel;
-    return emitter->is_spot ? fmin(finest, FINE * emitter->width * emitter->source.speed * flight->time) : finest;
+    double texel = emitter->source.evaluator->fidelity.texel, spot = emitter->width * emitter->source.speed * flight->time;
+    return emitter->is_spot ? fmin(FINEST * texel, fmax(FINEST_SPOT * texel, FINE * spot)) : FINEST * texel;
 }
 
 static void integrate_cell(patch_integral *integral, const cell *whole)
