@@ -7,6 +7,8 @@
 
 #define BATCH 65536 /* jets in flight at once */
 #define SHARES 4    /* patches that one jet's liquid goes to at most */
+/* Texels that a jet flies before anything stops it: on which side of the wall it stands in a nozzle is, is round-off. */
+#define MOUTH 1e-7
 
 /* What one jet does where it hits. */
 typedef struct {
@@ -136,6 +138,7 @@ static void strike(jet_flight *flight, size_t i)
     const sp_surface *surface = &evaluator->setup.surfaces[mesh->part[hit->triangle]];
     ray->origin = sp_triangle_point(mesh, hit->triangle, hit->u, hit->v);
     ray->velocity = sp_along(velocity, -(1 + surface->restitution) * along_normal, normal);
+    ray->t_min = 0;
     ray->skip = hit->triangle;
     flight->flow[i] *= surface->rebound;
     impact->goes_on = surface->restitution > 0 && flight->flow[i] > 0 && sp_length(ray->velocity) > 0;
@@ -205,6 +208,7 @@ static void spray_jets(jet_flight *flight, const sp_nozzle *nozzle, uint64_t fir
     const sp_setup *setup = &flight->evaluator->setup;
     uint64_t jets = nozzle_jets(flight->evaluator, nozzle), seed = flight->evaluator->fidelity.seed;
     double speed = sp_nozzle_speed(nozzle, &setup->liquid), flow = sp_nozzle_flow(nozzle, &setup->liquid);
+    double mouth = MOUTH * flight->evaluator->fidelity.texel / speed; /* s */
     sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
     sp_frame frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up);
 #pragma omp parallel for num_threads(flight->threads)
@@ -213,7 +217,7 @@ static void spray_jets(jet_flight *flight, const sp_nozzle *nozzle, uint64_t fir
         sp_vec3 direction = sp_along(sp_along(sp_scale(frame.x, d.x), d.y, frame.y), d.z, frame.z);
         flight->rays[i] = (sp_ray){.origin = nozzle->position,
                                    .velocity = sp_scale(direction, speed),
-                                   .t_min = 0,
+                                   .t_min = mouth,
                                    .t_max = INFINITY,
                                    .skip = SP_NONE};
         flight->flow[i] = flow / (double)jets;
