@@ -3,8 +3,8 @@
 #include <omp.h>
 #include <stdlib.h>
 
-#define CHUNK 256    /* patches a thread does in a row: neighbours are reached from the same sites */
-#define ENDS 1e-7    /* share of a flight at either end in which nothing blocks it */
+#define CHUNK 256 /* patches a thread does in a row: neighbours are reached from the same sites */
+#define ENDS 1e-7 /* share of a flight at either end in which nothing blocks it */
 
 /* The best that one mounting place can do for one patch. */
 typedef struct {
@@ -27,8 +27,8 @@ typedef struct {
     double water_left; /* m³/s */
 } sp_reckoning;
 
-/* Offers for one patch: of each port, and of all other mounting points together, the ones of most flux and of most flux per
- * flow. */
+/* Offers for one patch: of each port, and of all other mounting points together, the ones of most flux and of most flux
+ * per flow. */
 typedef struct {
     sp_offer *strongest, *thriftiest; /* [mount_count + 1], the last for mounts without ports; ratio 0: none */
     size_t count;
@@ -72,7 +72,7 @@ static bool offer(const sp_reckoning *reckoning, const sp_site *site, size_t spe
         if (ratio <= 0)
             continue;
         sp_offer new = {ratio, scope->flow_low, fmin(scope->flow_high, reckoning->water_left)};
-        if (new.ratio * new.high > offers->strongest[place].ratio * offers->strongest[place].high) {
+        if (new.ratio *new.high > offers->strongest[place].ratio * offers->strongest[place].high) {
             offers->strongest[place] = new;
             better = true;
         }
@@ -187,8 +187,8 @@ static bool site_offers(const sp_reckoning *reckoning, const sp_site *site, size
     for (size_t s = 0; s < search->candidates->speed_count; s++) {
         double speed = search->candidates->speeds[s], transfer;
         sp_flight flights[2];
-        int count = sp_flights(site->position, patches->point[patch], speed, sp_evaluator_gravity(reckoning->fine),
-                               flights);
+        int count =
+            sp_flights(site->position, patches->point[patch], speed, sp_evaluator_gravity(reckoning->fine), flights);
         for (int f = 0; f < count; f++)
             if (aimable(reckoning, site, s, flights[f].direction) &&
                 arrives(reckoning, site, speed, &flights[f], patch, &transfer))
@@ -224,7 +224,8 @@ static bool reckon(const sp_reckoning *reckoning, sp_watch *watch, bool *attaina
         return sp_fail_memory(error);
     size_t batch = (size_t)threads * 16 * CHUNK;
     for (size_t first = 0; first < patches; first += batch) {
-        if (!sp_watch_goes_on(watch, "attainable", (double)first / (double)patches))
+        /* a time limit does not stop this: without the target the search would not know when to end */
+        if (!sp_watch_goes_on(watch, "attainable", (double)first / (double)patches) && watch->cancelled)
             break;
         size_t end = first + batch < patches ? first + batch : patches;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
@@ -258,9 +259,10 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *
     sp_reckoning reckoning = {.fine = fine,
                               .search = search,
                               .water_left = options->max_water - search->kept_flow,
-                              .nozzles_left = !options->max_nozzles                          ? SIZE_MAX
-                                              : options->max_nozzles > search->kept_count ? options->max_nozzles - search->kept_count
-                                                                                          : 0};
+                              .nozzles_left = !options->max_nozzles ? SIZE_MAX
+                                              : options->max_nozzles > search->kept_count
+                                                  ? options->max_nozzles - search->kept_count
+                                                  : 0};
     sp_layout *layout = sp_layout_create(search->kept, search->kept_count, error);
     sp_coverage *kept = layout ? sp_evaluate_inverse(fine, layout, error) : NULL;
     sp_scope *scopes = scopes_create(search, &sp_evaluator_setup(fine)->liquid);

@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
-/* Axes lie about a third of the pattern's half-angle apart: finer ones look alike to the search, and refinement moves them
- * anyway. */
+/* Axes lie about a third of the pattern's half-angle apart: finer ones look alike to the search, and refinement moves
+ * them anyway. */
 #define AXIS_SHARE (1.0 / 3)
 #define AXIS_STEP_LEAST (8 * M_PI / 180)
 #define AXIS_STEP_MOST (20 * M_PI / 180)
@@ -76,8 +76,8 @@ static bool makes_create(const sp_setup *setup, const sp_place_options *options,
     return true;
 }
 
-/* Rings about +z, the outermost at the tilt itself, each ring's axes no further apart than the rings. With `axes` NULL it
- * only counts. */
+/* Rings about +z, the outermost at the tilt itself, each ring's axes no further apart than the rings. With `axes` NULL
+ * it only counts. */
 static size_t rings(double tilt, double step, sp_vec3 *axes)
 {
     size_t ring_count = tilt > 0 ? (size_t)ceil(tilt / step * (1 - 1e-9)) : 0, count = 0;
@@ -117,7 +117,8 @@ static bool axes_create(const sp_place_options *options, sp_candidates *candidat
                 continue;
             double step = fmin(AXIS_STEP_MOST, fmax(AXIS_STEP_LEAST, AXIS_SHARE * make->reach));
             /* what sprays all round is the same whatever its axis */
-            bool all_round = make->spray.kind != SP_PATTERN_FLAT_FAN && make->spray.outer >= M_PI && make->spray.inner <= 0;
+            bool all_round =
+                make->spray.kind != SP_PATTERN_FLAT_FAN && make->spray.outer >= M_PI && make->spray.inner <= 0;
             double tilt = all_round ? 0 : fmin(M_PI, options->mounts[m].tilt);
             sp_axes *axes = &candidates->axes[m * candidates->make_count + k];
             axes->axes = malloc(rings(tilt, step, NULL) * sizeof *axes->axes);

@@ -33,8 +33,8 @@ bool sp_ceres_solve(const sp_least_squares *problem, double *x, double *cost, sp
 {
     const size_t limit = static_cast<size_t>(std::numeric_limits<int>::max());
     if (!problem->unknowns || !problem->residuals || problem->unknowns > limit || problem->residuals > limit)
-        return sp_fail(error, SP_ERROR_ARGUMENT, nullptr, 0, 0, "a least squares problem of %zu unknowns, %zu residuals",
-                       problem->unknowns, problem->residuals);
+        return sp_fail(error, SP_ERROR_ARGUMENT, nullptr, 0, 0,
+                       "a least squares problem of %zu unknowns, %zu residuals", problem->unknowns, problem->residuals);
     try {
         // Ceres logs an error to stderr where the first evaluation fails, whatever its logging type.
         std::vector<double> residuals(problem->residuals);

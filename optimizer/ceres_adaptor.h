@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-/* Residuals at x [unknowns], and where `jacobian` is not NULL their derivatives, [residuals][unknowns] row-major. Returning
- * false (where something is not finite) makes Ceres take a shorter step. */
+/* Residuals at x [unknowns], and where `jacobian` is not NULL their derivatives, [residuals][unknowns] row-major.
+ * Returning false (where something is not finite) makes Ceres take a shorter step. */
 typedef bool (*sp_residual_function)(void *user, const double *x, double *residuals, double *jacobian);
 
 typedef struct {
@@ -22,8 +22,8 @@ typedef struct {
     double tolerance; /* of cost, gradient and step, as Ceres defines them */
 } sp_least_squares;
 
-/* Minimises half the sum of squared residuals from x, which it improves in place (x never gets worse). Levenberg-Marquardt,
- * one thread, no logging. Fails only where the function fails at the start or memory runs out. */
+/* Minimises half the sum of squared residuals from x, which it improves in place (x never gets worse).
+ * Levenberg-Marquardt, one thread, no logging. Fails only where the function fails at the start or memory runs out. */
 bool sp_ceres_solve(const sp_least_squares *problem, double *x, double *cost, sp_error *error);
 
 #ifdef __cplusplus

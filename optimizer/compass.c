@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-#define STEP_FIRST 0.25  /* of half an unknown's range */
+#define STEP_FIRST 0.25 /* of half an unknown's range */
 #define STEP_LEAST 0.007
 #define PLACE_LEAST 0.05 /* of half the range: each move of a place is traced */
 #define SWEEPS_MOST 4    /* at one size of step */
@@ -73,8 +73,7 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
     *moved = true;
     if (elsewhere) {
         sp_reach_destroy(needle->reach);
-        needle->reach =
-            look(needle->search, &trial.nozzle, spare_of(needle->search, &trial.nozzle), needle->error);
+        needle->reach = look(needle->search, &trial.nozzle, spare_of(needle->search, &trial.nozzle), needle->error);
     }
     return needle->reach != NULL;
 }
@@ -84,15 +83,18 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
 static bool try_nozzle(const sp_search *search, double budget, double step, sp_design *design, sp_reach **reach,
                        bool *moved, sp_error *error)
 {
-    sp_needle needle = {.search = search, .design = design, .budget = budget, .error = error,
+    sp_needle needle = {.search = search,
+                        .design = design,
+                        .budget = budget,
+                        .error = error,
                         .least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area};
     needle.placed = sp_design_take(search, design, 0);
     needle.trial = malloc(search->patch_count * sizeof *needle.trial);
     bool done = needle.trial || sp_fail_memory(error);
     if (done) {
         needle.gain = sp_field_gain(search, design->wet, needle.placed.field);
-        needle.reach = *reach ? *reach
-                              : look(search, &needle.placed.nozzle, spare_of(search, &needle.placed.nozzle), error);
+        needle.reach =
+            *reach ? *reach : look(search, &needle.placed.nozzle, spare_of(search, &needle.placed.nozzle), error);
         done = needle.reach != NULL;
     }
     sp_freedom freedom = sp_freedom_create(search, &needle.placed);

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CREDIT 0.2f          /* of a patch that has almost the flux it needs: a saturating surrogate misleads the search */
-#define PORT_TOLERANCE 1e-3  /* m: a kept nozzle this near to a port's lance sits in the port */
+#define CREDIT 0.2f /* of a patch that has almost the flux it needs: a saturating surrogate misleads the search */
+#define PORT_TOLERANCE 1e-3 /* m: a kept nozzle this near to a port's lance sits in the port */
 
 static bool kept_create(sp_search *search, sp_error *error)
 {
@@ -24,7 +24,8 @@ static bool kept_create(sp_search *search, sp_error *error)
         search->kept_flow += sp_nozzle_flow(&layout->nozzles[i], &sp_evaluator_setup(search->coarse)->liquid);
         done = sp_field_nozzle(search, &layout->nozzles[i], field, error);
         for (size_t p = 0; done && p < search->patch_count; p++)
-            search->kept_wet[p] = search->single ? fmaxf(search->kept_wet[p], field[p]) : search->kept_wet[p] + field[p];
+            search->kept_wet[p] =
+                search->single ? fmaxf(search->kept_wet[p], field[p]) : search->kept_wet[p] + field[p];
     }
     free(field);
     return done;

@@ -12,24 +12,25 @@ typedef struct {
     const sp_visibility *visibility;
     const sp_evaluator *coarse;
     size_t patch_count;
-    float *area;      /* [patch_count], m² */
-    double threshold; /* m³/s per m² that cover; 0: any liquid */
-    bool single;      /* one nozzle alone must cover */
-    float credit;     /* worth of an uncovered patch per share of the threshold that it has */
-    float *bin_cosine; /* [make_count x SP_BINS]: the make, pointed at less than this from a bin's centre, misses the bin */
+    float *area;       /* [patch_count], m² */
+    double threshold;  /* m³/s per m² that cover; 0: any liquid */
+    bool single;       /* one nozzle alone must cover */
+    float credit;      /* worth of an uncovered patch per share of the threshold that it has */
+    float *bin_cosine; /* [make_count x SP_BINS]: the make, pointed at less than this from a bin's centre, misses the
+                          bin */
     size_t kept_count;
     sp_nozzle *kept; /* the nozzles that every layout contains */
     double kept_flow;
-    float *kept_wet;   /* [patch_count], flux over threshold */
+    float *kept_wet;  /* [patch_count], flux over threshold */
     bool *port_taken; /* [mount_count], by a kept nozzle */
 } sp_search;
 
 typedef struct {
     sp_nozzle nozzle;
     sp_nozzle origin; /* the candidate that it was, from which refinement's limits count */
-    sp_site site; /* where it is now: a surface's axis changes along it */
-    double flow;  /* m³/s */
-    float *field; /* [patch_count], flux over threshold; INFINITY where any liquid covers */
+    sp_site site;     /* where it is now: a surface's axis changes along it */
+    double flow;      /* m³/s */
+    float *field;     /* [patch_count], flux over threshold; INFINITY where any liquid covers */
 } sp_placed;
 
 typedef struct {

@@ -8,8 +8,8 @@
 
 /* The triangle's point nearest to `point`. */
 sp_vec3 sp_triangle_nearest(const sp_mesh *mesh, uint32_t triangle, sp_vec3 point);
-/* The triangle nearest to `point` (of equal distance the first), among those of `part` or, with SP_NONE, all; SP_NONE where
- * there is none. */
+/* The triangle nearest to `point` (of equal distance the first), among those of `part` or, with SP_NONE, all; SP_NONE
+ * where there is none. */
 uint32_t sp_nearest_triangle(const sp_mesh *mesh, uint32_t part, sp_vec3 point);
 /* True where no triangle but those of part `own` (SP_NONE: no exception) is nearer than `clearance` (m). */
 bool sp_is_clear(const sp_mesh *mesh, sp_vec3 point, double clearance, uint32_t own);

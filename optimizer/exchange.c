@@ -11,8 +11,8 @@ static bool replace(const sp_search *search, const sp_pool *pool, double budget,
                     size_t i, bool *changed, sp_error *error)
 {
     sp_placed own = sp_design_take(search, design, i);
-    double least = sp_field_gain(search, design->wet, own.field) +
-                   GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
+    double least =
+        sp_field_gain(search, design->wet, own.field) + GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
     sp_pose pose;
     if (sp_pool_best(search, pool, design, 0, budget, scores, &pose) <= least)
         return sp_design_add(search, design, own, error);
@@ -90,8 +90,8 @@ bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_design *de
     *found = false;
     size_t *order = by_loss(search, design, error);
     bool done = order != NULL;
-    for (size_t i = 0; done && i < design->count && (!*found || reduced->covered < enough) &&
-                       sp_watch_goes_on(watch, "exchange", 0);
+    for (size_t i = 0;
+         done && i < design->count && (!*found || reduced->covered < enough) && sp_watch_goes_on(watch, "exchange", 0);
          i++) {
         sp_design trial;
         done = sp_design_copy(search, design, &trial, error);

@@ -40,8 +40,7 @@ static bool other_design(const sp_finding *finding, double power)
     double coarse = finding->target - finding->front->bias;
     bool done = sp_greedy_pool(finding->search, finding->pool, power, coarse, finding->budget, &design, finding->error);
     double budget = design.covered >= coarse ? design.flow : finding->budget;
-    done = done &&
-           sp_improve(finding->search, finding->pool, budget, finding->watch, &design, finding->error) &&
+    done = done && sp_improve(finding->search, finding->pool, budget, finding->watch, &design, finding->error) &&
            sp_front_measure(finding->front, finding->search, &design, NULL, finding->error);
     sp_design_free(&design);
     return done;
@@ -88,8 +87,8 @@ static bool at_budget(const sp_finding *finding, const sp_design *greedy, double
             break;
         while (design.count && design.flow > budget)
             sp_design_remove(finding->search, &design, design.count - 1);
-        done = (i == 0 || sp_greedy_pool(finding->search, finding->pool, powers[i], INFINITY, budget, &design,
-                                         finding->error)) &&
+        done = (i == 0 ||
+                sp_greedy_pool(finding->search, finding->pool, powers[i], INFINITY, budget, &design, finding->error)) &&
                sp_improve(finding->search, finding->pool, budget, finding->watch, &design, finding->error);
         bool better = design.covered > best.covered;
         sp_design_free(better ? &best : &design);
@@ -101,21 +100,23 @@ static bool at_budget(const sp_finding *finding, const sp_design *greedy, double
     return done;
 }
 
-/* The front besides the best: at the water that the greedy order used as it went, and at that of the scene's own layout,
- * with which the proposal will be compared. */
+/* The front besides the best: at the water that the greedy order used as it went, and at that of the scene's own
+ * layout, with which the proposal will be compared. */
 static bool fill_front(const sp_finding *finding, const sp_design *greedy)
 {
     const sp_search *search = finding->search;
     const sp_layout *own = search->options->kept;
-    double flow = search->kept_flow, engineers = own ? sp_layout_flow(own, &sp_evaluator_setup(search->coarse)->liquid) : 0;
+    double flow = search->kept_flow,
+           engineers = own ? sp_layout_flow(own, &sp_evaluator_setup(search->coarse)->liquid) : 0;
     size_t stride = greedy->count / (FRONT_BUDGETS + 1) + 1;
     bool done = true;
-    for (size_t i = 0; done && i + 1 < greedy->count; i++) {
+    for (size_t i = 0; done && i + 1 < greedy->count && sp_watch_goes_on(finding->watch, "front", 0); i++) {
         flow += greedy->items[i].flow;
         if ((i + 1) % stride == 0)
             done = at_budget(finding, greedy, flow);
     }
-    if (done && engineers > search->kept_flow && engineers <= finding->budget)
+    if (done && engineers > search->kept_flow && engineers <= finding->budget &&
+        sp_watch_goes_on(finding->watch, "front", 1))
         done = at_budget(finding, greedy, engineers);
     return done;
 }
@@ -137,8 +138,8 @@ bool sp_find(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool 
                 sp_watch_stage(watch, "greedy", error);
     for (int i = 0; done && i < 2 && sp_watch_goes_on(watch, "exchange", 0); i++)
         done = other_design(&finding, i == 0 ? 0.5 : 0);
-    done = done && shrink_best(&finding) && sp_watch_stage(watch, "exchange", error) &&
-           fill_front(&finding, &design) && sp_watch_stage(watch, "front", error);
+    done = done && shrink_best(&finding) && sp_watch_stage(watch, "exchange", error) && fill_front(&finding, &design) &&
+           sp_watch_stage(watch, "front", error);
     sp_design_free(&design);
     return done;
 }

@@ -70,8 +70,8 @@ static sp_vec3 leaned(sp_vec3 axis, sp_vec3 centre, double limit)
     return sp_unit(turned(centre, about, limit));
 }
 
-/* The roll at which a nozzle with this axis keeps the origin's own x as far as turning the axis alone allows: the frame's
- * roll jumps where the axis passes the vertical, this one does not. */
+/* The roll at which a nozzle with this axis keeps the origin's own x as far as turning the axis alone allows: the
+ * frame's roll jumps where the axis passes the vertical, this one does not. */
 static double carried_roll(const sp_freedom *freedom, sp_vec3 axis)
 {
     sp_frame from = sp_nozzle_frame(freedom->origin.axis, freedom->origin.roll, freedom->up);

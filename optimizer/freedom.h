@@ -9,7 +9,7 @@
 typedef enum { SP_UNKNOWN_PLACE, SP_UNKNOWN_AXIS, SP_UNKNOWN_ROLL, SP_UNKNOWN_ANGLE, SP_UNKNOWN_FLOW } sp_unknown;
 
 typedef struct {
-    sp_nozzle start; /* what is not free stays as it is here */
+    sp_nozzle start;  /* what is not free stays as it is here */
     sp_nozzle origin; /* the candidate that the limits count from */
     sp_vec3 up;
     sp_vec3 reference; /* the mount's axis */
@@ -17,9 +17,9 @@ typedef struct {
     sp_vec3 across[2]; /* with origin.axis an orthonormal frame */
     size_t count;
     sp_unknown kind[SP_UNKNOWNS];
-    sp_vec3 move[SP_UNKNOWNS];                         /* place: unit direction */
-    double value[SP_UNKNOWNS];                         /* at the start; m from the origin's position, rad, m³/s */
-    double low[SP_UNKNOWNS], high[SP_UNKNOWNS];        /* low < high */
+    sp_vec3 move[SP_UNKNOWNS];                  /* place: unit direction */
+    double value[SP_UNKNOWNS];                  /* at the start; m from the origin's position, rad, m³/s */
+    double low[SP_UNKNOWNS], high[SP_UNKNOWNS]; /* low < high */
 } sp_freedom;
 
 sp_freedom sp_freedom_create(const sp_search *search, const sp_placed *placed);

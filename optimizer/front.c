@@ -7,8 +7,7 @@ bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_fr
 {
     bool both = a->area >= front->target && b->area >= front->target;
     if (front->objective == SP_OBJECTIVE_MAX_COVERAGE || !both) {
-        if (front->objective != SP_OBJECTIVE_MAX_COVERAGE &&
-            (a->area >= front->target) != (b->area >= front->target))
+        if (front->objective != SP_OBJECTIVE_MAX_COVERAGE && (a->area >= front->target) != (b->area >= front->target))
             return a->area >= front->target;
         return a->area > b->area || (a->area == b->area && a->flow < b->flow);
     }

@@ -14,7 +14,8 @@ typedef struct {
     sp_objective objective;
     double target; /* m² */
     size_t count, capacity;
-    sp_front_entry *entries; /* by rising flow, all areas rising too: what nothing measured betters with no more water */
+    sp_front_entry
+        *entries; /* by rising flow, all areas rising too: what nothing measured betters with no more water */
     bool found;
     sp_design best;          /* with what follows, the best measured yet by the objective */
     sp_front_point measured; /* of it */

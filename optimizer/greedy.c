@@ -201,7 +201,10 @@ bool sp_greedy(const sp_search *search, double power, double target, double budg
     bool first = true;
     sp_search exact = *search;
     exact.credit = 0;
-    while (done && design->covered < target && sp_watch_goes_on(watch, "greedy", fmin(1, design->covered / target))) {
+    /* out of time there is at least one nozzle to show */
+    while (done && design->covered < target &&
+           (sp_watch_goes_on(watch, "greedy", fmin(1, design->covered / target)) ||
+            (first && !design->count && !watch->cancelled))) {
         if (is_last(search, design) && rounds.search != &exact) {
             rounds.search = &exact;
             forget_rooms(&rounds);

@@ -15,8 +15,8 @@ bool sp_pool_add(sp_pool *pool, sp_pose pose, sp_error *error);
 void sp_pool_settle(sp_pool *pool);
 void sp_pool_free(sp_pool *pool);
 
-/* Adds nozzles to the design, each the pose of most gain per water^power, until it covers `target` (m² of coarse patches) or
- * nothing more is gained or allowed within `budget` (m³/s). The poses that came near go to `pool`. */
+/* Adds nozzles to the design, each the pose of most gain per water^power, until it covers `target` (m² of coarse
+ * patches) or nothing more is gained or allowed within `budget` (m³/s). The poses that came near go to `pool`. */
 bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_watch *watch, sp_design *design,
                sp_pool *pool, sp_error *error);
 /* The same over the pool's poses alone. */

@@ -5,9 +5,9 @@
 
 #include <stdlib.h>
 
-#define SITES_MOST 100000        /* beyond that a spacing is taken for a mistake */
-#define SAMPLES_PER_SITE 16      /* points to choose from, per square of the spacing */
-#define STANDOFF_LEAST 1e-4      /* m: on the surface itself every line of sight would start in it */
+#define SITES_MOST 100000   /* beyond that a spacing is taken for a mistake */
+#define SAMPLES_PER_SITE 16 /* points to choose from, per square of the spacing */
+#define STANDOFF_LEAST 1e-4 /* m: on the surface itself every line of sight would start in it */
 
 static bool append(sp_sites *sites, const sp_site *site, sp_error *error)
 {
@@ -164,8 +164,8 @@ static bool surface_samples(const sp_evaluator *evaluator, const sp_mount *mount
     return true;
 }
 
-/* Farthest-point sampling: each site is the sample farthest from those already taken, until none is a spacing away. Both
- * sides of a sheet are far from one another. */
+/* Farthest-point sampling: each site is the sample farthest from those already taken, until none is a spacing away.
+ * Both sides of a sheet are far from one another. */
 static bool surface_sites(const sp_evaluator *evaluator, const sp_mount *mount, uint32_t index, sp_sites *sites,
                           sp_error *error)
 {

@@ -21,11 +21,11 @@ typedef struct {
 bool sp_sites_create(const sp_evaluator *evaluator, const sp_place_options *options, sp_sites *sites, sp_error *error);
 void sp_sites_free(sp_sites *sites);
 
-/* True where a nozzle of the mount may be at site->position: inside, clear, and with a port no part but the port's own in
- * the lance's way. */
+/* True where a nozzle of the mount may be at site->position: inside, clear, and with a port no part but the port's own
+ * in the lance's way. */
 bool sp_site_allowed(const sp_evaluator *evaluator, const sp_place_options *options, const sp_site *site);
-/* Moves a site of a surface mount to the given point as projected on its part and stood off from it. False where the part
- * has no side there that faces the liquid. */
+/* Moves a site of a surface mount to the given point as projected on its part and stood off from it. False where the
+ * part has no side there that faces the liquid. */
 bool sp_site_project(const sp_evaluator *evaluator, const sp_place_options *options, sp_site *site, sp_vec3 point);
 
 #endif

@@ -6,16 +6,16 @@
 
 #include <stdlib.h>
 
-#define ROUNDS_MOST 5   /* annealings of one design */
-#define FLOW_TRIALS 7   /* measurements to find how far the flow can be turned down */
-#define GAIN_LEAST 1e-4 /* of area or water: less is no improvement */
-#define ROUNDS_SAVING 2 /* the same, for a design that may turn out short of the target */
+#define ROUNDS_MOST 5     /* annealings of one design */
+#define FLOW_TRIALS 7     /* measurements to find how far the flow can be turned down */
+#define GAIN_LEAST 1e-4   /* of area or water: less is no improvement */
+#define ROUNDS_SAVING 2   /* the same, for a design that may turn out short of the target */
 #define MISSING_MOST 0.02 /* of the target: more, refinement is not expected to make up for */
-#define GAIN_REPEAT 1e-3 /* of the area: less is no reason to anneal the same way again */
-#define SHARE_LEAST 0.2 /* of a step, that is tried before it is given up */
-#define CAREFUL 3       /* from this width on a step must improve what it starts from */
+#define GAIN_REPEAT 1e-3  /* of the area: less is no reason to anneal the same way again */
+#define SHARE_LEAST 0.2   /* of a step, that is tried before it is given up */
+#define CAREFUL 3         /* from this width on a step must improve what it starts from */
 
-static const sp_width widths[] = {{0.8, 0.085}, {0.4, 0.06}, {0.2, 0.042},   {0.1, 0.03},
+static const sp_width widths[] = {{0.8, 0.085},  {0.4, 0.06},    {0.2, 0.042},   {0.1, 0.03},
                                   {0.05, 0.021}, {0.025, 0.015}, {0.0125, 0.006}};
 #define WIDTHS (sizeof widths / sizeof *widths)
 /* Where an annealing starts. A narrow one keeps what is there; a wide one forgets it, and may find what is better. */
@@ -176,8 +176,7 @@ static bool refine(const sp_refining *refining, sp_design *design, int rounds)
         return false;
     before = design->covered;
     return sp_compass(search, budget, refining->watch, design, refining->error) &&
-           (design->covered <= before ||
-            sp_front_measure(refining->front, search, design, NULL, refining->error));
+           (design->covered <= before || sp_front_measure(refining->front, search, design, NULL, refining->error));
 }
 
 /* Refines a copy of the best design; the front takes what is better. */
@@ -230,8 +229,8 @@ static bool save_flow(const sp_refining *refining)
     return done;
 }
 
-/* Less water by the share given: exchange within it, then refine to make up for what is missing. *saved says whether the
- * best design got better. */
+/* Less water by the share given: exchange within it, then refine to make up for what is missing. *saved says whether
+ * the best design got better. */
 static bool save_share(const sp_refining *refining, double share, bool *saved)
 {
     const sp_search *search = refining->search;

@@ -40,7 +40,8 @@ static sp_sweep sweep_create(const sp_search *search, sp_pose pose)
     return sweep;
 }
 
-/* Whether the pattern holds the direction of arrival i (DESIGN's regions, without an inverse trigonometric function). */
+/* Whether the pattern holds the direction of arrival i (DESIGN's regions, without an inverse trigonometric function).
+ */
 static inline bool holds(const sp_sweep *sweep, uint32_t i)
 {
     const sp_view *view = sweep->view;
@@ -108,8 +109,7 @@ void sp_field_reach(const sp_search *search, const sp_nozzle *nozzle, const sp_r
     for (size_t i = 0; i < reach->count; i++) {
         const sp_arrival *arrival = &reach->arrivals[i];
         sp_vec3 d = arrival->direction;
-        double intensity =
-            sp_spray_intensity(&spray, sp_v(sp_dot(d, frame.x), sp_dot(d, frame.y), sp_dot(d, frame.z)));
+        double intensity = sp_spray_intensity(&spray, sp_v(sp_dot(d, frame.x), sp_dot(d, frame.y), sp_dot(d, frame.z)));
         if (arrival->passes && intensity > 0 && arrival->transfer > 0)
             field[arrival->patch] +=
                 search->threshold > 0 ? (float)(flow * intensity * arrival->transfer / search->threshold) : INFINITY;

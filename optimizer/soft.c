@@ -81,9 +81,8 @@ static void levels(const sp_soft *soft, const sp_soft_nozzle *own, const sp_nozz
     const sp_setup *setup = sp_evaluator_setup(search->coarse);
     sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
     sp_frame frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up);
-    double strength = search->threshold > 0
-                          ? sp_nozzle_flow(nozzle, &setup->liquid) / (spray.solid_angle * search->threshold)
-                          : 0;
+    double strength =
+        search->threshold > 0 ? sp_nozzle_flow(nozzle, &setup->liquid) / (spray.solid_angle * search->threshold) : 0;
     for (size_t i = 0; i < own->count; i++) {
         sp_frozen at = own->arrivals[i];
         level[i] = 0;
@@ -102,8 +101,8 @@ static void levels(const sp_soft *soft, const sp_soft_nozzle *own, const sp_nozz
     }
 }
 
-/* The values at x, whose entries are angles: value = middle + half range * sin(x). That keeps the limits without telling
- * Ceres, which searches long where bounds are many. */
+/* The values at x, whose entries are angles: value = middle + half range * sin(x). That keeps the limits without
+ * telling Ceres, which searches long where bounds are many. */
 static void values_at(const sp_soft_nozzle *own, const double *x, double values[SP_UNKNOWNS])
 {
     const sp_freedom *freedom = own->freedom;
@@ -157,8 +156,8 @@ static void set_slopes(sp_soft *soft, const double *x)
     }
 }
 
-/* What is missing at a patch, 1 - soft cover, from its levels; *factor is what a level's slope is multiplied by to give the
- * slope of the miss, for levels that add up. */
+/* What is missing at a patch, 1 - soft cover, from its levels; *factor is what a level's slope is multiplied by to give
+ * the slope of the miss, for levels that add up. */
 static double miss_of_sum(const sp_soft *soft, size_t patch, double *factor)
 {
     double sum = (double)soft->search->kept_wet[patch];
@@ -258,7 +257,8 @@ static bool sum_patches(sp_soft *soft, bool slopes)
 static void add_water(sp_soft *soft, const double *x, bool slopes)
 {
     size_t n = soft->unknowns;
-    double flow = soft->search->kept_flow, penalty = WATER_PENALTY * sqrt(sp_evaluator_patches(soft->search->coarse)->total_area);
+    double flow = soft->search->kept_flow,
+           penalty = WATER_PENALTY * sqrt(sp_evaluator_patches(soft->search->coarse)->total_area);
     double *row = soft->chunk_gradient + n; /* chunk 1's, summed up already */
     for (size_t i = 0; i < soft->nozzle_count; i++) {
         const sp_soft_nozzle *own = &soft->nozzles[i];
@@ -299,8 +299,8 @@ static bool factorise(double *a, size_t n)
     return true;
 }
 
-/* As many residuals as patches would be slow and fat. With JᵀJ = L Lᵀ the n residuals L⁻¹Jᵀr with Jacobian Lᵀ have the same
- * gradient and normal matrix, and one more without slope makes up the cost. */
+/* As many residuals as patches would be slow and fat. With JᵀJ = L Lᵀ the n residuals L⁻¹Jᵀr with Jacobian Lᵀ have the
+ * same gradient and normal matrix, and one more without slope makes up the cost. */
 static bool condense(sp_soft *soft, double *residuals, double *jacobian)
 {
     size_t n = soft->unknowns;
@@ -378,8 +378,8 @@ static bool freeze(const sp_soft *soft, sp_soft_nozzle *own, sp_error *error)
         if (!arrival->passes)
             continue;
         sp_flight flights[2];
-        int count = sp_flights(nozzle->position, patches->point[arrival->patch], own->speed, sp_evaluator_gravity(coarse),
-                               flights);
+        int count = sp_flights(nozzle->position, patches->point[arrival->patch], own->speed,
+                               sp_evaluator_gravity(coarse), flights);
         uint32_t arc = count == 2 && sp_dot(flights[1].direction, arrival->direction) >
                                          sp_dot(flights[0].direction, arrival->direction);
         own->arrivals[own->count++] = (sp_frozen){arrival->patch, arc, arrival->direction, arrival->transfer};

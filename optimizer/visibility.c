@@ -4,10 +4,10 @@
 
 #define PATCHES_MOST 20000.0
 #define PATCHES_LEAST 500.0
-#define MEMORY 1.0e9         /* bytes, for all views */
+#define MEMORY 1.0e9 /* bytes, for all views */
 #define ARRIVAL_BYTES 20.0
-#define BATCH 8              /* sites a thread traces between two looks at the clock */
-#define TIME_SHARE 0.5       /* of a time limit, that tracing may take */
+#define BATCH 8        /* sites a thread traces between two looks at the clock */
+#define TIME_SHARE 0.5 /* of a time limit, that tracing may take */
 
 /* The octahedron unfolded onto [-1, 1]²: Cigolle et al., A survey of efficient representations for independent unit
  * vectors, JCGT 2014. */
@@ -66,7 +66,8 @@ double sp_visibility_texel(const sp_evaluator *evaluator, const sp_sites *sites,
 }
 
 /* Half-angle about the site's axis that holds all that its candidates at this speed can reach; negative: none. */
-static double needed(const sp_place_options *options, const sp_candidates *candidates, const sp_site *site, size_t speed)
+static double needed(const sp_place_options *options, const sp_candidates *candidates, const sp_site *site,
+                     size_t speed)
 {
     double reach = -1;
     for (size_t k = 0; k < candidates->make_count; k++)
@@ -164,8 +165,6 @@ bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *op
     *visibility =
         (sp_visibility){.evaluator = coarse, .site_count = sites->count, .speed_count = candidates->speed_count};
     bins_create(&visibility->bins);
-    if (!coarse)
-        return false;
     visibility->views = calloc(sites->count, candidates->speed_count * sizeof *visibility->views);
     if (!visibility->views)
         return sp_fail_memory(error);
@@ -173,7 +172,8 @@ bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *op
     size_t batch = (size_t)threads * BATCH;
     sp_error failure = {0};
     for (size_t first = 0; first < sites->count && failure.kind == SP_OK; first += batch) {
-        if (!sp_watch_goes_on(watch, "visibility", (double)first / (double)sites->count))
+        /* out of time the first batch is traced all the same, so that there is something to choose from */
+        if (!sp_watch_goes_on(watch, "visibility", (double)first / (double)sites->count) && (first || watch->cancelled))
             break;
         if (first && options->run.time_limit > 0 && sp_watch_elapsed(watch) > TIME_SHARE * options->run.time_limit) {
             watch->interrupted = true;

@@ -1,4 +1,5 @@
-/* Visibility: what each mounting point can reach at each speed, traced once, whatever the nozzle's axis, roll and type. */
+/* Visibility: what each mounting point can reach at each speed, traced once, whatever the nozzle's axis, roll and type.
+ */
 #ifndef OPTIMIZER_VISIBILITY_H
 #define OPTIMIZER_VISIBILITY_H
 
@@ -8,13 +9,14 @@
 #define SP_BINS_EDGE 32
 #define SP_BINS (SP_BINS_EDGE * SP_BINS_EDGE)
 
-/* Arrivals that pass the criterion's speed and incidence, sorted by the octahedral bin of their direction, then by patch. */
+/* Arrivals that pass the criterion's speed and incidence, sorted by the octahedral bin of their direction, then by
+ * patch. */
 typedef struct {
     uint32_t count;
-    uint32_t *start;               /* [SP_BINS + 1]; NULL: not traced */
-    float *x, *y, *z;              /* [count], unit direction at the nozzle */
-    float *transfer;               /* [count], 1/m² */
-    uint32_t *patch;               /* [count] */
+    uint32_t *start;  /* [SP_BINS + 1]; NULL: not traced */
+    float *x, *y, *z; /* [count], unit direction at the nozzle */
+    float *transfer;  /* [count], 1/m² */
+    uint32_t *patch;  /* [count] */
 } sp_view;
 
 /* The bins' cones: all directions of a bin are within acos(cosine) of its centre. */

@@ -37,9 +37,12 @@ static void certified_values(void **state)
     const double starts[2][2] = {{500, 0.0001}, {250, 0.0005}};
     for (size_t s = 0; s < 2; s++) {
         size_t calls = 0;
-        sp_least_squares problem = {
-            .unknowns = 2, .residuals = OBSERVATIONS, .function = misra, .user = &calls, .iterations = 200,
-            .tolerance = 1e-15};
+        sp_least_squares problem = {.unknowns = 2,
+                                    .residuals = OBSERVATIONS,
+                                    .function = misra,
+                                    .user = &calls,
+                                    .iterations = 200,
+                                    .tolerance = 1e-15};
         double b[2] = {starts[s][0], starts[s][1]}, cost = 0;
         sp_error error = {0};
         assert_true(sp_ceres_solve(&problem, b, &cost, &error));

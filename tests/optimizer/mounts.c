@@ -37,8 +37,12 @@ static void lances_go_down_from_their_port(void **state)
     (void)state;
     room r;
     open_block_room(&r);
-    sp_mount mount = {.kind = SP_MOUNT_PORT, .position = sp_v(0.6, 0, 2), .axis = sp_v(0, 0, -1),
-                      .depth_from = 0.05, .depth_to = 0.45, .depth_spacing = 0.1};
+    sp_mount mount = {.kind = SP_MOUNT_PORT,
+                      .position = sp_v(0.6, 0, 2),
+                      .axis = sp_v(0, 0, -1),
+                      .depth_from = 0.05,
+                      .depth_to = 0.45,
+                      .depth_spacing = 0.1};
     sp_sites sites = sites_of(&r, &mount, 0.05);
     assert_int_equal(sites.count, 5);
     for (size_t i = 0; i < 5; i++)
@@ -59,23 +63,30 @@ static void lines_and_boxes_include_their_ends(void **state)
     (void)state;
     room r;
     open_block_room(&r);
-    sp_mount line = {.kind = SP_MOUNT_LINE, .axis = sp_v(0, 0, -1), .spacing = 0.3, .from = sp_v(-0.5, 0.5, 1.5),
+    sp_mount line = {.kind = SP_MOUNT_LINE,
+                     .axis = sp_v(0, 0, -1),
+                     .spacing = 0.3,
+                     .from = sp_v(-0.5, 0.5, 1.5),
                      .to = sp_v(0.5, 0.5, 1.5)};
     sp_sites sites = sites_of(&r, &line, 0.1);
     assert_int_equal(sites.count, 5); /* 1 m in four steps of 0.25 m */
     assert_true(sites.items[0].position.x == -0.5 && sites.items[4].position.x == 0.5);
     sp_sites_free(&sites);
 
-    /* 5 x 5 x 5 points, of which the 3 x 3 x 3 of the block and those within 0.1 m of it are out: x, y, z within 0.3 m */
-    sp_mount box = {.kind = SP_MOUNT_BOX, .axis = sp_v(0, 0, -1), .spacing = 0.2, .from = sp_v(-0.4, -0.4, 0.6),
+    /* 5 x 5 x 5 points, of which the 3 x 3 x 3 of the block and those within 0.1 m of it are out: x, y, z within 0.3 m
+     */
+    sp_mount box = {.kind = SP_MOUNT_BOX,
+                    .axis = sp_v(0, 0, -1),
+                    .spacing = 0.2,
+                    .from = sp_v(-0.4, -0.4, 0.6),
                     .to = sp_v(0.4, 0.4, 1.4)};
     sites = sites_of(&r, &box, 0.1);
     assert_int_equal(sites.count, 125 - 27);
     sp_sites_free(&sites);
 
     /* without clearance the block's inside is out all the same */
-    sp_mount inside = {.kind = SP_MOUNT_BOX, .axis = sp_v(0, 0, -1), .spacing = 0.6, .from = sp_v(0, 0, 1),
-                       .to = sp_v(0.6, 0, 1)};
+    sp_mount inside = {
+        .kind = SP_MOUNT_BOX, .axis = sp_v(0, 0, -1), .spacing = 0.6, .from = sp_v(0, 0, 1), .to = sp_v(0.6, 0, 1)};
     sites = sites_of(&r, &inside, 0);
     assert_int_equal(sites.count, 1);
     assert_true(sites.items[0].position.x == 0.6);
@@ -170,8 +181,8 @@ static void distance_to_a_triangle(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lances_go_down_from_their_port),    cmocka_unit_test(lines_and_boxes_include_their_ends),
-        cmocka_unit_test(surfaces_are_covered_evenly), cmocka_unit_test(nothing_left_is_an_error),
+        cmocka_unit_test(lances_go_down_from_their_port), cmocka_unit_test(lines_and_boxes_include_their_ends),
+        cmocka_unit_test(surfaces_are_covered_evenly),    cmocka_unit_test(nothing_left_is_an_error),
         cmocka_unit_test(distance_to_a_triangle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -35,7 +35,10 @@ static void job_open(job *j)
     j->options.pressure_count = 1;
     j->options.mounts = j->mounts;
     j->options.clearance = 0.02;
-    j->mounts[0] = (sp_mount){.kind = SP_MOUNT_LINE, .axis = sp_v(0, 0, -1), .spacing = 0.4, .from = sp_v(-0.8, 0.1, 1),
+    j->mounts[0] = (sp_mount){.kind = SP_MOUNT_LINE,
+                              .axis = sp_v(0, 0, -1),
+                              .spacing = 0.4,
+                              .from = sp_v(-0.8, 0.1, 1),
                               .to = sp_v(0.8, 0.1, 1)};
     j->options.mount_count = 1;
 }
@@ -67,8 +70,10 @@ static double best_of_two(const job *j)
 {
     sp_nozzle poses[10];
     for (int i = 0; i < 10; i++)
-        poses[i] = (sp_nozzle){.type = j->type_list[i % 2], .position = sp_v(-0.8 + 0.4 * (i / 2), 0.1, 1),
-                               .axis = sp_v(0, 0, -1), .pressure = PRESSURE};
+        poses[i] = (sp_nozzle){.type = j->type_list[i % 2],
+                               .position = sp_v(-0.8 + 0.4 * (i / 2), 0.1, 1),
+                               .axis = sp_v(0, 0, -1),
+                               .pressure = PRESSURE};
     double best = 0;
     for (int a = 0; a < 10; a++)
         for (int b = a; b < 10; b++) {
@@ -112,8 +117,10 @@ static void least_water_for_a_target(void **state)
                 int pose = i ? b : a;
                 if (pose < 0)
                     continue;
-                pair[count++] = (sp_nozzle){.type = j.type_list[pose % 2], .position = sp_v(-0.8 + 0.4 * (pose / 2), 0.1, 1),
-                                            .axis = sp_v(0, 0, -1), .pressure = PRESSURE};
+                pair[count++] = (sp_nozzle){.type = j.type_list[pose % 2],
+                                            .position = sp_v(-0.8 + 0.4 * (pose / 2), 0.1, 1),
+                                            .axis = sp_v(0, 0, -1),
+                                            .pressure = PRESSURE};
                 flow += j.type_list[pose % 2]->flow;
             }
             if (flow < best && area_of(&j, pair, count) >= proposal->target_area)
@@ -148,19 +155,29 @@ static void limits_hold(void **state)
     room_close(&j.room);
 }
 
+/* Two ports of equal name, the second only for narrow cones. */
+static void open_ports(job *j)
+{
+    job_open(j);
+    j->mounts[0] = (sp_mount){.kind = SP_MOUNT_PORT,
+                              .name = "P1",
+                              .position = sp_v(-0.5, 0, 1.1),
+                              .axis = sp_v(0, 0, -1),
+                              .tilt = 30 * DEGREE,
+                              .depth_to = 0.4,
+                              .depth_spacing = 0.2};
+    j->mounts[1] = j->mounts[0];
+    j->mounts[1].position.x = 0.5;
+    j->mounts[1].types = &j->type_list[1];
+    j->mounts[1].type_count = 1;
+    j->options.mount_count = 2;
+}
+
 static void a_port_holds_one(void **state)
 {
     (void)state;
     job j;
-    job_open(&j);
-    j.mounts[0] = (sp_mount){.kind = SP_MOUNT_PORT, .name = "P1", .position = sp_v(-0.5, 0, 1.1), .axis = sp_v(0, 0, -1),
-                             .tilt = 30 * DEGREE, .depth_to = 0.4, .depth_spacing = 0.2};
-    j.mounts[1] = j.mounts[0];
-    j.mounts[1].position.x = 0.5;
-    /* of equal name, and only for narrow cones */
-    j.mounts[1].types = &j.type_list[1];
-    j.mounts[1].type_count = 1;
-    j.options.mount_count = 2;
+    open_ports(&j);
     sp_proposal *proposal = job_place(&j);
     assert_int_equal(proposal->layout->count, 2);
     size_t wide = 0;
@@ -175,10 +192,20 @@ static void a_port_holds_one(void **state)
     }
     assert_in_range(wide, 0, 1);
     sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
 
-    /* a kept nozzle on the lance takes the port */
-    sp_nozzle kept = {.name = "mine", .type = &j.types[2], .position = sp_v(-0.5, 0, 0.9), .axis = sp_v(0, 0, -1),
-                      .pressure = PRESSURE, .keep = true};
+static void a_kept_nozzle_takes_its_port(void **state)
+{
+    (void)state;
+    job j;
+    open_ports(&j);
+    sp_nozzle kept = {.name = "mine",
+                      .type = &j.types[2],
+                      .position = sp_v(-0.5, 0, 0.9),
+                      .axis = sp_v(0, 0, -1),
+                      .pressure = PRESSURE,
+                      .keep = true};
     sp_nozzle lost = kept;
     lost.keep = false;
     strcpy(lost.name, "lost");
@@ -187,7 +214,7 @@ static void a_port_holds_one(void **state)
     sp_layout *layout = sp_layout_create(own, 2, &error);
     j.options.kept = layout;
     j.options.objective = SP_OBJECTIVE_MAX_COVERAGE;
-    proposal = job_place(&j);
+    sp_proposal *proposal = job_place(&j);
     size_t named = 0;
     for (size_t i = 0; i < proposal->layout->count; i++) {
         const sp_nozzle *nozzle = &proposal->layout->nozzles[i];
@@ -261,6 +288,20 @@ static void cancelling_gives_the_best_so_far(void **state)
     assert_true(proposal->interrupted);
     assert_true(calls > 0);
     assert_false(proposal->reached);
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
+static void out_of_time_there_is_one_nozzle(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    j.options.run.time_limit = 1e-9;
+    sp_proposal *proposal = job_place(&j);
+    assert_true(proposal->interrupted);
+    assert_int_equal(proposal->layout->count, 1);
+    assert_int_equal(proposal->front_count, 1);
     sp_proposal_destroy(proposal);
     room_close(&j.room);
 }
@@ -339,10 +380,16 @@ static void threads_do_not_matter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_nozzles_are_the_best_two), cmocka_unit_test(least_water_for_a_target),
-        cmocka_unit_test(limits_hold), cmocka_unit_test(a_port_holds_one),
-        cmocka_unit_test(attainable_is_what_one_could_cover), cmocka_unit_test(cancelling_gives_the_best_so_far),
-        cmocka_unit_test(bad_options_are_errors), cmocka_unit_test(threads_do_not_matter),
+        cmocka_unit_test(two_nozzles_are_the_best_two),
+        cmocka_unit_test(least_water_for_a_target),
+        cmocka_unit_test(limits_hold),
+        cmocka_unit_test(a_port_holds_one),
+        cmocka_unit_test(a_kept_nozzle_takes_its_port),
+        cmocka_unit_test(attainable_is_what_one_could_cover),
+        cmocka_unit_test(cancelling_gives_the_best_so_far),
+        cmocka_unit_test(out_of_time_there_is_one_nozzle),
+        cmocka_unit_test(bad_options_are_errors),
+        cmocka_unit_test(threads_do_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,8 +51,8 @@ static sp_proposal *job_place(job *j)
     return proposal;
 }
 
-/* Flux at the rim of a cone of half-angle a over a floor at distance h: Q cos³a / (2π (1 - cos a) h²). Wider, the rim falls
- * dry; narrower, the disc is smaller than it could be. */
+/* Flux at the rim of a cone of half-angle a over a floor at distance h: Q cos³a / (2π (1 - cos a) h²). Wider, the rim
+ * falls dry; narrower, the disc is smaller than it could be. */
 static double rim_flux(double flow, double half_angle, double height)
 {
     return flow * pow(cos(half_angle), 3) / (2 * M_PI * (1 - cos(half_angle)) * height * height);
@@ -95,8 +95,8 @@ static void pose_moves_over_the_floor(void **state)
     sp_proposal_destroy(proposal);
 
     /* on a line over the edge, straight down, from a coarse start */
-    j.mount = (sp_mount){.kind = SP_MOUNT_LINE, .axis = sp_v(0, 0, -1), .spacing = 2, .from = sp_v(-0.9, 0, 1.5),
-                         .to = sp_v(1, 0, 1.5)};
+    j.mount = (sp_mount){
+        .kind = SP_MOUNT_LINE, .axis = sp_v(0, 0, -1), .spacing = 2, .from = sp_v(-0.9, 0, 1.5), .to = sp_v(1, 0, 1.5)};
     j.options.refine = (sp_refine){.position = 1};
     proposal = job_place(&j);
     nozzle = &proposal->layout->nozzles[0];

@@ -90,8 +90,15 @@ static inline void room_close(room *r)
 
 static inline sp_nozzle_type room_cone(const char *name, double angle, double litres)
 {
-    sp_nozzle_type type = {.pattern = SP_PATTERN_FULL_CONE, .angle = angle, .flow = litres * LITRES_PER_MINUTE,
-                           .at = 2e5, .exponent = 0.5, .cv = 0.95, .drop = 1e-3, .angle_min = angle, .angle_max = angle};
+    sp_nozzle_type type = {.pattern = SP_PATTERN_FULL_CONE,
+                           .angle = angle,
+                           .flow = litres * LITRES_PER_MINUTE,
+                           .at = 2e5,
+                           .exponent = 0.5,
+                           .cv = 0.95,
+                           .drop = 1e-3,
+                           .angle_min = angle,
+                           .angle_max = angle};
     type.flow_min = type.flow_max = type.flow;
     strncpy(type.name, name, SP_NAME - 1);
     return type;
