@@ -1,11 +1,8 @@
 #include "tank.h"
 
-#include <dirent.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <unistd.h>
-
 #include <cmocka.h>
 #include <jansson.h>
 
@@ -34,7 +31,7 @@ static int set_up(void **state)
     f.layouts[1] = sp_layout_create(tank_proposed, 3, &error);
     f.layouts[2] = sp_layout_create(tank_proposed, 4, &error);
     const char *const names[] = {"manual", "greedy", "proposed"};
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; i++) {
         f.coverages[i] = sp_evaluate(f.evaluator, f.layouts[i], &error);
         f.designs[i] = (sp_design){names[i], f.evaluator, f.layouts[i], f.coverages[i], NULL};
     }
@@ -45,15 +42,26 @@ static int set_up(void **state)
     size_t patches = sp_evaluator_patches(f.evaluator)->count;
     bool *attainable = malloc(patches);
     memcpy(attainable, f.coverages[2]->deposits.covered, patches);
-    for (int i = 0; i < 3; ++i)
-        f.front[i] = (sp_front_point){f.coverages[2]->flow * (i + 1) / 3, f.coverages[2]->covered_area * (0.7 + 0.1 * i), (size_t)i + 1};
+    for (int i = 0; i < 3; i++)
+        f.front[i] = (sp_front_point){f.coverages[2]->flow * (i + 1) / 3,
+                                      f.coverages[2]->covered_area * (0.7 + 0.1 * i), (size_t)i + 1};
     f.stages[0] = (sp_stage){"visibility", 1.25};
     f.stages[1] = (sp_stage){"refine", 2.5};
-    f.proposal = (sp_proposal){.layout = f.layouts[2], .coverage = f.coverages[2], .greedy = f.layouts[1],
-                               .greedy_coverage = f.coverages[1], .attainable = attainable, .attainable_area = 5, .target_area = 99,
-                               .positions = 100, .candidates = 4000, .front_count = 3, .front = f.front, .stage_count = 2,
+    f.proposal = (sp_proposal){.layout = f.layouts[2],
+                               .coverage = f.coverages[2],
+                               .greedy = f.layouts[1],
+                               .greedy_coverage = f.coverages[1],
+                               .attainable = attainable,
+                               .attainable_area = 5,
+                               .target_area = 99,
+                               .positions = 100,
+                               .candidates = 4000,
+                               .front_count = 3,
+                               .front = f.front,
+                               .stage_count = 2,
                                .stages = f.stages};
-    f.result = (sp_result){"place", "vessel <script>alert(1)</script> & \"co\".yaml", 3, f.designs, &f.proposal, 0, NULL};
+    f.result =
+        (sp_result){"place", "vessel <script>alert(1)</script> & \"co\".yaml", 3, f.designs, &f.proposal, 0, NULL};
     *state = &f;
     return 0;
 }
@@ -61,7 +69,7 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     fixture *f = *state;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; i++) {
         sp_layout_destroy(f->layouts[i]);
         sp_coverage_destroy(f->coverages[i]);
     }
@@ -71,19 +79,204 @@ static int tear_down(void **state)
     return 0;
 }
 
-static void dump(void **state)
+static char *read_whole(const char *name, size_t *size)
 {
-    fixture *f = *state;
+    char path[1024];
+    snprintf(path, sizeof path, FOLDER "/%s", name);
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return NULL;
+    fseek(file, 0, SEEK_END);
+    long length = ftell(file);
+    rewind(file);
+    char *bytes = malloc((size_t)length + 1);
+    assert_int_equal(fread(bytes, 1, (size_t)length, file), (size_t)length);
+    fclose(file);
+    bytes[length] = 0;
+    *size = (size_t)length;
+    return bytes;
+}
+
+static void write_report(const fixture *f)
+{
     sp_error error = {0};
-    sp_output *output = sp_output_open("/tmp/report-look", &error);
-    assert_true(sp_report_write(&f->result, output, &error) || !fprintf(stderr, "%s\n", error.message));
+    sp_output *output = sp_output_open(FOLDER, &error);
+    assert_non_null(output);
+    if (!sp_report_write(&f->result, output, &error))
+        fail_msg("%s", error.message);
     assert_true(sp_output_commit(output, &error));
+}
+
+static const char *const files[] = {"result.json",         "report.html",         "nozzles.csv",
+                                    "coverage.png",        "deposits.exr",        "model.glb",
+                                    "coverage-manual.png", "deposits-manual.exr", "model-manual.glb",
+                                    "coverage-greedy.png", "deposits-greedy.exr", "model-greedy.glb"};
+#define FILES (sizeof files / sizeof *files)
+
+static void the_same_bytes_every_time(void **state)
+{
+    char *first[FILES];
+    size_t first_size[FILES], size;
+    write_report(*state);
+    for (size_t i = 0; i < FILES; i++) {
+        first[i] = read_whole(files[i], &first_size[i]);
+        assert_non_null(first[i]);
+        assert_true(first_size[i] > 100);
+    }
+    write_report(*state);
+    for (size_t i = 0; i < FILES; i++) {
+        char *again = read_whole(files[i], &size);
+        assert_int_equal(size, first_size[i]);
+        assert_memory_equal(again, first[i], size);
+        free(again);
+        free(first[i]);
+    }
+}
+
+static size_t occurrences(const char *text, const char *part)
+{
+    size_t count = 0;
+    for (; (text = strstr(text, part)); text += strlen(part))
+        count++;
+    return count;
+}
+
+static void the_page_stands_alone(void **state)
+{
+    (void)state;
+    size_t size;
+    char *page = read_whole("report.html", &size);
+    assert_int_equal(strlen(page), size);
+    assert_int_equal(occurrences(page, "<script"), 0);
+    assert_int_equal(occurrences(page, "src=\"http"), 0);
+    assert_int_equal(occurrences(page, "<link"), 0);
+    /* three views of three designs, each with words for who cannot see it */
+    assert_int_equal(occurrences(page, "href=\"data:image/png;base64,"), 9);
+    assert_int_equal(occurrences(page, "<image "), 9);
+    assert_true(occurrences(page, "<svg ") >= 9);
+    assert_int_equal(occurrences(page, "<svg "), occurrences(page, " role=\"img\" aria-label=\""));
+    free(page);
+}
+
+static void names_from_strangers_stay_text(void **state)
+{
+    (void)state;
+    size_t size;
+    char *page = read_whole("report.html", &size);
+    assert_non_null(strstr(page, "vessel &lt;script&gt;alert(1)&lt;/script&gt; &amp; "));
+    assert_non_null(strstr(page, "N3 &lt;b&gt;"));
+    assert_non_null(strstr(page, "flat-fan-90 &amp; co"));
+    assert_non_null(strstr(page, "dip &lt;tube&gt;"));
+    assert_null(strstr(page, "N3 <b>"));
+    assert_null(strstr(page, "dip <tube>"));
+    free(page);
+}
+
+static void expect_keys(const json_t *object, const char *const *keys, size_t count)
+{
+    assert_true(json_is_object(object));
+    for (size_t i = 0; i < count; i++)
+        if (!json_object_get(object, keys[i]))
+            fail_msg("no key %s", keys[i]);
+    assert_int_equal(json_object_size(object), count);
+}
+
+#define EXPECT_KEYS(object, ...)                                                                                       \
+    do {                                                                                                               \
+        static const char *const keys[] = {__VA_ARGS__};                                                               \
+        expect_keys(object, keys, sizeof keys / sizeof *keys);                                                         \
+    } while (0)
+
+static void result_json_has_the_keys_of_the_contract(void **state)
+{
+    size_t size;
+    char *text = read_whole("result.json", &size);
+    json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
+    EXPECT_KEYS(all, "sprayplan", "command", "scene", "geometry", "fidelity", "layouts", "front", "stages");
+    EXPECT_KEYS(json_object_get(all, "geometry"), "triangles", "area_m2", "clean_area_m2", "attainable_area_m2");
+    EXPECT_KEYS(json_object_get(all, "fidelity"), "trajectory", "evaluator", "reflections", "texel_m");
+    json_t *layouts = json_object_get(all, "layouts");
+    assert_int_equal(json_array_size(layouts), 3);
+    json_t *manual = json_array_get(layouts, 0);
+    EXPECT_KEYS(manual, "name", "water_l_min", "covered_area_m2", "coverage", "coverage_of_attainable",
+                "area_per_water", "flux_l_min_m2", "shadows", "nozzles");
+    EXPECT_KEYS(json_object_get(manual, "flux_l_min_m2"), "min", "mean", "p05", "max");
+    EXPECT_KEYS(json_array_get(json_object_get(manual, "shadows"), 0), "area_m2", "centroid_m", "part", "reachable");
+    EXPECT_KEYS(json_array_get(json_object_get(manual, "nozzles"), 0), "name", "type", "position_m", "axis", "roll_rad",
+                "angle_rad", "pressure_pa", "flow_l_min", "speed_m_s");
+    EXPECT_KEYS(json_array_get(json_object_get(all, "front"), 0), "water_l_min", "coverage", "nozzles");
+    EXPECT_KEYS(json_array_get(json_object_get(all, "stages"), 0), "name", "seconds");
+    const fixture *f = *state;
+    double water = json_number_value(json_object_get(manual, "water_l_min"));
+    assert_true(fabs(water - 6e4 * f->coverages[0]->flow) < 1e-9 * water);
+    assert_true(json_number_value(json_object_get(manual, "coverage")) == f->coverages[0]->fraction);
+    json_decref(all);
+    free(text);
+}
+
+static uint32_t word(const char *bytes)
+{
+    const unsigned char *b = (const unsigned char *)bytes;
+    return (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
+}
+
+static size_t number(const json_t *object, const char *key)
+{
+    return (size_t)json_integer_value(json_object_get(object, key));
+}
+
+/* Every accessor lies within its view, every view within the buffer (glTF 2.0, 3.6). */
+static void check_accessors(const json_t *model, size_t buffer)
+{
+    json_t *views = json_object_get(model, "bufferViews"), *accessors = json_object_get(model, "accessors"), *item;
+    size_t i;
+    json_array_foreach(views, i, item) assert_true(number(item, "byteOffset") + number(item, "byteLength") <= buffer);
+    json_array_foreach(accessors, i, item)
+    {
+        const char *type = json_string_value(json_object_get(item, "type"));
+        size_t components = !strcmp(type, "SCALAR") ? 1 : !strcmp(type, "VEC2") ? 2 : 3;
+        json_t *view = json_array_get(views, number(item, "bufferView"));
+        size_t width = number(item, "componentType") == 5123 ? 2 : 4;
+        assert_non_null(view);
+        assert_true(number(item, "byteOffset") + number(item, "count") * components * width <=
+                    number(view, "byteLength"));
+    }
+}
+
+/* glTF 2.0, 4.4: a header, a JSON chunk, a binary chunk. */
+static void the_model_is_a_gltf(void **state)
+{
+    (void)state;
+    size_t size;
+    char *bytes = read_whole("model.glb", &size);
+    assert_memory_equal(bytes, "glTF", 4);
+    assert_int_equal(word(bytes + 4), 2);
+    assert_int_equal(word(bytes + 8), size);
+    size_t length = word(bytes + 12);
+    assert_memory_equal(bytes + 16, "JSON", 4);
+    assert_int_equal(length % 4, 0);
+    json_t *model = json_loadb(bytes + 20, length, JSON_REJECT_DUPLICATES, NULL);
+    assert_non_null(model);
+    assert_memory_equal(bytes + 20 + length + 4, "BIN", 4);
+    size_t buffer = word(bytes + 20 + length);
+    assert_int_equal(28 + length + buffer, size);
+    size_t stated = number(json_array_get(json_object_get(model, "buffers"), 0), "byteLength");
+    assert_true(stated <= buffer && buffer - stated < 4);
+    check_accessors(model, stated);
+    assert_true(json_array_size(json_object_get(model, "meshes")) >= 1);
+    assert_true(json_array_size(json_object_get(model, "images")) >= 1);
+    json_decref(model);
+    free(bytes);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(dump),
+        cmocka_unit_test(the_same_bytes_every_time),
+        cmocka_unit_test(the_page_stands_alone),
+        cmocka_unit_test(names_from_strangers_stay_text),
+        cmocka_unit_test(result_json_has_the_keys_of_the_contract),
+        cmocka_unit_test(the_model_is_a_gltf),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -1,4 +1,5 @@
-/* A tank for tests of the report: a cylinder with dished ends, a dip tube that throws a shadow and an obstacle, two layouts. */
+/* A tank for tests of the report: a cylinder with dished ends, a dip tube that throws a shadow and an obstacle, two
+ * layouts. */
 #ifndef TESTS_REPORT_TANK_H
 #define TESTS_REPORT_TANK_H
 
@@ -19,10 +20,10 @@ typedef struct {
     size_t point_count, triangle_count;
 } tank_builder;
 
-/* A surface of revolution about a vertical axis through (x, y); `profile` is (radius, z) pairs. The front is on the right of
- * the profile's direction: a profile that climbs an outer wall faces inwards where `inwards`. */
-static void tank_revolve(tank_builder *b, double x, double y, const double (*profile)[2], int rings, int around, bool inwards,
-                         uint32_t part)
+/* A surface of revolution about a vertical axis through (x, y); `profile` is (radius, z) pairs. The front is on the
+ * right of the profile's direction: a profile that climbs an outer wall faces inwards where `inwards`. */
+static void tank_revolve(tank_builder *b, double x, double y, const double (*profile)[2], int rings, int around,
+                         bool inwards, uint32_t part)
 {
     size_t base = b->point_count;
     for (int i = 0; i < rings; ++i)
@@ -33,7 +34,8 @@ static void tank_revolve(tank_builder *b, double x, double y, const double (*pro
         }
     for (int i = 0; i + 1 < rings; ++i)
         for (int k = 0; k < around; ++k) {
-            uint32_t a = (uint32_t)(base + (size_t)(i * around + k)), c = (uint32_t)(base + (size_t)(i * around + (k + 1) % around));
+            uint32_t a = (uint32_t)(base + (size_t)(i * around + k)),
+                     c = (uint32_t)(base + (size_t)(i * around + (k + 1) % around));
             uint32_t d = a + (uint32_t)around, e = c + (uint32_t)around;
             const uint32_t outward[2][3] = {{a, c, e}, {a, e, d}};
             for (int t = 0; t < 2; ++t) {
@@ -51,7 +53,8 @@ static sp_mesh *tank_mesh(int around, sp_error *error)
 {
     enum { DISH = 8, MOST = 200000 };
     static const char *const names[] = {"shell", "dip <tube>", "shaft"};
-    tank_builder b = {malloc(MOST * sizeof *b.points), malloc(MOST * sizeof *b.triangles), malloc(MOST * sizeof *b.part), 0, 0};
+    tank_builder b = {malloc(MOST * sizeof *b.points), malloc(MOST * sizeof *b.triangles),
+                      malloc(MOST * sizeof *b.part), 0, 0};
     double profile[2 * DISH + 12][2];
     int rings = 0;
     for (int i = 0; i <= DISH; ++i, ++rings) {
@@ -73,8 +76,8 @@ static sp_mesh *tank_mesh(int around, sp_error *error)
     tank_revolve(&b, 0.3, 0.05, tube, 5, 24, false, 1);
     const double shaft[][2] = {{1e-3, 0.25}, {0.16, 0.25}, {0.16, 0.29}, {0.03, 0.29}, {0.03, 1.41}};
     tank_revolve(&b, 0, 0, shaft, 5, 32, false, 2);
-    sp_mesh *mesh = sp_mesh_create(b.points, b.point_count, (const uint32_t(*)[3])b.triangles, b.triangle_count, b.part, names,
-                                   3, error);
+    sp_mesh *mesh = sp_mesh_create(b.points, b.point_count, (const uint32_t(*)[3])b.triangles, b.triangle_count, b.part,
+                                   names, 3, error);
     free(b.points);
     free(b.triangles);
     free(b.part);
@@ -95,22 +98,53 @@ static sp_setup tank_setup(const sp_mesh *mesh, double texel)
     return setup;
 }
 
-static const sp_nozzle_type tank_types[2] = {
-    {.name = "full-cone-120", .pattern = SP_PATTERN_FULL_CONE, .angle = 2.0944, .flow = 15 / 6e4, .at = 2e5, .exponent = 0.46,
-     .cv = 0.95, .drop = 1e-3, .angle_min = 2.0944, .angle_max = 2.0944, .flow_min = 15 / 6e4, .flow_max = 15 / 6e4},
-    {.name = "flat-fan-90 & co", .pattern = SP_PATTERN_FLAT_FAN, .angle = M_PI / 2, .thickness = 0.2, .flow = 8 / 6e4, .at = 2e5,
-     .exponent = 0.5, .cv = 0.95, .drop = 1e-3, .angle_min = M_PI / 2, .angle_max = M_PI / 2, .flow_min = 8 / 6e4,
-     .flow_max = 8 / 6e4}};
+static const sp_nozzle_type tank_types[2] = {{.name = "full-cone-120",
+                                              .pattern = SP_PATTERN_FULL_CONE,
+                                              .angle = 2.0944,
+                                              .flow = 15 / 6e4,
+                                              .at = 2e5,
+                                              .exponent = 0.46,
+                                              .cv = 0.95,
+                                              .drop = 1e-3,
+                                              .angle_min = 2.0944,
+                                              .angle_max = 2.0944,
+                                              .flow_min = 15 / 6e4,
+                                              .flow_max = 15 / 6e4},
+                                             {.name = "flat-fan-90 & co",
+                                              .pattern = SP_PATTERN_FLAT_FAN,
+                                              .angle = M_PI / 2,
+                                              .thickness = 0.2,
+                                              .flow = 8 / 6e4,
+                                              .at = 2e5,
+                                              .exponent = 0.5,
+                                              .cv = 0.95,
+                                              .drop = 1e-3,
+                                              .angle_min = M_PI / 2,
+                                              .angle_max = M_PI / 2,
+                                              .flow_min = 8 / 6e4,
+                                              .flow_max = 8 / 6e4}};
 
 static const sp_nozzle tank_manual[3] = {
     {.name = "N1", .type = &tank_types[0], .position = {0.3, -0.25, 1.25}, .axis = {0, 0, -1}, .pressure = 2e5},
     {.name = "N2", .type = &tank_types[0], .position = {-0.3, 0.25, 1.25}, .axis = {0, 0, -1}, .pressure = 2e5},
-    {.name = "N3 <b>", .type = &tank_types[1], .position = {-0.35, -0.2, 1.2}, .axis = {0, 0, -1}, .roll = 0.5, .pressure = 2e5}};
+    {.name = "N3 <b>",
+     .type = &tank_types[1],
+     .position = {-0.35, -0.2, 1.2},
+     .axis = {0, 0, -1},
+     .roll = 0.5,
+     .pressure = 2e5}};
 
 static const sp_nozzle tank_proposed[4] = {
-    {.name = "P1", .type = &tank_types[0], .position = {-0.35, -0.1, 1.1}, .axis = {0.447213595499958, 0, 0.894427190999916},
+    {.name = "P1",
+     .type = &tank_types[0],
+     .position = {-0.35, -0.1, 1.1},
+     .axis = {0.447213595499958, 0, 0.894427190999916},
      .pressure = 2e5},
-    {.name = "P2", .type = &tank_types[0], .position = {-0.3, 0.25, 1.0}, .axis = {0.6, -0.3, -0.74161984870956632}, .pressure = 2e5},
+    {.name = "P2",
+     .type = &tank_types[0],
+     .position = {-0.3, 0.25, 1.0},
+     .axis = {0.6, -0.3, -0.74161984870956632},
+     .pressure = 2e5},
     {.name = "P3", .type = &tank_types[0], .position = {0.1, -0.4, 0.9}, .axis = {0, 0.6, -0.8}, .pressure = 2e5},
     {.name = "P4", .type = &tank_types[0], .position = {0.45, 0.2, 0.8}, .axis = {-0.8, -0.6, 0}, .pressure = 2e5}};
 

@@ -1,0 +1,95 @@
+/* The report as a reader sees it: opened by a browser. */
+#include "../cli/workplace.h"
+
+#include <sprayplan/sprayplan.h>
+
+static bool has_browser(void)
+{
+    return system("command -v chromium >/dev/null 2>&1") == 0;
+}
+
+/* Opens a page of the workplace with the browser; what it prints is the caller's. */
+static char *browse(const char *page, const char *arguments)
+{
+    char line[4096];
+    snprintf(line, sizeof line,
+             "cd '%s' && timeout 120 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage "
+             "--user-data-dir='%s/profile' --hide-scrollbars %s \"file://$PWD/%s\" >.out 2>.err </dev/null",
+             workplace, workplace, arguments, page);
+    assert_int_equal(system(line), 0);
+    return read_file(".out", NULL);
+}
+
+static int place_once(void **state)
+{
+    if (open_workplace(state) != 0)
+        return -1;
+    if (!has_browser())
+        return 0;
+    outcome result = run_program("place room.yaml -o placed --quiet");
+    int status = result.status;
+    forget(&result);
+    return status == 0 ? 0 : -1;
+}
+
+static void skip_without_browser(void)
+{
+    if (!has_browser()) {
+        print_message("chromium is not installed: the report is not opened\n");
+        skip();
+    }
+}
+
+static size_t occurrences(const char *text, const char *part)
+{
+    size_t count = 0;
+    for (; (text = strstr(text, part)); text += strlen(part))
+        count++;
+    return count;
+}
+
+static void the_browser_finds_headings_tables_and_pictures(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    char *page = browse("placed/report.html", "--dump-dom");
+    assert_non_null(page);
+    static const char *const headings[] = {"Figures", "Coverage against water", "Coverage in pictures", "Nozzles",
+                                           "Spray shadows"};
+    for (size_t i = 0; i < sizeof headings / sizeof *headings; i++)
+        if (!strstr(page, headings[i]))
+            fail_msg("no heading %s", headings[i]);
+    assert_true(occurrences(page, "<table") >= 5);
+    assert_int_equal(occurrences(page, "<table"), occurrences(page, "</table>"));
+    assert_int_equal(occurrences(page, "<image "), 9);
+    free(page);
+}
+
+static size_t picture_size(const char *page)
+{
+    size_t size;
+    free(browse(page, "--window-size=1200,3000 --screenshot=page.png"));
+    char *picture = read_file("page.png", &size);
+    assert_non_null(picture);
+    assert_memory_equal(picture, "\x89PNG", 4);
+    free(picture);
+    return size;
+}
+
+/* An empty page packs to next to nothing. */
+static void the_page_is_not_blank(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    write_file("blank.html", "<!doctype html><title>blank</title>");
+    assert_true(picture_size("placed/report.html") > 10 * picture_size("blank.html"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_browser_finds_headings_tables_and_pictures),
+        cmocka_unit_test(the_page_is_not_blank),
+    };
+    return cmocka_run_group_tests(tests, place_once, close_workplace);
+}
