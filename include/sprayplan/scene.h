@@ -11,8 +11,8 @@ extern "C" {
 /* Loading, writing and sp_quantity_parse are for one thread at a time: the parser of udunits2 is not reentrant. */
 typedef struct sp_scene sp_scene;
 
-/* Reads a scene, its catalogue and its geometry. Every error names file, line, column and key, what was found and what was
- * expected. */
+/* Reads a scene, its catalogue and its geometry. Every error names file, line, column and key, what was found and what
+ * was expected. */
 sp_scene *sp_scene_load(const char *path, sp_error *error);
 /* The same with settings of `simulate:` and `place:` overridden, each "simulate.jets=20000" or "place.refine=none"; the
  * value is YAML as it would stand in the file. Errors in an override name it in place of the file. */
@@ -21,13 +21,21 @@ sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, siz
 void sp_scene_destroy(sp_scene *scene);
 
 const char *sp_scene_path(const sp_scene *scene);
-const sp_setup *sp_scene_setup(const sp_scene *scene);   /* NULL for NULL */
-const sp_layout *sp_scene_layout(const sp_scene *scene); /* the engineer's own, may have no nozzles */
+const sp_setup *sp_scene_setup(const sp_scene *scene);          /* NULL for NULL */
+const sp_layout *sp_scene_layout(const sp_scene *scene);        /* the engineer's own, may have no nozzles */
 sp_place_options sp_scene_place_options(const sp_scene *scene); /* defaults for NULL */
-bool sp_scene_has_place(const sp_scene *scene); /* the file has a `place:` block with mounts */
+bool sp_scene_has_place(const sp_scene *scene);                 /* the file has a `place:` block with mounts */
 
-/* The scene as YAML text with `layout` in place of its nozzles and `fidelity` (nothing left to auto) under `simulate:`, its
- * paths relative to `directory`, its numbers reading back exactly. Malloc'd, the caller frees. */
+/* The files that the scene was read from: its own, the geometry, the catalogue. The path is malloc'd, NULL with an
+ * error. */
+size_t sp_scene_file_count(const sp_scene *scene); /* 0 for NULL */
+char *sp_scene_file_path(const sp_scene *scene, size_t index, sp_error *error);
+/* Gives an error of input "key: ..." that names no line the place of that key in the scene, or that of the scene's
+ * first key where it has none: what computes with a scene's settings does not know where they stand. */
+void sp_scene_locate(const sp_scene *scene, sp_error *error);
+
+/* The scene as YAML text with `layout` in place of its nozzles and `fidelity` (nothing left to auto) under `simulate:`,
+ * its paths relative to `directory`, its numbers reading back exactly. Malloc'd, the caller frees. */
 char *sp_scene_text(const sp_scene *scene, const sp_layout *layout, const sp_fidelity *fidelity, const char *directory,
                     sp_error *error);
 

@@ -38,9 +38,8 @@ static bool write_pages(const sp_atlas *atlas, sp_output *output, const char *st
         size_t size;
         snprintf(name, sizeof name, "%s-page_%zu.png", stem, page);
         uint8_t *pixels = sp_report_charts(atlas, page, error);
-        uint8_t *png = pixels ? sp_image_encode_png(pixels, (int)atlas->page_edge, (int)atlas->page_edge, 3, &size,
-                                                    error)
-                              : NULL;
+        uint8_t *png =
+            pixels ? sp_image_encode_png(pixels, (int)atlas->page_edge, (int)atlas->page_edge, 3, &size, error) : NULL;
         bool good = png && sp_output_bytes(output, name, png, size, error);
         free(png);
         free(pixels);
@@ -50,14 +49,17 @@ static bool write_pages(const sp_atlas *atlas, sp_output *output, const char *st
     return true;
 }
 
+static bool names_obj(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
+    return dot && dot != name && !strcmp(dot, ".obj");
+}
+
 static bool write_files(const atlas_work *work, const cli_options *options, sp_error *error)
 {
     const char *slash = strrchr(options->output, '/');
     const char *name = slash ? slash + 1 : options->output;
     const char *dot = strrchr(name, '.');
-    if (!dot || dot == name || strcmp(dot, ".obj"))
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "-o: found \"%s\", expected a file name ending in .obj",
-                       options->output);
     char *directory = slash ? strndup(options->output, (size_t)(slash - options->output) + 1) : strdup(".");
     char *stem = strndup(name, (size_t)(dot - name));
     if (!directory || !stem) {
@@ -125,6 +127,10 @@ int cli_atlas(const cli_options *options)
 {
     sp_error error = {0};
     atlas_work work = {0};
+    if (options->output && !names_obj(options->output)) {
+        fprintf(stderr, "sprayplan: atlas: -o: found \"%s\", expected a file name ending in .obj\n", options->output);
+        return EXIT_USAGE;
+    }
     bool good = build(&work, options, &error) && (!options->output || write_files(&work, options, &error));
     if (good && options->json)
         good = print_json(&work) || sp_fail_memory(&error);

@@ -26,7 +26,10 @@ __attribute__((format(printf, 2, 3))) static void warn(findings *found, const ch
     va_end(arguments);
 }
 
-static const sp_setup *setup_of(const findings *found) { return sp_evaluator_setup(found->opened->evaluator); }
+static const sp_setup *setup_of(const findings *found)
+{
+    return sp_evaluator_setup(found->opened->evaluator);
+}
 
 static bool measure_parts(findings *found, sp_error *error)
 {
@@ -51,8 +54,10 @@ static void warn_of_mesh(findings *found)
 {
     const sp_mesh_diagnosis *mesh = &found->mesh;
     if (setup_of(found)->cavity == SP_CAVITY_NONE && mesh->closed_shells)
-        warn(found, "cavity: found none, and %zu bodies are closed: both sides of their walls take liquid and count "
-                    "once; name a point of the space where the liquid flies", mesh->closed_shells);
+        warn(found,
+             "cavity: found none, and %zu bodies are closed: both sides of their walls take liquid and count "
+             "once; name a point of the space where the liquid flies",
+             mesh->closed_shells);
     if (mesh->degenerate)
         warn(found, "geometry: %zu degenerate triangles are left out", mesh->degenerate);
     if (mesh->non_manifold_edges)
@@ -63,6 +68,15 @@ static void warn_of_mesh(findings *found)
         warn(found, "geometry: %zu triangles are there twice", mesh->duplicate_triangles);
 }
 
+static void warn_of_cavity(findings *found)
+{
+    const sp_setup *setup = setup_of(found);
+    sp_vec3 p = setup->cavity_point, low = found->mesh.minimum, high = found->mesh.maximum;
+    if (setup->cavity == SP_CAVITY_POINT &&
+        (p.x < low.x || p.y < low.y || p.z < low.z || p.x > high.x || p.y > high.y || p.z > high.z))
+        warn(found, "cavity: the point lies outside the geometry's box: what is counted is what faces it from there");
+}
+
 static void warn_of_nozzles(findings *found)
 {
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
@@ -71,19 +85,31 @@ static void warn_of_nozzles(findings *found)
             warn(found, "nozzles: %s is not inside the cavity", layout->nozzles[i].name);
 }
 
+static void print_cavity(const sp_setup *setup)
+{
+    if (setup->cavity == SP_CAVITY_NONE)
+        printf("cavity      none: every triangle counts once and takes liquid from either side\n");
+    else if (setup->cavity == SP_CAVITY_OUTSIDE)
+        printf("cavity      outside: sides that face the space around the geometry\n");
+    else
+        printf("cavity      sides that face the space of [%.6g m, %.6g m, %.6g m]\n", setup->cavity_point.x,
+               setup->cavity_point.y, setup->cavity_point.z);
+}
+
 static void print_table(const findings *found)
 {
     const sp_setup *setup = setup_of(found);
     const sp_mesh *mesh = setup->mesh;
     const sp_fidelity *fidelity = sp_evaluator_fidelity(found->opened->evaluator);
     const sp_patches *patches = sp_evaluator_patches(found->opened->evaluator);
-    printf("triangles   %zu (%.4f m2), %zu vertices, box %.4g x %.4g x %.4g m\n", mesh->triangle_count, found->mesh.area,
-           mesh->vertex_count, found->mesh.maximum.x - found->mesh.minimum.x,
+    printf("triangles   %zu (%.4f m2), %zu vertices, box %.4g x %.4g x %.4g m\n", mesh->triangle_count,
+           found->mesh.area, mesh->vertex_count, found->mesh.maximum.x - found->mesh.minimum.x,
            found->mesh.maximum.y - found->mesh.minimum.y, found->mesh.maximum.z - found->mesh.minimum.z);
     printf("shells      %zu, %zu closed; %zu open edges, %zu non-manifold, %zu flipped; %zu degenerate, %zu double "
-           "triangles\n", found->mesh.shells, found->mesh.closed_shells, found->mesh.open_edges,
-           found->mesh.non_manifold_edges, found->mesh.flipped_edges, found->mesh.degenerate,
-           found->mesh.duplicate_triangles);
+           "triangles\n",
+           found->mesh.shells, found->mesh.closed_shells, found->mesh.open_edges, found->mesh.non_manifold_edges,
+           found->mesh.flipped_edges, found->mesh.degenerate, found->mesh.duplicate_triangles);
+    print_cavity(setup);
     printf("to clean    %.4f m2 in %zu patches of texels of %.4g m\n\n", patches->total_area, patches->count,
            fidelity->texel);
     printf("%-8s %-24s %-9s %10s %12s %12s\n", "geometry", "part", "role", "triangles", "area m2", "wet m2");
@@ -97,8 +123,7 @@ static void print_table(const findings *found)
     for (size_t i = 0; i < layout->count; i++)
         printf("%-16s %-20s %12.3f %11.3f %10.2f\n", layout->nozzles[i].name, layout->nozzles[i].type->name,
                6e4 * sp_nozzle_flow(&layout->nozzles[i], &setup->liquid),
-               sp_nozzle_speed(&layout->nozzles[i], &setup->liquid),
-               sp_nozzle_angle(&layout->nozzles[i]) * 180 / M_PI);
+               sp_nozzle_speed(&layout->nozzles[i], &setup->liquid), sp_nozzle_angle(&layout->nozzles[i]) * 180 / M_PI);
     printf("\n");
     for (size_t i = 0; i < found->warning_count; i++)
         printf("warning: %s\n", found->warnings[i]);
@@ -124,13 +149,21 @@ static json_t *parts_json(const findings *found)
     const sp_setup *setup = setup_of(found);
     json_t *parts = json_array();
     for (size_t i = 0; i < setup->mesh->part_count; i++)
-        json_array_append_new(
-            parts, json_pack("{s:I, s:s, s:s, s:I, s:f, s:f}", "geometry", (json_int_t)setup->mesh->parts[i].geometry,
-                             "name", setup->mesh->parts[i].name, "role",
-                             setup->surfaces[i].clean ? "clean" : "obstacle", "triangles",
-                             (json_int_t)found->part_triangles[i], "area_m2", found->part_area[i], "wet_area_m2",
-                             found->part_wet[i]));
+        json_array_append_new(parts,
+                              json_pack("{s:I, s:s, s:s, s:I, s:f, s:f}", "geometry",
+                                        (json_int_t)setup->mesh->parts[i].geometry, "name", setup->mesh->parts[i].name,
+                                        "role", setup->surfaces[i].clean ? "clean" : "obstacle", "triangles",
+                                        (json_int_t)found->part_triangles[i], "area_m2", found->part_area[i],
+                                        "wet_area_m2", found->part_wet[i]));
     return parts;
+}
+
+/* A point, "outside" or, where none is named, null. */
+static json_t *cavity_json(const sp_setup *setup)
+{
+    if (setup->cavity == SP_CAVITY_POINT)
+        return json_pack("[fff]", setup->cavity_point.x, setup->cavity_point.y, setup->cavity_point.z);
+    return setup->cavity == SP_CAVITY_OUTSIDE ? json_string("outside") : json_null();
 }
 
 static bool print_json(const findings *found)
@@ -138,13 +171,13 @@ static bool print_json(const findings *found)
     json_t *warnings = json_array();
     for (size_t i = 0; i < found->warning_count; i++)
         json_array_append_new(warnings, json_string(found->warnings[i]));
-    json_t *object = json_pack(
-        "{s:s, s:s, s:s, s:o, s:o, s:f, s:I, s:f, s:I, s:o}", "sprayplan", SP_VERSION, "command", "check", "scene",
-        sp_scene_path(found->opened->scene), "mesh", mesh_json(found), "parts", parts_json(found), "clean_area_m2",
-        sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
-        (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
-        sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",
-        (json_int_t)sp_scene_layout(found->opened->scene)->count, "warnings", warnings);
+    json_t *object = json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:f, s:I, s:f, s:I, s:o}", "sprayplan", SP_VERSION,
+                               "command", "check", "scene", sp_scene_path(found->opened->scene), "mesh",
+                               mesh_json(found), "parts", parts_json(found), "cavity_m", cavity_json(setup_of(found)),
+                               "clean_area_m2", sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
+                               (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
+                               sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",
+                               (json_int_t)sp_scene_layout(found->opened->scene)->count, "warnings", warnings);
     bool good = object && json_dumpf(object, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) == 0;
     puts("");
     json_decref(object);
@@ -156,6 +189,7 @@ static bool examine(const cli_options *options, findings *found, sp_error *error
     if (!measure_parts(found, error) || !sp_mesh_diagnose(setup_of(found)->mesh, &found->mesh, error))
         return false;
     warn_of_mesh(found);
+    warn_of_cavity(found);
     warn_of_nozzles(found);
     cli_progress_end();
     if (options->json)
@@ -171,7 +205,7 @@ static int check(const cli_options *options, const cli_scene *opened, cli_clock 
     findings *found = calloc(1, sizeof *found);
     if (!found) {
         sp_fail_memory(error);
-        return cli_fail(error);
+        return cli_fail_in(opened, error);
     }
     found->opened = opened;
     bool good = examine(options, found, error);
@@ -179,7 +213,10 @@ static int check(const cli_options *options, const cli_scene *opened, cli_clock 
     free(found->part_wet);
     free(found->part_triangles);
     free(found);
-    return good ? EXIT_DONE : cli_fail(error);
+    return good ? EXIT_DONE : cli_fail_in(opened, error);
 }
 
-int cli_check(const cli_options *options) { return cli_with_scene(options, check); }
+int cli_check(const cli_options *options)
+{
+    return cli_with_scene(options, check);
+}

@@ -15,15 +15,15 @@ enum { EXIT_DONE = 0, EXIT_OTHER = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_SHORT
 typedef struct {
     const char *const *inputs; /* what stands on the command line besides options */
     int input_count;
-    bool json, quiet;
+    bool json, quiet, version;
     int threads;
-    double time_limit;   /* s, 0: none */
-    const char *output;  /* -o, or NULL */
+    double time_limit;  /* s, 0: none */
+    const char *output; /* -o, or NULL */
     const char *overrides[MAX_OVERRIDES];
     size_t override_count;
-    double texel;        /* m, 0: not given */
-    const char *rays;    /* file, or NULL */
-    sp_vec3 gravity;     /* m/s² */
+    double texel;     /* m, 0: not given */
+    const char *rays; /* file, or NULL */
+    sp_vec3 gravity;  /* m/s² */
     sp_accelerator accelerator;
 } cli_options;
 
@@ -82,6 +82,13 @@ void cli_scene_close(cli_scene *opened);
 /* Opens the first input, does the work with it and closes it; the exit status. */
 typedef int cli_work(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error);
 int cli_with_scene(const cli_options *options, cli_work *work);
+
+/* As cli_fail, with the place in the scene of the setting that the error is about. */
+int cli_fail_in(const cli_scene *opened, sp_error *error);
+
+/* output.c: whether files can be written where -o says, asked before the work that they are to hold. `scene` NULL: no
+ * layout.yaml. True without -o. */
+bool cli_output_ready(const cli_options *options, const sp_scene *scene, sp_error *error);
 
 /* output.c: what simulate, place and compare end with. `layout` NULL: no layout.yaml. */
 bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *scene, const sp_layout *layout,

@@ -27,8 +27,7 @@ static bool is_result(const char *path)
     return dot && !strcasecmp(dot, ".json");
 }
 
-static bool open_input(compared *input, const char *path, const cli_options *options, cli_clock *clock,
-                       sp_error *error)
+static bool open_input(compared *input, const char *path, const cli_options *options, cli_clock *clock, sp_error *error)
 {
     if (is_result(path)) {
         input->figures = sp_figures_read(path, &input->figure_count, error);
@@ -37,8 +36,11 @@ static bool open_input(compared *input, const char *path, const cli_options *opt
     if (!cli_scene_open(&input->opened, path, options, clock, error))
         return false;
     const sp_layout *layout = sp_scene_layout(input->opened.scene);
-    if (layout->count == 0)
-        return sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "nozzles: found none, expected at least one to compare");
+    if (layout->count == 0) {
+        sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "nozzles: found none, expected at least one to compare");
+        sp_scene_locate(input->opened.scene, error);
+        return false;
+    }
     input->coverage = sp_evaluate(input->opened.evaluator, layout, error);
     cli_clock_stage(clock, "simulate");
     return input->coverage != NULL;
@@ -98,6 +100,8 @@ static bool compare(comparison *all, const cli_options *options, sp_error *error
     all->inputs = calloc((size_t)options->input_count, sizeof *all->inputs);
     if (!all->inputs)
         return sp_fail_memory(error);
+    if (!cli_output_ready(options, NULL, error))
+        return false;
     for (int i = 0; i < options->input_count; i++)
         if (!open_input(&all->inputs[i], options->inputs[i], options, &all->clock, error))
             return false;

@@ -40,16 +40,17 @@ static void print_usage(FILE *to)
     fprintf(to, "usage: sprayplan COMMAND ...\n\n");
     for (int i = 0; i < COMMANDS; i++)
         fprintf(to, "  sprayplan %-8s %-28s %s\n", commands[i].name, commands[i].arguments, commands[i].summary);
-    fprintf(to, "\n"
-                "  --json            one JSON object on standard output and nothing else there\n"
-                "  --threads N       how many threads to use (default: one per core); the answer does not depend on it\n"
-                "  --quiet           no progress and no summary\n"
-                "  --set KEY=VALUE   override a setting, as --set simulate.jets=20000 or --set place.refine=none\n"
-                "  --time-limit S    place returns its best so far after S seconds\n"
-                "  --version, --help\n"
-                "\n"
-                "exit status: 0 done; 2 wrong usage; 3 bad input; 4 done, but the proposal does not reach the coverage\n"
-                "asked for; 130 interrupted; 1 anything else\n");
+    fprintf(to,
+            "\n"
+            "  --json            one JSON object on standard output and nothing else there\n"
+            "  --threads N       how many threads to use (default: one per core); the answer does not depend on it\n"
+            "  --quiet           no progress and no summary\n"
+            "  --set KEY=VALUE   override a setting, as --set simulate.jets=20000 or --set place.refine=none\n"
+            "  --time-limit S    place returns its best so far after S seconds\n"
+            "  --version, --help\n"
+            "\n"
+            "exit status: 0 done; 2 wrong usage; 3 bad input; 4 done, but the proposal does not reach the coverage\n"
+            "asked for; 130 interrupted; 1 anything else\n");
 }
 
 static void print_command_usage(FILE *to, const cli_command *command)
@@ -111,6 +112,10 @@ int main(int count, char **arguments)
     if (!cli_parse(command, count - 1, arguments + 1, &options, &help)) {
         print_command_usage(stderr, command);
         return EXIT_USAGE;
+    }
+    if (options.version) {
+        printf("sprayplan %s\n", SP_VERSION);
+        return EXIT_DONE;
     }
     if (help) {
         print_command_usage(stdout, command);

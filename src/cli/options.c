@@ -45,6 +45,14 @@ static unsigned flag_of(int option)
     }
 }
 
+static const char *name_of(int option)
+{
+    static const char *const names[] = {[SET - JSON] = "--set",         [TIME_LIMIT - JSON] = "--time-limit",
+                                        [TEXEL - JSON] = "--texel",     [RAYS - JSON] = "--rays",
+                                        [GRAVITY - JSON] = "--gravity", [ACCEL - JSON] = "--accel"};
+    return option == 'o' ? "-o" : names[option - JSON];
+}
+
 static bool wrong(const char *option, const char *found, const char *expected)
 {
     fprintf(stderr, "sprayplan: %s: found \"%s\", expected %s\n", option, found, expected);
@@ -149,6 +157,9 @@ static bool take_option(int option, const char *value, cli_options *options, boo
     case HELP:
         *help = true;
         return true;
+    case VERSION:
+        options->version = true;
+        return true;
     default:
         return false;
     }
@@ -161,7 +172,7 @@ bool cli_parse(const cli_command *command, int count, char **arguments, cli_opti
     while ((option = getopt_long(count, arguments, "o:h", long_options, NULL)) != -1) {
         unsigned flag = flag_of(option);
         if (flag && !(command->options & flag)) {
-            fprintf(stderr, "sprayplan: %s does not take %s\n", command->name, arguments[optind - 1]);
+            fprintf(stderr, "sprayplan: %s does not take %s\n", command->name, name_of(option));
             return false;
         }
         if (option == '?' || !take_option(option == 'h' ? HELP : option, optarg, options, help))
@@ -169,7 +180,7 @@ bool cli_parse(const cli_command *command, int count, char **arguments, cli_opti
     }
     options->inputs = (const char *const *)(arguments + optind);
     options->input_count = count - optind;
-    if (*help)
+    if (*help || options->version)
         return true;
     if (options->input_count < command->least_inputs || options->input_count > command->most_inputs) {
         fprintf(stderr, "sprayplan: %s: found %d file names, expected %s\n", command->name, options->input_count,

@@ -4,16 +4,38 @@
 #include <stdlib.h>
 #include <string.h>
 
+static bool protect_inputs(const cli_options *options, const sp_scene *scene, sp_output *output, sp_error *error)
+{
+    bool good = true;
+    for (int i = 0; i < options->input_count && good; i++)
+        good = sp_output_protect(output, options->inputs[i], error);
+    for (size_t i = 0; i < sp_scene_file_count(scene) && good; i++) {
+        char *path = sp_scene_file_path(scene, i, error);
+        good = path && sp_output_protect(output, path, error);
+        free(path);
+    }
+    return good;
+}
+
+bool cli_output_ready(const cli_options *options, const sp_scene *scene, sp_error *error)
+{
+    if (!options->output)
+        return true;
+    sp_output *output = sp_output_open(options->output, error);
+    bool good = output && protect_inputs(options, scene, output, error) &&
+                sp_output_path(output, "result.json", error) &&
+                (!scene || sp_output_path(output, "layout.yaml", error));
+    sp_output_discard(output);
+    return good;
+}
+
 bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *scene, const sp_layout *layout,
                sp_error *error)
 {
     if (!options->output)
         return true;
     sp_output *output = sp_output_open(options->output, error);
-    bool good = output != NULL;
-    for (int i = 0; i < options->input_count && good; i++)
-        good = sp_output_protect(output, options->inputs[i], error);
-    good = good && sp_report_write(result, output, error);
+    bool good = output && protect_inputs(options, scene, output, error) && sp_report_write(result, output, error);
     if (good && layout) {
         const sp_fidelity *fidelity = sp_evaluator_fidelity(result->designs[0].evaluator);
         char *text = sp_scene_text(scene, layout, fidelity, options->output, error);

@@ -21,6 +21,16 @@ static size_t list_designs(const cli_scene *opened, const placement *found, sp_d
     return count;
 }
 
+static void say_what_is_missing(const sp_proposal *proposal)
+{
+    double covered = proposal->coverage->covered_area, target = proposal->target_area;
+    if (target > 0 && covered >= target)
+        fprintf(stderr, "sprayplan: the nozzles to keep are more, or take more water, than max_nozzles and max_water "
+                        "allow\n");
+    else
+        fprintf(stderr, "sprayplan: the proposal covers %.3f m2 of the %.3f m2 asked for\n", covered, target);
+}
+
 static int report(const cli_options *options, const cli_scene *opened, const placement *found, const cli_clock *clock,
                   sp_error *error)
 {
@@ -34,17 +44,15 @@ static int report(const cli_options *options, const cli_scene *opened, const pla
                         .stages = clock->stages};
     if (!cli_write(options, &result, opened->scene, found->proposal->layout, error) ||
         !cli_print(options, &result, error))
-        return cli_fail(error);
+        return cli_fail_in(opened, error);
     if (cli_interrupted()) {
         fprintf(stderr, "sprayplan: interrupted; this is the best layout so far\n");
         return EXIT_INTERRUPTED;
     }
-    if (!found->proposal->reached) {
-        fprintf(stderr, "sprayplan: the proposal covers %.3f m2 of the %.3f m2 asked for\n",
-                found->proposal->coverage->covered_area, found->proposal->target_area);
-        return EXIT_SHORT;
-    }
-    return EXIT_DONE;
+    if (found->proposal->reached)
+        return EXIT_DONE;
+    say_what_is_missing(found->proposal);
+    return EXIT_SHORT;
 }
 
 static int place(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error)
@@ -52,18 +60,20 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
     placement found = {0};
     const sp_layout *own = sp_scene_layout(opened->scene);
     if (!sp_scene_has_place(opened->scene))
-        sp_fail(error, SP_ERROR_INPUT, sp_scene_path(opened->scene), 0, 0,
-                "place: found no mounts, expected where nozzles may be mounted");
+        sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: found no mounts, expected where nozzles may be mounted");
     else if (own->count == 0 || (found.manual = sp_evaluate(opened->evaluator, own, error))) {
         cli_clock_stage(clock, "simulate");
         sp_place_options how = sp_scene_place_options(opened->scene);
         how.run = cli_run(options);
         found.proposal = sp_place(opened->evaluator, &how, error);
     }
-    int status = found.proposal ? report(options, opened, &found, clock, error) : cli_fail(error);
+    int status = found.proposal ? report(options, opened, &found, clock, error) : cli_fail_in(opened, error);
     sp_proposal_destroy(found.proposal);
     sp_coverage_destroy(found.manual);
     return status;
 }
 
-int cli_place(const cli_options *options) { return cli_with_scene(options, place); }
+int cli_place(const cli_options *options)
+{
+    return cli_with_scene(options, place);
+}

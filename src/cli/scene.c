@@ -12,8 +12,10 @@ bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *opti
     setup.run = cli_run(options);
     opened->evaluator = sp_evaluator_create(&setup, error);
     cli_clock_stage(clock, "atlas");
-    if (!opened->evaluator)
+    if (!opened->evaluator) {
+        sp_scene_locate(opened->scene, error);
         cli_scene_close(opened);
+    }
     return opened->evaluator != NULL;
 }
 
@@ -24,6 +26,12 @@ void cli_scene_close(cli_scene *opened)
     *opened = (cli_scene){0};
 }
 
+int cli_fail_in(const cli_scene *opened, sp_error *error)
+{
+    sp_scene_locate(opened->scene, error);
+    return cli_fail(error);
+}
+
 int cli_with_scene(const cli_options *options, cli_work *work)
 {
     sp_error error = {0};
@@ -32,7 +40,8 @@ int cli_with_scene(const cli_options *options, cli_work *work)
     cli_clock_start(&clock);
     if (!cli_scene_open(&opened, options->inputs[0], options, &clock, &error))
         return cli_fail(&error);
-    int status = work(options, &opened, &clock, &error);
+    int status =
+        cli_output_ready(options, opened.scene, &error) ? work(options, &opened, &clock, &error) : cli_fail(&error);
     cli_scene_close(&opened);
     return status;
 }

@@ -5,16 +5,14 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
 {
     const sp_layout *layout = sp_scene_layout(opened->scene);
     if (layout->count == 0) {
-        sp_fail(error, SP_ERROR_INPUT, sp_scene_path(opened->scene), 0, 0,
-                "nozzles: found none, expected at least one to simulate");
-        return cli_fail(error);
+        sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "nozzles: found none, expected at least one to simulate");
+        return cli_fail_in(opened, error);
     }
     sp_coverage *coverage = sp_evaluate(opened->evaluator, layout, error);
     cli_clock_stage(clock, "simulate");
     if (!coverage)
-        return cli_fail(error);
-    sp_design design = {
-        .name = "manual", .evaluator = opened->evaluator, .layout = layout, .coverage = coverage};
+        return cli_fail_in(opened, error);
+    sp_design design = {.name = "manual", .evaluator = opened->evaluator, .layout = layout, .coverage = coverage};
     sp_result result = {.command = "simulate",
                         .scene = options->inputs[0],
                         .design_count = 1,
@@ -23,7 +21,10 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
                         .stages = clock->stages};
     bool good = cli_write(options, &result, opened->scene, layout, error) && cli_print(options, &result, error);
     sp_coverage_destroy(coverage);
-    return good ? EXIT_DONE : cli_fail(error);
+    return good ? EXIT_DONE : cli_fail_in(opened, error);
 }
 
-int cli_simulate(const cli_options *options) { return cli_with_scene(options, simulate); }
+int cli_simulate(const cli_options *options)
+{
+    return cli_with_scene(options, simulate);
+}

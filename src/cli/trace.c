@@ -91,8 +91,8 @@ static void print_hit(const sp_tracer *tracer, size_t number, const sp_ray *ray,
     const char *format = json ? "%s{\"ray\": %zu, \"t\": %.17g, \"triangle\": %lu, \"u\": %.17g, \"v\": %.17g, "
                                 "\"x\": %.17g, \"y\": %.17g, \"z\": %.17g, \"speed\": %.17g, \"incidence_deg\": %.17g}"
                               : "%s%zu,%.17g,%lu,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n";
-    printf(format, json && number ? ",\n" : "", number, hit->t, (unsigned long)mesh->source[hit->triangle], hit->u,
-           hit->v, point.x, point.y, point.z, speed, incidence);
+    printf(format, json && number ? ",\n" : "", number, hit->t, (unsigned long)mesh->source[hit->triangle],
+           hit->u + 0.0, hit->v + 0.0, point.x, point.y, point.z, speed, incidence);
 }
 
 static bool trace_file(ray_reader *reader, const sp_tracer *tracer, const cli_options *options, sp_error *error)

@@ -53,6 +53,18 @@ static void check_warns_where_bodies_are_closed_and_no_cavity_is_named(void **st
     json_decref(object);
 }
 
+static void check_reports_the_cavity(void **state)
+{
+    (void)state;
+    json_t *object = expect_json("check room.yaml --json", 0);
+    assert_true(fabs(json_number_value(json_array_get(json_object_get(object, "cavity_m"), 2)) - 0.5) < 1e-12);
+    json_decref(object);
+    write_file("astray.yaml", "geometry:\n  - file: room.obj\ncavity: [0.5 m, 0.5 m, 5 m]\n");
+    object = expect_json("check astray.yaml --json", 0);
+    assert_non_null(strstr(json_string_value(json_array_get(json_object_get(object, "warnings"), 0)), "box"));
+    json_decref(object);
+}
+
 /* The cone of 120 deg, 0.4 m under the ceiling's height above a floor of 1 m²: 12 L/min over pi sr. On the floor the
  * flux is Q cos^3(a) / (pi h²), above 1 L/min/m² all over it. */
 static void simulate_gives_the_figures(void **state)
@@ -114,6 +126,72 @@ static void no_input_is_overwritten(void **state)
     assert_string_equal(before, after);
     free(before);
     free(after);
+    forget(&result);
+}
+
+/* A catalogue may bear the name of a file that is about to be written. */
+static void nor_is_what_the_scene_names(void **state)
+{
+    (void)state;
+    char scene[sizeof room_yaml + 64];
+    const char *at = strstr(room_yaml, "catalogue.yaml");
+    snprintf(scene, sizeof scene, "%.*slayout.yaml%s", (int)(at - room_yaml), room_yaml, at + strlen("catalogue.yaml"));
+    write_file("named.yaml", scene);
+    write_file("layout.yaml", catalogue_yaml);
+    expect("simulate named.yaml -o .", 1, "",
+           "./layout.yaml: would replace a file that was read, expected another folder "
+           "to write to\n");
+    char *after = read_file("layout.yaml", NULL);
+    assert_string_equal(after, catalogue_yaml);
+    free(after);
+}
+
+/* Not after the minutes that a search may take: this one would find no mounting point. */
+static void where_nothing_can_be_written_is_said_first(void **state)
+{
+    (void)state;
+    expect("place room.yaml -o no/such/folder --set place.clearance=9", 1, "",
+           "no/such/folder: cannot make this folder: No such file or directory\n");
+    expect("compare room.yaml nothing.yaml -o room.obj", 1, "", "room.obj: is a file, expected a folder to write to\n");
+    outcome result = run_program("place room.yaml -o unmade --set place.clearance=9");
+    assert_int_equal(result.status, 3);
+    forget(&result);
+    char *names = list_folder(".");
+    assert_null(strstr(names, "unmade"));
+    free(names);
+}
+
+/* Errors that only show once the scene is put to work stand in the scene too. */
+static void late_errors_are_located(void **state)
+{
+    (void)state;
+    static const char wrong_reflections[] = "geometry:\n  - file: room.obj\n"
+                                            "simulate: {evaluator: inverse,\n           reflections: 2}\n";
+    write_file("late.yaml", wrong_reflections);
+    outcome result = run_program("simulate late.yaml");
+    assert_int_equal(result.status, 3);
+    assert_ptr_equal(strstr(result.err, "late.yaml:4:25: reflections: "), result.err);
+    forget(&result);
+    result = run_program("place room.yaml --set place.clearance=9");
+    assert_int_equal(result.status, 3);
+    assert_ptr_equal(strstr(result.err, "room.yaml:10:3: place: none of "), result.err);
+    forget(&result);
+    write_file("bare.yaml", "geometry:\n  - file: room.obj\nsimulate: {texel: 100 mm}\n");
+    expect("simulate bare.yaml", 3, "", "bare.yaml:1:1: nozzles: found none, expected at least one to simulate\n");
+    expect("simulate bare.yaml --set simulate.texel=1um", 3, "",
+           "simulate.texel=1um: texel: 1e-06 m found, too small for a surface of 6 m2; expected at least 7.75e-05 m\n");
+}
+
+static void kept_nozzles_beyond_the_limits_are_named_as_the_cause(void **state)
+{
+    (void)state;
+    char scene[sizeof room_yaml + 64];
+    const char *at = strstr(room_yaml, "pressure: 2 bar}");
+    snprintf(scene, sizeof scene, "%.*skeep: true, %s", (int)(at - room_yaml), room_yaml, at);
+    write_file("kept.yaml", scene);
+    outcome result = run_program("place kept.yaml --set 'place.max_water=5 L/min' --set 'place.coverage=1 %'");
+    assert_int_equal(result.status, 4);
+    assert_non_null(strstr(result.err, "the nozzles to keep"));
     forget(&result);
 }
 
@@ -293,10 +371,15 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(check_measures_the_room),
         cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),
+        cmocka_unit_test(check_reports_the_cavity),
         cmocka_unit_test(simulate_gives_the_figures),
         cmocka_unit_test(without_output_nothing_is_written),
         cmocka_unit_test(simulate_writes_its_files),
         cmocka_unit_test(no_input_is_overwritten),
+        cmocka_unit_test(nor_is_what_the_scene_names),
+        cmocka_unit_test(where_nothing_can_be_written_is_said_first),
+        cmocka_unit_test(late_errors_are_located),
+        cmocka_unit_test(kept_nozzles_beyond_the_limits_are_named_as_the_cause),
         cmocka_unit_test(place_gives_the_same_bytes_for_any_number_of_threads),
         cmocka_unit_test(the_written_layout_gives_the_same_figures),
         cmocka_unit_test(place_says_whether_the_coverage_asked_for_is_reached),

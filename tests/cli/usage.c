@@ -5,6 +5,7 @@ static void says_its_version(void **state)
 {
     (void)state;
     expect("--version", 0, "sprayplan 0.1.0\n", "");
+    expect("check --version", 0, "sprayplan 0.1.0\n", "");
 }
 
 static void help_goes_to_standard_output(void **state)
@@ -37,13 +38,15 @@ static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
         {"check room.yaml --threads 0", "--threads: found \"0\", expected a whole number"},
         {"check room.yaml --threads two", "--threads: found \"two\""},
         {"check room.yaml --set simulate.jets", "--set: found \"simulate.jets\", expected KEY=VALUE"},
-        {"check room.yaml -o out", "check does not take"},
-        {"simulate room.yaml --time-limit 3", "simulate does not take"},
+        {"check room.yaml -o out", "check does not take -o"},
+        {"simulate room.yaml --time-limit 3", "simulate does not take --time-limit"},
         {"place room.yaml --time-limit 0", "--time-limit: found \"0\", expected seconds above 0"},
         {"place room.yaml --frobnicate", "frobnicate"},
         {"trace room.obj", "found no --rays"},
         {"trace room.obj --rays r --accel octree", "--accel: found \"octree\", expected sah, naive or none"},
         {"trace room.obj --rays r --gravity 0,0", "--gravity: found \"0,0\", expected gx,gy,gz"},
+        {"atlas room.obj --set simulate.jets=1", "atlas does not take --set"},
+        {"atlas room.obj -o unfolded.png", "-o: found \"unfolded.png\", expected a file name ending in .obj"},
         {"atlas room.obj --texel 3s", "--texel: found \"3s\", expected a length above 0"},
     };
     for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {

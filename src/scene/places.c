@@ -1,0 +1,57 @@
+/* Where a scene stands: the files that it was read from, and the lines of its settings. */
+#include "scene/state.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+size_t sp_scene_file_count(const sp_scene *scene)
+{
+    return scene ? 1 + sp_yaml_get(scene->tree, "geometry")->count + (sp_yaml_get(scene->tree, "catalogue") != NULL)
+                 : 0;
+}
+
+char *sp_scene_file_path(const sp_scene *scene, size_t index, sp_error *error)
+{
+    if (index >= sp_scene_file_count(scene)) {
+        sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "a scene has no file %zu", index);
+        return NULL;
+    }
+    if (index == 0) {
+        char *path = strdup(scene->path);
+        return path ? path : sp_fail_memory(error);
+    }
+    const sp_yaml *geometry = sp_yaml_get(scene->tree, "geometry")->first;
+    while (geometry && --index > 0)
+        geometry = geometry->next;
+    const sp_yaml *file = geometry ? sp_yaml_get(geometry, "file") : sp_yaml_get(scene->tree, "catalogue");
+    return sp_path_join(scene->directory, file->text, error);
+}
+
+/* The setting that a message "key: ..." speaks of, the scene as a whole where there is none. */
+static const sp_yaml *find_setting(const sp_yaml *tree, const char *message)
+{
+    char key[40];
+    size_t size = strcspn(message, ":");
+    if (size >= sizeof key)
+        return tree;
+    memcpy(key, message, size);
+    key[size] = '\0';
+    const sp_yaml *found = sp_yaml_get(tree, key);
+    if (!found)
+        found = sp_yaml_get(sp_yaml_get(tree, "simulate"), key);
+    if (!found)
+        found = sp_yaml_get(sp_yaml_get(tree, "place"), key);
+    return found && found->file ? found : tree;
+}
+
+void sp_scene_locate(const sp_scene *scene, sp_error *error)
+{
+    bool input = error && (error->kind == SP_ERROR_INPUT || error->kind == SP_ERROR_UNSUPPORTED);
+    if (!scene || !input || error->file[0] || error->line > 0)
+        return;
+    const sp_yaml *node = find_setting(scene->tree, error->message);
+    snprintf(error->file, sizeof error->file, "%s", node->file);
+    error->line = node->line;
+    error->column = node->column;
+}
