@@ -24,7 +24,10 @@ static size_t list_designs(const cli_scene *opened, const placement *found, sp_d
 static void say_what_is_missing(const sp_proposal *proposal)
 {
     double covered = proposal->coverage->covered_area, target = proposal->target_area;
-    if (target > 0 && covered >= target)
+    if (!(target > 0))
+        fprintf(stderr, "sprayplan: no nozzle that is allowed, at any mounting point that takes it, covers anything by the "
+                        "criteria\n");
+    else if (covered >= target)
         fprintf(stderr, "sprayplan: the nozzles to keep are more, or take more water, than max_nozzles and max_water "
                         "allow\n");
     else

@@ -58,7 +58,8 @@ bool sp_scene_override(sp_yaml *tree, const char *setting, sp_error *error)
     if (!equals)
         return fail(setting, "found no '=', expected a setting such as simulate.jets=20000", error);
     size_t size = (size_t)(equals - setting);
-    if (!known || setting[size - 1] == '.')
+    const char *gap = strstr(setting, "..");
+    if (!known || setting[size - 1] == '.' || (gap && gap < equals))
         return fail(setting, "found another key, expected one of simulate or place, such as simulate.jets", error);
     char *path = strndup(setting, size);
     if (!path)

@@ -189,10 +189,34 @@ static void kept_nozzles_beyond_the_limits_are_named_as_the_cause(void **state)
     const char *at = strstr(room_yaml, "pressure: 2 bar}");
     snprintf(scene, sizeof scene, "%.*skeep: true, %s", (int)(at - room_yaml), room_yaml, at);
     write_file("kept.yaml", scene);
-    outcome result = run_program("place kept.yaml --set 'place.max_water=5 L/min' --set 'place.coverage=1 %'");
+    outcome result = run_program("place kept.yaml --set 'place.max_water=5 L/min' --set 'place.coverage=1 %' -o kept");
     assert_int_equal(result.status, 4);
     assert_non_null(strstr(result.err, "the nozzles to keep"));
     forget(&result);
+    char *report = read_file("kept/report.html", NULL);
+    assert_non_null(strstr(report, "The nozzles to keep are more"));
+    assert_null(strstr(report, "is not reached"));
+    free(report);
+}
+
+static void where_nothing_can_be_covered_place_says_so(void **state)
+{
+    (void)state;
+    char scene[sizeof room_yaml + 64];
+    const char *at = strstr(room_yaml, "flux: 1 L/min/m2");
+    snprintf(scene, sizeof scene, "%.*sflux: 1e6 L/min/m2%s", (int)(at - room_yaml), room_yaml,
+             at + strlen("flux: 1 L/min/m2"));
+    write_file("dry.yaml", scene);
+    outcome result = run_program("place dry.yaml -o dry --quiet");
+    assert_int_equal(result.status, 4);
+    assert_non_null(strstr(result.err, "covers anything"));
+    forget(&result);
+    char *report = read_file("dry/report.html", NULL);
+    assert_non_null(strstr(report, "Nothing can be covered"));
+    free(report);
+    outcome again = run_program("check dry/layout.yaml --quiet");
+    assert_int_equal(again.status, 0);
+    forget(&again);
 }
 
 static void same_file(const char *a, const char *b, const char *name)
@@ -380,6 +404,7 @@ int main(void)
         cmocka_unit_test(where_nothing_can_be_written_is_said_first),
         cmocka_unit_test(late_errors_are_located),
         cmocka_unit_test(kept_nozzles_beyond_the_limits_are_named_as_the_cause),
+        cmocka_unit_test(where_nothing_can_be_covered_place_says_so),
         cmocka_unit_test(place_gives_the_same_bytes_for_any_number_of_threads),
         cmocka_unit_test(the_written_layout_gives_the_same_figures),
         cmocka_unit_test(place_says_whether_the_coverage_asked_for_is_reached),

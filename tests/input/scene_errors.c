@@ -569,6 +569,8 @@ static const override overrides[] = {
     {"simulate=3", "simulate=3: found another key, expected one of simulate or place, such as simulate.jets"},
     {"simulate.=3", "simulate.=3: found another key, expected one of simulate or place, such as simulate.jets"},
     {"=3", "=3: found another key, expected one of simulate or place, such as simulate.jets"},
+    {"simulate..jets=3",
+     "simulate..jets=3: found another key, expected one of simulate or place, such as simulate.jets"},
     {"simulate.jets", "simulate.jets: found no '=', expected a setting such as simulate.jets=20000"},
     {"simulate.jets=", "simulate.jets=: YAML: found nothing, expected a value"},
     {"simulate.jets=*a", "simulate.jets=*a: YAML: found an alias, expected its value written out"},
