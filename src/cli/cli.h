@@ -52,7 +52,7 @@ sp_run cli_run(const cli_options *options);
 bool cli_interrupted(void);
 void cli_progress_end(void);
 
-/* progress.c: wall seconds of what a command does, in order. */
+/* progress.c: wall seconds of what a command does, in order; a stage that comes again adds up. */
 typedef struct {
     sp_stage stages[8];
     size_t count;

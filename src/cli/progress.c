@@ -89,10 +89,17 @@ void cli_clock_start(cli_clock *clock)
 void cli_clock_stage(cli_clock *clock, const char *name)
 {
     double time = now();
-    if (clock->count < sizeof clock->stages / sizeof *clock->stages) {
-        sp_stage *stage = &clock->stages[clock->count++];
-        snprintf(stage->name, sizeof stage->name, "%s", name);
-        stage->seconds = time - clock->since;
+    size_t at = 0;
+    while (at < clock->count && strcmp(clock->stages[at].name, name))
+        at++;
+    if (at < sizeof clock->stages / sizeof *clock->stages) {
+        sp_stage *stage = &clock->stages[at];
+        if (at == clock->count) {
+            *stage = (sp_stage){0};
+            snprintf(stage->name, sizeof stage->name, "%s", name);
+            clock->count++;
+        }
+        stage->seconds += time - clock->since;
     }
     clock->since = time;
 }
