@@ -88,7 +88,7 @@ char *sp_result_json(const sp_result *result, sp_error *error);
 char *sp_nozzles_csv(const sp_layout *layout, const sp_fluid *liquid, sp_error *error);
 
 /* A set of files that is written whole or not at all: each goes to a temporary name in `directory` (created where missing,
- * parents not), and commit renames them all; discard removes them. An existing file is replaced only by commit. */
+ * with its parents), and commit renames them all; discard removes them. An existing file is replaced only by commit. */
 typedef struct sp_output sp_output;
 sp_output *sp_output_open(const char *directory, sp_error *error);
 /* Names a file that was read: asking for a path that would replace it then fails. A file that does not exist is no error. */

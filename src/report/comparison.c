@@ -63,7 +63,8 @@ static void add_same_water(sp_text *text, double fraction, const point *best, do
     add_percent(text, best->area / whole);
     sp_text_add(text, "<td>");
     sp_markup_signed(text, 100 * (best->area / whole - fraction), 1);
-    sp_text_add(text, "&nbsp;points</td><td class=\"text\">%zu nozzle%s, ", best->nozzles, best->nozzles == 1 ? "" : "s");
+    sp_text_add(text, "&nbsp;points</td><td class=\"text\">%zu nozzle%s, ", best->nozzles,
+                best->nozzles == 1 ? "" : "s");
     sp_markup_decimals(text, 6e4 * best->flow, 1);
     sp_text_add(text, "&nbsp;L/min</td></tr>\n");
 }
@@ -84,18 +85,50 @@ static void add_same_area(sp_text *text, double flow, const point *best, double 
     sp_text_add(text, "&nbsp;%%</td></tr>\n");
 }
 
-void sp_page_comparison(const sp_page *page, sp_text *text)
+static bool is_compared(const sp_page *page)
 {
-    if (!page->result->proposal || page->manual == SP_UNKNOWN || page->main == SP_UNKNOWN)
+    return page->result->proposal && page->manual != SP_UNKNOWN && page->main != SP_UNKNOWN;
+}
+
+static double whole_area(const sp_page *page)
+{
+    const sp_figures *manual = &page->figures[page->manual];
+    return page->of_attainable ? manual->attainable_area : manual->clean_area;
+}
+
+void sp_page_gain(const sp_page *page, sp_text *text)
+{
+    point same_water, same_area;
+    if (!is_compared(page))
         return;
     const sp_figures *manual = &page->figures[page->manual];
-    double whole = page->of_attainable ? manual->attainable_area : manual->clean_area;
+    best_points(page, manual, &same_water, &same_area);
+    if (same_water.area < 0 || !isfinite(same_area.flow))
+        return;
+    sp_text_add(
+        text,
+        "<p class=\"headline\">With no more water than the engineer&#39;s, the best layout found covers <strong>");
+    sp_markup_decimals(text, 100 * same_water.area / whole_area(page), 1);
+    sp_text_add(text, "&nbsp;%%</strong>; to cover no less than the engineer&#39;s, it needs <strong>");
+    sp_markup_decimals(text, 6e4 * same_area.flow, 1);
+    sp_text_add(text, "&nbsp;L/min</strong> (");
+    sp_markup_signed(text, 100 * (same_area.flow / manual->flow - 1), 0);
+    sp_text_add(text, "&nbsp;%%).</p>\n");
+}
+
+void sp_page_comparison(const sp_page *page, sp_text *text)
+{
+    if (!is_compared(page))
+        return;
+    const sp_figures *manual = &page->figures[page->manual];
+    double whole = whole_area(page);
     point same_water, same_area;
     best_points(page, manual, &same_water, &same_area);
-    sp_text_add(text, "<section id=\"comparison\"><h2>At equal water, at equal coverage</h2>\n<div class=\"wide\"><table "
-                      "class=\"numbers\"><thead><tr><th scope=\"col\">Compared</th><th scope=\"col\">Manual</th><th "
-                      "scope=\"col\">Best found</th><th scope=\"col\">Gain</th><th scope=\"col\" class=\"text\">With"
-                      "</th></tr></thead>\n<tbody>\n");
+    sp_text_add(text,
+                "<section id=\"comparison\"><h2>At equal water, at equal coverage</h2>\n<div class=\"wide\"><table "
+                "class=\"numbers\"><thead><tr><th scope=\"col\">Compared</th><th scope=\"col\">Manual</th><th "
+                "scope=\"col\">Best found</th><th scope=\"col\">Gain</th><th scope=\"col\" class=\"text\">With"
+                "</th></tr></thead>\n<tbody>\n");
     add_same_water(text, sp_page_fraction(page, manual), &same_water, whole);
     add_same_area(text, manual->flow, &same_area, whole);
     sp_text_add(text, "</tbody></table></div></section>\n");

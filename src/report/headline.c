@@ -82,6 +82,7 @@ void sp_page_headline(const sp_page *page, sp_text *text)
         add_statement(page, text, page->manual);
     }
     sp_text_add(text, ".</p>\n");
+    sp_page_gain(page, text);
     if (page->result->proposal)
         add_warnings(page->result->proposal, text);
     add_cards(page, text);

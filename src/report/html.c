@@ -30,7 +30,7 @@ static const char *const style[] = {
     ".views{display:grid;gap:18px;align-items:end}\n.of1{grid-template-columns:minmax(0,640px)}\n"
     ".of2{grid-template-columns:repeat(2,minmax(0,1fr))}\n.of3{grid-template-columns:repeat(3,minmax(0,1fr))}\n"
     "figure{margin:0}\nfigcaption{text-align:center;font-size:14px;font-weight:600;overflow-wrap:anywhere}\n"
-    ".view{display:block;width:100%;height:auto;max-height:640px}\n"
+    ".view{display:block;width:100%;height:auto;max-height:640px;overflow:visible}\n"
     ".spray{fill:#fff;fill-opacity:.13;stroke:#10202a;stroke-width:2;stroke-linejoin:round}\n"
     ".rim{fill:none;stroke:#10202a;stroke-width:1.2;stroke-opacity:.6}\n"
     ".nozzle{fill:#fff;stroke:#10202a;stroke-width:4}\n"

@@ -26,7 +26,8 @@ const char *sp_page_colour(const sp_page *page, size_t design);
 
 /* headline.c: the statement, the key figures and what must not be overlooked. */
 void sp_page_headline(const sp_page *page, sp_text *text);
-/* comparison.c: at equal water and at equal coverage. */
+/* comparison.c: at equal water and at equal coverage, as a sentence and as a table; nothing where there is nothing to compare. */
+void sp_page_gain(const sp_page *page, sp_text *text);
 void sp_page_comparison(const sp_page *page, sp_text *text);
 /* front_chart.c: coverage against water, SVG. */
 void sp_page_front_chart(const sp_page *page, sp_text *text);

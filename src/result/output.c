@@ -11,7 +11,7 @@
 
 typedef struct {
     char *target, *temporary;
-    char *backup;  /* a second name of what target was, while commit is under way */
+    char *backup;           /* a second name of what target was, while commit is under way */
     bool existed, replaced; /* before commit; by commit */
 } entry;
 
@@ -50,6 +50,17 @@ static void output_free(sp_output *output)
     free(output);
 }
 
+/* Makes what is missing of the folders above `path`, which is changed meanwhile; whether that worked shows when the
+ * folder itself is made. */
+static void make_parents(char *path)
+{
+    for (char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = 0;
+        mkdir(path, 0777);
+        *slash = '/';
+    }
+}
+
 sp_output *sp_output_open(const char *directory, sp_error *error)
 {
     sp_output *output = calloc(1, sizeof *output);
@@ -60,6 +71,7 @@ sp_output *sp_output_open(const char *directory, sp_error *error)
         return sp_fail_memory(error);
     }
     output->directory = strcpy(copy, directory);
+    make_parents(output->directory);
     output->made = mkdir(directory, 0777) == 0;
     struct stat status;
     if (!output->made && errno != EEXIST)

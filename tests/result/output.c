@@ -48,6 +48,9 @@ static int clean(void **state)
 {
     (void)state;
     rmdir(FOLDER "/b.txt");
+    unlink(FOLDER "/one/two/a.txt");
+    rmdir(FOLDER "/one/two");
+    rmdir(FOLDER "/one");
     unlink(FOLDER "/a.txt");
     unlink(FOLDER "/b.txt");
     unlink(FOLDER "/in.txt");
@@ -162,11 +165,11 @@ static void bad_places(void **state)
 {
     (void)state;
     sp_error error = {0};
-    assert_null(sp_output_open(BINARY_DIR "/no/such/folder", &error));
-    assert_int_equal(error.kind, SP_ERROR_FILE);
-    error = (sp_error){0};
     mkdir(FOLDER, 0777);
     put(FOLDER "/a.txt", "file");
+    assert_null(sp_output_open(FOLDER "/a.txt/folder", &error));
+    assert_int_equal(error.kind, SP_ERROR_FILE);
+    error = (sp_error){0};
     assert_null(sp_output_open(FOLDER "/a.txt", &error));
     assert_int_equal(error.kind, SP_ERROR_FILE);
     error = (sp_error){0};
@@ -176,10 +179,22 @@ static void bad_places(void **state)
     sp_output_discard(output);
 }
 
+static void missing_parents_are_made(void **state)
+{
+    (void)state;
+    sp_error error = {0};
+    sp_output *output = sp_output_open(FOLDER "/one/two", &error);
+    assert_non_null(output);
+    assert_true(sp_output_text(output, "a.txt", "deep", &error));
+    assert_true(sp_output_commit(output, &error));
+    assert_content(FOLDER "/one/two/a.txt", "deep");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(commit_shows_all, clean, clean),
+        cmocka_unit_test_setup_teardown(missing_parents_are_made, clean, clean),
         cmocka_unit_test_setup_teardown(discard_leaves_nothing, clean, clean),
         cmocka_unit_test_setup_teardown(discard_keeps_what_was_there, clean, clean),
         cmocka_unit_test_setup_teardown(failed_commit_puts_back, clean, clean),
