@@ -150,8 +150,8 @@ static void nor_is_what_the_scene_names(void **state)
 static void where_nothing_can_be_written_is_said_first(void **state)
 {
     (void)state;
-    expect("place room.yaml -o no/such/folder --set place.clearance=9", 1, "",
-           "no/such/folder: cannot make this folder: No such file or directory\n");
+    expect("place room.yaml -o room.obj/folder --set place.clearance=9", 1, "",
+           "room.obj/folder: cannot make this folder: Not a directory\n");
     expect("compare room.yaml nothing.yaml -o room.obj", 1, "", "room.obj: is a file, expected a folder to write to\n");
     outcome result = run_program("place room.yaml -o unmade --set place.clearance=9");
     assert_int_equal(result.status, 3);
