@@ -15,33 +15,33 @@ extern "C" {
 /* Per patch (see sp_patches). Means are weighted by flux. Where no liquid arrives everything is 0. */
 typedef struct {
     size_t count;
-    double *flux;          /* all liquid that arrives, m³/s per m² */
-    double *counted;       /* of it, what the criterion counts: from jets that pass speed and incidence; with
-                            * SP_COMBINE_SINGLE of the best nozzle alone */
-    double *jets;          /* jets (forward) or arcs (inverse) that arrive */
-    double *speed;         /* mean impact speed, m/s */
+    double *flux;    /* all liquid that arrives, m³/s per m² */
+    double *counted; /* of it, what the criterion counts: from jets that pass speed and incidence; with
+                      * SP_COMBINE_SINGLE of the best nozzle alone */
+    double *jets;    /* jets (forward) or arcs (inverse) that arrive */
+    double *speed;   /* mean impact speed, m/s */
     double *speed_max;
-    double *incidence;     /* mean, rad from the normal */
+    double *incidence; /* mean, rad from the normal */
     double *incidence_min;
-    double *impact;        /* mean pressure rho v_n² of the normal component, Pa */
+    double *impact; /* mean pressure rho v_n² of the normal component, Pa */
     double *impact_max;
     bool *covered;
 } sp_deposits;
 
 /* A connected region without coverage. */
 typedef struct {
-    double area;      /* m² */
-    sp_vec3 centroid; /* m */
-    uint32_t part;    /* of the mesh: the part with most of the area */
+    double area;           /* m² */
+    sp_vec3 centroid;      /* m */
+    uint32_t part;         /* of the mesh: the part with most of the area */
     double reachable_area; /* m² of it that is attainable; -1 where attainable area was not computed */
 } sp_shadow;
 
 typedef struct {
-    double area;           /* clean (and wet) area, m² */
-    double covered_area;   /* m² */
-    double fraction;       /* covered_area / area */
-    double flow;           /* m³/s */
-    double area_per_water; /* covered area over flow, m² per m³/s; 0 without flow */
+    double area;                                    /* clean (and wet) area, m² */
+    double covered_area;                            /* m² */
+    double fraction;                                /* covered_area / area */
+    double flow;                                    /* m³/s */
+    double area_per_water;                          /* covered area over flow, m² per m³/s; 0 without flow */
     double flux_min, flux_mean, flux_p05, flux_max; /* m³/s per m² over the clean area, by area; p05: 5th percentile */
     sp_deposits deposits;
 } sp_coverage;

@@ -13,16 +13,16 @@ extern "C" {
 
 typedef enum { SP_SIDE_BOTH, SP_SIDE_FRONT, SP_SIDE_BACK } sp_side;
 
-/* What is cleaned and counted: a patch is the clean, wet part of one texel, on one side (with no cavity: both sides as one).
- * Ordered by texel, front before back. Read-only. */
+/* What is cleaned and counted: a patch is the clean, wet part of one texel, on one side (with no cavity: both sides as
+ * one). Ordered by texel, front before back. Read-only. */
 typedef struct {
     size_t count;
-    uint32_t *texel;    /* [count] */
-    sp_side *side;      /* [count] */
-    double *area;       /* [count], m² */
-    sp_vec3 *point;     /* [count], where it is judged: its point nearest to its centroid, m */
-    sp_vec3 *normal;    /* [count], unit, towards the side that is wet (the front where both are) */
-    uint32_t *triangle; /* [count], the one that holds `point` */
+    uint32_t *texel;           /* [count] */
+    sp_side *side;             /* [count] */
+    double *area;              /* [count], m² */
+    sp_vec3 *point;            /* [count], where it is judged: its point nearest to its centroid, m */
+    sp_vec3 *normal;           /* [count], unit, towards the side that is wet (the front where both are) */
+    uint32_t *triangle;        /* [count], the one that holds `point` */
     uint32_t *neighbour_start; /* [count + 1] */
     uint32_t *neighbours;      /* patches of the same side that touch, ascending */
     double total_area;         /* Σ area, m² */
@@ -30,11 +30,11 @@ typedef struct {
 
 typedef struct sp_evaluator sp_evaluator;
 
-/* Builds accelerator, wet sides, atlas and patches. The setup is copied, its mesh and surfaces are borrowed and must outlive
- * the evaluator. Settings left to auto are chosen now. Given NULL it returns NULL and keeps the error. */
+/* Builds accelerator, wet sides, atlas and patches. The setup is copied, its mesh and surfaces are borrowed and must
+ * outlive the evaluator. Settings left to auto are chosen now. Given NULL it returns NULL and keeps the error. */
 sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error);
-/* A second evaluator on the same geometry with another texel size (m), sharing accelerator, charts and wet sides with `fine`,
- * which must outlive it. Inverse, whatever the setup asks: for searching. */
+/* A second evaluator on the same geometry with another texel size (m), sharing accelerator, charts and wet sides with
+ * `fine`, which must outlive it. Inverse, whatever the setup asks: for searching. */
 sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_error *error);
 void sp_evaluator_destroy(sp_evaluator *evaluator);
 
@@ -45,8 +45,8 @@ const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator);
 const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator);
 /* Which sides of a triangle face the liquid: bit 0 front, bit 1 back. Both where no cavity is named. */
 unsigned sp_evaluator_wet(const sp_evaluator *evaluator, uint32_t triangle);
-/* True where the point lies in the space that the wet sides face (no cavity: everywhere). Decided by lines of sight in at
- * least 16 directions: what most of them first meet is a wet side (or, with the cavity outside, nothing). */
+/* True where the point lies in the space that the wet sides face (no cavity: everywhere). Decided by lines of sight in
+ * at least 16 directions: what most of them first meet is a wet side (or, with the cavity outside, nothing). */
 bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point);
 /* g, m/s²; zero for trajectory line. */
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator);
@@ -77,13 +77,13 @@ sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, do
                              double half_angle, sp_error *error);
 void sp_reach_destroy(sp_reach *reach);
 
-/* The closed-form flights from `from` to `to` at `speed` under `gravity`: unit directions and flight times, low arc first.
- * Returns 0, 1 or 2. A line (gravity zero) has one. */
+/* The closed-form flights from `from` to `to` at `speed` under `gravity`: unit directions and flight times, low arc
+ * first. Returns 0, 1 or 2. A line (gravity zero) has one. */
 typedef struct {
     sp_vec3 direction; /* unit, at the start */
     sp_vec3 velocity;  /* on arrival, m/s */
     double time;       /* s */
-    double spread;     /* m³/s: transfer (1/m²) = |n · velocity| / spread; v r² for a line, v T √D for a parabola */
+    double spread; /* m³/s: transfer (1/m²) = |n · velocity| / spread; v r² for a line, v T √D for a parabola */
 } sp_flight;
 int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_flight flights[2]);
 

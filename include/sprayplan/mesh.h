@@ -39,27 +39,27 @@ typedef struct {
 
 /* What can be wrong with a mesh as a surface. */
 typedef struct {
-    size_t degenerate;         /* source triangles kept out */
-    size_t open_edges;         /* edges of one triangle */
-    size_t non_manifold_edges; /* edges of three or more triangles */
-    size_t flipped_edges;      /* edges of two triangles that disagree which side is the front */
+    size_t degenerate;          /* source triangles kept out */
+    size_t open_edges;          /* edges of one triangle */
+    size_t non_manifold_edges;  /* edges of three or more triangles */
+    size_t flipped_edges;       /* edges of two triangles that disagree which side is the front */
     size_t duplicate_triangles; /* triangles with the same three corners as an earlier one */
-    size_t shells;             /* connected through shared edges */
-    size_t closed_shells;      /* shells without open, non-manifold or flipped edges */
-    double area;               /* m² */
-    sp_vec3 minimum, maximum;  /* box around all vertices in use, m; both zero for an empty mesh */
+    size_t shells;              /* connected through shared edges */
+    size_t closed_shells;       /* shells without open, non-manifold or flipped edges */
+    double area;                /* m² */
+    sp_vec3 minimum, maximum;   /* box around all vertices in use, m; both zero for an empty mesh */
 } sp_mesh_diagnosis;
 
 /* Reads an OBJ or STL file (told by its extension, .obj or .stl in any case; STL text or binary told by its content).
  * Coordinates are multiplied by `unit` (m per unit of the file). Triangles before any group get the part "default"
  * (STL: the solid's name, or "default"). Returns NULL with file and line for whatever does not follow the format, for
- * indices out of range, numbers that are not finite or beyond 1e30 m, and for files without a triangle of some area. Names of
- * parts are UTF-8; what is not is taken for Latin-1. The caller destroys. */
+ * indices out of range, numbers that are not finite or beyond 1e30 m, and for files without a triangle of some area.
+ * Names of parts are UTF-8; what is not is taken for Latin-1. The caller destroys. */
 sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error);
 
-/* Builds a welded mesh from `vertex_count` points and `triangle_count` triangles, all copied. `part` may be NULL: all in one
- * part; `part_names` [part_count] likewise. Fails for indices out of range and numbers that are not finite or beyond 1e30 m; a
- * mesh without triangles is allowed. */
+/* Builds a welded mesh from `vertex_count` points and `triangle_count` triangles, all copied. `part` may be NULL: all
+ * in one part; `part_names` [part_count] likewise. Fails for indices out of range and numbers that are not finite or
+ * beyond 1e30 m; a mesh without triangles is allowed. */
 sp_mesh *sp_mesh_create(const sp_vec3 *vertices, size_t vertex_count, const uint32_t (*triangles)[3],
                         size_t triangle_count, const uint32_t *part, const char *const *part_names, size_t part_count,
                         sp_error *error);
@@ -80,9 +80,9 @@ sp_transform sp_transform_default(void);
 void sp_transform_rotation(sp_transform *transform, sp_vec3 axis, double angle);
 sp_vec3 sp_transform_point(const sp_transform *transform, sp_vec3 point);
 
-/* One mesh of several, in order, mesh i moved by transforms[i]; its parts get geometry = i. Vertices of different meshes are
- * not welded; within each, points that rounding makes equal are. Fails for transforms that mirror or flatten. The inputs are
- * copied and stay the caller's. */
+/* One mesh of several, in order, mesh i moved by transforms[i]; its parts get geometry = i. Vertices of different
+ * meshes are not welded; within each, points that rounding makes equal are. Fails for transforms that mirror or
+ * flatten. The inputs are copied and stay the caller's. */
 sp_mesh *sp_mesh_join(const sp_mesh *const *meshes, const sp_transform *transforms, size_t count, sp_error *error);
 
 /* Returns false only when memory runs out. */

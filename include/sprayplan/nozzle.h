@@ -30,14 +30,14 @@ typedef struct {
 typedef struct {
     char name[SP_NAME];
     sp_pattern pattern;
-    double angle;     /* rad, (0, 2π] for cones, (0, 2π] for fans */
-    double hollow;    /* share of the angle that is empty, [0, 1); hollow cones only */
-    double thickness; /* rad, (0, π]; flat fans only */
-    double flow;      /* m³/s of water (1000 kg/m³) at pressure `at` */
-    double at;        /* Pa */
-    double exponent;  /* n in Q = K dp^n */
-    double cv;        /* v0 = cv sqrt(2 dp / rho) */
-    double drop;      /* diameter of the drops, m */
+    double angle;                /* rad, (0, 2π] for cones, (0, 2π] for fans */
+    double hollow;               /* share of the angle that is empty, [0, 1); hollow cones only */
+    double thickness;            /* rad, (0, π]; flat fans only */
+    double flow;                 /* m³/s of water (1000 kg/m³) at pressure `at` */
+    double at;                   /* Pa */
+    double exponent;             /* n in Q = K dp^n */
+    double cv;                   /* v0 = cv sqrt(2 dp / rho) */
+    double drop;                 /* diameter of the drops, m */
     double angle_min, angle_max; /* rad; equal to angle where not adjustable */
     double flow_min, flow_max;   /* m³/s of water at `at`; equal to flow where not adjustable */
 } sp_nozzle_type;
@@ -90,12 +90,13 @@ sp_frame sp_nozzle_frame(sp_vec3 axis, double roll, sp_vec3 up);
  * cones by polar angle about z, fans by longitude atan2(x, z) and latitude asin(y). */
 typedef struct {
     sp_pattern kind;
-    double inner, outer;           /* cones: polar angles, rad */
+    double inner, outer;               /* cones: polar angles, rad */
     double half_width, half_thickness; /* fans: longitude and latitude, rad */
-    double solid_angle;            /* sr */
+    double solid_angle;                /* sr */
 } sp_spray;
 sp_spray sp_spray_create(const sp_nozzle_type *type, double angle);
-/* Share of the liquid per steradian (1/sr) in a unit direction of the nozzle's frame: 1/solid_angle inside, 0 outside. */
+/* Share of the liquid per steradian (1/sr) in a unit direction of the nozzle's frame: 1/solid_angle inside, 0 outside.
+ */
 double sp_spray_intensity(const sp_spray *spray, sp_vec3 direction);
 /* Signed angular distance (rad) from the direction to the region's edge, positive inside; its smooth counterpart for
  * refinement. */

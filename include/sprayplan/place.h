@@ -13,18 +13,18 @@ typedef enum { SP_MOUNT_PORT, SP_MOUNT_SURFACE, SP_MOUNT_LINE, SP_MOUNT_BOX } sp
 /* Where nozzles may be. Fields that a kind does not name are zero. */
 typedef struct {
     sp_mount_kind kind;
-    char name[SP_NAME];        /* port */
-    sp_vec3 position;          /* port, m */
-    sp_vec3 axis;              /* port, line, box: unit reference axis */
-    double tilt;               /* rad that a nozzle's axis may lean from the reference axis; π is any direction */
+    char name[SP_NAME]; /* port */
+    sp_vec3 position;   /* port, m */
+    sp_vec3 axis;       /* port, line, box: unit reference axis */
+    double tilt;        /* rad that a nozzle's axis may lean from the reference axis; π is any direction */
     double depth_from, depth_to, depth_spacing; /* port, m along its axis; all 0 without a lance */
     size_t type_count;                          /* port: types that fit; 0: all of the options' */
     const sp_nozzle_type *const *types;         /* borrowed */
-    uint32_t geometry;         /* surface */
-    uint32_t part;             /* surface: index of the mesh's part, SP_NONE: every part of that geometry */
-    double standoff;           /* surface, m along the normal towards the liquid */
-    double spacing;            /* surface, line, box, m */
-    sp_vec3 from, to;          /* line: ends; box: minimum and maximum, m */
+    uint32_t geometry;                          /* surface */
+    uint32_t part;    /* surface: index of the mesh's part, SP_NONE: every part of that geometry */
+    double standoff;  /* surface, m along the normal towards the liquid */
+    double spacing;   /* surface, line, box, m */
+    sp_vec3 from, to; /* line: ends; box: minimum and maximum, m */
 } sp_mount;
 
 typedef enum {
@@ -38,15 +38,15 @@ typedef struct {
     double position; /* m; -1: half the mount's spacing */
     double axis;     /* rad */
     bool roll;
-    double angle;    /* rad; INFINITY: the type's whole range */
-    double flow;     /* share of the rated flow; INFINITY: the type's whole range */
+    double angle; /* rad; INFINITY: the type's whole range */
+    double flow;  /* share of the rated flow; INFINITY: the type's whole range */
 } sp_refine;
 
 typedef struct {
     sp_objective objective;
-    double coverage;     /* of attainable area, to be reached */
-    size_t max_nozzles;  /* 0: unlimited */
-    double max_water;    /* m³/s; INFINITY: unlimited */
+    double coverage;    /* of attainable area, to be reached */
+    size_t max_nozzles; /* 0: unlimited */
+    double max_water;   /* m³/s; INFINITY: unlimited */
     size_t type_count;
     const sp_nozzle_type *const *types; /* borrowed: what may be chosen */
     size_t pressure_count;
@@ -63,8 +63,8 @@ typedef struct {
 sp_place_options sp_place_options_default(void);
 
 typedef struct {
-    double flow;       /* m³/s */
-    double area;       /* covered, m², by the scene's own evaluator on the final atlas */
+    double flow; /* m³/s */
+    double area; /* covered, m², by the scene's own evaluator on the final atlas */
     size_t nozzles;
 } sp_front_point;
 
@@ -75,25 +75,26 @@ typedef struct {
 
 /* Owned by the caller. */
 typedef struct {
-    sp_layout *layout;       /* the proposal, refined */
-    sp_coverage *coverage;   /* of it, by the scene's own settings */
-    sp_layout *greedy;       /* the best found on the candidates, before refinement */
+    sp_layout *layout;     /* the proposal, refined */
+    sp_coverage *coverage; /* of it, by the scene's own settings */
+    sp_layout *greedy;     /* the best found on the candidates, before refinement */
     sp_coverage *greedy_coverage;
-    bool *attainable;        /* [patches] */
-    double attainable_area;  /* m² */
-    double target_area;      /* m² that had to be covered */
-    bool reached;            /* the proposal covers target_area within all limits */
-    bool interrupted;        /* cancelled or out of time: the best so far */
-    size_t positions, candidates; /* mounting points kept; poses considered (position × axis × roll × type × pressure) */
+    bool *attainable;       /* [patches] */
+    double attainable_area; /* m² */
+    double target_area;     /* m² that had to be covered */
+    bool reached;           /* the proposal covers target_area within all limits */
+    bool interrupted;       /* cancelled or out of time: the best so far */
+    size_t positions,
+        candidates; /* mounting points kept; poses considered (position × axis × roll × type × pressure) */
     size_t front_count;
     sp_front_point *front; /* best found for rising water, both strictly rising */
     size_t stage_count;
     sp_stage *stages;
 } sp_proposal;
 
-/* Greedy next-best-view placement by the inverse evaluator, then refinement with Ceres accepted only where the re-traced
- * objective improves. Deterministic. Returns NULL on error, never for a target that cannot be reached. Fails with
- * SP_ERROR_INPUT where no mount, type or pressure is given or no mounting point is inside and clear. */
+/* Greedy next-best-view placement by the inverse evaluator, then refinement with Ceres accepted only where the
+ * re-traced objective improves. Deterministic. Returns NULL on error, never for a target that cannot be reached. Fails
+ * with SP_ERROR_INPUT where no mount, type or pressure is given or no mounting point is inside and clear. */
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error);
 void sp_proposal_destroy(sp_proposal *proposal);
 

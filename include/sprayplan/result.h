@@ -9,8 +9,8 @@
 extern "C" {
 #endif
 
-/* The figures of one layout, as result.json holds them but in SI units. Reals that were not computed are NAN, counts that
- * are not known SP_UNKNOWN, texts "". Texts are valid UTF-8. */
+/* The figures of one layout, as result.json holds them but in SI units. Reals that were not computed are NAN, counts
+ * that are not known SP_UNKNOWN, texts "". Texts are valid UTF-8. */
 #define SP_UNKNOWN SIZE_MAX
 
 typedef struct {
@@ -21,28 +21,28 @@ typedef struct {
 } sp_shadow_figures;
 
 typedef struct {
-    char *name, *type; /* owned */
-    sp_vec3 position;  /* m */
-    sp_vec3 axis;      /* unit */
+    char *name, *type;                         /* owned */
+    sp_vec3 position;                          /* m */
+    sp_vec3 axis;                              /* unit */
     double roll, angle, pressure, flow, speed; /* rad, rad, Pa, m³/s, m/s */
 } sp_nozzle_figures;
 
 typedef struct {
-    char *name;                    /* owned */
+    char *name; /* owned */
     size_t triangles;
-    double area, clean_area;       /* of the geometry, m² */
-    double attainable_area;        /* m², with whatever a reported layout covers */
-    char trajectory[16], evaluator[16]; /* "line" or "parabola", "forward" or "inverse" */
-    size_t reflections, jets;      /* jets: per nozzle, unknown for the inverse evaluator */
-    double texel, error_estimate;  /* m; points of coverage as a fraction */
-    double flow, covered_area;     /* m³/s, m² */
-    double coverage, of_attainable; /* fractions */
-    double area_per_water;         /* m² per m³/s */
+    double area, clean_area;                        /* of the geometry, m² */
+    double attainable_area;                         /* m², with whatever a reported layout covers */
+    char trajectory[16], evaluator[16];             /* "line" or "parabola", "forward" or "inverse" */
+    size_t reflections, jets;                       /* jets: per nozzle, unknown for the inverse evaluator */
+    double texel, error_estimate;                   /* m; points of coverage as a fraction */
+    double flow, covered_area;                      /* m³/s, m² */
+    double coverage, of_attainable;                 /* fractions */
+    double area_per_water;                          /* m² per m³/s */
     double flux_min, flux_mean, flux_p05, flux_max; /* m³/s per m² */
-    size_t shadow_count;           /* at most SP_SHADOWS_KEPT, largest first */
-    sp_shadow_figures *shadows;    /* owned */
+    size_t shadow_count;                            /* at most SP_SHADOWS_KEPT, largest first */
+    sp_shadow_figures *shadows;                     /* owned */
     size_t nozzle_count;
-    sp_nozzle_figures *nozzles;    /* owned */
+    sp_nozzle_figures *nozzles; /* owned */
 } sp_figures;
 
 #define SP_SHADOWS_KEPT 100
@@ -50,13 +50,13 @@ typedef struct {
 /* Accepts NULL. */
 void sp_figures_destroy(sp_figures *figures, size_t count);
 
-/* Reads the layouts of a result.json, which may come from a stranger: every key, type, range and length is checked, and an
- * error names the file and the key's path (syntax errors: line and column). Keys that DESIGN §6 does not know are ignored.
- * Returns *count figures, destroyed by the caller. */
+/* Reads the layouts of a result.json, which may come from a stranger: every key, type, range and length is checked, and
+ * an error names the file and the key's path (syntax errors: line and column). Keys that DESIGN §6 does not know are
+ * ignored. Returns *count figures, destroyed by the caller. */
 sp_figures *sp_figures_read(const char *path, size_t *count, sp_error *error);
 
-/* One layout and what it does, on its own evaluator; or only figures of one (read from a result.json), the evaluator, layout
- * and coverage then being NULL: it has rows in tables but no pictures. Everything is borrowed. */
+/* One layout and what it does, on its own evaluator; or only figures of one (read from a result.json), the evaluator,
+ * layout and coverage then being NULL: it has rows in tables but no pictures. Everything is borrowed. */
 typedef struct {
     const char *name; /* "manual", "greedy", "proposed", or a file's name when comparing */
     const sp_evaluator *evaluator;
@@ -65,8 +65,8 @@ typedef struct {
     const sp_figures *figures; /* NULL where there is an evaluator */
 } sp_design;
 
-/* What a command found. Everything is borrowed. designs[0] is not special; pictures and layout.yaml are for the design named
- * "proposed", or the only one. */
+/* What a command found. Everything is borrowed. designs[0] is not special; pictures and layout.yaml are for the design
+ * named "proposed", or the only one. */
 typedef struct {
     const char *command; /* "simulate", "place", "compare" */
     const char *scene;   /* the scene's path as given; for compare the first */
@@ -77,28 +77,31 @@ typedef struct {
     const sp_stage *stages;
 } sp_result;
 
-/* The figures of every design, in order [design_count]. With a proposal, attainable is what it calls attainable and what any
- * design on the same evaluator covers. The caller destroys. */
+/* The figures of every design, in order [design_count]. With a proposal, attainable is what it calls attainable and
+ * what any design on the same evaluator covers. The caller destroys. */
 sp_figures *sp_result_figures(const sp_result *result, sp_error *error);
 
-/* result.json as DESIGN §6; `geometry` and `fidelity` stand in each layout where the designs differ in them. Malloc'd text, newline at the end, the caller frees. */
+/* result.json as DESIGN §6; `geometry` and `fidelity` stand in each layout where the designs differ in them. Malloc'd
+ * text, newline at the end, the caller frees. */
 char *sp_result_json(const sp_result *result, sp_error *error);
-/* nozzles.csv: one row a nozzle of `layout`: name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,
- * flow_l_min,speed_m_s. Malloc'd. */
+/* nozzles.csv: one row a nozzle of `layout`:
+ * name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar, flow_l_min,speed_m_s. Malloc'd. */
 char *sp_nozzles_csv(const sp_layout *layout, const sp_fluid *liquid, sp_error *error);
 
-/* A set of files that is written whole or not at all: each goes to a temporary name in `directory` (created where missing,
- * with its parents), and commit renames them all; discard removes them. An existing file is replaced only by commit. */
+/* A set of files that is written whole or not at all: each goes to a temporary name in `directory` (created where
+ * missing, with its parents), and commit renames them all; discard removes them. An existing file is replaced only by
+ * commit. */
 typedef struct sp_output sp_output;
 sp_output *sp_output_open(const char *directory, sp_error *error);
-/* Names a file that was read: asking for a path that would replace it then fails. A file that does not exist is no error. */
+/* Names a file that was read: asking for a path that would replace it then fails. A file that does not exist is no
+ * error. */
 bool sp_output_protect(sp_output *output, const char *path, sp_error *error);
 /* A path to write `name` (no slash in it) to; owned by the output. */
 const char *sp_output_path(sp_output *output, const char *name, sp_error *error);
 bool sp_output_text(sp_output *output, const char *name, const char *text, sp_error *error);
 bool sp_output_bytes(sp_output *output, const char *name, const void *bytes, size_t size, sp_error *error);
-/* Both end the output; NULL is accepted (commit then fails and keeps the error). Where a rename fails, commit puts back what
- * it had replaced. */
+/* Both end the output; NULL is accepted (commit then fails and keeps the error). Where a rename fails, commit puts back
+ * what it had replaced. */
 bool sp_output_commit(sp_output *output, sp_error *error);
 void sp_output_discard(sp_output *output);
 

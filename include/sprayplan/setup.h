@@ -50,8 +50,8 @@ typedef struct {
 } sp_fidelity;
 
 typedef struct {
-    const sp_mesh *mesh;         /* borrowed: all geometry, in world coordinates */
-    const sp_surface *surfaces;  /* borrowed: [mesh->part_count] */
+    const sp_mesh *mesh;        /* borrowed: all geometry, in world coordinates */
+    const sp_surface *surfaces; /* borrowed: [mesh->part_count] */
     sp_cavity_kind cavity;
     sp_vec3 cavity_point; /* m; for SP_CAVITY_POINT */
     sp_fluid liquid;      /* default water: 1000 kg/m³, 1 mPa s */

@@ -1,7 +1,8 @@
 /* sprayplan: where to put spray nozzles. This header includes the whole public interface.
  *
- * SI units throughout (m, s, kg, rad, m³/s). Functions that can fail take an sp_error last and return NULL or false; given
- * NULL from an earlier failure they return NULL and keep its error. The library prints nothing and keeps no global state. */
+ * SI units throughout (m, s, kg, rad, m³/s). Functions that can fail take an sp_error last and return NULL or false;
+ * given NULL from an earlier failure they return NULL and keep its error. The library prints nothing and keeps no
+ * global state. */
 #ifndef SPRAYPLAN_H
 #define SPRAYPLAN_H
 

@@ -99,8 +99,7 @@ static bool measure_seams(const sp_atlas *atlas, const sp_mesh *mesh, double sur
     for (size_t i = 0, of_edge; i < 3 * mesh->triangle_count; i += of_edge) {
         of_edge = sp_half_edges_of_edge(mesh, &edges, i);
         uint32_t a = edges.order[i];
-        double edge = sp_distance(mesh->vertices[sp_half_edge_from(mesh, a)],
-                                       mesh->vertices[sp_half_edge_to(mesh, a)]);
+        double edge = sp_distance(mesh->vertices[sp_half_edge_from(mesh, a)], mesh->vertices[sp_half_edge_to(mesh, a)]);
         for (size_t k = 1; k < of_edge; k++)
             length += is_cut(atlas, mesh, edges.order[i + k - 1], edges.order[i + k]) ? edge : 0;
     }

@@ -25,8 +25,9 @@ static void say_what_is_missing(const sp_proposal *proposal)
 {
     double covered = proposal->coverage->covered_area, target = proposal->target_area;
     if (!(target > 0))
-        fprintf(stderr, "sprayplan: no nozzle that is allowed, at any mounting point that takes it, covers anything by the "
-                        "criteria\n");
+        fprintf(stderr,
+                "sprayplan: no nozzle that is allowed, at any mounting point that takes it, covers anything by the "
+                "criteria\n");
     else if (covered >= target)
         fprintf(stderr, "sprayplan: the nozzles to keep are more, or take more water, than max_nozzles and max_water "
                         "allow\n");

@@ -27,7 +27,10 @@ static void on_interrupt(int number)
     interrupted = 1;
 }
 
-bool cli_interrupted(void) { return interrupted; }
+bool cli_interrupted(void)
+{
+    return interrupted;
+}
 
 void cli_progress_end(void)
 {
@@ -75,10 +78,8 @@ sp_run cli_run(const cli_options *options)
     /* The second Ctrl-C ends the program at once. */
     struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
     sigaction(SIGINT, &action, NULL);
-    return (sp_run){.threads = options->threads,
-                    .progress = progress,
-                    .user = &visible,
-                    .time_limit = options->time_limit};
+    return (sp_run){
+        .threads = options->threads, .progress = progress, .user = &visible, .time_limit = options->time_limit};
 }
 
 void cli_clock_start(cli_clock *clock)

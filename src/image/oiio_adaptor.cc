@@ -35,8 +35,8 @@ bool png_possible(const char *path, int width, int height, int channels, sp_erro
     if (width > 0 && height > 0 && (channels == 3 || channels == 4))
         return true;
     return sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0,
-                   "a picture of %d x %d pixels and %d channels, expected at least 1 x 1 and 3 or 4 channels", width, height,
-                   channels);
+                   "a picture of %d x %d pixels and %d channels, expected at least 1 x 1 and 3 or 4 channels", width,
+                   height, channels);
 }
 
 std::vector<OIIO::ImageSpec> exr_specs(const sp_exr_part *parts, size_t count, const char *const *channel_names,
@@ -110,8 +110,8 @@ try {
         if (parts[i].width < 1 || parts[i].height < 1 || parts[i].width != parts[0].width ||
             parts[i].height != parts[0].height)
             return sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0,
-                           "part %s is %d x %d pixels, expected all parts to be of one size and not empty", parts[i].name,
-                           parts[i].width, parts[i].height);
+                           "part %s is %d x %d pixels, expected all parts to be of one size and not empty",
+                           parts[i].name, parts[i].width, parts[i].height);
     return write_exr(path, parts, count, channel_names, channels, error);
 } catch (const std::exception &exception) {
     return sp_fail(error, SP_ERROR_MEMORY, path, 0, 0, "%s", exception.what());

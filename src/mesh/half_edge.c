@@ -54,7 +54,8 @@ static void pair(const sp_mesh *mesh, sp_half_edges *half_edges)
         const uint32_t *edge = half_edges->order + i;
         sp_edge_kind kind = of_edge == 1 ? SP_EDGE_OPEN : SP_EDGE_NON_MANIFOLD;
         if (of_edge == 2)
-            kind = sp_half_edge_from(mesh, edge[0]) == sp_half_edge_to(mesh, edge[1]) ? SP_EDGE_PAIRED : SP_EDGE_FLIPPED;
+            kind =
+                sp_half_edge_from(mesh, edge[0]) == sp_half_edge_to(mesh, edge[1]) ? SP_EDGE_PAIRED : SP_EDGE_FLIPPED;
         for (size_t k = 0; k < of_edge; k++) {
             half_edges->kind[edge[k]] = (uint8_t)kind;
             half_edges->opposite[edge[k]] = kind == SP_EDGE_PAIRED ? edge[1 - k] : SP_NONE;

@@ -30,7 +30,8 @@ sp_vec3 sp_transform_point(const sp_transform *transform, sp_vec3 point)
 static bool turns_without_mirroring(const sp_transform *transform)
 {
     const double(*r)[3] = transform->rotate;
-    sp_vec3 x = sp_v(r[0][0], r[0][1], r[0][2]), y = sp_v(r[1][0], r[1][1], r[1][2]), z = sp_v(r[2][0], r[2][1], r[2][2]);
+    sp_vec3 x = sp_v(r[0][0], r[0][1], r[0][2]), y = sp_v(r[1][0], r[1][1], r[1][2]),
+            z = sp_v(r[2][0], r[2][1], r[2][2]);
     return transform->scale > 0 && sp_dot(sp_cross(x, y), z) > 0;
 }
 
@@ -70,8 +71,8 @@ static void append_triangles(uint32_t (*to)[3], uint32_t *to_part, const uint32_
     }
 }
 
-/* Puts `mesh` behind what `joined` holds already; takes the names of its parts. `sources` and `parts` are how many source
- * triangles and parts `joined` holds. */
+/* Puts `mesh` behind what `joined` holds already; takes the names of its parts. `sources` and `parts` are how many
+ * source triangles and parts `joined` holds. */
 static void append(sp_mesh *joined, sp_mesh *mesh, size_t sources, size_t parts, uint32_t geometry)
 {
     uint32_t first_vertex = (uint32_t)joined->vertex_count;
@@ -102,8 +103,8 @@ static sp_mesh *concatenate(sp_mesh *const *meshes, size_t count, sp_error *erro
     }
     if (vertices >= SP_NONE || sources >= SP_NONE / 3 || parts >= SP_NONE) {
         sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                "found %zu vertices, %zu triangles, %zu parts together, expected fewer than %u, %u, %u", vertices, sources,
-                parts, SP_NONE, SP_NONE / 3, SP_NONE);
+                "found %zu vertices, %zu triangles, %zu parts together, expected fewer than %u, %u, %u", vertices,
+                sources, parts, SP_NONE, SP_NONE / 3, SP_NONE);
         return NULL;
     }
     sp_mesh *joined = sp_mesh_allocate(vertices, sources, parts, error);

@@ -41,7 +41,8 @@ static char *read_file(const char *path, size_t *size, sp_error *error)
     return text;
 }
 
-typedef bool read_function(const char *path, const char *text, size_t size, double unit, sp_soup *soup, sp_error *error);
+typedef bool read_function(const char *path, const char *text, size_t size, double unit, sp_soup *soup,
+                           sp_error *error);
 
 static read_function *reader_for(const char *path, sp_error *error)
 {
@@ -78,7 +79,8 @@ static sp_mesh *weld(const char *path, const sp_soup *soup, sp_error *error)
         sp_mesh_create(soup->vertices, soup->vertex_count, (const uint32_t(*)[3])soup->triangles, soup->triangle_count,
                        soup->part, (const char *const *)soup->part_names, soup->part_count, error);
     if (mesh && mesh->triangle_count == 0) {
-        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found only triangles without area, expected at least one with some");
+        sp_fail(error, SP_ERROR_INPUT, path, 0, 0,
+                "found only triangles without area, expected at least one with some");
         sp_mesh_destroy(mesh);
         mesh = NULL;
     }

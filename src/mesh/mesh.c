@@ -36,9 +36,13 @@ static uint64_t mix(uint64_t hash, double number)
     return hash ^ (hash >> 29);
 }
 
-static bool equal(sp_vec3 a, sp_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+static bool equal(sp_vec3 a, sp_vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
 
-/* Fills mesh->vertices with the different points, in the order of their first coming, and `welded` with where each went. */
+/* Fills mesh->vertices with the different points, in the order of their first coming, and `welded` with where each
+ * went. */
 static bool weld(sp_mesh *mesh, const sp_vec3 *vertices, size_t count, uint32_t *welded, sp_error *error)
 {
     size_t size = 16;
@@ -63,8 +67,8 @@ static bool weld(sp_mesh *mesh, const sp_vec3 *vertices, size_t count, uint32_t 
     return true;
 }
 
-/* Two equal corners, or an area that cannot be told from round-off: a component of the cross product of edges not longer
- * than L has a rounding error of at most 3 epsilon L². */
+/* Two equal corners, or an area that cannot be told from round-off: a component of the cross product of edges not
+ * longer than L has a rounding error of at most 3 epsilon L². */
 static bool is_degenerate(const sp_mesh *mesh, const uint32_t corners[3])
 {
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
@@ -116,8 +120,8 @@ sp_mesh *sp_mesh_allocate(size_t vertex_count, size_t triangle_count, size_t par
     mesh->source_triangles = allocate(triangle_count, sizeof *mesh->source_triangles, error);
     mesh->source_part = allocate(triangle_count, sizeof *mesh->source_part, error);
     mesh->parts = allocate(part_count, sizeof *mesh->parts, error);
-    if (mesh->vertices && mesh->triangles && mesh->part && mesh->source && mesh->source_triangles && mesh->source_part &&
-        mesh->parts)
+    if (mesh->vertices && mesh->triangles && mesh->part && mesh->source && mesh->source_triangles &&
+        mesh->source_part && mesh->parts)
         return mesh;
     sp_mesh_destroy(mesh);
     return NULL;
@@ -139,10 +143,11 @@ static bool check_input(const sp_vec3 *vertices, size_t vertex_count, const uint
         for (int k = 0; k < 3; k++)
             if (triangles[i][k] >= vertex_count)
                 return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                               "found in triangle %zu vertex %u, expected less than %zu", i, triangles[i][k], vertex_count);
+                               "found in triangle %zu vertex %u, expected less than %zu", i, triangles[i][k],
+                               vertex_count);
         if (part && part[i] >= part_count)
-            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "found triangle %zu in part %u, expected less than %zu", i,
-                           part[i], part_count);
+            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "found triangle %zu in part %u, expected less than %zu",
+                           i, part[i], part_count);
     }
     return true;
 }
@@ -179,9 +184,15 @@ static sp_vec3 twice_area(const sp_mesh *mesh, uint32_t triangle)
     return sp_cross(sp_sub(mesh->vertices[corners[1]], a), sp_sub(mesh->vertices[corners[2]], a));
 }
 
-double sp_triangle_area(const sp_mesh *mesh, uint32_t triangle) { return 0.5 * sp_length(twice_area(mesh, triangle)); }
+double sp_triangle_area(const sp_mesh *mesh, uint32_t triangle)
+{
+    return 0.5 * sp_length(twice_area(mesh, triangle));
+}
 
-sp_vec3 sp_triangle_normal(const sp_mesh *mesh, uint32_t triangle) { return sp_unit(twice_area(mesh, triangle)); }
+sp_vec3 sp_triangle_normal(const sp_mesh *mesh, uint32_t triangle)
+{
+    return sp_unit(twice_area(mesh, triangle));
+}
 
 sp_vec3 sp_triangle_point(const sp_mesh *mesh, uint32_t triangle, double u, double v)
 {

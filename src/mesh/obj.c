@@ -1,5 +1,5 @@
-/* Wavefront OBJ: polygons with named groups. After the format's description in Wavefront's "Advanced Visualizer" manual,
- * appendix B1. */
+/* Wavefront OBJ: polygons with named groups. After the format's description in Wavefront's "Advanced Visualizer"
+ * manual, appendix B1. */
 #include "mesh/scanner.h"
 #include "mesh/soup.h"
 
@@ -18,9 +18,9 @@ typedef struct {
 } reader;
 
 /* What carries no surface: appearance, texture and normal settings, points, lines. */
-static const char *const harmless[] = {"mtllib", "usemtl",   "s",        "vp",  "l",          "p",         "mg",
-                                       "bevel",  "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "usemap",
-                                       "maplib"};
+static const char *const harmless[] = {"mtllib", "usemtl",     "s",         "vp",       "l",
+                                       "p",      "mg",         "bevel",     "c_interp", "d_interp",
+                                       "lod",    "shadow_obj", "trace_obj", "usemap",   "maplib"};
 /* What would be surface, and missing without a word if it were skipped. */
 static const char *const curved[] = {"cstype", "deg",  "bmat", "step", "curv", "curv2", "surf", "parm",
                                      "trim",   "hole", "scrv", "sp",   "end",  "con",   "bzp",  "bsp",
@@ -85,8 +85,8 @@ static bool read_index(reader *r, const sp_token *corner, const char **at, size_
         return sp_token_unexpected(&r->scanner, corner, "v, v/vt, v//vn or v/vt/vn with whole numbers", r->error);
     if (value == 0 || value > count || value >= UINT32_MAX)
         return sp_fail(r->error, SP_ERROR_INPUT, r->scanner.path, corner->line, corner->column,
-                       "found %s index %.*s, expected one of the %zu that precede it, from 1 or backwards from -1", what,
-                       p - *at < 24 ? (int)(p - *at) : 24, *at, count);
+                       "found %s index %.*s, expected one of the %zu that precede it, from 1 or backwards from -1",
+                       what, p - *at < 24 ? (int)(p - *at) : 24, *at, count);
     *index = (uint32_t)(backwards ? count - value : value - 1);
     *at = p;
     return true;

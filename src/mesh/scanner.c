@@ -39,7 +39,10 @@ static size_t continuation(const sp_scanner *scanner, const char *at)
     return length ? 1 + length : 0;
 }
 
-static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+}
 
 static void skip_blanks(sp_scanner *scanner)
 {
@@ -63,7 +66,8 @@ bool sp_scan_token(sp_scanner *scanner, sp_token *token)
     while (at < scanner->end && !is_blank(*at) && !line_end(scanner, at) && !continuation(scanner, at))
         at++;
     ptrdiff_t column = scanner->at - scanner->line_start + 1;
-    *token = (sp_token){scanner->at, (size_t)(at - scanner->at), scanner->line, column < INT_MAX ? (int)column : INT_MAX};
+    *token =
+        (sp_token){scanner->at, (size_t)(at - scanner->at), scanner->line, column < INT_MAX ? (int)column : INT_MAX};
     scanner->at = at;
     return token->length > 0;
 }
@@ -203,8 +207,8 @@ static bool is_utf8(const sp_token *token)
     return true;
 }
 
-/* Appends the token to a name with room for twice its length. Bytes that are no UTF-8 are taken for Latin-1, which older
- * programs write: every byte a character, so that different names stay different. */
+/* Appends the token to a name with room for twice its length. Bytes that are no UTF-8 are taken for Latin-1, which
+ * older programs write: every byte a character, so that different names stay different. */
 static size_t append_token(char *name, size_t length, const sp_token *token)
 {
     if (is_utf8(token)) {

@@ -37,8 +37,8 @@ bool sp_token_number(const sp_scanner *scanner, const sp_token *token, double *n
 bool sp_token_unexpected(const sp_scanner *scanner, const sp_token *token, const char *expected, sp_error *error);
 /* Fails where the scanner stands: "found the end of the line (or file), expected ...". Returns false. */
 bool sp_scanner_ended(const sp_scanner *scanner, const char *expected, sp_error *error);
-/* The rest of the line as a name: tokens joined by single spaces, as UTF-8, without control characters; `fallback` where the
- * line holds no more. NULL on error; the caller frees. */
+/* The rest of the line as a name: tokens joined by single spaces, as UTF-8, without control characters; `fallback`
+ * where the line holds no more. NULL on error; the caller frees. */
 char *sp_scan_name(sp_scanner *scanner, const char *fallback, sp_error *error);
 
 #endif

@@ -64,7 +64,8 @@ static bool read_facet(reader *r)
             return sp_fail(r->error, SP_ERROR_INPUT, r->scanner.path, r->scanner.line, 0,
                            "found a coordinate beyond 1e30 m, expected less");
     }
-    return expect(r, "endloop") && expect(r, "endfacet") && add_triangle(r->scanner.path, r->soup, corners, r->part, r->error);
+    return expect(r, "endloop") && expect(r, "endfacet") &&
+           add_triangle(r->scanner.path, r->soup, corners, r->part, r->error);
 }
 
 /* From behind "solid" to behind "endsolid" and its name. */

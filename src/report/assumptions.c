@@ -13,19 +13,24 @@ void sp_page_attainable(const sp_page *page, sp_text *text)
     sp_markup_significant(text, figures->attainable_area, 4);
     sp_text_add(text, "&nbsp;m\xc2\xb2 (");
     sp_markup_decimals(text, 100 * figures->attainable_area / figures->clean_area, 1);
-    sp_text_add(text, "&nbsp;%%) are attainable: some allowed nozzle, at some allowed place and direction, reaches them as the "
-                      "criterion asks, or a layout of this report covers them.");
+    sp_text_add(
+        text, "&nbsp;%%) are attainable: some allowed nozzle, at some allowed place and direction, reaches them as the "
+              "criterion asks, or a layout of this report covers them.");
     if (missing > 1e-6 * figures->clean_area) {
         sp_text_add(text, " The other ");
         sp_markup_significant(text, missing, 3);
-        sp_text_add(text, "&nbsp;m\xc2\xb2 are out of reach of every allowed nozzle. That is a fault of the vessel or of the "
-                          "mounts allowed, which no choice among them mends: another port, another type of nozzle or a change "
-                          "of the part would.");
+        sp_text_add(
+            text, "&nbsp;m\xc2\xb2 are out of reach of every allowed nozzle. That is a fault of the vessel or of the "
+                  "mounts allowed, which no choice among them mends: another port, another type of nozzle or a change "
+                  "of the part would.");
     }
     sp_text_add(text, "</p></section>\n");
 }
 
-static void add_item(sp_text *text, const char *term) { sp_text_add(text, "<dt>%s</dt><dd>", term); }
+static void add_item(sp_text *text, const char *term)
+{
+    sp_text_add(text, "<dt>%s</dt><dd>", term);
+}
 
 static void add_flight(sp_text *text, const sp_evaluator *evaluator)
 {
@@ -35,12 +40,14 @@ static void add_flight(sp_text *text, const sp_evaluator *evaluator)
     if (fidelity->trajectory == SP_TRAJECTORY_LINE)
         sp_text_add(text, "straight lines: gravity and air are neglected");
     else
-        sp_text_add(text, "parabolas under gravity of %.4g&nbsp;m/s\xc2\xb2; the drag of air is neglected", setup->gravity);
+        sp_text_add(text, "parabolas under gravity of %.4g&nbsp;m/s\xc2\xb2; the drag of air is neglected",
+                    setup->gravity);
     sp_text_add(text, "</dd>\n");
     add_item(text, "Evaluator");
     if (fidelity->method == SP_METHOD_INVERSE)
-        sp_text_add(text, "inverse: for every patch of surface the flights that reach it in closed form; first impact only, no "
-                          "liquid flies on from a wall");
+        sp_text_add(
+            text, "inverse: for every patch of surface the flights that reach it in closed form; first impact only, no "
+                  "liquid flies on from a wall");
     else
         sp_text_add(text, "forward: %llu jets a nozzle, up to %d reflection%s", (unsigned long long)fidelity->jets,
                     fidelity->reflections, fidelity->reflections == 1 ? "" : "s");
@@ -63,7 +70,8 @@ static void add_criterion(sp_text *text, const sp_criterion *criterion)
         separator = ", ";
     }
     if (criterion->incidence < M_PI / 2) {
-        sp_text_add(text, "%sincidence of at most %.4g&deg; from the normal", separator, criterion->incidence * 180 / M_PI);
+        sp_text_add(text, "%sincidence of at most %.4g&deg; from the normal", separator,
+                    criterion->incidence * 180 / M_PI);
         separator = ", ";
     }
     if (!separator[0])
@@ -76,15 +84,17 @@ static void add_criterion(sp_text *text, const sp_criterion *criterion)
 
 static void add_scene(sp_text *text, const sp_setup *setup)
 {
-    static const char *const cavities[] = {"not named: every surface counts once and takes liquid from either side",
-                                           "the space seen from a point inside: only sides that face it are cleaned and counted",
-                                           "the outside: only sides that face it are cleaned and counted"};
+    static const char *const cavities[] = {
+        "not named: every surface counts once and takes liquid from either side",
+        "the space seen from a point inside: only sides that face it are cleaned and counted",
+        "the outside: only sides that face it are cleaned and counted"};
     add_item(text, "Liquid");
     sp_text_add(text, "%.4g&nbsp;kg/m\xc2\xb3, %.4g&nbsp;mPa&thinsp;s</dd>\n", setup->liquid.density,
                 1e3 * setup->liquid.viscosity);
     add_item(text, "Nozzles");
-    sp_text_add(text, "flow by the catalogue&#39;s point and exponent, exit speed from the pressure drop (Bernoulli), liquid "
-                      "spread evenly over the spray angle</dd>\n");
+    sp_text_add(text,
+                "flow by the catalogue&#39;s point and exponent, exit speed from the pressure drop (Bernoulli), liquid "
+                "spread evenly over the spray angle</dd>\n");
     add_item(text, "Cavity");
     sp_text_add(text, "%s</dd>\n", cavities[setup->cavity]);
 }
@@ -92,9 +102,11 @@ static void add_scene(sp_text *text, const sp_setup *setup)
 static void add_search(sp_text *text, const sp_proposal *proposal)
 {
     add_item(text, "Search");
-    sp_text_add(text, "%zu poses at %zu mounting points; greedy choice by gain per water, then refinement, accepted only where "
-                      "the re-traced result improved</dd>\n",
-                proposal->candidates, proposal->positions);
+    sp_text_add(
+        text,
+        "%zu poses at %zu mounting points; greedy choice by gain per water, then refinement, accepted only where "
+        "the re-traced result improved</dd>\n",
+        proposal->candidates, proposal->positions);
     add_item(text, "Not proved");
     sp_text_add(text, "this report holds no bound on what the best possible layout could do</dd>\n");
 }
@@ -121,7 +133,9 @@ void sp_page_assumptions(const sp_page *page, sp_text *text)
             add_search(text, page->result->proposal);
         sp_text_add(text, "</dl>\n");
     }
-    sp_text_add(text, "<p class=\"note\">All figures are from simulation. They compare layouts; whether a surface comes out clean "
-                      "also depends on soil, chemistry, temperature and time, and is for a test on the vessel to show.</p>"
-                      "</section>\n");
+    sp_text_add(
+        text,
+        "<p class=\"note\">All figures are from simulation. They compare layouts; whether a surface comes out clean "
+        "also depends on soil, chemistry, temperature and time, and is for a test on the vessel to show.</p>"
+        "</section>\n");
 }

@@ -59,9 +59,9 @@ bool sp_report_coverage_png(const sp_design *design, const char *path, sp_error 
 }
 
 #define CHANNELS 11
-static const char *const channel_names[CHANNELS] = {"flux",          "jets",   "speed",      "speed_max", "incidence",
-                                                    "incidence_min", "impact", "impact_max", "covered",   "area",
-                                                    "chart"};
+static const char *const channel_names[CHANNELS] = {"flux",      "jets",          "speed",  "speed_max",
+                                                    "incidence", "incidence_min", "impact", "impact_max",
+                                                    "covered",   "area",          "chart"};
 
 static void fill_part(const sp_layers *layers, const sp_deposits *deposits, size_t page, int layer, float *pixels)
 {
@@ -77,11 +77,11 @@ static void fill_part(const sp_layers *layers, const sp_deposits *deposits, size
         pixel[CHANNELS - 1] = (float)atlas->texel_chart[texel];
         if (patch == SP_NONE)
             continue;
-        const double values[CHANNELS - 1] = {deposits->flux[patch],          deposits->jets[patch],
-                                             deposits->speed[patch],         deposits->speed_max[patch],
-                                             deposits->incidence[patch],     deposits->incidence_min[patch],
-                                             deposits->impact[patch],        deposits->impact_max[patch],
-                                             deposits->covered[patch] ? 1.0 : 0.0, patches->area[patch]};
+        const double values[CHANNELS - 1] = {
+            deposits->flux[patch],      deposits->jets[patch],       deposits->speed[patch],
+            deposits->speed_max[patch], deposits->incidence[patch],  deposits->incidence_min[patch],
+            deposits->impact[patch],    deposits->impact_max[patch], deposits->covered[patch] ? 1.0 : 0.0,
+            patches->area[patch]};
         for (int k = 0; k < CHANNELS - 1; ++k)
             pixel[k] = (float)values[k];
     }

@@ -5,7 +5,7 @@
 #include <sprayplan/evaluator.h>
 
 typedef struct {
-    const char *caption;      /* "From the front" */
+    const char *caption;       /* "From the front" */
     double azimuth, elevation; /* rad: about up from the front, above the horizon */
 } sp_view;
 
@@ -17,9 +17,9 @@ typedef struct {
     sp_vec3 right, up, forward; /* unit */
     double reach_x, reach_y;    /* tangents of half the opening angles */
     int width, height;          /* pixels */
-    bool cut;                   /* what lies in front of the plane through `centre` across the line of sight is taken off */
-    sp_vec3 centre;             /* m, of the box around what is wet */
-    double size;                /* m, the box's diagonal */
+    bool cut;       /* what lies in front of the plane through `centre` across the line of sight is taken off */
+    sp_vec3 centre; /* m, of the box around what is wet */
+    double size;    /* m, the box's diagonal */
 } sp_camera;
 
 /* Holds everything wet, the longer side of the picture being `pixels`. Cut where no cavity says which sides to look

@@ -9,8 +9,8 @@ typedef struct {
     double low, high;
 } sp_flux_scale;
 
-/* One scale for all designs, so that their pictures compare: from the criterion's flux, or the 1st percentile of covered
- * area where there is none, to the 99th; rounded outwards to 1, 2 or 5 L/min/m² times a power of ten. */
+/* One scale for all designs, so that their pictures compare: from the criterion's flux, or the 1st percentile of
+ * covered area where there is none, to the 99th; rounded outwards to 1, 2 or 5 L/min/m² times a power of ten. */
 sp_flux_scale sp_flux_scale_of(const sp_design *designs, size_t count);
 /* Where on the scale, 0 to 1. */
 double sp_flux_scale_place(sp_flux_scale scale, double flux);

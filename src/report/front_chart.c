@@ -12,7 +12,10 @@ typedef struct {
     double x_max, x_step, y_min, y_max, y_step; /* L/min, % */
 } axes;
 
-static double x_of(const axes *a, double water) { return LEFT + (WIDTH - LEFT - RIGHT) * water / a->x_max; }
+static double x_of(const axes *a, double water)
+{
+    return LEFT + (WIDTH - LEFT - RIGHT) * water / a->x_max;
+}
 
 static double y_of(const axes *a, double percent)
 {
@@ -65,10 +68,11 @@ static void add_grid(const sp_page *page, sp_text *text, const axes *a)
                     x_of(a, x), x_of(a, x), TOP, HEIGHT - BOTTOM, x_of(a, x), HEIGHT - BOTTOM + 20, x);
     sp_text_add(text, "<text class=\"axis\" x=\"%d\" y=\"%d\" text-anchor=\"middle\">Water, L/min</text>\n",
                 (LEFT + WIDTH - RIGHT) / 2, HEIGHT - 12);
-    sp_text_add(text,
-                "<text class=\"axis\" transform=\"translate(18 %d) rotate(-90)\" text-anchor=\"middle\">Coverage of the %s, "
-                "%%</text>\n",
-                (TOP + HEIGHT - BOTTOM) / 2, page->of_attainable ? "attainable area" : "surface");
+    sp_text_add(
+        text,
+        "<text class=\"axis\" transform=\"translate(18 %d) rotate(-90)\" text-anchor=\"middle\">Coverage of the %s, "
+        "%%</text>\n",
+        (TOP + HEIGHT - BOTTOM) / 2, page->of_attainable ? "attainable area" : "surface");
 }
 
 /* Steps: with water between two points one has the left one's layout. */
@@ -109,8 +113,8 @@ static void add_designs(const sp_page *page, sp_text *text, const axes *a)
     size_t count = page->result->design_count;
     for (size_t i = 0; i < count; ++i) {
         double legend = HEIGHT - BOTTOM - 20 - 22 * (double)(count - 1 - i);
-        add_marker(text, x_of(a, 6e4 * page->figures[i].flow), y_of(a, 100 * sp_page_fraction(page, &page->figures[i])), i,
-                   sp_page_colour(page, i));
+        add_marker(text, x_of(a, 6e4 * page->figures[i].flow), y_of(a, 100 * sp_page_fraction(page, &page->figures[i])),
+                   i, sp_page_colour(page, i));
         if (count > 12)
             continue;
         add_marker(text, WIDTH - RIGHT - 250, legend - 4, i, sp_page_colour(page, i));
@@ -121,10 +125,11 @@ static void add_designs(const sp_page *page, sp_text *text, const axes *a)
     if (!page->result->proposal || count > 12)
         return;
     double legend = HEIGHT - BOTTOM - 20 - 22 * (double)count;
-    sp_text_add(text,
-                "<path class=\"front\" d=\"M%d %.1fh20\"/><circle class=\"point\" cx=\"%d\" cy=\"%.1f\" r=\"3.5\"/><text "
-                "class=\"legend\" x=\"%d\" y=\"%.1f\">Best found for rising water</text>\n",
-                WIDTH - RIGHT - 260, legend - 4, WIDTH - RIGHT - 250, legend - 4, WIDTH - RIGHT - 234, legend);
+    sp_text_add(
+        text,
+        "<path class=\"front\" d=\"M%d %.1fh20\"/><circle class=\"point\" cx=\"%d\" cy=\"%.1f\" r=\"3.5\"/><text "
+        "class=\"legend\" x=\"%d\" y=\"%.1f\">Best found for rising water</text>\n",
+        WIDTH - RIGHT - 260, legend - 4, WIDTH - RIGHT - 250, legend - 4, WIDTH - RIGHT - 234, legend);
 }
 
 void sp_page_front_chart(const sp_page *page, sp_text *text)
@@ -142,7 +147,9 @@ void sp_page_front_chart(const sp_page *page, sp_text *text)
     add_designs(page, text, &a);
     sp_text_add(text, "</svg>\n");
     if (front)
-        sp_text_add(text, "<p class=\"note\">Each dot is a layout that the search found; none that it found covers more with as "
-                          "little water. How far the best possible may lie above is not known.</p>\n");
+        sp_text_add(
+            text,
+            "<p class=\"note\">Each dot is a layout that the search found; none that it found covers more with as "
+            "little water. How far the best possible may lie above is not known.</p>\n");
     sp_text_add(text, "</section>\n");
 }

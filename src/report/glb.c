@@ -1,5 +1,5 @@
-/* The vessel in false colour as a binary glTF 2.0 model: the atlas pages are its textures. A wall's wet side is drawn and
- * its dry side is not, so that a viewer looks through the near wall. */
+/* The vessel in false colour as a binary glTF 2.0 model: the atlas pages are its textures. A wall's wet side is drawn
+ * and its dry side is not, so that a viewer looks through the near wall. */
 #include "layers.h"
 #include "scaled_files.h"
 
@@ -78,8 +78,8 @@ static void add_primitive(model *m, const float *positions, const float *uv, siz
     json_t *attributes = json_pack("{s:I}", "POSITION", add_accessor(m, positions, count, 3));
     if (uv)
         json_object_set_new(attributes, "TEXCOORD_0", json_integer(add_accessor(m, uv, count, 2)));
-    append(m->primitives, json_pack("{s:o, s:I, s:i}", "attributes", attributes, "material", material, "mode",
-                                    GLTF_TRIANGLES));
+    append(m->primitives,
+           json_pack("{s:o, s:I, s:i}", "attributes", attributes, "material", material, "mode", GLTF_TRIANGLES));
 }
 
 /* The page's corner of the texture is at its top left, as in the pictures. */
@@ -142,8 +142,8 @@ static bool add_texture(model *m, uint32_t page, int layer, json_int_t *texture)
     free(pixels);
     if (!png)
         return false;
-    json_int_t image = append(m->images, json_pack("{s:I, s:s}", "bufferView", add_view(m, png, size, 0), "mimeType",
-                                                   "image/png"));
+    json_int_t image =
+        append(m->images, json_pack("{s:I, s:s}", "bufferView", add_view(m, png, size, 0), "mimeType", "image/png"));
     free(png);
     *texture = append(m->textures, json_pack("{s:i, s:I}", "sampler", 0, "source", image));
     return true;
@@ -155,9 +155,10 @@ static json_int_t add_material(model *m, const char *name, json_int_t texture)
     if (texture >= 0)
         json_object_set_new(pbr, "baseColorTexture", json_pack("{s:I}", "index", texture));
     else /* linear light, whereas the colour is sRGB */
-        json_object_set_new(pbr, "baseColorFactor", json_pack("[f,f,f,f]", pow(sp_colour_obstacle[0] / 255., 2.2),
-                                                              pow(sp_colour_obstacle[1] / 255., 2.2),
-                                                              pow(sp_colour_obstacle[2] / 255., 2.2), 1.0));
+        json_object_set_new(pbr, "baseColorFactor",
+                            json_pack("[f,f,f,f]", pow(sp_colour_obstacle[0] / 255., 2.2),
+                                      pow(sp_colour_obstacle[1] / 255., 2.2), pow(sp_colour_obstacle[2] / 255., 2.2),
+                                      1.0));
     return append(m->materials, json_pack("{s:s, s:o, s:b}", "name", name, "pbrMetallicRoughness", pbr, "doubleSided",
                                           (int)m->layers->two_sided));
 }
@@ -192,14 +193,14 @@ static char *document(model *m, const char *name)
     json_t *node = json_pack("{s:i}", "mesh", 0);
     if (z_up)
         json_object_set_new(node, "rotation", json_pack("[f,f,f,f]", -sqrt(0.5), 0.0, 0.0, sqrt(0.5)));
-    json_t *root = json_pack("{s:{s:s, s:s}, s:i, s:[{s:[i]}], s:[o], s:[{s:s, s:o}], s:o, s:o, s:o, s:o, s:[{s:i, s:i, "
-                             "s:i, s:i}], s:o, s:[{s:I}]}",
-                             "asset", "version", "2.0", "generator", "sprayplan " SP_VERSION, "scene", 0, "scenes", "nodes",
-                             0, "nodes", node, "meshes", "name", name, "primitives", m->primitives, "materials",
-                             m->materials, "textures", m->textures, "images", m->images, "accessors", m->accessors,
-                             "samplers", "magFilter", GLTF_NEAREST, "minFilter", GLTF_NEAREST, "wrapS",
-                             GLTF_CLAMP_TO_EDGE, "wrapT", GLTF_CLAMP_TO_EDGE, "bufferViews", m->views, "buffers",
-                             "byteLength", (json_int_t)m->bytes.length);
+    json_t *root =
+        json_pack("{s:{s:s, s:s}, s:i, s:[{s:[i]}], s:[o], s:[{s:s, s:o}], s:o, s:o, s:o, s:o, s:[{s:i, s:i, "
+                  "s:i, s:i}], s:o, s:[{s:I}]}",
+                  "asset", "version", "2.0", "generator", "sprayplan " SP_VERSION, "scene", 0, "scenes", "nodes", 0,
+                  "nodes", node, "meshes", "name", name, "primitives", m->primitives, "materials", m->materials,
+                  "textures", m->textures, "images", m->images, "accessors", m->accessors, "samplers", "magFilter",
+                  GLTF_NEAREST, "minFilter", GLTF_NEAREST, "wrapS", GLTF_CLAMP_TO_EDGE, "wrapT", GLTF_CLAMP_TO_EDGE,
+                  "bufferViews", m->views, "buffers", "byteLength", (json_int_t)m->bytes.length);
     char *text = root ? json_dumps(root, JSON_COMPACT | JSON_REAL_PRECISION(9)) : NULL;
     json_decref(root);
     return text;
@@ -239,9 +240,16 @@ bool sp_model_glb(const sp_design *design, sp_flux_scale scale, const char *path
     sp_layers layers;
     if (!sp_layers_create(&layers, design->evaluator, error))
         return false;
-    model m = {.layers = &layers, .coverage = design->coverage, .scale = scale, .error = error,
-               .views = json_array(), .accessors = json_array(), .images = json_array(), .textures = json_array(),
-               .materials = json_array(), .primitives = json_array()};
+    model m = {.layers = &layers,
+               .coverage = design->coverage,
+               .scale = scale,
+               .error = error,
+               .views = json_array(),
+               .accessors = json_array(),
+               .images = json_array(),
+               .textures = json_array(),
+               .materials = json_array(),
+               .primitives = json_array()};
     bool done = add_all(&m);
     char *name = sp_text_utf8(design->name);
     /* Takes the lists, so it runs in any case. */

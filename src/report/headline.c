@@ -47,23 +47,27 @@ static void add_cards(const sp_page *page, sp_text *text)
 static void add_warnings(const sp_proposal *proposal, sp_text *text)
 {
     if (proposal->interrupted)
-        sp_text_add(text, "<p class=\"warning\"><strong>Interrupted.</strong> The search was stopped before its end; this is "
-                          "the best layout found until then.</p>\n");
+        sp_text_add(text,
+                    "<p class=\"warning\"><strong>Interrupted.</strong> The search was stopped before its end; this is "
+                    "the best layout found until then.</p>\n");
     if (proposal->reached)
         return;
     if (!(proposal->target_area > 0)) {
-        sp_text_add(text, "<p class=\"warning\"><strong>Nothing can be covered.</strong> No nozzle that is allowed, at any "
-                          "mounting point that takes it, covers anything by the criteria.</p>\n");
+        sp_text_add(text,
+                    "<p class=\"warning\"><strong>Nothing can be covered.</strong> No nozzle that is allowed, at any "
+                    "mounting point that takes it, covers anything by the criteria.</p>\n");
         return;
     }
     if (proposal->coverage->covered_area >= proposal->target_area) {
-        sp_text_add(text, "<p class=\"warning\"><strong>Beyond the limits.</strong> The nozzles to keep are more, or take more "
-                          "water, than was allowed.</p>\n");
+        sp_text_add(
+            text, "<p class=\"warning\"><strong>Beyond the limits.</strong> The nozzles to keep are more, or take more "
+                  "water, than was allowed.</p>\n");
         return;
     }
     sp_text_add(text, "<p class=\"warning\"><strong>The coverage asked for is not reached.</strong> ");
     sp_markup_significant(text, proposal->target_area, 4);
-    sp_text_add(text, "&nbsp;m\xc2\xb2 were asked for within the limits on nozzles, water and ports; the proposal covers ");
+    sp_text_add(text,
+                "&nbsp;m\xc2\xb2 were asked for within the limits on nozzles, water and ports; the proposal covers ");
     sp_markup_significant(text, proposal->coverage->covered_area, 4);
     sp_text_add(text, "&nbsp;m\xc2\xb2.</p>\n");
 }

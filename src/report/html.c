@@ -10,7 +10,8 @@ static const char *const style[] = {
     "<style>\n:root{--ink:#1b2730;--soft:#55636f;--line:#d6dde3;--pale:#f3f6f8;--accent:#0b6670}\n"
     "*{box-sizing:border-box}\nbody{margin:0;background:#fff;color:var(--ink);"
     "font:16px/1.5 system-ui,\"Segoe UI\",Roboto,\"Helvetica Neue\",\"DejaVu Sans\",Arial,sans-serif}\n"
-    "main{max-width:1120px;margin:0 auto;padding:0 28px 40px}\nheader{border-top:6px solid var(--accent);padding:26px 0 8px}\n"
+    "main{max-width:1120px;margin:0 auto;padding:0 28px 40px}\nheader{border-top:6px solid var(--accent);padding:26px "
+    "0 8px}\n"
     "h1{font-size:27px;line-height:1.25;margin:0;overflow-wrap:anywhere}\n"
     "h2{font-size:20px;margin:42px 0 12px;padding-bottom:5px;border-bottom:1px solid var(--line)}\n"
     "h3{font-size:16px;margin:22px 0 8px;color:var(--soft);font-weight:600}\n"
@@ -18,9 +19,11 @@ static const char *const style[] = {
     ".warning{border-left:4px solid #c42636;background:#fcf1f1;padding:10px 14px;margin:12px 0}\n"
     ".note,.unit{color:var(--soft);font-weight:400}\n.note{font-size:14px;max-width:80ch}\n.unit{font-size:.86em}\n",
     ".cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(190px,1fr));gap:14px}\n"
-    ".card{background:var(--pale);border-radius:6px;padding:12px 16px}\n.card .title{font-size:14px;color:var(--soft)}\n"
+    ".card{background:var(--pale);border-radius:6px;padding:12px 16px}\n.card "
+    ".title{font-size:14px;color:var(--soft)}\n"
     ".card .value{font-size:27px;font-weight:600;line-height:1.35}\n.card .against{font-size:14px;color:var(--soft)}\n"
-    ".wide{overflow-x:auto;margin:0 0 18px}\ntable{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}\n"
+    ".wide{overflow-x:auto;margin:0 0 "
+    "18px}\ntable{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}\n"
     "caption{text-align:left;font-weight:600;padding:8px 0}\n"
     "th,td{padding:6px 10px;border-bottom:1px solid var(--line);text-align:right;vertical-align:top}\n"
     "thead th{border-bottom:2px solid var(--ink);font-size:14px;vertical-align:bottom}\n"
@@ -34,14 +37,17 @@ static const char *const style[] = {
     ".spray{fill:#fff;fill-opacity:.13;stroke:#10202a;stroke-width:2;stroke-linejoin:round}\n"
     ".rim{fill:none;stroke:#10202a;stroke-width:1.2;stroke-opacity:.6}\n"
     ".nozzle{fill:#fff;stroke:#10202a;stroke-width:4}\n"
-    ".name{font-size:26px;font-weight:600;fill:#10202a;stroke:#fff;stroke-width:6;stroke-linejoin:round;paint-order:stroke}\n"
-    ".chart,.bar{display:block;width:100%;max-width:860px;height:auto;font-size:13px}\n.chart text,.bar text{fill:var(--ink)}\n"
+    ".name{font-size:26px;font-weight:600;fill:#10202a;stroke:#fff;stroke-width:6;stroke-linejoin:round;paint-order:"
+    "stroke}\n"
+    ".chart,.bar{display:block;width:100%;max-width:860px;height:auto;font-size:13px}\n.chart text,.bar "
+    "text{fill:var(--ink)}\n"
     ".grid{stroke:var(--line)}\n.tick{stroke:var(--ink);fill:none}\n.swatch{stroke:#8b97a1}\n"
     ".front{fill:none;stroke:#0b6670;stroke-width:2}\n.point{fill:#0b6670}\n"
     "dl{display:grid;grid-template-columns:max-content 1fr;gap:6px 22px;margin:0}\ndt{font-weight:600}\ndd{margin:0}\n"
     "footer{margin-top:44px;padding-top:12px;border-top:1px solid var(--line);color:var(--soft);font-size:14px}\n"
     "@media (max-width:640px){.of2,.of3{grid-template-columns:1fr}dl{grid-template-columns:1fr}}\n"
-    "@media print{body{font-size:11pt;-webkit-print-color-adjust:exact;print-color-adjust:exact}main{max-width:none;padding:0}"
+    "@media "
+    "print{body{font-size:11pt;-webkit-print-color-adjust:exact;print-color-adjust:exact}main{max-width:none;padding:0}"
     ".wide{overflow:visible}figure,.card,tr,dl,.chart,.block{break-inside:avoid}h2,h3{break-after:avoid}}\n</style>\n",
 };
 
@@ -95,9 +101,11 @@ static void find_roles(sp_page *page)
 
 static void add_head(sp_text *text, const char *scene)
 {
-    sp_text_add(text, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-                      "content=\"width=device-width, initial-scale=1\">\n<meta name=\"generator\" content=\"sprayplan " SP_VERSION
-                      "\">\n<title>Spray nozzle layout: ");
+    sp_text_add(
+        text,
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+        "content=\"width=device-width, initial-scale=1\">\n<meta name=\"generator\" content=\"sprayplan " SP_VERSION
+        "\">\n<title>Spray nozzle layout: ");
     sp_markup_escape(text, scene);
     sp_text_add(text, "</title>\n");
     for (size_t i = 0; i < sizeof style / sizeof *style; ++i)

@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
-#define RIM 32       /* points on a spray's rim */
-#define LENGTH 0.12  /* of the box's diagonal that an outline reaches */
+#define RIM 32      /* points on a spray's rim */
+#define LENGTH 0.12 /* of the box's diagonal that an outline reaches */
 
 /* Direction i of RIM along the edge of the spray, in the nozzle's frame. */
 static sp_vec3 rim_direction(const sp_spray *spray, int i)
@@ -100,8 +100,10 @@ void sp_overlay_nozzles(sp_text *text, const sp_camera *camera, const sp_evaluat
         if (!sp_camera_project(camera, layout->nozzles[i].position, xy))
             continue;
         char *name = sp_text_utf8(layout->nozzles[i].name);
-        sp_text_add(text, "<circle class=\"nozzle\" cx=\"%.1f\" cy=\"%.1f\" r=\"7\"/><text class=\"name\" x=\"%.1f\" y=\"%.1f\">",
-                    xy[0], xy[1], xy[0] + 12, xy[1] - 8);
+        sp_text_add(
+            text,
+            "<circle class=\"nozzle\" cx=\"%.1f\" cy=\"%.1f\" r=\"7\"/><text class=\"name\" x=\"%.1f\" y=\"%.1f\">",
+            xy[0], xy[1], xy[0] + 12, xy[1] - 8);
         sp_markup_escape(text, name ? name : "");
         sp_text_add(text, "</text>\n");
         text->failed |= !name;

@@ -13,7 +13,7 @@ typedef struct {
     const sp_figures *figures; /* [result->design_count] */
     size_t main;               /* what is proposed, or the only design */
     size_t manual, greedy;
-    bool of_attainable;        /* fractions are of the attainable area, else of the surface to be cleaned */
+    bool of_attainable; /* fractions are of the attainable area, else of the surface to be cleaned */
     sp_flux_scale scale;
 } sp_page;
 
@@ -26,7 +26,8 @@ const char *sp_page_colour(const sp_page *page, size_t design);
 
 /* headline.c: the statement, the key figures and what must not be overlooked. */
 void sp_page_headline(const sp_page *page, sp_text *text);
-/* comparison.c: at equal water and at equal coverage, as a sentence and as a table; nothing where there is nothing to compare. */
+/* comparison.c: at equal water and at equal coverage, as a sentence and as a table; nothing where there is nothing to
+ * compare. */
 void sp_page_gain(const sp_page *page, sp_text *text);
 void sp_page_comparison(const sp_page *page, sp_text *text);
 /* front_chart.c: coverage against water, SVG. */

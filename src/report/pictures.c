@@ -17,14 +17,16 @@ static void add_gradient(sp_text *text)
     for (int i = 0; i <= STOPS; ++i) {
         uint8_t rgb[3];
         sp_viridis((double)i / STOPS, rgb);
-        sp_text_add(text, "<stop offset=\"%g\" stop-color=\"#%02x%02x%02x\"/>", (double)i / STOPS, rgb[0], rgb[1], rgb[2]);
+        sp_text_add(text, "<stop offset=\"%g\" stop-color=\"#%02x%02x%02x\"/>", (double)i / STOPS, rgb[0], rgb[1],
+                    rgb[2]);
     }
-    sp_text_add(text,
-                "</linearGradient><pattern id=\"hatch\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\" "
-                "patternTransform=\"rotate(45)\"><rect width=\"8\" height=\"8\" fill=\"#%02x%02x%02x\"/><rect width=\"2.2\" "
-                "height=\"8\" fill=\"#%02x%02x%02x\"/></pattern></defs>\n",
-                sp_colour_hatch[0][0], sp_colour_hatch[0][1], sp_colour_hatch[0][2], sp_colour_hatch[1][0],
-                sp_colour_hatch[1][1], sp_colour_hatch[1][2]);
+    sp_text_add(
+        text,
+        "</linearGradient><pattern id=\"hatch\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\" "
+        "patternTransform=\"rotate(45)\"><rect width=\"8\" height=\"8\" fill=\"#%02x%02x%02x\"/><rect width=\"2.2\" "
+        "height=\"8\" fill=\"#%02x%02x%02x\"/></pattern></defs>\n",
+        sp_colour_hatch[0][0], sp_colour_hatch[0][1], sp_colour_hatch[0][2], sp_colour_hatch[1][0],
+        sp_colour_hatch[1][1], sp_colour_hatch[1][2]);
 }
 
 static void add_ticks(sp_text *text, sp_flux_scale scale)
@@ -37,25 +39,31 @@ static void add_ticks(sp_text *text, sp_flux_scale scale)
             if (value < low * (1 - 1e-9) || value > high * (1 + 1e-9))
                 continue;
             double x = 10 + 400 * sp_flux_scale_place(scale, value / 6e4);
-            sp_text_add(text, "<path class=\"tick\" d=\"M%.1f 38v6\"/><text x=\"%.1f\" y=\"58\" text-anchor=\"middle\">%g</text>", x,
-                        x, value);
+            sp_text_add(
+                text,
+                "<path class=\"tick\" d=\"M%.1f 38v6\"/><text x=\"%.1f\" y=\"58\" text-anchor=\"middle\">%g</text>", x,
+                x, value);
         }
 }
 
 static void add_colour_bar(const sp_page *page, sp_text *text)
 {
-    sp_text_add(text, "<svg class=\"bar\" viewBox=\"0 0 760 64\" role=\"img\" aria-label=\"Colour bar: liquid flux in litres a "
-                      "minute per square metre, from dark violet for little to yellow for much; hatched red: not covered; grey: "
-                      "needs no cleaning\">\n");
+    sp_text_add(
+        text,
+        "<svg class=\"bar\" viewBox=\"0 0 760 64\" role=\"img\" aria-label=\"Colour bar: liquid flux in litres a "
+        "minute per square metre, from dark violet for little to yellow for much; hatched red: not covered; grey: "
+        "needs no cleaning\">\n");
     add_gradient(text);
-    sp_text_add(text, "<text x=\"10\" y=\"13\">Liquid flux, L/min per m\xc2\xb2</text><rect x=\"10\" y=\"20\" width=\"400\" "
-                      "height=\"18\" fill=\"url(#viridis)\"/>");
-    add_ticks(text, page->scale);
     sp_text_add(text,
-                "<rect class=\"swatch\" x=\"450\" y=\"20\" width=\"36\" height=\"18\" fill=\"url(#hatch)\"/><text x=\"494\" "
-                "y=\"34\">not covered</text><rect class=\"swatch\" x=\"600\" y=\"20\" width=\"36\" height=\"18\" "
-                "fill=\"#%02x%02x%02x\"/><text x=\"644\" y=\"34\">no cleaning asked</text>\n</svg>\n",
-                sp_colour_obstacle[0], sp_colour_obstacle[1], sp_colour_obstacle[2]);
+                "<text x=\"10\" y=\"13\">Liquid flux, L/min per m\xc2\xb2</text><rect x=\"10\" y=\"20\" width=\"400\" "
+                "height=\"18\" fill=\"url(#viridis)\"/>");
+    add_ticks(text, page->scale);
+    sp_text_add(
+        text,
+        "<rect class=\"swatch\" x=\"450\" y=\"20\" width=\"36\" height=\"18\" fill=\"url(#hatch)\"/><text x=\"494\" "
+        "y=\"34\">not covered</text><rect class=\"swatch\" x=\"600\" y=\"20\" width=\"36\" height=\"18\" "
+        "fill=\"#%02x%02x%02x\"/><text x=\"644\" y=\"34\">no cleaning asked</text>\n</svg>\n",
+        sp_colour_obstacle[0], sp_colour_obstacle[1], sp_colour_obstacle[2]);
 }
 
 static bool add_picture(const sp_page *page, sp_text *text, size_t design, const sp_view *view, const sp_camera *camera,
@@ -71,8 +79,9 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
     sp_text_add(text, "<figure><svg class=\"view\" viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"", shot->width,
                 shot->height);
     sp_page_name(page, text, design);
-    sp_text_add(text, ", %s: coverage in false colour with %zu nozzles\"><image width=\"%d\" height=\"%d\" "
-                      "href=\"data:image/png;base64,",
+    sp_text_add(text,
+                ", %s: coverage in false colour with %zu nozzles\"><image width=\"%d\" height=\"%d\" "
+                "href=\"data:image/png;base64,",
                 view->caption, shown->layout->count, shot->width, shot->height);
     sp_markup_base64(text, png, size);
     sp_text_add(text, "\"/>\n");
@@ -118,11 +127,13 @@ static void add_note(const sp_page *page, sp_text *text, const sp_evaluator *fir
 {
     sp_cavity_kind cavity = sp_evaluator_setup(first)->cavity;
     sp_camera camera = sp_camera_create(first, &sp_views[0], PIXELS);
-    sp_text_add(text, "<p class=\"note\">One colour scale for all pictures. %s Dots are nozzles; the outlines show where and how "
-                      "wide they spray, not how far.",
-                cavity == SP_CAVITY_POINT ? "Walls are looked through from outside, so that their wet inner sides show."
-                : camera.cut              ? "The geometry is cut open across the line of sight at its middle."
-                                          : "");
+    sp_text_add(
+        text,
+        "<p class=\"note\">One colour scale for all pictures. %s Dots are nozzles; the outlines show where and how "
+        "wide they spray, not how far.",
+        cavity == SP_CAVITY_POINT ? "Walls are looked through from outside, so that their wet inner sides show."
+        : camera.cut              ? "The geometry is cut open across the line of sight at its middle."
+                                  : "");
     for (size_t i = 0; i < page->result->design_count; ++i)
         if (!page->result->designs[i].evaluator) {
             sp_text_add(text, " Designs known only from a result.json have no pictures.");

@@ -83,9 +83,9 @@ static void ink_edges(sp_shot *shot, const sp_mesh *mesh, const sp_camera *camer
     for (int y = 0; y < rows; ++y)
         for (int x = 0; x < columns; ++x) {
             size_t here = (size_t)y * (size_t)columns + (size_t)x;
-            bool edge = (x + 1 < columns && is_edge(mesh, camera, x, y, &seen[here], x + 1, y, &seen[here + 1])) ||
-                        (y + 1 < rows &&
-                         is_edge(mesh, camera, x, y, &seen[here], x, y + 1, &seen[here + (size_t)columns]));
+            bool edge =
+                (x + 1 < columns && is_edge(mesh, camera, x, y, &seen[here], x + 1, y, &seen[here + 1])) ||
+                (y + 1 < rows && is_edge(mesh, camera, x, y, &seen[here], x, y + 1, &seen[here + (size_t)columns]));
             if (edge)
                 shot->samples[here].shade *= INK;
         }
@@ -121,7 +121,10 @@ void sp_shot_free(sp_shot *shot)
 }
 
 /* Stripes of the hatch across the picture, in samples. */
-static int stripe_at(int x, int y) { return (x + y) % 16 < 4; }
+static int stripe_at(int x, int y)
+{
+    return (x + y) % 16 < 4;
+}
 
 static void sample_colour(const sp_sample *sample, const sp_deposits *deposits, sp_flux_scale scale, int stripe,
                           uint8_t rgb[3])

@@ -5,7 +5,8 @@
 #include "camera.h"
 #include "layers.h"
 
-/* What is seen through every quarter of every pixel; traced once, coloured for as many designs as share the evaluator. */
+/* What is seen through every quarter of every pixel; traced once, coloured for as many designs as share the evaluator.
+ */
 typedef struct {
     uint32_t look; /* a patch, SP_LOOK_GREY or SP_LOOK_NOTHING */
     float shade;   /* brightness, 0 to 1 */

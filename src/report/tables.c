@@ -3,29 +3,62 @@
 
 #include <string.h>
 
-#define L_MIN 6e4     /* L/min per m³/s, and L/min/m² per m/s */
+#define L_MIN 6e4 /* L/min per m³/s, and L/min/m² per m/s */
 #define SHADOWS_SHOWN 10
 
 typedef double measure(const sp_figures *figures);
 
-static double of_attainable(const sp_figures *f) { return 100 * f->of_attainable; }
-static double of_clean(const sp_figures *f) { return 100 * f->coverage; }
-static double covered(const sp_figures *f) { return f->covered_area; }
-static double uncovered(const sp_figures *f) { return f->clean_area - f->covered_area; }
-static double water(const sp_figures *f) { return L_MIN * f->flow; }
-static double ratio(const sp_figures *f) { return f->area_per_water / L_MIN; }
-static double nozzles(const sp_figures *f) { return (double)f->nozzle_count; }
-static double flux_mean(const sp_figures *f) { return L_MIN * f->flux_mean; }
-static double flux_p05(const sp_figures *f) { return L_MIN * f->flux_p05; }
-static double flux_max(const sp_figures *f) { return L_MIN * f->flux_max; }
-static double largest(const sp_figures *f) { return f->shadow_count ? f->shadows[0].area : 0; }
+static double of_attainable(const sp_figures *f)
+{
+    return 100 * f->of_attainable;
+}
+static double of_clean(const sp_figures *f)
+{
+    return 100 * f->coverage;
+}
+static double covered(const sp_figures *f)
+{
+    return f->covered_area;
+}
+static double uncovered(const sp_figures *f)
+{
+    return f->clean_area - f->covered_area;
+}
+static double water(const sp_figures *f)
+{
+    return L_MIN * f->flow;
+}
+static double ratio(const sp_figures *f)
+{
+    return f->area_per_water / L_MIN;
+}
+static double nozzles(const sp_figures *f)
+{
+    return (double)f->nozzle_count;
+}
+static double flux_mean(const sp_figures *f)
+{
+    return L_MIN * f->flux_mean;
+}
+static double flux_p05(const sp_figures *f)
+{
+    return L_MIN * f->flux_p05;
+}
+static double flux_max(const sp_figures *f)
+{
+    return L_MIN * f->flux_max;
+}
+static double largest(const sp_figures *f)
+{
+    return f->shadow_count ? f->shadows[0].area : 0;
+}
 
 typedef struct {
     const char *title, *unit;
     measure *value;
-    int digits;   /* decimals for percentages and counts, else significant digits */
+    int digits; /* decimals for percentages and counts, else significant digits */
     bool decimal;
-    bool points;  /* differences in percentage points */
+    bool points; /* differences in percentage points */
 } row;
 
 static const row rows[] = {
@@ -66,13 +99,14 @@ static void add_difference(sp_text *text, const row *r, double from, double to)
 
 static void add_row(const sp_page *page, sp_text *text, const row *r)
 {
-    bool known = false, difference = page->main != SP_UNKNOWN && page->manual != SP_UNKNOWN && page->main != page->manual;
+    bool known = false,
+         difference = page->main != SP_UNKNOWN && page->manual != SP_UNKNOWN && page->main != page->manual;
     for (size_t i = 0; i < page->result->design_count; ++i)
         known |= isfinite(r->value(&page->figures[i]));
     if (!known)
         return;
-    sp_text_add(text, "<tr><th scope=\"row\">%s%s%s%s</th>", r->title, r->unit[0] ? " <span class=\"unit\">" : "", r->unit,
-                r->unit[0] ? "</span>" : "");
+    sp_text_add(text, "<tr><th scope=\"row\">%s%s%s%s</th>", r->title, r->unit[0] ? " <span class=\"unit\">" : "",
+                r->unit, r->unit[0] ? "</span>" : "");
     for (size_t i = 0; i < page->result->design_count; ++i)
         add_value(text, r, r->value(&page->figures[i]));
     if (difference)
@@ -82,8 +116,9 @@ static void add_row(const sp_page *page, sp_text *text, const row *r)
 
 void sp_page_figures(const sp_page *page, sp_text *text)
 {
-    sp_text_add(text, "<section id=\"figures\"><h2>Figures</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead><tr>"
-                      "<th scope=\"col\">Measure</th>");
+    sp_text_add(text,
+                "<section id=\"figures\"><h2>Figures</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead><tr>"
+                "<th scope=\"col\">Measure</th>");
     for (size_t i = 0; i < page->result->design_count; ++i) {
         sp_text_add(text, "<th scope=\"col\">");
         sp_page_name(page, text, i);
@@ -116,7 +151,7 @@ static void add_text_cell(sp_text *text, const char *tag, const char *value)
 static void add_nozzle(sp_text *text, const sp_nozzle_figures *n)
 {
     const double deg = 180 / M_PI;
-    const double values[] = {n->position.x, n->position.y, n->position.z,     n->axis.x,          n->axis.y,       n->axis.z,
+    const double values[] = {n->position.x, n->position.y,  n->position.z,     n->axis.x,       n->axis.y, n->axis.z,
                              n->roll * deg, n->angle * deg, n->pressure / 1e5, n->flow * L_MIN, n->speed};
     const int decimals[] = {3, 3, 3, 3, 3, 3, 1, 1, 2, 2, 1};
     sp_text_add(text, "<tr>");
@@ -135,13 +170,14 @@ void sp_page_nozzles(const sp_page *page, sp_text *text)
         sp_page_name(page, text, i);
         sp_text_add(text, ": %zu nozzle%s, ", figures->nozzle_count, figures->nozzle_count == 1 ? "" : "s");
         sp_markup_decimals(text, L_MIN * figures->flow, 1);
-        sp_text_add(text,
-                    "&nbsp;L/min</caption>\n<thead><tr><th scope=\"col\">Name</th><th scope=\"col\" "
-                    "class=\"text\">Type</th><th scope=\"col\">x&nbsp;m</th><th scope=\"col\">y&nbsp;m</th><th "
-                    "scope=\"col\">z&nbsp;m</th><th scope=\"col\">axis&nbsp;x</th><th scope=\"col\">axis&nbsp;y</th><th "
-                    "scope=\"col\">axis&nbsp;z</th><th scope=\"col\">roll&nbsp;&deg;</th><th scope=\"col\">angle&nbsp;&deg;"
-                    "</th><th scope=\"col\">bar</th><th scope=\"col\">L/min</th><th scope=\"col\">m/s</th></tr></thead>\n"
-                    "<tbody>\n");
+        sp_text_add(
+            text,
+            "&nbsp;L/min</caption>\n<thead><tr><th scope=\"col\">Name</th><th scope=\"col\" "
+            "class=\"text\">Type</th><th scope=\"col\">x&nbsp;m</th><th scope=\"col\">y&nbsp;m</th><th "
+            "scope=\"col\">z&nbsp;m</th><th scope=\"col\">axis&nbsp;x</th><th scope=\"col\">axis&nbsp;y</th><th "
+            "scope=\"col\">axis&nbsp;z</th><th scope=\"col\">roll&nbsp;&deg;</th><th scope=\"col\">angle&nbsp;&deg;"
+            "</th><th scope=\"col\">bar</th><th scope=\"col\">L/min</th><th scope=\"col\">m/s</th></tr></thead>\n"
+            "<tbody>\n");
         for (size_t k = 0; k < figures->nozzle_count; ++k)
             add_nozzle(text, &figures->nozzles[k]);
         sp_text_add(text, "</tbody></table></div>\n");
@@ -151,8 +187,8 @@ void sp_page_nozzles(const sp_page *page, sp_text *text)
 
 static void add_shadow(sp_text *text, const sp_shadow_figures *shadow, double clean_area)
 {
-    const double values[] = {shadow->area * 1e4, 100 * shadow->area / clean_area, shadow->centroid.x, shadow->centroid.y,
-                             shadow->centroid.z};
+    const double values[] = {shadow->area * 1e4, 100 * shadow->area / clean_area, shadow->centroid.x,
+                             shadow->centroid.y, shadow->centroid.z};
     const int decimals[] = {0, 2, 2, 2, 2};
     const char *reachable = shadow->reachable < 0 ? "\xe2\x80\x93" : shadow->reachable ? "yes" : "no";
     sp_text_add(text, "<tr>");
@@ -171,10 +207,12 @@ static void add_shadows(const sp_page *page, sp_text *text, size_t design)
         sp_text_add(text, ": no uncovered region</caption></table></div>\n");
         return;
     }
-    sp_text_add(text, ": the %zu largest uncovered regions</caption>\n<thead><tr><th scope=\"col\">Part</th><th "
-                      "scope=\"col\">cm\xc2\xb2</th><th scope=\"col\">%% of the surface</th><th scope=\"col\">x&nbsp;m</th>"
-                      "<th scope=\"col\">y&nbsp;m</th><th scope=\"col\">z&nbsp;m</th><th scope=\"col\" class=\"text\">"
-                      "Attainable</th></tr></thead>\n<tbody>\n", shown);
+    sp_text_add(text,
+                ": the %zu largest uncovered regions</caption>\n<thead><tr><th scope=\"col\">Part</th><th "
+                "scope=\"col\">cm\xc2\xb2</th><th scope=\"col\">%% of the surface</th><th scope=\"col\">x&nbsp;m</th>"
+                "<th scope=\"col\">y&nbsp;m</th><th scope=\"col\">z&nbsp;m</th><th scope=\"col\" class=\"text\">"
+                "Attainable</th></tr></thead>\n<tbody>\n",
+                shown);
     for (size_t i = 0; i < shown; ++i)
         add_shadow(text, &figures->shadows[i], figures->clean_area);
     sp_text_add(text, "</tbody></table></div>\n");
@@ -203,8 +241,9 @@ void sp_page_stages(const sp_page *page, sp_text *text)
     const sp_result *result = page->result;
     if (result->stage_count == 0 && (!result->proposal || result->proposal->stage_count == 0))
         return;
-    sp_text_add(text, "<section id=\"stages\"><h2>Computing time</h2>\n<table class=\"numbers small narrow\"><thead><tr><th "
-                      "scope=\"col\">Stage</th><th scope=\"col\">Seconds</th></tr></thead>\n<tbody>\n");
+    sp_text_add(text,
+                "<section id=\"stages\"><h2>Computing time</h2>\n<table class=\"numbers small narrow\"><thead><tr><th "
+                "scope=\"col\">Stage</th><th scope=\"col\">Seconds</th></tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < result->stage_count; ++i)
         add_stage(text, &result->stages[i]);
     for (size_t i = 0; result->proposal && i < result->proposal->stage_count; ++i)

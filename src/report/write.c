@@ -15,7 +15,8 @@ static bool deposits(const sp_design *design, sp_flux_scale scale, const char *p
     return sp_report_deposits_exr(design, path, error);
 }
 
-static bool write_design(const sp_design *design, sp_flux_scale scale, const char *suffix, sp_output *output, sp_error *error)
+static bool write_design(const sp_design *design, sp_flux_scale scale, const char *suffix, sp_output *output,
+                         sp_error *error)
 {
     const struct {
         const char *name, *extension;
@@ -54,7 +55,7 @@ static bool write_designs(const sp_result *result, const sp_design *main, sp_out
     sp_flux_scale scale = sp_flux_scale_of(result->designs, result->design_count);
     for (size_t i = 0; i < result->design_count; ++i) {
         const sp_design *design = &result->designs[i];
-        const char *suffix = design == main                           ? ""
+        const char *suffix = design == main                        ? ""
                              : strcmp(design->name, "manual") == 0 ? "-manual"
                              : strcmp(design->name, "greedy") == 0 ? "-greedy"
                                                                    : NULL;

@@ -20,7 +20,8 @@ static void add_field(sp_text *text, const char *value)
 char *sp_nozzles_csv(const sp_layout *layout, const sp_fluid *liquid, sp_error *error)
 {
     sp_text text = {0};
-    sp_text_add(&text, "name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s\n");
+    sp_text_add(&text,
+                "name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s\n");
     for (size_t i = 0; i < layout->count; ++i) {
         const sp_nozzle *nozzle = &layout->nozzles[i];
         const double values[] = {nozzle->position.x,

@@ -26,8 +26,7 @@ static void set_coverage(sp_figures *figures, const sp_coverage *coverage)
     figures->flow = coverage->flow;
     figures->covered_area = coverage->covered_area;
     figures->coverage = coverage->fraction;
-    figures->of_attainable =
-        figures->attainable_area > 0 ? coverage->covered_area / figures->attainable_area : NAN;
+    figures->of_attainable = figures->attainable_area > 0 ? coverage->covered_area / figures->attainable_area : NAN;
     figures->area_per_water = coverage->flow > 0 ? coverage->area_per_water : NAN;
     figures->flux_min = coverage->flux_min;
     figures->flux_mean = coverage->flux_mean;
@@ -81,7 +80,7 @@ static bool describe(sp_figures *figures, const sp_design *design, const bool *a
     figures->attainable_area = attainable ? attainable_area : NAN;
     set_coverage(figures, design->coverage);
     bool done = sp_figures_make_rows(figures, shadow_count < SP_SHADOWS_KEPT ? shadow_count : SP_SHADOWS_KEPT,
-                          design->layout->count) &&
+                                     design->layout->count) &&
                 set_nozzles(figures, design->layout, &setup->liquid) && set_shadows(figures, shadows, setup->mesh);
     free(shadows);
     return done || sp_fail_memory(error);

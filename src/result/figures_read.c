@@ -40,7 +40,8 @@ static const char *kind_of(const json_t *value)
 static bool wrong(const reader *in, const char *key, const json_t *found, const char *expected)
 {
     if (!found)
-        return sp_fail(in->error, SP_ERROR_INPUT, in->file, 0, 0, "%s%s: missing, expected %s", in->place, key, expected);
+        return sp_fail(in->error, SP_ERROR_INPUT, in->file, 0, 0, "%s%s: missing, expected %s", in->place, key,
+                       expected);
     if (json_is_number(found))
         return sp_fail(in->error, SP_ERROR_INPUT, in->file, 0, 0, "%s%s: found %.17g, expected %s", in->place, key,
                        json_number_value(found), expected);
@@ -49,8 +50,8 @@ static bool wrong(const reader *in, const char *key, const json_t *found, const 
 }
 
 /* A number in [minimum, maximum] times `unit`; NAN where absent. */
-static bool get_real(const reader *in, const json_t *object, const char *key, double minimum, double maximum, double unit,
-                     double *value)
+static bool get_real(const reader *in, const json_t *object, const char *key, double minimum, double maximum,
+                     double unit, double *value)
 {
     const json_t *found = json_object_get(object, key);
     *value = NAN;

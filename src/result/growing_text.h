@@ -24,8 +24,8 @@ void sp_text_number(sp_text *text, double value);
 /* The terminated text, the caller's to free; NULL (and nothing left to free) where memory ran out. */
 char *sp_text_finish(sp_text *text, sp_error *error);
 
-/* A malloc'd copy in which every byte that is not part of valid UTF-8 (RFC 3629), and every control character, is U+FFFD:
- * names come from files of strangers. NULL where memory ran out. */
+/* A malloc'd copy in which every byte that is not part of valid UTF-8 (RFC 3629), and every control character, is
+ * U+FFFD: names come from files of strangers. NULL where memory ran out. */
 char *sp_text_utf8(const char *bytes);
 
 #endif

@@ -9,7 +9,10 @@
 #include <string.h>
 
 /* An absent figure is no failure; a figure that finds no memory is. */
-static bool put(json_t *object, const char *key, json_t *value) { return json_object_set_new(object, key, value) == 0; }
+static bool put(json_t *object, const char *key, json_t *value)
+{
+    return json_object_set_new(object, key, value) == 0;
+}
 
 static bool put_real(json_t *object, const char *key, double value)
 {
@@ -45,11 +48,11 @@ static bool put_geometry(json_t *object, const sp_figures *figures)
 static bool put_fidelity(json_t *object, const sp_figures *figures)
 {
     json_t *fidelity = json_object();
-    bool done = put_text(fidelity, "trajectory", figures->trajectory) &&
-                put_text(fidelity, "evaluator", figures->evaluator) &&
-                put_count(fidelity, "reflections", figures->reflections) &&
-                put_count(fidelity, "jets_per_nozzle", figures->jets) && put_real(fidelity, "texel_m", figures->texel) &&
-                put_real(fidelity, "error_estimate", figures->error_estimate);
+    bool done =
+        put_text(fidelity, "trajectory", figures->trajectory) && put_text(fidelity, "evaluator", figures->evaluator) &&
+        put_count(fidelity, "reflections", figures->reflections) &&
+        put_count(fidelity, "jets_per_nozzle", figures->jets) && put_real(fidelity, "texel_m", figures->texel) &&
+        put_real(fidelity, "error_estimate", figures->error_estimate);
     return put(object, "fidelity", fidelity) && done;
 }
 
@@ -99,7 +102,10 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, bool own_geom
     return json_array_append_new(layouts, layout) == 0 && done;
 }
 
-static bool equal(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
+static bool equal(double a, double b)
+{
+    return a == b || (isnan(a) && isnan(b));
+}
 
 static bool same_geometry(const sp_figures *a, const sp_figures *b)
 {
@@ -131,7 +137,8 @@ static bool put_front(json_t *root, const sp_proposal *proposal, double clean_ar
 static bool put_stages(json_t *stages, const sp_stage *list, size_t count)
 {
     for (size_t i = 0; i < count; ++i)
-        if (json_array_append_new(stages, json_pack("{s:s, s:f}", "name", list[i].name, "seconds", list[i].seconds)) != 0)
+        if (json_array_append_new(stages, json_pack("{s:s, s:f}", "name", list[i].name, "seconds", list[i].seconds)) !=
+            0)
             return false;
     return true;
 }

@@ -5,9 +5,9 @@
 
 #define AUTO_TEXELS 200000
 #define AUTO_REFLECTIONS 3
-/* Jets per nozzle and texel of the whole surface: with a flux criterion what a texel at the threshold then receives from a
- * nozzle that would flood the whole surface at the threshold; without one a texel must merely not be missed. The bound, for
- * the time that tracing takes, binds where the texel is left to auto too. */
+/* Jets per nozzle and texel of the whole surface: with a flux criterion what a texel at the threshold then receives
+ * from a nozzle that would flood the whole surface at the threshold; without one a texel must merely not be missed. The
+ * bound, for the time that tracing takes, binds where the texel is left to auto too. */
 #define AUTO_MOST_JETS 4e6
 #define AUTO_JETS_AT_THRESHOLD 150
 #define AUTO_JETS_TO_TOUCH 20

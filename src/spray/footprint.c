@@ -4,12 +4,12 @@
 
 #include <stdlib.h>
 
-#define NARROW 2.0         /* texels: wider sprays are judged at the patch's point */
-#define COARSE 0.125       /* texels: the largest cell, for what changes smoothly and for shadows */
-#define FINE 0.125         /* of the spray's width: the largest cell at its edge */
-#define FINEST (1.0 / 256) /* texels: no cell is halved below it, whatever the width; but for spots: */
+#define NARROW 2.0          /* texels: wider sprays are judged at the patch's point */
+#define COARSE 0.125        /* texels: the largest cell, for what changes smoothly and for shadows */
+#define FINE 0.125          /* of the spray's width: the largest cell at its edge */
+#define FINEST (1.0 / 256)  /* texels: no cell is halved below it, whatever the width; but for spots: */
 #define FINEST_SPOT 0x1p-20 /* texels */
-#define BEND 1.5           /* how much more a parabola's direction may turn across a cell than at its middle */
+#define BEND 1.5            /* how much more a parabola's direction may turn across a cell than at its middle */
 
 static double least_opening(const sp_spray *spray)
 {
@@ -35,8 +35,8 @@ sp_vec3 sp_emitter_local(const sp_emitter *emitter, sp_vec3 direction)
     return sp_v(sp_dot(direction, frame->x), sp_dot(direction, frame->y), sp_dot(direction, frame->z));
 }
 
-/* How far the end of a flight moves per angle at the nozzle, across the plane of the flight: v t, the distance of a line. Where a
- * point is beyond reach, as at the envelope next to it, where T = 2 r / g. */
+/* How far the end of a flight moves per angle at the nozzle, across the plane of the flight: v t, the distance of a
+ * line. Where a point is beyond reach, as at the envelope next to it, where T = 2 r / g. */
 static double lever(const sp_emitter *emitter, sp_vec3 point)
 {
     const sp_source *source = &emitter->source;
@@ -55,9 +55,9 @@ bool sp_emitter_is_narrow(const sp_emitter *emitter, uint32_t patch)
     return emitter->width * lever(emitter, evaluator->patches.point[patch]) < NARROW * evaluator->fidelity.texel;
 }
 
-/* For a point beyond reach: whether liquid may reach what lies within `radius` of it. With h the drop along gravity and w the
- * way across it, the parabola of safety is v⁴ + 2 v² g h = g² w²; the jets that touch it halve the angle between upwards and
- * the point, and one that leaves at another angle a falls short of it as a² v t. */
+/* For a point beyond reach: whether liquid may reach what lies within `radius` of it. With h the drop along gravity and
+ * w the way across it, the parabola of safety is v⁴ + 2 v² g h = g² w²; the jets that touch it halve the angle between
+ * upwards and the point, and one that leaves at another angle a falls short of it as a² v t. */
 static bool may_reach_near(const sp_emitter *emitter, sp_vec3 point, double radius)
 {
     const sp_source *source = &emitter->source;
@@ -165,7 +165,8 @@ static void integrate_quarters(patch_integral *integral, const cell *whole)
 /* What share of a cell a strip covers is known without halving the cell; of a spot it is not. */
 static double finest_cell(const sp_emitter *emitter, const sp_flight *flight)
 {
-    double texel = emitter->source.evaluator->fidelity.texel, spot = emitter->width * emitter->source.speed * flight->time;
+    double texel = emitter->source.evaluator->fidelity.texel,
+           spot = emitter->width * emitter->source.speed * flight->time;
     return emitter->is_spot ? fmin(FINEST * texel, fmax(FINEST_SPOT * texel, FINE * spot)) : FINEST * texel;
 }
 
@@ -190,7 +191,8 @@ static void integrate_cell(patch_integral *integral, const cell *whole)
     double extent = radius * bearing.turn;
     if (bearing.margin < -extent)
         return;
-    bool at_edge = fabs(bearing.margin) < extent && extent > FINE * emitter->width && radius > finest_cell(emitter, flight);
+    bool at_edge =
+        fabs(bearing.margin) < extent && extent > FINE * emitter->width && radius > finest_cell(emitter, flight);
     if (coarse || at_edge) {
         integrate_quarters(integral, whole);
         return;

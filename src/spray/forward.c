@@ -7,7 +7,8 @@
 
 #define BATCH 65536 /* jets in flight at once */
 #define SHARES 4    /* patches that one jet's liquid goes to at most */
-/* Texels that a jet flies before anything stops it: on which side of the wall it stands in a nozzle is, is round-off. */
+/* Texels that a jet flies before anything stops it: on which side of the wall it stands in a nozzle is, is round-off.
+ */
 #define MOUTH 1e-7
 
 /* What one jet does where it hits. */

@@ -8,8 +8,8 @@
 
 struct sp_evaluator {
     sp_setup setup;
-    sp_fidelity fidelity; /* resolved: nothing left to auto */
-    sp_vec3 gravity;      /* zero for lines */
+    sp_fidelity fidelity;       /* resolved: nothing left to auto */
+    sp_vec3 gravity;            /* zero for lines */
     const sp_evaluator *origin; /* of a resampled evaluator: owns tracer, charts and wet; else NULL */
     sp_tracer *tracer;
     sp_charts *charts;
@@ -20,7 +20,10 @@ struct sp_evaluator {
 };
 
 /* Threads to use for sp_run's `threads`. */
-static inline int sp_thread_count(int threads) { return threads > 0 ? threads : omp_get_max_threads(); }
+static inline int sp_thread_count(int threads)
+{
+    return threads > 0 ? threads : omp_get_max_threads();
+}
 /* Reports progress; false, with the error set, where the caller is to stop. */
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error);
 
@@ -35,8 +38,8 @@ bool sp_patches_create(sp_evaluator *evaluator, sp_error *error);
 void sp_patches_free(sp_patches *patches);
 /* Whether a triangle's `side` (0 front, or both where no cavity is named; 1 back) is cleaned and counted. */
 bool sp_side_is_counted(const sp_evaluator *evaluator, uint32_t triangle, unsigned side);
-/* The patch that takes what arrives at the point (1-u-v, u, v) of a triangle, on its back or else its front; SP_NONE where
- * that side is dry or an obstacle. */
+/* The patch that takes what arrives at the point (1-u-v, u, v) of a triangle, on its back or else its front; SP_NONE
+ * where that side is dry or an obstacle. */
 uint32_t sp_patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back);
 
 /* forward.c, inverse.c: what sp_evaluate calls. */
@@ -44,8 +47,8 @@ sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout 
 
 /* coverage.c: everything zero, [patches.count]. */
 sp_coverage *sp_coverage_create(const sp_evaluator *evaluator, sp_error *error);
-/* One arrival of `flux` (m³/s per m²) and `jets` at a patch. speed, incidence and impact are summed weighted by flux until
- * sp_coverage_conclude divides. Does not touch `counted`. */
+/* One arrival of `flux` (m³/s per m²) and `jets` at a patch. speed, incidence and impact are summed weighted by flux
+ * until sp_coverage_conclude divides. Does not touch `counted`. */
 void sp_deposit(sp_deposits *deposits, uint32_t patch, double flux, double jets, double speed, double incidence,
                 double density);
 /* Divides the means, applies the criterion to `counted`, and draws the figures. */

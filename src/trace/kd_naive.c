@@ -83,7 +83,8 @@ bool sp_kd_build_naive(const sp_mesh *mesh, sp_kd_tree *tree)
 {
     size_t count = mesh->triangle_count;
     sp_kd_box *boxes = sp_kd_boxes(mesh);
-    cell root = {.triangles = malloc((count + 1) * sizeof *root.triangles), .count = count, .duplication = SP_KD_DUPLICATION};
+    cell root = {
+        .triangles = malloc((count + 1) * sizeof *root.triangles), .count = count, .duplication = SP_KD_DUPLICATION};
     bool good = boxes && root.triangles;
     if (good) {
         sp_kd_enclose((const sp_kd_box *)boxes, count, tree);

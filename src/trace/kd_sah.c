@@ -1,7 +1,7 @@
-/* The kd-tree by the surface area heuristic (study, 3.2.2.1, after Havran 2000): of all planes through the outermost vertices
- * of triangles, the one that makes a random ray cheapest; a leaf where that is cheaper still. Built in n log n as Wald and
- * Havran describe ("On building fast kd-trees for ray tracing, and on doing that in O(N log N)", 2006): events are sorted
- * once, and the children's events are the parent's without those of the other side. */
+/* The kd-tree by the surface area heuristic (study, 3.2.2.1, after Havran 2000): of all planes through the outermost
+ * vertices of triangles, the one that makes a random ray cheapest; a leaf where that is cheaper still. Built in n log n
+ * as Wald and Havran describe ("On building fast kd-trees for ray tracing, and on doing that in O(N log N)", 2006):
+ * events are sorted once, and the children's events are the parent's without those of the other side. */
 #include "trace/kd_tree.h"
 
 #include <stdlib.h>
@@ -73,7 +73,8 @@ static bool collect(const sp_kd_box *boxes, size_t count, int axis, cell *root)
 /* Half the surface of the cell between two planes across `axis`. */
 static double half_surface(const cell *c, int axis, double low, double high)
 {
-    double across = c->high[(axis + 1) % 3] - c->low[(axis + 1) % 3], up = c->high[(axis + 2) % 3] - c->low[(axis + 2) % 3];
+    double across = c->high[(axis + 1) % 3] - c->low[(axis + 1) % 3],
+           up = c->high[(axis + 2) % 3] - c->low[(axis + 2) % 3];
     return (high - low) * (across + up) + across * up;
 }
 
@@ -190,8 +191,9 @@ static bool build(const builder *b, cell *c, int depth)
     plane p = choose(c, depth);
     cell left = {0}, right = {0};
     uint32_t node = 0;
-    bool good = p.axis < 0 ? make_leaf(b, c)
-                           : divide(b, c, &p, &left, &right) && sp_kd_add_inner(b->tree, p.position, (uint32_t)p.axis, &node);
+    bool good = p.axis < 0
+                    ? make_leaf(b, c)
+                    : divide(b, c, &p, &left, &right) && sp_kd_add_inner(b->tree, p.position, (uint32_t)p.axis, &node);
     clear(c);
     if (good && p.axis >= 0) {
         good = build(b, &left, depth - 1);

@@ -31,7 +31,8 @@ typedef double sp_kd_box[2][3];
 sp_kd_box *sp_kd_boxes(const sp_mesh *mesh);
 /* Sets tree->low and tree->high. */
 void sp_kd_enclose(const sp_kd_box *boxes, size_t count, sp_kd_tree *tree);
-/* How deep a tree over so many triangles may grow: 8 + 1.3 log2 n (Havran, "Heuristic Ray Shooting Algorithms", 2000). */
+/* How deep a tree over so many triangles may grow: 8 + 1.3 log2 n (Havran, "Heuristic Ray Shooting Algorithms", 2000).
+ */
 int sp_kd_depth(size_t triangle_count);
 /* Both false when memory, or the numbers for references, run out. */
 bool sp_kd_add_inner(sp_kd_tree *tree, double split, uint32_t axis, uint32_t *node);

@@ -17,16 +17,16 @@ bool sp_line_start(sp_line *line, const sp_ray *ray)
     return along != 0 && isfinite(line->shear_x + line->shear_y + line->inverse_z);
 }
 
-/* a b - c d to the last bit but one: Kahan's algorithm (Jeannerod, Louvet, Muller, "Further analysis of Kahan's algorithm for
- * the accurate computation of 2x2 determinants", 2013). */
+/* a b - c d to the last bit but one: Kahan's algorithm (Jeannerod, Louvet, Muller, "Further analysis of Kahan's
+ * algorithm for the accurate computation of 2x2 determinants", 2013). */
 static double difference_of_products(double a, double b, double c, double d)
 {
     double cd = c * d, error = fma(-c, d, cd);
     return fma(a, b, -cd) + error;
 }
 
-/* Weights of the corners of a triangle that is seen almost edge-on: there the plain ones are mostly round-off, and the time
- * would be anywhere along the triangle. */
+/* Weights of the corners of a triangle that is seen almost edge-on: there the plain ones are mostly round-off, and the
+ * time would be anywhere along the triangle. */
 static bool weigh_sliver(const double x[3], const double y[3], double weights[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -38,9 +38,9 @@ static bool weigh_sliver(const double x[3], const double y[3], double weights[3]
     return above != below;
 }
 
-/* Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2013, in double precision. The triangle is sheared so that
- * the line becomes the z axis; triangles that share an edge decide by the same numbers on which side of it the line passes,
- * and a line through the edge belongs to both. */
+/* Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2013, in double precision. The triangle is sheared
+ * so that the line becomes the z axis; triangles that share an edge decide by the same numbers on which side of it the
+ * line passes, and a line through the edge belongs to both. */
 static inline void test(const sp_line *line, const sp_corners corners, uint32_t triangle, sp_search *search)
 {
     double x[3], y[3], z[3], weights[3];
@@ -72,10 +72,10 @@ void sp_line_search_all(const sp_line *line, const sp_corners *corners, size_t c
         test(line, corners[t], (uint32_t)t, search);
 }
 
-/* A line on its way through a tree. Every plane is taken as thick as `margin`, so that rounding never decides which cells are
- * visited. Where the line is at the time of a hit, it is less than 2^-40 of the distance of the farthest corner away from the
- * triangle: the corners' rounding is 2^-52 of that distance, and the sliver's test keeps the weights' from exceeding it by more
- * than 2^8 and a small factor. */
+/* A line on its way through a tree. Every plane is taken as thick as `margin`, so that rounding never decides which
+ * cells are visited. Where the line is at the time of a hit, it is less than 2^-40 of the distance of the farthest
+ * corner away from the triangle: the corners' rounding is 2^-52 of that distance, and the sliver's test keeps the
+ * weights' from exceeding it by more than 2^8 and a small factor. */
 typedef struct {
     const sp_line *line;
     double margin;     /* m */
@@ -90,7 +90,8 @@ static bool enter(walk *w, const sp_kd_tree *tree, double *from, double *to)
     const sp_line *line = w->line;
     double farthest = 0;
     for (int axis = 0; axis < 3; axis++)
-        farthest = sp_greater(farthest, sp_greater(fabs(tree->low[axis] - line->origin[axis]), fabs(tree->high[axis] - line->origin[axis])));
+        farthest = sp_greater(farthest, sp_greater(fabs(tree->low[axis] - line->origin[axis]),
+                                                   fabs(tree->high[axis] - line->origin[axis])));
     w->margin = 0x1p-36 * farthest;
     for (int axis = 0; axis < 3; axis++) {
         double low = tree->low[axis] - w->margin - line->origin[axis];
@@ -128,7 +129,8 @@ static inline void step(const walk *w, const sp_kd_node *node, pending *at, pend
         return;
     }
     uint32_t near = w->rising[axis] ? left : right, far = w->rising[axis] ? right : left;
-    double crossing = offset * w->inverse[axis], arrival = crossing - w->slack[axis], departure = crossing + w->slack[axis];
+    double crossing = offset * w->inverse[axis], arrival = crossing - w->slack[axis],
+           departure = crossing + w->slack[axis];
     if (departure < at->from) {
         at->node = far;
     } else {

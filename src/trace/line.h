@@ -8,9 +8,9 @@
 /* A line x(t) = origin + velocity t, made ready. */
 typedef struct {
     double origin[3], velocity[3];
-    int x, y, z;              /* axes; z is the one of the largest component of velocity */
-    double shear_x, shear_y;  /* velocity[x], velocity[y] over velocity[z] */
-    double inverse_z;         /* 1 / velocity[z] */
+    int x, y, z;             /* axes; z is the one of the largest component of velocity */
+    double shear_x, shear_y; /* velocity[x], velocity[y] over velocity[z] */
+    double inverse_z;        /* 1 / velocity[z] */
 } sp_line;
 
 /* False where the velocity is zero or not finite: such a line hits nothing. */

@@ -5,10 +5,13 @@
 /* Rounding of positions, relative to the lengths that they are summed from: some operations' worth. */
 static const double rounding = 32 * DBL_EPSILON;
 
-static inline double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static inline double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
-/* Sets first and last. Within the box the way along gravity is at most `reach`, so that pull t²/2 ≤ reach + along |t|, and so is
- * the way across gravity, so that across |t| ≤ reach. */
+/* Sets first and last. Within the box the way along gravity is at most `reach`, so that pull t²/2 ≤ reach + along |t|,
+ * and so is the way across gravity, so that across |t| ≤ reach. */
 static void bound_time(sp_parabola *p, const sp_ray *ray)
 {
     double reach = 2 * p->farthest; /* a space diagonal has at most √3 */
@@ -31,7 +34,8 @@ bool sp_parabola_start(sp_parabola *p, const sp_ray *ray, sp_vec3 gravity, const
     p->pull = sqrt(dot(p->gravity, p->gravity));
     p->farthest = 0;
     for (int axis = 0; axis < 3; axis++)
-        p->farthest = sp_greater(p->farthest, sp_greater(fabs(low[axis] - p->origin[axis]), fabs(high[axis] - p->origin[axis])));
+        p->farthest =
+            sp_greater(p->farthest, sp_greater(fabs(low[axis] - p->origin[axis]), fabs(high[axis] - p->origin[axis])));
     bound_time(p, ray);
     return p->first <= p->last && isfinite(sp_parabola_summed(p, p->first) + sp_parabola_summed(p, p->last));
 }
@@ -63,8 +67,8 @@ static inline crossing cross_plane(const sp_parabola *p, const sp_corners corner
     return c;
 }
 
-/* How far rounding may move the plane and the flight against each other near the triangle at time t, m: the normal's own error
- * counts the more the thinner the triangle. */
+/* How far rounding may move the plane and the flight against each other near the triangle at time t, m: the normal's
+ * own error counts the more the thinner the triangle. */
 static double uncertainty(const crossing *c, double t)
 {
     double longest = sp_greater(dot(c->edge[0], c->edge[0]), dot(c->edge[1], c->edge[1]));
@@ -82,7 +86,8 @@ static bool touches(const crossing *c, double *t)
     return fabs(beyond) <= uncertainty(c, *t);
 }
 
-/* Where the segment between two points of the plane is nearest to the origin, 0 at a, 1 at b; the square of that distance. */
+/* Where the segment between two points of the plane is nearest to the origin, 0 at a, 1 at b; the square of that
+ * distance. */
 static double nearest_on_segment(const double a[2], const double b[2], double *square)
 {
     double along[2] = {b[0] - a[0], b[1] - a[1]};
@@ -94,9 +99,10 @@ static double nearest_on_segment(const double a[2], const double b[2], double *s
     return share;
 }
 
-/* Whether a point outside the triangle is no farther from it than rounding may have moved it in its plane: a flight that crosses
- * the plane at a flat angle is in it at a time that is the less certain. So nothing slips between two triangles. `corner`
- * holds the corners as seen from the point, projected. Sets the weights of the rim's nearest point. */
+/* Whether a point outside the triangle is no farther from it than rounding may have moved it in its plane: a flight
+ * that crosses the plane at a flat angle is in it at a time that is the less certain. So nothing slips between two
+ * triangles. `corner` holds the corners as seen from the point, projected. Sets the weights of the rim's nearest point.
+ */
 static bool is_at_rim(const crossing *c, const double corner[3][2], double t, double weight[3])
 {
     double speed[3];
@@ -126,8 +132,8 @@ static bool is_far_outside(const crossing *c, int i, double share, double t)
     return share * share * dot(c->normal, c->normal) > most * most * dot(edge, edge);
 }
 
-/* Whether the flight is in the triangle at time t, when it is in its plane, edges included. Sets the weights of the second and
- * third corner. */
+/* Whether the flight is in the triangle at time t, when it is in its plane, edges included. Sets the weights of the
+ * second and third corner. */
 static bool is_inside(const crossing *c, double t, double weights[2])
 {
     const double *n = c->normal;
@@ -180,8 +186,8 @@ void sp_parabola_search_all(const sp_parabola *parabola, const sp_corners *corne
         test(parabola, corners[t], (uint32_t)t, search);
 }
 
-void sp_parabola_search_some(const sp_parabola *parabola, const sp_corners *corners, const uint32_t *references, size_t count,
-                             sp_search *search)
+void sp_parabola_search_some(const sp_parabola *parabola, const sp_corners *corners, const uint32_t *references,
+                             size_t count, sp_search *search)
 {
     for (size_t i = 0; i < count; i++)
         test(parabola, corners[references[i]], references[i], search);

@@ -13,9 +13,10 @@ typedef struct {
     double first, last; /* s, the flight is not in that box before or after */
 } sp_parabola;
 
-/* False where nothing can be hit: numbers that are not finite, or a time span that is empty. `low` and `high` are the box around
- * all triangles. `gravity` is not zero. */
-bool sp_parabola_start(sp_parabola *parabola, const sp_ray *ray, sp_vec3 gravity, const double low[3], const double high[3]);
+/* False where nothing can be hit: numbers that are not finite, or a time span that is empty. `low` and `high` are the
+ * box around all triangles. `gravity` is not zero. */
+bool sp_parabola_start(sp_parabola *parabola, const sp_ray *ray, sp_vec3 gravity, const double low[3],
+                       const double high[3]);
 /* x, along one axis, and all that it is summed from, m. */
 static inline double sp_parabola_coordinate(const sp_parabola *p, int axis, double t)
 {
@@ -26,8 +27,8 @@ static inline double sp_parabola_summed(const sp_parabola *p, double t)
     return p->farthest + fabs(t) * (p->speed + 0.5 * fabs(t) * p->pull);
 }
 
-/* The real roots of a/2 t² + b t + c = 0 in ascending order, two of them, equal where they are one; false where there are none.
- * A root beyond all range is infinite or NaN. */
+/* The real roots of a/2 t² + b t + c = 0 in ascending order, two of them, equal where they are one; false where there
+ * are none. A root beyond all range is infinite or NaN. */
 bool sp_quadratic_roots(double a, double b, double c, double roots[2]);
 
 /* Hits are at most this far from their triangle, relative to what the position is summed from. */
@@ -35,8 +36,8 @@ bool sp_quadratic_roots(double a, double b, double c, double roots[2]);
 
 /* Searches all triangles, or the `count` of them that `references` names. */
 void sp_parabola_search_all(const sp_parabola *parabola, const sp_corners *corners, size_t count, sp_search *search);
-void sp_parabola_search_some(const sp_parabola *parabola, const sp_corners *corners, const uint32_t *references, size_t count,
-                             sp_search *search);
+void sp_parabola_search_some(const sp_parabola *parabola, const sp_corners *corners, const uint32_t *references,
+                             size_t count, sp_search *search);
 /* Searches those that the flight passes in the tree. */
 void sp_parabola_search_tree(const sp_parabola *parabola, const sp_corners *corners, const sp_kd_tree *tree,
                              sp_search *search);

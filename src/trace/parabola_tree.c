@@ -1,5 +1,5 @@
-/* Parabolas through kd-trees. A flight is taken in pieces between the times at which it turns along an axis; within a piece every
- * coordinate goes one way only, so that it crosses a plane once, as a line does. */
+/* Parabolas through kd-trees. A flight is taken in pieces between the times at which it turns along an axis; within a
+ * piece every coordinate goes one way only, so that it crosses a plane once, as a line does. */
 #include "trace/parabola.h"
 
 /* Every plane is taken as thick as this, relative to what positions are summed from: more than hits are off. */
@@ -14,8 +14,8 @@ typedef struct {
     bool still[3]; /* moves less than the margin along this axis */
 } walk;
 
-/* When the coordinate has that value, on a piece on which it is `rising` or falls: from speed² = velocity² + 2 gravity way,
- * without cancellation. */
+/* When the coordinate has that value, on a piece on which it is `rising` or falls: from speed² = velocity² + 2 gravity
+ * way, without cancellation. */
 static double time_at(const sp_parabola *p, int axis, double value, bool rising)
 {
     double v = p->velocity[axis], g = p->gravity[axis], way = value - p->origin[axis];
@@ -25,7 +25,10 @@ static double time_at(const sp_parabola *p, int axis, double value, bool rising)
     return g == 0 || speed * v > 0 ? 2 * way / (speed + v) : (speed - v) / g;
 }
 
-static inline double clamp(double t, double from, double to) { return sp_lesser(sp_greater(t, from), to); }
+static inline double clamp(double t, double from, double to)
+{
+    return sp_lesser(sp_greater(t, from), to);
+}
 
 /* Cuts the piece to when the coordinate is between low and high. */
 static bool cut(const sp_parabola *p, int axis, double low, double high, double *from, double *to)
@@ -67,9 +70,10 @@ typedef struct {
     double from, to; /* s */
 } pending;
 
-/* When the flight comes within the margin of the plane, and when it has left it: within from..to, or before or after where
- * that is not so. */
-static inline void pass_plane(const walk *w, int axis, double split, const pending *at, double *arrival, double *departure)
+/* When the flight comes within the margin of the plane, and when it has left it: within from..to, or before or after
+ * where that is not so. */
+static inline void pass_plane(const walk *w, int axis, double split, const pending *at, double *arrival,
+                              double *departure)
 {
     const sp_parabola *p = w->flight;
     if (p->gravity[axis] == 0) {
@@ -114,8 +118,8 @@ static inline void step(const walk *w, const sp_kd_node *node, pending *at, pend
     }
 }
 
-static void search_piece(const sp_parabola *flight, const sp_corners *corners, const sp_kd_tree *tree, double from, double to,
-                         sp_search *search)
+static void search_piece(const sp_parabola *flight, const sp_corners *corners, const sp_kd_tree *tree, double from,
+                         double to, sp_search *search)
 {
     walk w = {.flight = flight};
     pending stack[SP_KD_DEPTH + 1], at = {0, from, to};

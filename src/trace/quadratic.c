@@ -1,7 +1,7 @@
 #include "trace/parabola.h"
 
-/* b² - 2 a c. Where the two nearly cancel, with the products' rounding errors (Kahan, "On the Cost of Floating-Point Computation
- * Without Extra-Precise Arithmetic", 2004). */
+/* b² - 2 a c. Where the two nearly cancel, with the products' rounding errors (Kahan, "On the Cost of Floating-Point
+ * Computation Without Extra-Precise Arithmetic", 2004). */
 static double discriminant(double a, double b, double c)
 {
     double square = b * b, product = 2 * a * c, difference = square - product;

@@ -5,8 +5,14 @@
 #include <sprayplan/trace.h>
 
 /* fmin and fmax without their rule for NaN, which costs a call. */
-static inline double sp_lesser(double a, double b) { return a < b ? a : b; }
-static inline double sp_greater(double a, double b) { return a > b ? a : b; }
+static inline double sp_lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+static inline double sp_greater(double a, double b)
+{
+    return a > b ? a : b;
+}
 
 /* Corners of a triangle, m. */
 typedef double sp_corners[3][3];
@@ -36,7 +42,10 @@ static inline void sp_search_take(sp_search *search, double t, double u, double 
     search->best = (sp_hit){t, u, v, triangle};
 }
 
-static inline bool sp_search_done(const sp_search *search) { return search->any && search->best.triangle != SP_NONE; }
+static inline bool sp_search_done(const sp_search *search)
+{
+    return search->any && search->best.triangle != SP_NONE;
+}
 
 static inline void sp_to_array(sp_vec3 p, double array[3])
 {

@@ -60,12 +60,16 @@ void sp_tracer_destroy(sp_tracer *tracer)
     free(tracer);
 }
 
-const sp_mesh *sp_tracer_mesh(const sp_tracer *tracer) { return tracer->mesh; }
+const sp_mesh *sp_tracer_mesh(const sp_tracer *tracer)
+{
+    return tracer->mesh;
+}
 
 size_t sp_tracer_bytes(const sp_tracer *tracer)
 {
     return sizeof *tracer + tracer->mesh->triangle_count * sizeof *tracer->corners +
-           tracer->tree.node_room * sizeof *tracer->tree.nodes + tracer->tree.reference_room * sizeof *tracer->tree.references;
+           tracer->tree.node_room * sizeof *tracer->tree.nodes +
+           tracer->tree.reference_room * sizeof *tracer->tree.references;
 }
 
 static sp_hit trace(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity, bool any)
@@ -105,7 +109,10 @@ bool sp_trace_occluded(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravi
     return trace(tracer, ray, gravity, true).triangle != SP_NONE;
 }
 
-static int thread_count(int threads) { return threads > 0 ? threads : omp_get_max_threads(); }
+static int thread_count(int threads)
+{
+    return threads > 0 ? threads : omp_get_max_threads();
+}
 
 void sp_trace_nearest_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity, int threads,
                            sp_hit *hits)

@@ -135,7 +135,8 @@ static void exr_holds_its_parts(void **state)
     for (int i = 0; i < 3; ++i)
         assert_true(holds(bytes, size, channels[i]));
     assert_true(holds(bytes, size, "page0-back"));
-    /* A block that compression would not make smaller is stored as it is: channel by channel, in the order of their names. */
+    /* A block that compression would not make smaller is stored as it is: channel by channel, in the order of their
+     * names. */
     const float stored_first[6] = {first[2], first[5], first[0], first[3], first[1], first[4]};
     const float stored_second[6] = {second[2], second[5], second[0], second[3], second[1], second[4]};
     assert_true(holds_bytes(bytes, size, stored_first, sizeof stored_first));
@@ -172,9 +173,9 @@ static void exr_refuses_nonsense(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(viridis_known_colours),    cmocka_unit_test(viridis_grows_lighter),
+        cmocka_unit_test(viridis_known_colours),     cmocka_unit_test(viridis_grows_lighter),
         cmocka_unit_test(png_in_memory_is_the_file), cmocka_unit_test(png_refuses_nonsense),
-        cmocka_unit_test(exr_holds_its_parts),      cmocka_unit_test(exr_refuses_nonsense),
+        cmocka_unit_test(exr_holds_its_parts),       cmocka_unit_test(exr_refuses_nonsense),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,7 +51,8 @@ static inline void read_bad(const char *extension, const char *text, int line, c
     if (mesh)
         fail_msg("accepted:\n%s", text);
     if (error.line != line || !strstr(error.message, what) || !error.file[0])
-        fail_msg("%s:%d: %s\nexpected line %d and \"%s\" for:\n%s", error.file, error.line, error.message, line, what, text);
+        fail_msg("%s:%d: %s\nexpected line %d and \"%s\" for:\n%s", error.file, error.line, error.message, line, what,
+                 text);
 }
 
 #endif

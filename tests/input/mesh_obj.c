@@ -48,8 +48,9 @@ static void negative_indices_count_from_where_they_stand(void **state)
 static void groups_and_objects_are_parts(void **state)
 {
     (void)state;
-    sp_mesh *mesh = read_good(".obj", SQUARE "f 1 2 3\ng lid\ng shell\nf 1 2 3\no  lid   upper \nf 1 2 4\ng shell\nf 1 3 4\n"
-                                             "g\nf 2 3 4\n");
+    sp_mesh *mesh =
+        read_good(".obj", SQUARE "f 1 2 3\ng lid\ng shell\nf 1 2 3\no  lid   upper \nf 1 2 4\ng shell\nf 1 3 4\n"
+                                 "g\nf 2 3 4\n");
     assert_int_equal(mesh->part_count, 3);
     assert_string_equal(mesh->parts[0].name, "default");
     assert_string_equal(mesh->parts[1].name, "shell");
@@ -81,7 +82,8 @@ static void many_groups_keep_their_numbers(void **state)
 static void names_that_are_not_utf8_become_it(void **state)
 {
     (void)state;
-    sp_mesh *mesh = read_good(".obj", SQUARE "g Beh\xE4lter\nf 1 2 3\ng Beh\xC3\xA4lter\nf 1 3 4\ng \xED\xA0\x80\nf 1 2 4\n");
+    sp_mesh *mesh =
+        read_good(".obj", SQUARE "g Beh\xE4lter\nf 1 2 3\ng Beh\xC3\xA4lter\nf 1 3 4\ng \xED\xA0\x80\nf 1 2 4\n");
     assert_int_equal(mesh->part_count, 2);
     assert_string_equal(mesh->parts[0].name, "Beh\xC3\xA4lter");
     assert_string_equal(mesh->parts[1].name, "\xC3\xAD\xC2\xA0\xC2\x80");
@@ -91,7 +93,8 @@ static void names_that_are_not_utf8_become_it(void **state)
 static void line_ends_comments_and_continuations(void **state)
 {
     (void)state;
-    sp_mesh *mesh = read_good(".obj", "\xEF\xBB\xBF# comment \\\nv 0 0 0 # behind\r\nv\t1 \\\r\n 0\\\n 0\r\n\r\n  v 0 1 0\rf 1 2 \\\n3");
+    sp_mesh *mesh = read_good(
+        ".obj", "\xEF\xBB\xBF# comment \\\nv 0 0 0 # behind\r\nv\t1 \\\r\n 0\\\n 0\r\n\r\n  v 0 1 0\rf 1 2 \\\n3");
     assert_int_equal(mesh->triangle_count, 1);
     assert_true(mesh->vertices[1].x == 1 && mesh->vertices[2].y == 1);
     sp_mesh_destroy(mesh);
@@ -100,8 +103,9 @@ static void line_ends_comments_and_continuations(void **state)
 static void harmless_statements_are_skipped(void **state)
 {
     (void)state;
-    sp_mesh *mesh = read_good(".obj", "mtllib a b.mtl\nv 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 1 0.5 0.5 0.5\nusemtl steel\ns off\n"
-                                      "l 1 2\np 1\nvp 1 2\nlod 3\nf 1 2 3\n");
+    sp_mesh *mesh =
+        read_good(".obj", "mtllib a b.mtl\nv 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 1 0.5 0.5 0.5\nusemtl steel\ns off\n"
+                          "l 1 2\np 1\nvp 1 2\nlod 3\nf 1 2 3\n");
     assert_int_equal(mesh->triangle_count, 1);
     sp_mesh_destroy(mesh);
 }
@@ -185,7 +189,9 @@ static void bad_input_is_refused_at_its_line(void **state)
         {"# fine\r\n\r\nV 0 0 0\r\n", 3, "'V'"},
         {"v 0 0 0\rv 0 0\r", 2, "end of the line"},
         {"cstype bezier\n", 1, "curved"},
-        {"g a\x01" "b\n", 1, "control"},
+        {"g a\x01"
+         "b\n",
+         1, "control"},
         {"<html>\n", 1, "'<html>'"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
@@ -216,8 +222,9 @@ static void zero_bytes_and_binary_are_refused(void **state)
 static void truncated_at_every_length(void **state)
 {
     (void)state;
-    static const char text[] = "# a\nmtllib m\r\n" SQUARE "vt 0.5 1e-3\nvn 0 0 1\ng caf\xC3\xA9 two\nf 1/1/1 2/1/1 \\\n 3/1/1 -1/-1/-1\n"
-                               "s off\no \xE4\nf 1//1 2//1 3//1\n";
+    static const char text[] =
+        "# a\nmtllib m\r\n" SQUARE "vt 0.5 1e-3\nvn 0 0 1\ng caf\xC3\xA9 two\nf 1/1/1 2/1/1 \\\n 3/1/1 -1/-1/-1\n"
+        "s off\no \xE4\nf 1//1 2//1 3//1\n";
     for (size_t length = 0; length < sizeof text; length++) {
         sp_error error = {0};
         sp_mesh *mesh = read_bytes(".obj", text, length, &error);

@@ -1,7 +1,8 @@
 /* The STL reader, text and binary. */
 #include "mesh_files.h"
 
-#define FACET(a, b, c) "facet normal 0 0 1\n outer loop\n  vertex " a "\n  vertex " b "\n  vertex " c "\n endloop\nendfacet\n"
+#define FACET(a, b, c)                                                                                                 \
+    "facet normal 0 0 1\n outer loop\n  vertex " a "\n  vertex " b "\n  vertex " c "\n endloop\nendfacet\n"
 #define ONE FACET("0 0 0", "1 0 0", "0 1 0")
 
 static void solids_are_parts(void **state)
@@ -36,7 +37,8 @@ static void bad_text_is_refused_at_its_line(void **state)
         {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\nvertex 1 0 0\n", 5, "'vertex'"},
         {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 1e99\n", 6, "1e30"},
         {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n", 6, "'endloop'"},
-        {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 0 1 1\n", 7, "'vertex'"},
+        {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 0 1 1\n", 7,
+         "'vertex'"},
         {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0x1\n", 6, "'0x1'"},
         {"not an stl file at all", 0, "bytes of binary STL"},
         {"", 0, "bytes of binary STL"},
@@ -132,7 +134,8 @@ static void binary_numbers_are_checked(void **state)
 static void text_truncated_at_every_length(void **state)
 {
     (void)state;
-    static const char text[] = "solid caf\xC3\xA9\n" ONE "endsolid\nsolid b\n" FACET("0 0 0", "1.5e0 0 0", "0 -1 0") "endsolid b\n";
+    static const char text[] =
+        "solid caf\xC3\xA9\n" ONE "endsolid\nsolid b\n" FACET("0 0 0", "1.5e0 0 0", "0 -1 0") "endsolid b\n";
     for (size_t length = 0; length < sizeof text; length++) {
         sp_error error = {0};
         sp_mesh *mesh = read_bytes(".stl", text, length, &error);

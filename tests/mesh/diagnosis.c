@@ -19,7 +19,8 @@ static sp_mesh *make(const sp_vec3 *points, size_t points_count, const uint32_t 
     return mesh;
 }
 
-static sp_mesh_diagnosis diagnose(const sp_vec3 *points, size_t points_count, const uint32_t (*triangles)[3], size_t count)
+static sp_mesh_diagnosis diagnose(const sp_vec3 *points, size_t points_count, const uint32_t (*triangles)[3],
+                                  size_t count)
 {
     sp_mesh *mesh = make(points, points_count, triangles, count);
     sp_mesh_diagnosis d;

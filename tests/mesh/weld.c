@@ -39,10 +39,11 @@ static void points_a_rounding_apart_are_two(void **state)
 static void degenerate_triangles_are_kept_out(void **state)
 {
     (void)state;
-    static const sp_vec3 points[] = {{0, 0, 0},          {1, 0, 0},       {0, 1, 0},         {2, 0, 0},
-                                     {0.1, 0.1, 0.1},    {0.2, 0.2, 0.2}, {0.7, 0.7, 0.7},   {0.5, 1e-9, 0},
-                                     {1e-6, 0, 0},       {0, 1e-6, 0},    {0.5, 1e-18, 0}};
-    static const uint32_t triangles[][3] = {{0, 1, 1}, {0, 1, 2}, {0, 1, 3}, {4, 5, 6}, {0, 1, 7}, {0, 8, 9}, {0, 1, 10}};
+    static const sp_vec3 points[] = {{0, 0, 0},       {1, 0, 0},       {0, 1, 0},       {2, 0, 0},
+                                     {0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}, {0.7, 0.7, 0.7}, {0.5, 1e-9, 0},
+                                     {1e-6, 0, 0},    {0, 1e-6, 0},    {0.5, 1e-18, 0}};
+    static const uint32_t triangles[][3] = {{0, 1, 1}, {0, 1, 2}, {0, 1, 3}, {4, 5, 6},
+                                            {0, 1, 7}, {0, 8, 9}, {0, 1, 10}};
     static const uint32_t part[] = {0, 1, 0, 1, 0, 1, 0};
     static const char *const names[] = {"a", "b"};
     sp_mesh *mesh = sp_mesh_create(points, 11, triangles, 7, part, names, 2, NULL);

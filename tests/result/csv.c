@@ -12,18 +12,32 @@
 static void rows_read_back(void **state)
 {
     (void)state;
-    sp_nozzle_type type = {.name = "cone, \"wide\"", .pattern = SP_PATTERN_FULL_CONE, .angle = M_PI / 2, .flow = 2e-4, .at = 2e5,
-                           .exponent = 0.5, .cv = 0.95, .drop = 1e-3, .angle_min = M_PI / 2, .angle_max = M_PI / 2,
-                           .flow_min = 2e-4, .flow_max = 2e-4};
-    const sp_nozzle nozzle = {.name = "N1", .type = &type, .position = {0.1, -1.0 / 3, 1.8}, .axis = {0, 0, -1},
-                              .roll = M_PI / 6, .pressure = 2e5};
+    sp_nozzle_type type = {.name = "cone, \"wide\"",
+                           .pattern = SP_PATTERN_FULL_CONE,
+                           .angle = M_PI / 2,
+                           .flow = 2e-4,
+                           .at = 2e5,
+                           .exponent = 0.5,
+                           .cv = 0.95,
+                           .drop = 1e-3,
+                           .angle_min = M_PI / 2,
+                           .angle_max = M_PI / 2,
+                           .flow_min = 2e-4,
+                           .flow_max = 2e-4};
+    const sp_nozzle nozzle = {.name = "N1",
+                              .type = &type,
+                              .position = {0.1, -1.0 / 3, 1.8},
+                              .axis = {0, 0, -1},
+                              .roll = M_PI / 6,
+                              .pressure = 2e5};
     const sp_fluid water = {1000, 1e-3};
     sp_error error = {0};
     sp_layout *layout = sp_layout_create(&nozzle, 1, &error);
     char *csv = sp_nozzles_csv(layout, &water, &error);
     assert_non_null(csv);
-    const char *start = "name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s\n"
-                        "N1,\"cone, \"\"wide\"\"\",0.1,";
+    const char *start =
+        "name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s\n"
+        "N1,\"cone, \"\"wide\"\"\",0.1,";
     assert_memory_equal(csv, start, strlen(start));
     double values[10];
     char *at = csv + strlen(start);

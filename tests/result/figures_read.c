@@ -33,9 +33,11 @@ static void reads_what_design_says(void **state)
     size_t count;
     sp_figures *figures = read_text(
         "{\"sprayplan\": \"0.1.0\", \"geometry\": {\"triangles\": 12, \"area_m2\": 6, \"clean_area_m2\": 5},"
-        " \"fidelity\": {\"trajectory\": \"line\", \"evaluator\": \"forward\", \"reflections\": 2, \"jets_per_nozzle\": 99,"
+        " \"fidelity\": {\"trajectory\": \"line\", \"evaluator\": \"forward\", \"reflections\": 2, "
+        "\"jets_per_nozzle\": 99,"
         " \"texel_m\": 0.01}, \"unknown\": [1, 2], \"layouts\": ["
-        "{" LAYOUT "}, {\"name\": \"b\\u00e4d\\u0007\", \"water_l_min\": 30, \"coverage\": 0.9, \"covered_area_m2\": 4.5,"
+        "{" LAYOUT
+        "}, {\"name\": \"b\\u00e4d\\u0007\", \"water_l_min\": 30, \"coverage\": 0.9, \"covered_area_m2\": 4.5,"
         " \"coverage_of_attainable\": 0.95, \"flux_l_min_m2\": {\"min\": 0, \"mean\": 6},"
         " \"shadows\": [{\"area_m2\": 0.5, \"centroid_m\": [1, 2, 3], \"part\": \"lid\", \"reachable\": false}, {}],"
         " \"nozzles\": [{\"name\": \"N1\", \"type\": \"t\", \"position_m\": [0, 0, 1.5], \"axis\": [0, 0, -1],"
@@ -48,7 +50,8 @@ static void reads_what_design_says(void **state)
     assert_true(fabs(figures[0].flow - 1e-3) < 1e-15);
     assert_string_equal(figures[1].evaluator, "forward");
     assert_int_equal(figures[1].jets, 99);
-    assert_string_equal(figures[1].name, "b\xc3\xa4" "d\xef\xbf\xbd");
+    assert_string_equal(figures[1].name, "b\xc3\xa4"
+                                         "d\xef\xbf\xbd");
     assert_int_equal(figures[1].shadow_count, 2);
     assert_int_equal(figures[1].shadows[0].reachable, 0);
     assert_int_equal(figures[1].shadows[1].reachable, -1);
@@ -88,7 +91,8 @@ static void rejects_bad_input(void **state)
     rejects(HEAD "[7]}", "layouts[0]: found 7");
     rejects(HEAD "[{" LAYOUT "}, {}]}", "layouts[1].name: missing");
     rejects(HEAD "[{" LAYOUT ", \"name\": \"twice\"}]}", "duplicate");
-    rejects(HEAD "[{\"name\": \"a\", \"water_l_min\": -1, \"coverage\": 0, \"nozzles\": []}]}", "water_l_min: found -1");
+    rejects(HEAD "[{\"name\": \"a\", \"water_l_min\": -1, \"coverage\": 0, \"nozzles\": []}]}",
+            "water_l_min: found -1");
     rejects(HEAD "[{\"name\": \"a\", \"water_l_min\": 1, \"coverage\": 1.5, \"nozzles\": []}]}", "coverage: found 1.5");
     rejects(HEAD "[{\"name\": \"a\", \"water_l_min\": 1e999, \"coverage\": 1, \"nozzles\": []}]}", "JSON");
     rejects(HEAD "[{\"name\": \"a\", \"water_l_min\": \"1\", \"coverage\": 1, \"nozzles\": []}]}", "found a text");
@@ -131,8 +135,10 @@ static void rejects_what_is_no_file(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_what_design_says), cmocka_unit_test(rejects_bad_input),
-        cmocka_unit_test(rejects_every_cut),      cmocka_unit_test(rejects_what_is_no_file),
+        cmocka_unit_test(reads_what_design_says),
+        cmocka_unit_test(rejects_bad_input),
+        cmocka_unit_test(rejects_every_cut),
+        cmocka_unit_test(rejects_what_is_no_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Physics at its limits: no gravity to speak of, jets that hardly leave or outrun everything, sprays of all directions and of
- * hardly any, and a criterion met to the last bit. */
+/* Physics at its limits: no gravity to speak of, jets that hardly leave or outrun everything, sprays of all directions
+ * and of hardly any, and a criterion met to the last bit. */
 #include "stage.h"
 
 /* Also where a sanitizer slows the tests down: coarser texels would miss what gathers at an envelope. */
@@ -43,8 +43,8 @@ static void weak_gravity_tends_to_lines(void **state)
         for (int k = 0; k < 2; k++) {
             sp_coverage *bent = sound_cover(parabolas, st.nozzles, 2, k == 0);
             double difference = largest_difference(straight[k], bent);
-            print_message("gravity %g, %s: coverage %+.3g, flux %.3g of the largest\n", gravity, k ? "forward" : "inverse",
-                          bent->fraction - straight[k]->fraction, difference);
+            print_message("gravity %g, %s: coverage %+.3g, flux %.3g of the largest\n", gravity,
+                          k ? "forward" : "inverse", bent->fraction - straight[k]->fraction, difference);
             if (gravity < 1e-8) {
                 assert_true(fabs(bent->fraction - straight[k]->fraction) < 1e-4);
                 assert_true(k || difference < 1e-6);
@@ -59,8 +59,8 @@ static void weak_gravity_tends_to_lines(void **state)
     stage_close(&st);
 }
 
-/* From 1 Pa, whose drops fall on a few texels of the floor, to 1e4 bar, all that is sprayed lands. The flow goes with the root of
- * the pressure, and along lines the speed too. */
+/* From 1 Pa, whose drops fall on a few texels of the floor, to 1e4 bar, all that is sprayed lands. The flow goes with
+ * the root of the pressure, and along lines the speed too. */
 static void any_pressure(void **state)
 {
     (void)state;
@@ -76,10 +76,12 @@ static void any_pressure(void **state)
             for (int k = 0; k < 2; k++) {
                 sp_coverage *coverage = sound_cover(evaluator, &nozzle, 1, k == 0);
                 double speed = 0.95 * sqrt(2 * pressures[i] / 1000);
-                print_message("%s, %g Pa, %s: coverage %.5f, landed %.5f\n", t == SP_TRAJECTORY_LINE ? "lines" : "parabolas",
-                              pressures[i], k ? "forward" : "inverse", coverage->fraction, share_landed(coverage));
+                print_message("%s, %g Pa, %s: coverage %.5f, landed %.5f\n",
+                              t == SP_TRAJECTORY_LINE ? "lines" : "parabolas", pressures[i], k ? "forward" : "inverse",
+                              coverage->fraction, share_landed(coverage));
                 assert_float_equal(coverage->flow / (2e-4 * sqrt(pressures[i] / 2e5)), 1, 1e-12);
-                assert_float_equal(share_landed(coverage), 1, k ? 1e-9 : 0.05); /* the densest flux is at the envelope */
+                assert_float_equal(share_landed(coverage), 1,
+                                   k ? 1e-9 : 0.05); /* the densest flux is at the envelope */
                 for (size_t patch = 0; patch < coverage->deposits.count; patch++) {
                     double arrives = coverage->deposits.speed_max[patch];
                     if (t == SP_TRAJECTORY_LINE && arrives > 0)
@@ -93,8 +95,8 @@ static void any_pressure(void **state)
     }
 }
 
-/* What leaves at the speed v falls within the envelope v²/g √(1 + 2gh/v²) of the plumb line; here on the floor's middle, and
- * most of it between the points at which texels are judged. */
+/* What leaves at the speed v falls within the envelope v²/g √(1 + 2gh/v²) of the plumb line; here on the floor's
+ * middle, and most of it between the points at which texels are judged. */
 static void a_trickle_falls_straight_down(void **state)
 {
     (void)state;
@@ -117,7 +119,8 @@ static void a_trickle_falls_straight_down(void **state)
                 assert_true(p.z < 1e-9);
                 assert_float_equal(coverage->deposits.speed[i], sqrt(v * v + 2 * g * h), 1e-9);
             }
-        print_message("trickle, %s: %.4f m from the plumb line, envelope %.4f m\n", k ? "forward" : "inverse", farthest, envelope);
+        print_message("trickle, %s: %.4f m from the plumb line, envelope %.4f m\n", k ? "forward" : "inverse", farthest,
+                      envelope);
         assert_true(farthest > 0 && farthest <= envelope + s.setup.fidelity.texel);
         sp_coverage_destroy(coverage);
     }
@@ -167,14 +170,16 @@ static void a_hair(void **state)
             sp_vec3 axis = sp_v(cos(3.0 * i), sin(5.0 * i), cos(11.0 * i));
             sp_nozzle nozzle = nozzle_at(&type, sp_v(0.11, 0.03, 0.71), axis, 25);
             nozzle.jets = 1000;
-            sp_coverage *found[2] = {sound_cover(evaluator, &nozzle, 1, true), sound_cover(evaluator, &nozzle, 1, false)};
+            sp_coverage *found[2] = {sound_cover(evaluator, &nozzle, 1, true),
+                                     sound_cover(evaluator, &nozzle, 1, false)};
             for (int k = 0; k < 2; k++) {
                 size_t wet = 0;
                 for (size_t p = 0; p < found[k]->deposits.count; p++)
                     wet += found[k]->deposits.flux[p] > 0;
                 double landed = share_landed(found[k]);
                 if (!(wet >= 1 && wet <= 4 && fabs(landed - 1) <= (k ? 1e-9 : 0.05)))
-                    fail_msg("hair %d, %s: %zu texels wet, %g of the liquid landed", i, k ? "forward" : "inverse", wet, landed);
+                    fail_msg("hair %d, %s: %zu texels wet, %g of the liquid landed", i, k ? "forward" : "inverse", wet,
+                             landed);
             }
             sp_coverage_destroy(found[0]);
             sp_coverage_destroy(found[1]);
@@ -184,7 +189,8 @@ static void a_hair(void **state)
     }
 }
 
-/* A patch with exactly the flux, or met at exactly the speed, that is asked for is covered; a hair more asked and it is not. */
+/* A patch with exactly the flux, or met at exactly the speed, that is asked for is covered; a hair more asked and it is
+ * not. */
 static void a_criterion_met_to_the_last_bit(void **state)
 {
     (void)state;
@@ -197,7 +203,8 @@ static void a_criterion_met_to_the_last_bit(void **state)
         sp_evaluator *evaluator = scene_evaluator(&st.s);
         sp_coverage *free_of = sound_cover(evaluator, st.nozzles, 1, k == 0);
         size_t patch = 0;
-        while (!(free_of->deposits.counted[patch] > 0.3 * free_of->flux_max && free_of->deposits.counted[patch] < 0.6 * free_of->flux_max))
+        while (!(free_of->deposits.counted[patch] > 0.3 * free_of->flux_max &&
+                 free_of->deposits.counted[patch] < 0.6 * free_of->flux_max))
             patch++;
         const double flux = free_of->deposits.counted[patch], speed = free_of->deposits.speed_max[patch];
         for (int i = 0; i < 4; i++) {

@@ -3,10 +3,10 @@
 
 #include <stdio.h>
 
-/* Another pose rounds otherwise, so that charts are cut otherwise where two ways are equally good; what is left is the error of
- * the texels themselves: at the edges of sprays each is in or out. Of N ~ 1/texel such texels about √N fall one way, each of
- * texel², so that the error goes with texel^1.5. The factors were set from what texels of 23.7 mm showed, up to 0.07 points
- * (inverse) and 0.14 (forward), not derived. */
+/* Another pose rounds otherwise, so that charts are cut otherwise where two ways are equally good; what is left is the
+ * error of the texels themselves: at the edges of sprays each is in or out. Of N ~ 1/texel such texels about √N fall
+ * one way, each of texel², so that the error goes with texel^1.5. The factors were set from what texels of 23.7 mm
+ * showed, up to 0.07 points (inverse) and 0.14 (forward), not derived. */
 static const double coverage_bounds[] = {0.001, 0.002}; /* in points, as a fraction: inverse, forward; at 23.7 mm */
 static const double liquid_at_fine = 0.006, mean_at_fine = 0.002;
 
@@ -57,14 +57,17 @@ static void assert_like(const char *what, double number, sp_trajectory trajector
     for (int k = 0; k < 2; k++) {
         const summary *a = &found.by[k], *b = &home.by[k];
         char text[160];
-        snprintf(text, sizeof text, "%s %g, %s, %s: coverage %.5f %+.5f, liquid %+.5f, speed %+.5f %%, incidence %+.5f %%",
-                 what, number, trajectory == SP_TRAJECTORY_LINE ? "lines" : "parabolas", evaluators[k], a->fraction,
+        snprintf(text, sizeof text,
+                 "%s %g, %s, %s: coverage %.5f %+.5f, liquid %+.5f, speed %+.5f %%, incidence %+.5f %%", what, number,
+                 trajectory == SP_TRAJECTORY_LINE ? "lines" : "parabolas", evaluators[k], a->fraction,
                  a->fraction - b->fraction, a->landed - b->landed, 100 * (a->speed / b->speed - 1),
                  100 * (a->incidence / b->incidence - 1));
         print_message("%s\n", text);
-        bool like = fabs(a->area / b->area - 1) < 1e-9 && fabs(a->fraction - b->fraction) <= coverage_bounds[k] * coarseness() &&
+        bool like = fabs(a->area / b->area - 1) < 1e-9 &&
+                    fabs(a->fraction - b->fraction) <= coverage_bounds[k] * coarseness() &&
                     fabs(a->landed - b->landed) <= (k ? 1e-9 : liquid_at_fine * coarseness()) &&
-                    fabs(a->speed / b->speed - 1) <= mean_at_fine * coarseness() && fabs(a->incidence / b->incidence - 1) <= mean_at_fine * coarseness();
+                    fabs(a->speed / b->speed - 1) <= mean_at_fine * coarseness() &&
+                    fabs(a->incidence / b->incidence - 1) <= mean_at_fine * coarseness();
         if (!like)
             fail_msg("%s", text);
     }

@@ -1,8 +1,8 @@
 /* Meshes at their limits and nozzles in awkward places. */
 #include "stage.h"
 
-/* A box of 2 m × 1.6 m × 1.5 m from triangles of the caller's making: each wall is a fan of `slices` strips along its longer way,
- * so that strips are as thin as asked. */
+/* A box of 2 m × 1.6 m × 1.5 m from triangles of the caller's making: each wall is a fan of `slices` strips along its
+ * longer way, so that strips are as thin as asked. */
 static sp_mesh *sliced_box(int slices)
 {
     rectangle faces[6];
@@ -58,18 +58,20 @@ static void needles_and_triangles_of_every_size(void **state)
             sp_evaluator_destroy(evaluator);
             scene_close(&s);
         }
-        print_message("needles: coverage %.5f and %.5f by the inverse, %.5f and %.5f by the forward evaluator\n", fraction[0][0],
-                      fraction[1][0], fraction[0][1], fraction[1][1]);
+        print_message("needles: coverage %.5f and %.5f by the inverse, %.5f and %.5f by the forward evaluator\n",
+                      fraction[0][0], fraction[1][0], fraction[0][1], fraction[1][1]);
         assert_float_equal(fraction[1][0], fraction[0][0], 0.005);
         assert_float_equal(fraction[1][1], fraction[0][1], 0.01); /* a sliver that is touched counts whole */
     }
 }
 
-/* Where a nozzle may stand in the furnished room: hard by the ceiling, in it, on an edge and at a corner of its triangles. */
+/* Where a nozzle may stand in the furnished room: hard by the ceiling, in it, on an edge and at a corner of its
+ * triangles. */
 static void nozzles_in_the_wall(void **state)
 {
     (void)state;
-    const sp_vec3 places[] = {{0.21, 0.13, 1.5 - 1e-6}, {0.21, 0.13, 1.5}, {2.0 / 12, 0.05, 1.5}, {2.0 / 12, 1.6 / 12, 1.5}};
+    const sp_vec3 places[] = {
+        {0.21, 0.13, 1.5 - 1e-6}, {0.21, 0.13, 1.5}, {2.0 / 12, 0.05, 1.5}, {2.0 / 12, 1.6 / 12, 1.5}};
     sp_nozzle_type type = spray_type(SP_PATTERN_FULL_CONE, 45);
     const double radius = 1.5 * tan(deg(22.5));
     for (int turned = 0; turned < 3; turned++) {
@@ -95,11 +97,14 @@ static void nozzles_in_the_wall(void **state)
             for (int k = 0; k < 2; k++) {
                 sp_coverage *coverage = sound_cover(evaluator, &nozzle, 1, k == 0);
                 double area = M_PI * radius * radius;
-                print_message("turn %d, place %zu, %s: landed %.5f, disc %+.2f %%\n", turned, i, k ? "forward" : "inverse",
-                              share_landed(coverage), 100 * (coverage->covered_area / area - 1));
-                bool near = fabs(coverage->covered_area / area - 1) < 0.03 && fabs(share_landed(coverage) - 1) < (k ? 1e-9 : 0.01);
+                print_message("turn %d, place %zu, %s: landed %.5f, disc %+.2f %%\n", turned, i,
+                              k ? "forward" : "inverse", share_landed(coverage),
+                              100 * (coverage->covered_area / area - 1));
+                bool near = fabs(coverage->covered_area / area - 1) < 0.03 &&
+                            fabs(share_landed(coverage) - 1) < (k ? 1e-9 : 0.01);
                 if (!near)
-                    fail_msg("covered %g of a disc of %g m2, landed %g", coverage->covered_area, area, share_landed(coverage));
+                    fail_msg("covered %g of a disc of %g m2, landed %g", coverage->covered_area, area,
+                             share_landed(coverage));
                 sp_coverage_destroy(coverage);
             }
         }
@@ -108,8 +113,8 @@ static void nozzles_in_the_wall(void **state)
     }
 }
 
-/* One triangle, by texels from a thousandth of it to a thousand times as large: its area stays, and a cone that holds it covers
- * it. */
+/* One triangle, by texels from a thousandth of it to a thousand times as large: its area stays, and a cone that holds
+ * it covers it. */
 static void one_triangle_by_any_texel(void **state)
 {
     (void)state;
@@ -132,8 +137,8 @@ static void one_triangle_by_any_texel(void **state)
             liquid[k] = share_landed(coverage);
             sp_coverage_destroy(coverage);
         }
-        print_message("one triangle, texel %g m: %.5f of the liquid by the inverse, %.5f by the forward evaluator\n", texels[i],
-                      liquid[0], liquid[1]);
+        print_message("one triangle, texel %g m: %.5f of the liquid by the inverse, %.5f by the forward evaluator\n",
+                      texels[i], liquid[0], liquid[1]);
         assert_true(liquid[0] > 0.02 && fabs(liquid[0] / liquid[1] - 1) < 0.05);
         sp_evaluator_destroy(evaluator);
         scene_close(&s);

@@ -1,5 +1,5 @@
-/* A room with a sheet and a ball in it, sprayed by a cone and a fan, that can be set up at any size, place and attitude with
- * physics that go with it; and what must hold of every result. */
+/* A room with a sheet and a ball in it, sprayed by a cone and a fan, that can be set up at any size, place and attitude
+ * with physics that go with it; and what must hold of every result. */
 #ifndef STABILITY_STAGE_H
 #define STABILITY_STAGE_H
 
@@ -53,8 +53,8 @@ static inline void pose_nozzle(const sp_transform *pose, sp_vec3 up, sp_nozzle *
     nozzle->speed *= pose->scale;
 }
 
-/* Lengths, speeds and gravity grow by the pose's scale, flows by its square: times and fluxes stay. `up` is where the pose
- * turns (0, 0, 1) to, if that is a vertical that a setup can have; for lines it does not matter. */
+/* Lengths, speeds and gravity grow by the pose's scale, flows by its square: times and fluxes stay. `up` is where the
+ * pose turns (0, 0, 1) to, if that is a vertical that a setup can have; for lines it does not matter. */
 static inline void stage_open(stage *st, sp_trajectory trajectory, const sp_transform *pose, sp_vec3 up)
 {
     scene_open(&st->s, furnished_room(pose), trajectory, 1);
@@ -112,7 +112,8 @@ static inline void assert_sound(const sp_evaluator *evaluator, const sp_coverage
     assert_true(coverage->fraction >= 0 && coverage->fraction <= 1 + 1e-12);
     assert_true(isfinite(coverage->flow) && isfinite(coverage->area_per_water));
     assert_true(coverage->flux_min <= coverage->flux_p05 && coverage->flux_p05 <= coverage->flux_max);
-    assert_true(coverage->flux_min <= coverage->flux_mean * (1 + 1e-12) && coverage->flux_mean <= coverage->flux_max * (1 + 1e-12));
+    assert_true(coverage->flux_min <= coverage->flux_mean * (1 + 1e-12) &&
+                coverage->flux_mean <= coverage->flux_max * (1 + 1e-12));
 }
 
 /* What arrives, of what is sprayed. */
@@ -121,7 +122,8 @@ static inline double share_landed(const sp_coverage *coverage)
     return coverage->flux_mean * coverage->area / coverage->flow;
 }
 
-static inline sp_coverage *sound_cover(const sp_evaluator *evaluator, const sp_nozzle *nozzles, size_t count, bool inverse)
+static inline sp_coverage *sound_cover(const sp_evaluator *evaluator, const sp_nozzle *nozzles, size_t count,
+                                       bool inverse)
 {
     sp_coverage *coverage = scene_cover(evaluator, nozzles, count, inverse);
     assert_sound(evaluator, coverage);

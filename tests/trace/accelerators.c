@@ -98,8 +98,8 @@ static sp_ray draw_ray(random_source *source, const sp_mesh *mesh, double scale,
 static void assert_same(sp_hit a, sp_hit b, const char *what)
 {
     if (a.t != b.t || a.triangle != b.triangle || a.u != b.u || a.v != b.v)
-        fail_msg("%s: %.17g at %u (%.17g, %.17g) but without a tree %.17g at %u (%.17g, %.17g)", what, a.t, a.triangle, a.u,
-                 a.v, b.t, b.triangle, b.u, b.v);
+        fail_msg("%s: %.17g at %u (%.17g, %.17g) but without a tree %.17g at %u (%.17g, %.17g)", what, a.t, a.triangle,
+                 a.u, a.v, b.t, b.triangle, b.u, b.v);
 }
 
 static void assert_sound(const sp_mesh *mesh, const sp_ray *ray, sp_vec3 gravity, sp_hit hit, double scale)
@@ -111,7 +111,8 @@ static void assert_sound(const sp_mesh *mesh, const sp_ray *ray, sp_vec3 gravity
     assert_true(hit.triangle < mesh->triangle_count && hit.triangle != ray->skip);
     assert_true(hit.t > ray->t_min && hit.t < ray->t_max);
     assert_true(hit.u >= 0 && hit.v >= 0 && hit.u + hit.v <= 1 + 1e-15);
-    sp_vec3 on_ray = sp_ray_point(ray, gravity, hit.t), on_triangle = sp_triangle_point(mesh, hit.triangle, hit.u, hit.v);
+    sp_vec3 on_ray = sp_ray_point(ray, gravity, hit.t),
+            on_triangle = sp_triangle_point(mesh, hit.triangle, hit.u, hit.v);
     double way = sp_length(ray->velocity) * fabs(hit.t) + sp_length(gravity) * hit.t * hit.t + sp_length(on_triangle);
     if (sp_distance(on_ray, on_triangle) > 1e-6 * (way + scale))
         fail_msg("the hit is %g off its triangle, scale %g", sp_distance(on_ray, on_triangle), scale);
@@ -123,7 +124,8 @@ static void compare(const sp_mesh *mesh, random_source *source, double scale, sp
     sp_tracer *none = make_tracer(mesh, SP_ACCELERATOR_NONE);
     size_t hits = 0;
     for (size_t i = 0; i < count; i++) {
-        static const sp_vec3 pulls[] = {{0, 0, 0}, {0, 0, -9.81}, {0, 0, -1e-9}, {0, 9.81, 0}, {3, -5, 7}, {0, 0, -9.81}};
+        static const sp_vec3 pulls[] = {{0, 0, 0},    {0, 0, -9.81}, {0, 0, -1e-9},
+                                        {0, 9.81, 0}, {3, -5, 7},    {0, 0, -9.81}};
         sp_vec3 gravity = sp_scale(pulls[i % 6], scale);
         sp_ray ray = draw_ray(source, mesh, scale, offset, i % 2 ? 1 : 0.1);
         sp_hit expected = sp_trace_nearest(none, &ray, gravity);
@@ -282,12 +284,9 @@ static void threads_change_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_meshes),
-        cmocka_unit_test(lattices),
-        cmocka_unit_test(a_fan_of_needles),
-        cmocka_unit_test(one_triangle_and_none),
-        cmocka_unit_test(nonsense_hits_nothing),
-        cmocka_unit_test(the_horse),
+        cmocka_unit_test(random_meshes),          cmocka_unit_test(lattices),
+        cmocka_unit_test(a_fan_of_needles),       cmocka_unit_test(one_triangle_and_none),
+        cmocka_unit_test(nonsense_hits_nothing),  cmocka_unit_test(the_horse),
         cmocka_unit_test(threads_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,7 +6,8 @@ static const sp_vec3 none = {0, 0, 0}, down = {0, 0, -9.81};
 /* A square of side 2000 m in the plane through `point` across `normal`. */
 static sp_mesh *make_plane(sp_vec3 point, sp_vec3 normal)
 {
-    sp_vec3 n = sp_unit(normal), a = sp_unit(sp_cross(n, fabs(n.x) < 0.5 ? sp_v(1, 0, 0) : sp_v(0, 1, 0))), b = sp_cross(n, a);
+    sp_vec3 n = sp_unit(normal), a = sp_unit(sp_cross(n, fabs(n.x) < 0.5 ? sp_v(1, 0, 0) : sp_v(0, 1, 0))),
+            b = sp_cross(n, a);
     sp_vec3 points[4];
     for (int i = 0; i < 4; i++)
         points[i] = sp_along(sp_along(point, i == 0 || i == 3 ? -1000 : 1000, a), i < 2 ? -1000 : 1000, b);
@@ -54,7 +55,9 @@ static void planes_of_every_slope(void **state)
             if (expected == INFINITY)
                 assert_true(hit.t == INFINITY && hit.triangle == SP_NONE);
             else
-                assert_true(fabs(hit.t - expected) <= 1e-11 * (1 + expected) / fmin(1, fabs(sp_dot(sp_unit(sp_ray_velocity(&ray, gravity, expected)), normal))));
+                assert_true(fabs(hit.t - expected) <=
+                            1e-11 * (1 + expected) /
+                                fmin(1, fabs(sp_dot(sp_unit(sp_ray_velocity(&ray, gravity, expected)), normal))));
             hits += expected < INFINITY;
         }
         sp_mesh_destroy(mesh);

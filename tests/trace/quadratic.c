@@ -52,7 +52,8 @@ static void no_roots(void **state)
     assert_false(sp_quadratic_roots(2, 1, 1, roots));
     assert_false(sp_quadratic_roots(-2, 0, -1, roots));
     /* b² is less than 2 a c by less than the rounding of either. */
-    assert_false(sp_quadratic_roots(2, 2 * (1 + DBL_EPSILON), (1 + DBL_EPSILON) * (1 + DBL_EPSILON) + DBL_EPSILON, roots));
+    assert_false(
+        sp_quadratic_roots(2, 2 * (1 + DBL_EPSILON), (1 + DBL_EPSILON) * (1 + DBL_EPSILON) + DBL_EPSILON, roots));
 }
 
 /* Without curvature one root is real; the other is at infinity or no number, and no time that a ray could have. */
@@ -64,7 +65,8 @@ static void lines(void **state)
         for (int sign = -1; sign <= 1; sign += 2) {
             double roots[2];
             assert_true(sp_quadratic_roots(zeros[i], 2.0 * sign, 3, roots));
-            assert_true((roots[0] == -1.5 * sign && !isfinite(roots[1])) || (roots[1] == -1.5 * sign && !isfinite(roots[0])));
+            assert_true((roots[0] == -1.5 * sign && !isfinite(roots[1])) ||
+                        (roots[1] == -1.5 * sign && !isfinite(roots[0])));
         }
     double roots[2];
     assert_true(!sp_quadratic_roots(0, 0, 1, roots) || !isfinite(roots[0]));

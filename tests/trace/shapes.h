@@ -34,7 +34,8 @@ static inline sp_vec3 draw_point(random_source *source, double size)
     return sp_v(x, y, draw(source, -size, size));
 }
 
-static inline sp_mesh *make_mesh(const sp_vec3 *points, size_t point_count, const uint32_t (*triangles)[3], size_t count)
+static inline sp_mesh *make_mesh(const sp_vec3 *points, size_t point_count, const uint32_t (*triangles)[3],
+                                 size_t count)
 {
     sp_error error = {0};
     sp_mesh *mesh = sp_mesh_create(points, point_count, triangles, count, NULL, NULL, 0, &error);
@@ -53,7 +54,8 @@ static inline sp_mesh *make_ball(uint32_t n, sp_vec3 centre, double radius, doub
     assert_non_null(points);
     assert_non_null(triangles);
     for (uint32_t i = 0; i < count; i++) {
-        double polar = i < 2 ? i * M_PI : M_PI * (1 + (i - 2) / n) / (rings + 1), turn = 2 * M_PI * ((i + 2 * n - 2) % n) / n;
+        double polar = i < 2 ? i * M_PI : M_PI * (1 + (i - 2) / n) / (rings + 1),
+               turn = 2 * M_PI * ((i + 2 * n - 2) % n) / n;
         sp_vec3 d = sp_v(sin(polar) * cos(turn), sin(polar) * sin(turn), cos(polar));
         points[i] = sp_along(centre, radius * draw(&source, 1, 1 + bumps), d);
     }

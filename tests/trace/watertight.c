@@ -37,8 +37,8 @@ static void shoot(const sp_mesh *mesh, sp_vec3 centre, double radius, double pul
         sp_ray ray = aim(origin, draw_target(source, mesh), gravity);
         sp_hit hit = sp_trace_nearest(tracer, &ray, gravity);
         if (!(hit.t <= (convex ? 1 + 1e-9 : 1e9)))
-            fail_msg("ray %zu from (%.17g %.17g %.17g) at (%.17g %.17g %.17g), pull %g: hit at %g", i, origin.x, origin.y,
-                     origin.z, ray.velocity.x, ray.velocity.y, ray.velocity.z, pull, hit.t);
+            fail_msg("ray %zu from (%.17g %.17g %.17g) at (%.17g %.17g %.17g), pull %g: hit at %g", i, origin.x,
+                     origin.y, origin.z, ray.velocity.x, ray.velocity.y, ray.velocity.z, pull, hit.t);
         assert_true(sp_trace_occluded(tracer, &ray, gravity));
     }
     sp_tracer_destroy(tracer);
@@ -87,7 +87,8 @@ static void needles(void **state)
 static void vertical_flights(void **state)
 {
     (void)state;
-    static const sp_vec3 box[8] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+    static const sp_vec3 box[8] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                   {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
     static const uint32_t sides[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
                                           {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
     sp_mesh *mesh = make_mesh(box, 8, sides, 12);
