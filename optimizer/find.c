@@ -1,5 +1,7 @@
 #include "find.h"
 
+#include <stdlib.h>
+
 #define ROUNDS_MOST 4   /* corrections for what the coarse patches misjudge */
 #define FRONT_BUDGETS 8 /* about as many points of the front are searched for */
 
@@ -100,24 +102,54 @@ static bool at_budget(const sp_finding *finding, const sp_design *greedy, double
     return done;
 }
 
-/* The front besides the best: at the water that the greedy order used as it went, and at that of the scene's own
- * layout, with which the proposal will be compared. */
-static bool fill_front(const sp_finding *finding, const sp_design *greedy)
+static int by_size(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The water at which the front is searched: what the greedy order used as it went, what one nozzle of each make takes,
+ * and that of the scene's own layout, with which the proposal will be compared. Rising; malloc'd, NULL when memory runs
+ * out. */
+static double *list_budgets(const sp_finding *finding, const sp_design *greedy, size_t *count)
 {
     const sp_search *search = finding->search;
+    const sp_candidates *candidates = search->candidates;
     const sp_layout *own = search->options->kept;
-    double flow = search->kept_flow,
-           engineers = own ? sp_layout_flow(own, &sp_evaluator_setup(search->coarse)->liquid) : 0;
-    size_t stride = greedy->count / (FRONT_BUDGETS + 1) + 1;
-    bool done = true;
-    for (size_t i = 0; done && i + 1 < greedy->count && sp_watch_goes_on(finding->watch, "front", 0); i++) {
+    double *budgets = malloc((greedy->count + candidates->make_count + 1) * sizeof *budgets);
+    if (!budgets)
+        return NULL;
+    size_t found = 0, stride = greedy->count / (FRONT_BUDGETS + 1) + 1, unique = 0;
+    double flow = search->kept_flow;
+    for (size_t i = 0; i + 1 < greedy->count; i++) {
         flow += greedy->items[i].flow;
         if ((i + 1) % stride == 0)
-            done = at_budget(finding, greedy, flow);
+            budgets[found++] = flow;
     }
-    if (done && engineers > search->kept_flow && engineers <= finding->budget &&
-        sp_watch_goes_on(finding->watch, "front", 1))
-        done = at_budget(finding, greedy, engineers);
+    for (size_t m = 0; m < candidates->make_count; m++)
+        budgets[found++] = search->kept_flow + candidates->makes[m].flow;
+    if (own)
+        budgets[found++] = sp_layout_flow(own, &sp_evaluator_setup(search->coarse)->liquid);
+    qsort(budgets, found, sizeof *budgets, by_size);
+    for (size_t i = 0; i < found; i++)
+        if (budgets[i] > search->kept_flow && budgets[i] <= finding->budget &&
+            (!unique || budgets[i] > budgets[unique - 1] * (1 + 1e-9)))
+            budgets[unique++] = budgets[i];
+    *count = unique;
+    return budgets;
+}
+
+/* The front besides the best. */
+static bool fill_front(const sp_finding *finding, const sp_design *greedy)
+{
+    size_t count = 0;
+    double *budgets = list_budgets(finding, greedy, &count);
+    bool done = budgets != NULL;
+    if (!done)
+        sp_fail_memory(finding->error);
+    for (size_t i = 0; done && i < count && sp_watch_goes_on(finding->watch, "front", (double)i / (double)count); i++)
+        done = at_budget(finding, greedy, budgets[i]);
+    free(budgets);
     return done;
 }
 
