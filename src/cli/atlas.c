@@ -1,34 +1,32 @@
 /* sprayplan atlas: a mesh's texture atlas, its figures and pictures. */
-#include "cli.h"
+#include "atlas.h"
 
-#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { PAGE_EDGE = 4096 };
 
-typedef struct {
-    sp_mesh *mesh;
-    sp_charts *charts;
-    sp_atlas *atlas;
-    sp_atlas_figures figures;
-    cli_clock clock;
-} atlas_work;
-
-static bool build(atlas_work *work, const cli_options *options, sp_error *error)
+bool cli_atlas_build(cli_atlas_work *work, sp_mesh *mesh, double texel, sp_error *error)
 {
-    work->mesh = sp_mesh_load(options->inputs[0], 1, error);
-    if (!work->mesh)
+    if (!mesh)
         return false;
-    double texel = options->texel > 0 ? options->texel : sqrt(sp_mesh_area(work->mesh) / (1 << 20));
+    work->mesh = mesh;
+    if (!(texel > 0))
+        texel = sqrt(sp_mesh_area(mesh) / (1 << 20));
     cli_clock_start(&work->clock);
-    work->charts = sp_charts_create(work->mesh, (PAGE_EDGE - 2) * texel, error);
+    work->charts = sp_charts_create(mesh, (PAGE_EDGE - 2) * texel, error);
     cli_clock_stage(&work->clock, "charts");
     if (!work->charts)
         return false;
-    work->atlas = sp_atlas_create(work->mesh, work->charts, &(sp_atlas_options){texel, PAGE_EDGE}, error);
+    work->atlas = sp_atlas_create(mesh, work->charts, &(sp_atlas_options){texel, PAGE_EDGE}, error);
     cli_clock_stage(&work->clock, "texels");
-    return work->atlas && sp_atlas_measure(work->atlas, work->mesh, &work->figures, error);
+    return work->atlas && sp_atlas_measure(work->atlas, mesh, &work->figures, error);
+}
+
+void cli_atlas_clear(cli_atlas_work *work)
+{
+    sp_atlas_destroy(work->atlas);
+    sp_charts_destroy(work->charts);
 }
 
 static bool write_pages(const sp_atlas *atlas, sp_output *output, const char *stem, sp_error *error)
@@ -55,7 +53,7 @@ static bool names_obj(const char *path)
     return dot && dot != name && !strcmp(dot, ".obj");
 }
 
-static bool write_files(const atlas_work *work, const cli_options *options, sp_error *error)
+static bool write_files(const cli_atlas_work *work, const cli_options *options, sp_error *error)
 {
     const char *slash = strrchr(options->output, '/');
     const char *name = slash ? slash + 1 : options->output;
@@ -80,36 +78,42 @@ static bool write_files(const atlas_work *work, const cli_options *options, sp_e
     return false;
 }
 
-static double seconds(const cli_clock *clock)
+double cli_atlas_seconds(const cli_atlas_work *work)
 {
+    const cli_clock *clock = &work->clock;
     double sum = 0;
     for (size_t i = 0; i < clock->count; i++)
         sum += clock->stages[i].seconds;
     return sum;
 }
 
-static bool print_json(const atlas_work *work)
+json_t *cli_atlas_json(const cli_atlas_work *work)
 {
     const sp_atlas_figures *f = &work->figures;
     json_t *stages = json_array();
     for (size_t i = 0; i < work->clock.count; i++)
         json_array_append_new(stages, json_pack("{s:s, s:f}", "name", work->clock.stages[i].name, "seconds",
                                                 work->clock.stages[i].seconds));
-    json_t *object = json_pack(
-        "{s:s, s:s, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:o}", "sprayplan",
-        SP_VERSION, "command", "atlas", "triangles", (json_int_t)f->triangles, "charts", (json_int_t)f->charts,
-        "charts_le4", (json_int_t)f->charts_le4, "seam_over_sqrt_area", f->seam_over_sqrt_area, "strain_mean",
-        f->strain_mean, "strain95", f->strain95, "strain_max", f->strain_max, "utilisation", f->utilisation, "pages",
-        (json_int_t)f->pages, "texels", (json_int_t)f->texels, "shared_texels", (json_int_t)f->shared_texels,
-        "overlaps", (json_int_t)f->overlaps, "area_error", f->area_error, "texel_m", work->atlas->texel, "uv_scale_m",
-        work->atlas->texel * work->atlas->page_edge, "seconds", seconds(&work->clock), "stages", stages);
+    return json_pack("{s:s, s:s, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:o}",
+                     "sprayplan", SP_VERSION, "command", "atlas", "triangles", (json_int_t)f->triangles, "charts",
+                     (json_int_t)f->charts, "charts_le4", (json_int_t)f->charts_le4, "seam_over_sqrt_area",
+                     f->seam_over_sqrt_area, "strain_mean", f->strain_mean, "strain95", f->strain95, "strain_max",
+                     f->strain_max, "utilisation", f->utilisation, "pages", (json_int_t)f->pages, "texels",
+                     (json_int_t)f->texels, "shared_texels", (json_int_t)f->shared_texels, "overlaps",
+                     (json_int_t)f->overlaps, "area_error", f->area_error, "texel_m", work->atlas->texel, "uv_scale_m",
+                     work->atlas->texel * work->atlas->page_edge, "seconds", cli_atlas_seconds(work), "stages", stages);
+}
+
+static bool print_json(const cli_atlas_work *work)
+{
+    json_t *object = cli_atlas_json(work);
     bool good = object && json_dumpf(object, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) == 0;
     puts("");
     json_decref(object);
     return good;
 }
 
-static void print_table(const atlas_work *work)
+static void print_table(const cli_atlas_work *work)
 {
     const sp_atlas_figures *f = &work->figures;
     printf("triangles        %zu\ncharts           %zu (%zu with at most 4 triangles)\n", f->triangles, f->charts,
@@ -120,24 +124,25 @@ static void print_table(const atlas_work *work)
     printf("seams            %.3g x square root of the area\n", f->seam_over_sqrt_area);
     printf("strain           mean %.3g, 95th percentile %.3g, max %.3g\n", f->strain_mean, f->strain95, f->strain_max);
     printf("utilisation      %.3f\narea error       %.3g\nseconds          %.3f\n", f->utilisation, f->area_error,
-           seconds(&work->clock));
+           cli_atlas_seconds(work));
 }
 
 int cli_atlas(const cli_options *options)
 {
     sp_error error = {0};
-    atlas_work work = {0};
+    cli_atlas_work work = {0};
     if (options->output && !names_obj(options->output)) {
         fprintf(stderr, "sprayplan: atlas: -o: found \"%s\", expected a file name ending in .obj\n", options->output);
         return EXIT_USAGE;
     }
-    bool good = build(&work, options, &error) && (!options->output || write_files(&work, options, &error));
+    sp_mesh *mesh = sp_mesh_load(options->inputs[0], 1, &error);
+    bool good = cli_atlas_build(&work, mesh, options->texel, &error) &&
+                (!options->output || write_files(&work, options, &error));
     if (good && options->json)
         good = print_json(&work) || sp_fail_memory(&error);
     else if (good && !options->quiet)
         print_table(&work);
-    sp_atlas_destroy(work.atlas);
-    sp_charts_destroy(work.charts);
-    sp_mesh_destroy(work.mesh);
+    cli_atlas_clear(&work);
+    sp_mesh_destroy(mesh);
     return good ? EXIT_DONE : cli_fail(&error);
 }
