@@ -11,34 +11,17 @@
 #define SWEEPS_MOST 4    /* at one size of step */
 #define GAIN_LEAST 1e-6  /* of the area, for a step to count */
 
-/* The nozzle in hand: the design without it, and what can be reached from where it is. */
+/* The nozzle in hand, and the design without it. */
 typedef struct {
-    const sp_search *search;
+    const sp_search *search; /* without credit */
+    sp_sights *sights;
     sp_design *design; /* without the nozzle */
     double budget, least;
     sp_placed placed;
-    sp_reach *reach; /* from its position, in all directions */
-    double gain;     /* of its field, exact, m² */
-    float *trial;    /* [patch_count] */
+    double gain;  /* of its field, exact, m² */
+    float *trial; /* [patch_count] */
     sp_error *error;
 } sp_needle;
-
-/* What can be reached from where the nozzle is, by its own pattern or by that turned and opened as far as allowed. */
-static sp_reach *look(const sp_search *search, const sp_nozzle *nozzle, double spare, sp_error *error)
-{
-    double speed = sp_nozzle_speed(nozzle, &sp_evaluator_setup(search->coarse)->liquid);
-    sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
-    return sp_evaluator_reach(search->coarse, nozzle->position, speed, nozzle->axis,
-                              fmin(M_PI, sp_spray_reach(&spray) + spare + 1e-6), error);
-}
-
-/* How far beyond its pattern a nozzle could come to reach, whichever way its axis lies within its limits now. */
-static double spare_of(const sp_search *search, const sp_nozzle *nozzle)
-{
-    double low, high;
-    sp_angle_range(search->options, nozzle->type, &low, &high);
-    return 0.5 * fmax(0, high - sp_nozzle_angle(nozzle)) + 2 * fmin(M_PI, search->options->refine.axis);
-}
 
 /* Tries one value of one unknown and keeps it where more is covered. */
 static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
@@ -57,12 +40,8 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
     bool elsewhere = sp_distance(trial.nozzle.position, needle->placed.nozzle.position) > 0;
     if (freedom.kind[k] == SP_UNKNOWN_PLACE && !elsewhere)
         return true;
-    if (elsewhere) {
-        if (!sp_field_nozzle(needle->search, &trial.nozzle, needle->trial, needle->error))
-            return false;
-    } else {
-        sp_field_reach(needle->search, &trial.nozzle, needle->reach, needle->trial);
-    }
+    if (!sp_sights_field(needle->sights, &trial, needle->trial, needle->error))
+        return false;
     double gain = sp_field_gain(needle->search, needle->design->wet, needle->trial);
     if (gain <= needle->gain + needle->least)
         return true;
@@ -71,19 +50,15 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
     needle->placed = trial;
     needle->gain = gain;
     *moved = true;
-    if (elsewhere) {
-        sp_reach_destroy(needle->reach);
-        needle->reach = look(needle->search, &trial.nozzle, spare_of(needle->search, &trial.nozzle), needle->error);
-    }
-    return needle->reach != NULL;
+    return true;
 }
 
-/* Both ways along every unknown of the design's first nozzle, which then stands last. *reach is what it can reach, NULL
- * where that is not known. */
-static bool try_nozzle(const sp_search *search, double budget, double step, sp_design *design, sp_reach **reach,
+/* Both ways along every unknown of the design's first nozzle, which then stands last. */
+static bool try_nozzle(const sp_search *search, sp_sights *sights, double budget, double step, sp_design *design,
                        bool *moved, sp_error *error)
 {
     sp_needle needle = {.search = search,
+                        .sights = sights,
                         .design = design,
                         .budget = budget,
                         .error = error,
@@ -91,12 +66,8 @@ static bool try_nozzle(const sp_search *search, double budget, double step, sp_d
     needle.placed = sp_design_take(search, design, 0);
     needle.trial = malloc(search->patch_count * sizeof *needle.trial);
     bool done = needle.trial || sp_fail_memory(error);
-    if (done) {
+    if (done)
         needle.gain = sp_field_gain(search, design->wet, needle.placed.field);
-        needle.reach =
-            *reach ? *reach : look(search, &needle.placed.nozzle, spare_of(search, &needle.placed.nozzle), error);
-        done = needle.reach != NULL;
-    }
     sp_freedom freedom = sp_freedom_create(search, &needle.placed);
     for (size_t k = 0; done && k < freedom.count; k++) {
         if (freedom.kind[k] == SP_UNKNOWN_PLACE && step < PLACE_LEAST)
@@ -105,18 +76,14 @@ static bool try_nozzle(const sp_search *search, double budget, double step, sp_d
         done = try_value(&needle, k, step, &forth) && (forth || try_value(&needle, k, -step, &forth));
         *moved |= forth;
     }
-    *reach = needle.reach;
     free(needle.trial);
     return sp_design_add(search, design, needle.placed, error) && done;
 }
 
-bool sp_compass(const sp_search *search, double budget, sp_watch *watch, sp_design *design, sp_error *error)
+bool sp_compass(sp_sights *sights, double budget, sp_watch *watch, sp_design *design, sp_error *error)
 {
-    sp_search exact = *search;
+    sp_search exact = *sights->search;
     exact.credit = 0;
-    sp_reach **reaches = calloc(design->count ? design->count : 1, sizeof *reaches);
-    if (!reaches)
-        return sp_fail_memory(error);
     bool done = true;
     int sweeps = 0;
     for (double step = STEP_FIRST; done && step >= STEP_LEAST;) {
@@ -125,15 +92,12 @@ bool sp_compass(const sp_search *search, double budget, sp_watch *watch, sp_desi
             break;
         /* after all turns the first nozzle is the first again */
         for (size_t i = 0; done && i < design->count; i++)
-            done = try_nozzle(&exact, budget, step, design, &reaches[i], &moved, error);
+            done = try_nozzle(&exact, sights, budget, step, design, &moved, error);
         if (moved && ++sweeps < SWEEPS_MOST)
             continue;
         step /= 2;
         sweeps = 0;
     }
-    for (size_t i = 0; i < design->count; i++)
-        sp_reach_destroy(reaches[i]);
-    free(reaches);
-    sp_design_refresh(search, design);
+    sp_design_refresh(sights->search, design);
     return done;
 }

@@ -2,10 +2,10 @@
 #ifndef OPTIMIZER_COMPASS_H
 #define OPTIMIZER_COMPASS_H
 
-#include "design.h"
+#include "sight.h"
 
 /* Raises what the design covers on the coarse patches, every place traced anew, within `budget` (m³/s). It sees what
  * frozen visibility hides from Ceres: a move that lights up what lay in shadow. */
-bool sp_compass(const sp_search *search, double budget, sp_watch *watch, sp_design *design, sp_error *error);
+bool sp_compass(sp_sights *sights, double budget, sp_watch *watch, sp_design *design, sp_error *error);
 
 #endif

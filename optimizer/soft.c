@@ -8,28 +8,16 @@
 #define ITERATIONS 8
 #define TOLERANCE 1e-5
 #define CHUNKS 16          /* fixed, so that sums do not depend on the number of threads */
-#define FAR 30.0           /* widths beyond the edge where nothing is left of a pattern */
-#define REACH_SPARE 0.2    /* rad beyond pattern and freedom of axis that are traced */
 #define WATER_PENALTY 10.0 /* of the square root of the area, per share of water above the budget */
-#define STEP 1e-5          /* share of half an unknown's range, for differences */
 #define EDGE_LEAST 0.2     /* cosine of the unknown's angle at the start: at 0 it would be stuck at its limit */
-
-/* One arrival at its frozen patch; direction and transfer follow the nozzle's place. */
-typedef struct {
-    uint32_t patch;
-    uint32_t arc; /* 0: low arc or line, 1: high arc */
-    sp_vec3 direction;
-    double transfer;
-} sp_frozen;
+#define SURE 16.0          /* widths above the threshold where nothing is missing any more */
 
 typedef struct {
     const sp_freedom *freedom;
-    size_t first; /* of its unknowns */
-    double speed;
-    size_t count;
-    sp_frozen *arrivals; /* [count], by patch */
-    double *level;       /* [count], what it brings to its patch: flux over threshold, or soft cover of its own */
-    double *slope;       /* [freedom->count][count], by unknown */
+    const sp_sight *sight;
+    size_t first;  /* of its unknowns */
+    double *level; /* [sight->count] */
+    double *slope; /* [freedom->count][sight->count], by unknown */
 } sp_soft_nozzle;
 
 /* A patch's arrivals are links[start[p]] to links[start[p + 1]]. */
@@ -49,58 +37,6 @@ typedef struct {
     double *chunk_cost, *chunk_gradient, *chunk_normal; /* [CHUNKS][1], [][unknowns], [][unknowns²] */
 } sp_soft;
 
-static double logistic(double x)
-{
-    return 1 / (1 + exp(-x));
-}
-
-/* Where its place is free, the directions and transfers at the place given. */
-static bool refly(const sp_soft *soft, const sp_soft_nozzle *own, sp_vec3 position, const sp_frozen *frozen,
-                  sp_frozen *flown)
-{
-    const sp_patches *patches = sp_evaluator_patches(soft->search->coarse);
-    sp_flight flights[2];
-    int count = sp_flights(position, patches->point[frozen->patch], own->speed,
-                           sp_evaluator_gravity(soft->search->coarse), flights);
-    *flown = *frozen;
-    if ((int)frozen->arc >= count)
-        return false;
-    const sp_flight *flight = &flights[frozen->arc];
-    double against = -sp_dot(flight->velocity, patches->normal[frozen->patch]);
-    if (patches->side[frozen->patch] == SP_SIDE_BOTH)
-        against = fabs(against);
-    flown->direction = flight->direction;
-    flown->transfer = fmax(0, against) / flight->spread;
-    return flown->transfer > 0;
-}
-
-/* What each arrival brings with the nozzle posed so. */
-static void levels(const sp_soft *soft, const sp_soft_nozzle *own, const sp_nozzle *nozzle, bool moved, double *level)
-{
-    const sp_search *search = soft->search;
-    const sp_setup *setup = sp_evaluator_setup(search->coarse);
-    sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
-    sp_frame frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up);
-    double strength =
-        search->threshold > 0 ? sp_nozzle_flow(nozzle, &setup->liquid) / (spray.solid_angle * search->threshold) : 0;
-    for (size_t i = 0; i < own->count; i++) {
-        sp_frozen at = own->arrivals[i];
-        level[i] = 0;
-        if (moved && !refly(soft, own, nozzle->position, &own->arrivals[i], &at))
-            continue;
-        sp_vec3 d = at.direction;
-        double margin = sp_spray_margin(&spray, sp_v(sp_dot(d, frame.x), sp_dot(d, frame.y), sp_dot(d, frame.z)));
-        if (margin < -FAR * soft->width.edge)
-            continue;
-        double inside = logistic(margin / soft->width.edge);
-        double flux = strength * at.transfer * inside;
-        if (search->threshold <= 0)
-            level[i] = inside;
-        else
-            level[i] = soft->sums ? flux : logistic(log(flux) / soft->width.level);
-    }
-}
-
 /* The values at x, whose entries are angles: value = middle + half range * sin(x). That keeps the limits without
  * telling Ceres, which searches long where bounds are many. */
 static void values_at(const sp_soft_nozzle *own, const double *x, double values[SP_UNKNOWNS])
@@ -112,47 +48,22 @@ static void values_at(const sp_soft_nozzle *own, const double *x, double values[
     }
 }
 
-static bool is_mobile(const sp_freedom *freedom)
-{
-    for (size_t k = 0; k < freedom->count; k++)
-        if (freedom->kind[k] == SP_UNKNOWN_PLACE)
-            return true;
-    return false;
-}
-
-static void set_levels(sp_soft *soft, const double *x)
+/* The levels at x and, where asked for, their derivatives by x. */
+static void set_levels(sp_soft *soft, const double *x, bool slopes)
 {
     int threads = sp_threads(&soft->search->options->run);
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
     for (size_t i = 0; i < soft->nozzle_count; i++) {
         sp_soft_nozzle *own = &soft->nozzles[i];
+        const sp_freedom *freedom = own->freedom;
         double values[SP_UNKNOWNS];
         values_at(own, x, values);
-        sp_nozzle nozzle = sp_freedom_nozzle(own->freedom, values);
-        levels(soft, own, &nozzle, is_mobile(own->freedom), own->level);
-    }
-}
-
-/* Derivatives of the levels by x, by differences towards the middle of each unknown's range. */
-static void set_slopes(sp_soft *soft, const double *x)
-{
-    int threads = sp_threads(&soft->search->options->run);
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
-    for (size_t task = 0; task < soft->nozzle_count * SP_UNKNOWNS; task++) {
-        sp_soft_nozzle *own = &soft->nozzles[task / SP_UNKNOWNS];
-        const sp_freedom *freedom = own->freedom;
-        size_t k = task % SP_UNKNOWNS;
-        if (k >= freedom->count)
-            continue;
-        double values[SP_UNKNOWNS], half = 0.5 * (freedom->high[k] - freedom->low[k]);
-        values_at(own, x, values);
-        double step = copysign(STEP * half, freedom->low[k] + half - values[k]);
-        values[k] += step;
-        sp_nozzle nozzle = sp_freedom_nozzle(freedom, values);
-        double *slope = &own->slope[k * own->count], chain = half * cos(x[own->first + k]) / step;
-        levels(soft, own, &nozzle, is_mobile(freedom), slope);
-        for (size_t i = 0; i < own->count; i++)
-            slope[i] = (slope[i] - own->level[i]) * chain;
+        sp_levels(soft->search, freedom, own->sight, soft->width, values, own->level, slopes ? own->slope : NULL);
+        for (size_t k = 0; slopes && k < freedom->count; k++) {
+            double chain = 0.5 * (freedom->high[k] - freedom->low[k]) * cos(x[own->first + k]);
+            for (size_t a = 0; a < own->sight->count; a++)
+                own->slope[k * own->sight->count + a] *= chain;
+        }
     }
 }
 
@@ -166,7 +77,10 @@ static double miss_of_sum(const sp_soft *soft, size_t patch, double *factor)
     *factor = 0;
     if (sum <= 0)
         return 1;
-    double cover = logistic(log(sum) / soft->width.level);
+    double widths = log(sum) / soft->width.level;
+    if (widths > SURE)
+        return 0;
+    double cover = sp_soft_step(widths);
     *factor = -cover * (1 - cover) / (soft->width.level * sum);
     return 1 - cover;
 }
@@ -188,9 +102,11 @@ static void add_row(const sp_soft *soft, size_t patch, double weight, double mis
     size_t n = soft->unknowns, used = 0;
     for (size_t l = soft->start[patch]; l < soft->start[patch + 1]; l++) {
         const sp_soft_nozzle *own = &soft->nozzles[soft->links[l].nozzle];
+        if (own->level[soft->links[l].arrival] <= 0)
+            continue;
         double by_level = soft->sums ? factor : -miss_of_any(soft, patch, l);
         for (size_t k = 0; k < own->freedom->count; k++) {
-            double slope = weight * by_level * own->slope[k * own->count + soft->links[l].arrival];
+            double slope = weight * by_level * own->slope[k * own->sight->count + soft->links[l].arrival];
             if (slope == 0)
                 continue;
             if (row[own->first + k] == 0)
@@ -223,7 +139,7 @@ static void sum_chunk(sp_soft *soft, size_t chunk, bool slopes, double *row, siz
         double weight = sqrt((double)soft->search->area[p]), factor = 0;
         double miss = soft->sums ? miss_of_sum(soft, p, &factor) : miss_of_any(soft, p, SIZE_MAX);
         cost += weight * weight * miss * miss;
-        if (slopes)
+        if (slopes && miss > 0)
             add_row(soft, p, weight, miss, factor, row, columns, gradient, normal);
     }
     soft->chunk_cost[chunk] = cost;
@@ -330,9 +246,7 @@ static bool evaluate(void *user, const double *x, double *residuals, double *jac
 {
     sp_soft *soft = user;
     size_t n = soft->unknowns;
-    set_levels(soft, x);
-    if (jacobian)
-        set_slopes(soft, x);
+    set_levels(soft, x, jacobian != NULL);
     if (!sum_patches(soft, jacobian != NULL))
         return false;
     add_water(soft, x, jacobian != NULL);
@@ -345,82 +259,41 @@ static bool evaluate(void *user, const double *x, double *residuals, double *jac
     return true;
 }
 
-/* Half-angle about the start's axis that holds what the nozzle could reach as far as it may turn and open. */
-static double needed(const sp_freedom *freedom)
-{
-    double angle = sp_nozzle_angle(&freedom->start), turn = 0;
-    for (size_t k = 0; k < freedom->count; k++) {
-        if (freedom->kind[k] == SP_UNKNOWN_ANGLE)
-            angle = freedom->high[k];
-        if (freedom->kind[k] == SP_UNKNOWN_AXIS)
-            turn = 2 * freedom->axis_limit;
-    }
-    sp_spray spray = sp_spray_create(freedom->start.type, angle);
-    return fmin(M_PI, sp_spray_reach(&spray) + turn + REACH_SPARE);
-}
-
-static bool freeze(const sp_soft *soft, sp_soft_nozzle *own, sp_error *error)
-{
-    const sp_evaluator *coarse = soft->search->coarse;
-    const sp_patches *patches = sp_evaluator_patches(coarse);
-    const sp_nozzle *nozzle = &own->freedom->start;
-    own->speed = sp_nozzle_speed(nozzle, &sp_evaluator_setup(coarse)->liquid);
-    sp_reach *reach =
-        sp_evaluator_reach(coarse, nozzle->position, own->speed, nozzle->axis, needed(own->freedom), error);
-    if (!reach)
-        return false;
-    size_t most = reach->count ? reach->count : 1;
-    own->arrivals = malloc(most * sizeof *own->arrivals);
-    own->level = malloc(most * sizeof *own->level);
-    own->slope = malloc(most * SP_UNKNOWNS * sizeof *own->slope);
-    for (size_t i = 0; own->arrivals && i < reach->count; i++) {
-        const sp_arrival *arrival = &reach->arrivals[i];
-        if (!arrival->passes)
-            continue;
-        sp_flight flights[2];
-        int count = sp_flights(nozzle->position, patches->point[arrival->patch], own->speed,
-                               sp_evaluator_gravity(coarse), flights);
-        uint32_t arc = count == 2 && sp_dot(flights[1].direction, arrival->direction) >
-                                         sp_dot(flights[0].direction, arrival->direction);
-        own->arrivals[own->count++] = (sp_frozen){arrival->patch, arc, arrival->direction, arrival->transfer};
-    }
-    sp_reach_destroy(reach);
-    return (own->arrivals && own->level && own->slope) || sp_fail_memory(error);
-}
-
 static bool link_patches(sp_soft *soft, sp_error *error)
 {
     size_t patches = soft->search->patch_count, total = 0;
     for (size_t i = 0; i < soft->nozzle_count; i++)
-        total += soft->nozzles[i].count;
+        total += soft->nozzles[i].sight->count;
     soft->start = calloc(patches + 2, sizeof *soft->start);
     soft->links = malloc((total ? total : 1) * sizeof *soft->links);
     if (!soft->start || !soft->links)
         return sp_fail_memory(error);
     /* counted two places on, so that filling moves each start to its own place */
     for (size_t i = 0; i < soft->nozzle_count; i++)
-        for (size_t a = 0; a < soft->nozzles[i].count; a++)
-            soft->start[soft->nozzles[i].arrivals[a].patch + 2]++;
+        for (size_t a = 0; a < soft->nozzles[i].sight->count; a++)
+            soft->start[soft->nozzles[i].sight->seen[a].patch + 2]++;
     for (size_t p = 0; p < patches; p++)
         soft->start[p + 2] += soft->start[p + 1];
     for (size_t i = 0; i < soft->nozzle_count; i++)
-        for (size_t a = 0; a < soft->nozzles[i].count; a++)
-            soft->links[soft->start[soft->nozzles[i].arrivals[a].patch + 1]++] = (sp_link){(uint32_t)i, (uint32_t)a};
+        for (size_t a = 0; a < soft->nozzles[i].sight->count; a++)
+            soft->links[soft->start[soft->nozzles[i].sight->seen[a].patch + 1]++] = (sp_link){(uint32_t)i, (uint32_t)a};
     return true;
 }
 
-static bool soft_create(sp_soft *soft, const sp_freedom *freedoms, sp_error *error)
+static bool soft_create(sp_soft *soft, const sp_freedom *freedoms, const sp_sight *const *sights, sp_error *error)
 {
     soft->nozzles = calloc(soft->nozzle_count, sizeof *soft->nozzles);
     if (!soft->nozzles)
         return sp_fail_memory(error);
     size_t first = 0;
     for (size_t i = 0; i < soft->nozzle_count; i++) {
-        soft->nozzles[i].freedom = &freedoms[i];
-        soft->nozzles[i].first = first;
+        size_t most = sights[i]->count ? sights[i]->count : 1;
+        soft->nozzles[i] = (sp_soft_nozzle){.freedom = &freedoms[i], .sight = sights[i], .first = first};
         first += freedoms[i].count;
-        if (!freeze(soft, &soft->nozzles[i], error))
-            return false;
+        soft->nozzles[i].level = malloc(most * sizeof *soft->nozzles[i].level);
+        soft->nozzles[i].slope = malloc(most * SP_UNKNOWNS * sizeof *soft->nozzles[i].slope);
+        if (!soft->nozzles[i].level || !soft->nozzles[i].slope)
+            return sp_fail_memory(error);
     }
     size_t n = soft->unknowns;
     soft->chunk_cost = calloc(CHUNKS, sizeof *soft->chunk_cost);
@@ -434,7 +307,6 @@ static bool soft_create(sp_soft *soft, const sp_freedom *freedoms, sp_error *err
 static void soft_free(sp_soft *soft)
 {
     for (size_t i = 0; soft->nozzles && i < soft->nozzle_count; i++) {
-        free(soft->nozzles[i].arrivals);
         free(soft->nozzles[i].level);
         free(soft->nozzles[i].slope);
     }
@@ -473,19 +345,16 @@ static bool solve(sp_soft *soft, double (*values)[SP_UNKNOWNS], sp_error *error)
     return done;
 }
 
-bool sp_soft_solve(const sp_search *search, const sp_freedom *freedoms, size_t count, sp_width width, double budget,
-                   double (*values)[SP_UNKNOWNS], sp_error *error)
+bool sp_soft_solve(const sp_search *search, const sp_freedom *freedoms, const sp_sight *const *sights, size_t count,
+                   sp_width width, double budget, double (*values)[SP_UNKNOWNS], sp_error *error)
 {
-    sp_soft soft = {.search = search,
-                    .width = width,
-                    .sums = !search->single && search->threshold > 0,
-                    .budget = budget,
-                    .nozzle_count = count};
+    sp_soft soft = {
+        .search = search, .width = width, .sums = sp_levels_sum(search), .budget = budget, .nozzle_count = count};
     for (size_t i = 0; i < count; i++)
         soft.unknowns += freedoms[i].count;
     if (!soft.unknowns)
         return true;
-    bool done = soft_create(&soft, freedoms, error) && solve(&soft, values, error);
+    bool done = soft_create(&soft, freedoms, sights, error) && solve(&soft, values, error);
     soft_free(&soft);
     return done;
 }

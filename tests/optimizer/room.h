@@ -11,7 +11,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include <sprayplan/sprayplan.h>
+#include <sprayplan/place.h>
 
 #define DEGREE (M_PI / 180)
 #define LITRES_PER_MINUTE (1e-3 / 60)

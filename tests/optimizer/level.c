@@ -1,0 +1,155 @@
+/* Soft levels: their derivatives by every unknown, against differences, for cones and fans, lines and parabolas. */
+#include "room.h"
+
+#include "level.h"
+
+#define PRESSURE 2e5
+
+typedef struct {
+    room room;
+    sp_nozzle_type type;
+    const sp_nozzle_type *types[1];
+    double pressure;
+    sp_mount mount;
+    sp_place_options options;
+    sp_sites sites;
+    sp_candidates candidates;
+    sp_visibility visibility;
+    sp_watch watch;
+    sp_search search;
+    sp_sights sights;
+    sp_design design;
+} bench;
+
+/* A floor with a wall behind it, and one nozzle of the pattern given aslant above them. */
+static void bench_open(bench *b, sp_pattern pattern, sp_trajectory trajectory, double flux, sp_combine combine)
+{
+    sp_error error = {0};
+    *b = (bench){.pressure = PRESSURE};
+    room_builder builder = {0};
+    room_part(&builder, "corner");
+    room_sheet(&builder, sp_v(-1.5, -1.5, 0), sp_v(3, 0, 0), sp_v(0, 3, 0));
+    room_sheet(&builder, sp_v(-1.5, 1.5, 0), sp_v(3, 0, 0), sp_v(0, 0, 2));
+    b->room.setup = sp_setup_default();
+    b->room.setup.fidelity.trajectory = trajectory;
+    b->room.setup.criterion.flux = flux;
+    b->room.setup.criterion.combine = combine;
+    room_open(&b->room, &builder, 0.1);
+    b->type = room_cone("set", 70 * DEGREE, 20);
+    b->type.pattern = pattern;
+    b->type.hollow = 0.6;
+    b->type.thickness = 30 * DEGREE;
+    b->type.angle_min = 40 * DEGREE;
+    b->type.angle_max = 110 * DEGREE;
+    b->type.flow_min *= 0.5;
+    b->type.flow_max *= 2;
+    b->types[0] = &b->type;
+    b->mount = (sp_mount){.kind = SP_MOUNT_BOX,
+                          .axis = sp_unit(sp_v(0.1, 0.3, -1)),
+                          .tilt = 60 * DEGREE,
+                          .spacing = 1,
+                          .from = sp_v(-0.5, -0.5, 1),
+                          .to = sp_v(0.5, 0.5, 2)};
+    b->options = room_options();
+    b->options.refine = (sp_refine){0.4, 30 * DEGREE, true, INFINITY, INFINITY};
+    b->options.types = b->types;
+    b->options.type_count = 1;
+    b->options.pressures = &b->pressure;
+    b->options.pressure_count = 1;
+    b->options.mounts = &b->mount;
+    b->options.mount_count = 1;
+    b->watch = sp_watch_start(&b->options.run);
+    assert_true(sp_sites_create(b->room.evaluator, &b->options, &b->sites, &error));
+    assert_true(sp_candidates_create(b->room.evaluator, &b->options, &b->sites, &b->candidates, &error));
+    assert_true(sp_visibility_create(b->room.evaluator, &b->options, &b->sites, &b->candidates, &b->watch,
+                                     &b->visibility, &error));
+    assert_true(sp_search_create(b->room.evaluator, &b->options, &b->sites, &b->candidates, &b->visibility, &b->search,
+                                 &error));
+    assert_true(sp_sights_create(&b->search, 4, &b->sights, &error));
+    assert_true(sp_design_create(&b->search, &b->design, &error));
+    assert_true(sp_design_add_pose(&b->search, &b->design, (sp_pose){1, 0, 2, 0}, &error));
+}
+
+static void bench_close(bench *b)
+{
+    sp_design_free(&b->design);
+    sp_sights_free(&b->sights);
+    sp_search_free(&b->search);
+    sp_visibility_free(&b->visibility);
+    sp_candidates_free(&b->candidates);
+    sp_sites_free(&b->sites);
+    free(b->watch.stages);
+    room_close(&b->room);
+}
+
+/* Largest difference between slopes and central differences over the largest slope, for one unknown. */
+static double worst_error(const bench *b, const sp_freedom *freedom, const sp_sight *sight, const double *values,
+                          size_t k, const double *slope)
+{
+    const sp_width width = {0.3, 0.1};
+    double step = 1e-5 * (freedom->high[k] - freedom->low[k]), worst = 0, largest = 0;
+    double *ahead = malloc(sight->count * sizeof *ahead), *behind = malloc(sight->count * sizeof *behind);
+    assert_true(ahead && behind);
+    double moved[SP_UNKNOWNS];
+    memcpy(moved, values, sizeof moved);
+    moved[k] = values[k] + step;
+    sp_levels(&b->search, freedom, sight, width, moved, ahead, NULL);
+    moved[k] = values[k] - step;
+    sp_levels(&b->search, freedom, sight, width, moved, behind, NULL);
+    size_t off = 0;
+    for (size_t i = 0; i < sight->count; i++)
+        largest = fmax(largest, fabs(slope[k * sight->count + i]));
+    for (size_t i = 0; i < sight->count; i++) {
+        double miss = fabs((ahead[i] - behind[i]) / (2 * step) - slope[k * sight->count + i]) / largest;
+        off += miss > 1e-4;
+        worst = fmax(worst, miss);
+    }
+    free(ahead);
+    free(behind);
+    assert_true(largest > 0);
+    /* where two edges of a pattern are equally near, or nothing is left of it, the slope has a corner */
+    return off > sight->count / 100 ? worst : 0;
+}
+
+static void slopes_are_differences(void **state)
+{
+    (void)state;
+    const sp_pattern patterns[] = {SP_PATTERN_FULL_CONE, SP_PATTERN_HOLLOW_CONE, SP_PATTERN_FLAT_FAN};
+    for (int i = 0; i < 18; i++) {
+        bench b;
+        sp_error error = {0};
+        sp_trajectory trajectory = i / 3 % 2 ? SP_TRAJECTORY_PARABOLA : SP_TRAJECTORY_LINE;
+        double flux = i < 6 ? 0 : 2 * LITRES_PER_MINUTE;
+        bench_open(&b, patterns[i % 3], trajectory, flux, i < 12 ? SP_COMBINE_SUM : SP_COMBINE_SINGLE);
+        const sp_sight *sight = sp_sights_look(&b.sights, &b.design.items[0], &error);
+        assert_non_null(sight);
+        assert_true(sight->count > 300);
+        sp_freedom freedom = sp_freedom_create(&b.search, &b.design.items[0]);
+        assert_int_equal(freedom.count, i % 3 == 2 ? 8 : 7);
+        double values[SP_UNKNOWNS];
+        for (size_t k = 0; k < freedom.count; k++)
+            values[k] = 0.4 * freedom.low[k] + 0.6 * freedom.high[k];
+        double *level = malloc(sight->count * sizeof *level);
+        double *slope = malloc(SP_UNKNOWNS * sight->count * sizeof *slope);
+        assert_true(level && slope);
+        sp_levels(&b.search, &freedom, sight, (sp_width){0.3, 0.1}, values, level, slope);
+        for (size_t k = 0; k < freedom.count; k++) {
+            if (flux == 0 && freedom.kind[k] == SP_UNKNOWN_FLOW)
+                continue;
+            double worst = worst_error(&b, &freedom, sight, values, k, slope);
+            if (worst > 0)
+                fail_msg("case %d, unknown %zu of kind %d: off by %g", i, k, (int)freedom.kind[k], worst);
+        }
+        free(level);
+        free(slope);
+        bench_close(&b);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(slopes_are_differences),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
