@@ -163,10 +163,9 @@ void sp_candidates_free(sp_candidates *candidates)
     *candidates = (sp_candidates){0};
 }
 
-sp_vec3 sp_site_axis(const sp_site *site, sp_vec3 axis, sp_vec3 up)
+sp_vec3 sp_frame_axis(const sp_frame *frame, sp_vec3 axis)
 {
-    sp_frame frame = sp_nozzle_frame(site->axis, 0, up);
-    return sp_unit(sp_add(sp_add(sp_scale(frame.x, axis.x), sp_scale(frame.y, axis.y)), sp_scale(frame.z, axis.z)));
+    return sp_unit(sp_add(sp_add(sp_scale(frame->x, axis.x), sp_scale(frame->y, axis.y)), sp_scale(frame->z, axis.z)));
 }
 
 double sp_make_roll(const sp_make *make, size_t i)
@@ -180,9 +179,10 @@ sp_nozzle sp_pose_nozzle(const sp_candidates *candidates, const sp_sites *sites,
     const sp_site *site = &sites->items[pose.site];
     const sp_make *make = &candidates->makes[pose.make];
     const sp_axes *axes = sp_candidates_axes(candidates, site->mount, pose.make);
+    sp_frame frame = sp_nozzle_frame(site->axis, 0, up);
     return (sp_nozzle){.type = make->type,
                        .position = site->position,
-                       .axis = sp_site_axis(site, axes->axes[pose.axis], up),
+                       .axis = sp_frame_axis(&frame, axes->axes[pose.axis]),
                        .roll = sp_make_roll(make, pose.roll),
                        .pressure = make->pressure,
                        .angle = make->angle == make->type->angle ? 0 : make->angle};

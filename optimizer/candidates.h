@@ -46,8 +46,8 @@ static inline const sp_axes *sp_candidates_axes(const sp_candidates *candidates,
 {
     return &candidates->axes[mount * candidates->make_count + make];
 }
-/* Turns axis `i` about +z to lie about the site's own axis. */
-sp_vec3 sp_site_axis(const sp_site *site, sp_vec3 axis, sp_vec3 up);
+/* Turns an axis about +z to lie about the z of a frame: for a site sp_nozzle_frame(site->axis, 0, up). */
+sp_vec3 sp_frame_axis(const sp_frame *frame, sp_vec3 axis);
 /* What refinement may set: angle (rad), and flow (m³/s) of a type at a pressure. */
 void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high);
 void sp_flow_range(const sp_place_options *options, const sp_fluid *liquid, const sp_nozzle_type *type, double pressure,

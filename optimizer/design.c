@@ -38,15 +38,6 @@ static bool sits_in(const sp_nozzle *nozzle, const sp_mount *mount)
     return sp_distance(nozzle->position, sp_along(mount->position, depth, mount->axis)) <= PORT_TOLERANCE;
 }
 
-static void bins_prepare(sp_search *search)
-{
-    for (size_t k = 0; k < search->candidates->make_count; k++)
-        for (size_t b = 0; b < SP_BINS; b++) {
-            double angle = search->candidates->makes[k].reach + (double)search->visibility->bins.radius[b];
-            search->bin_cosine[k * SP_BINS + b] = angle >= M_PI ? -2 : (float)cos(angle);
-        }
-}
-
 bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
                       const sp_candidates *candidates, const sp_visibility *visibility, sp_search *search,
                       sp_error *error)
@@ -57,6 +48,7 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
                           .sites = sites,
                           .candidates = candidates,
                           .visibility = visibility,
+                          .sweeps = sp_sweep_best(),
                           .coarse = coarse,
                           .patch_count = patches->count,
                           .threshold = criterion->flux,
@@ -64,15 +56,16 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
                           .credit = criterion->combine == SP_COMBINE_SINGLE ? 0 : CREDIT};
     search->area = malloc(patches->count * sizeof *search->area);
     search->kept_wet = calloc(patches->count, sizeof *search->kept_wet);
-    search->bin_cosine = malloc(candidates->make_count * SP_BINS * sizeof *search->bin_cosine);
+    search->culls = malloc(candidates->make_count * sizeof *search->culls);
     search->port_taken = calloc(options->mount_count, sizeof *search->port_taken);
-    if (!search->area || !search->kept_wet || !search->bin_cosine || !search->port_taken) {
+    if (!search->area || !search->kept_wet || !search->culls || !search->port_taken) {
         sp_search_free(search);
         return sp_fail_memory(error);
     }
     for (size_t p = 0; p < patches->count; p++)
         search->area[p] = (float)patches->area[p];
-    bins_prepare(search);
+    for (size_t k = 0; k < candidates->make_count; k++)
+        sp_cull_create(&visibility->bins, &candidates->makes[k].spray, &search->culls[k]);
     if (options->kept && !kept_create(search, error)) {
         sp_search_free(search);
         return false;
@@ -87,7 +80,7 @@ void sp_search_free(sp_search *search)
 {
     free(search->area);
     free(search->kept_wet);
-    free(search->bin_cosine);
+    free(search->culls);
     free(search->port_taken);
     free(search->kept);
     *search = (sp_search){0};

@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_DESIGN_H
 #define OPTIMIZER_DESIGN_H
 
-#include "visibility.h"
+#include "sweep.h"
 
 /* Everything that the search's files share. Read-only once made. */
 typedef struct {
@@ -12,12 +12,12 @@ typedef struct {
     const sp_visibility *visibility;
     const sp_evaluator *coarse;
     size_t patch_count;
-    float *area;       /* [patch_count], m² */
-    double threshold;  /* m³/s per m² that cover; 0: any liquid */
-    bool single;       /* one nozzle alone must cover */
-    float credit;      /* worth of an uncovered patch per share of the threshold that it has */
-    float *bin_cosine; /* [make_count x SP_BINS]: the make, pointed at less than this from a bin's centre, misses the
-                          bin */
+    float *area;      /* [patch_count], m² */
+    double threshold; /* m³/s per m² that cover; 0: any liquid */
+    bool single;      /* one nozzle alone must cover */
+    float credit;     /* worth of an uncovered patch per share of the threshold that it has */
+    sp_cull *culls;   /* [make_count] */
+    const sp_sweep_set *sweeps;
     size_t kept_count;
     sp_nozzle *kept; /* the nozzles that every layout contains */
     double kept_flow;

@@ -7,31 +7,31 @@
 #define WATER_STEP 0.02 /* share of the water that a reduction must save */
 
 /* Replaces item i where the pool holds something better for its place. The item then stands last. */
-static bool replace(const sp_search *search, const sp_pool *pool, double budget, double *scores, sp_design *design,
+static bool replace(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_design *design,
                     size_t i, bool *changed, sp_error *error)
 {
     sp_placed own = sp_design_take(search, design, i);
     double least =
         sp_field_gain(search, design->wet, own.field) + GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
     sp_pose pose;
-    if (sp_pool_best(search, pool, design, 0, budget, scores, &pose) <= least)
+    if (sp_pool_best(search, pool, design, 0, budget, bench, &pose) <= least)
         return sp_design_add(search, design, own, error);
     free(own.field);
     *changed = true;
     return sp_design_add_pose(search, design, pose, error);
 }
 
-static bool sweep(const sp_search *search, const sp_pool *pool, double budget, double *scores, sp_watch *watch,
+static bool sweep(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_watch *watch,
                   sp_design *design, sp_error *error)
 {
     bool done = true, changed = true;
     sp_design_refresh(search, design);
     for (int i = 0; done && changed && i < SWEEPS_MOST && sp_watch_goes_on(watch, "exchange", 0); i++) {
         changed = false;
-        done = sp_greedy_pool(search, pool, 1, INFINITY, budget, design, error);
+        done = sp_greedy_pool(search, pool, 1, INFINITY, budget, bench, design, error);
         /* what is replaced or put back goes to the end, so that the first is always the next */
         for (size_t k = 0; done && k < design->count; k++)
-            done = replace(search, pool, budget, scores, design, 0, &changed, error);
+            done = replace(search, pool, budget, bench, design, 0, &changed, error);
     }
     return done;
 }
@@ -39,16 +39,16 @@ static bool sweep(const sp_search *search, const sp_pool *pool, double budget, d
 bool sp_improve(const sp_search *search, const sp_pool *pool, double budget, sp_watch *watch, sp_design *design,
                 sp_error *error)
 {
-    double *scores = malloc((pool->count ? pool->count : 1) * sizeof *scores);
-    if (!scores)
-        return sp_fail_memory(error);
+    sp_bench bench;
+    if (!sp_bench_create(search, pool, &bench, error))
+        return false;
     /* credit leads to where nozzles complete one another; in the end only what is covered counts */
     sp_search exact = *search;
     exact.credit = 0;
-    bool done = sweep(search, pool, budget, scores, watch, design, error) &&
-                sweep(&exact, pool, budget, scores, watch, design, error);
+    bool done = sweep(search, pool, budget, &bench, watch, design, error) &&
+                sweep(&exact, pool, budget, &bench, watch, design, error);
     sp_design_refresh(search, design);
-    free(scores);
+    sp_bench_free(&bench);
     return done;
 }
 

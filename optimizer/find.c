@@ -37,10 +37,16 @@ static bool first_design(const sp_finding *finding, sp_design *design)
 static bool other_design(const sp_finding *finding, double power)
 {
     sp_design design;
+    sp_bench bench;
     if (!sp_design_create(finding->search, &design, finding->error))
         return false;
     double coarse = finding->target - finding->front->bias;
-    bool done = sp_greedy_pool(finding->search, finding->pool, power, coarse, finding->budget, &design, finding->error);
+    bool done = sp_bench_create(finding->search, finding->pool, &bench, finding->error);
+    if (done) {
+        done = sp_greedy_pool(finding->search, finding->pool, power, coarse, finding->budget, &bench, &design,
+                              finding->error);
+        sp_bench_free(&bench);
+    }
     double budget = design.covered >= coarse ? design.flow : finding->budget;
     done = done && sp_improve(finding->search, finding->pool, budget, finding->watch, &design, finding->error) &&
            sp_front_measure(finding->front, finding->search, &design, NULL, finding->error);
@@ -78,9 +84,14 @@ static bool at_budget(const sp_finding *finding, const sp_design *greedy, double
 {
     static const double powers[] = {1, 0.5, 0};
     sp_design best;
-    bool done = sp_design_create(finding->search, &best, finding->error);
-    if (!done)
+    sp_bench bench;
+    if (!sp_bench_create(finding->search, finding->pool, &bench, finding->error))
         return false;
+    if (!sp_design_create(finding->search, &best, finding->error)) {
+        sp_bench_free(&bench);
+        return false;
+    }
+    bool done = true;
     for (int i = 0; done && i < 3 && sp_watch_goes_on(finding->watch, "front", 0); i++) {
         sp_design design;
         done = i == 0 ? sp_design_copy(finding->search, greedy, &design, finding->error)
@@ -89,8 +100,8 @@ static bool at_budget(const sp_finding *finding, const sp_design *greedy, double
             break;
         while (design.count && design.flow > budget)
             sp_design_remove(finding->search, &design, design.count - 1);
-        done = (i == 0 ||
-                sp_greedy_pool(finding->search, finding->pool, powers[i], INFINITY, budget, &design, finding->error)) &&
+        done = (i == 0 || sp_greedy_pool(finding->search, finding->pool, powers[i], INFINITY, budget, &bench, &design,
+                                         finding->error)) &&
                sp_improve(finding->search, finding->pool, budget, finding->watch, &design, finding->error);
         bool better = design.covered > best.covered;
         sp_design_free(better ? &best : &design);
@@ -98,6 +109,7 @@ static bool at_budget(const sp_finding *finding, const sp_design *greedy, double
             best = design;
     }
     done = done && sp_front_measure(finding->front, finding->search, &best, NULL, finding->error);
+    sp_bench_free(&bench);
     sp_design_free(&best);
     return done;
 }

@@ -1,5 +1,6 @@
 #include "greedy.h"
 
+#include <omp.h>
 #include <stdlib.h>
 
 #define GAIN_LEAST 1e-6   /* of the area: less is no reason for a nozzle */
@@ -59,6 +60,8 @@ typedef struct {
     double power, budget;
     float *room;         /* [poses], what each could gain at most; INFINITY: not yet known */
     sp_round_best *best; /* [sites x makes] */
+    int threads;
+    sp_sweeper *sweepers; /* [threads] */
     bool started;
 } sp_rounds;
 
@@ -77,48 +80,65 @@ static bool is_last(const sp_search *search, const sp_design *design)
 static bool rounds_create(const sp_search *search, double power, double budget, sp_rounds *rounds, sp_error *error)
 {
     size_t sites = search->sites->count, poses = search->candidates->pose_start[sites];
-    *rounds = (sp_rounds){.search = search, .power = power, .budget = budget};
+    *rounds =
+        (sp_rounds){.search = search, .power = power, .budget = budget, .threads = sp_threads(&search->options->run)};
     rounds->room = malloc((poses ? poses : 1) * sizeof *rounds->room);
     rounds->best = calloc(sites, search->candidates->make_count * sizeof *rounds->best);
     if (!rounds->room || !rounds->best)
         return sp_fail_memory(error);
     forget_rooms(rounds);
-    return true;
+    rounds->sweepers = sp_sweepers_create(search, rounds->threads, error);
+    return rounds->sweepers;
 }
 
 static void rounds_free(sp_rounds *rounds)
 {
     free(rounds->room);
     free(rounds->best);
+    sp_sweepers_destroy(rounds->sweepers, rounds->threads);
 }
 
-/* Scores one site's poses but those that cannot beat `least`, a merit that some pose of this round has. */
-static void scan_site(sp_rounds *rounds, const sp_design *design, uint32_t site, double least)
+/* Scores one site's poses of a make but those that cannot beat `least`, a merit that some pose of this round has. The
+ * sweeper takes the make where that is needed. */
+static void scan_make(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t make, size_t number, double least)
 {
     const sp_candidates *candidates = rounds->search->candidates;
-    size_t number = candidates->pose_start[site];
-    uint32_t mount = rounds->search->sites->items[site].mount;
-    bool has_place = sp_design_has_place(rounds->search, design, mount);
-    for (size_t k = 0; k < candidates->make_count; k++) {
-        const sp_make *make = &candidates->makes[k];
-        sp_round_best *best = &rounds->best[site * candidates->make_count + k];
-        size_t axes = sp_candidates_axes(candidates, mount, k)->count;
-        *best = (sp_round_best){0};
-        if (!has_place || design->flow + make->flow > rounds->budget) {
-            number += axes * make->roll_count;
-            continue;
+    const sp_make *own = &candidates->makes[make];
+    sp_round_best *best = &rounds->best[sweeper->site * candidates->make_count + make];
+    size_t axes = sp_candidates_axes(candidates, rounds->search->sites->items[sweeper->site].mount, make)->count;
+    double price = pow(own->flow, rounds->power);
+    bool taken = false;
+    for (uint32_t a = 0; a < axes; a++)
+        for (uint32_t r = 0; r < own->roll_count; r++, number++) {
+            if ((double)rounds->room[number] * (1 + 1e-6) < least * price)
+                continue;
+            if (!taken)
+                sp_sweeper_take(sweeper, make);
+            taken = true;
+            sp_score score = sp_sweeper_score(sweeper, a, r);
+            rounds->room[number] = (float)score.room;
+            if (score.gain / price > best->merit)
+                *best = (sp_round_best){{sweeper->site, make, a, r}, score.gain / price, score.gain};
         }
-        double price = pow(make->flow, rounds->power);
-        for (uint32_t a = 0; a < axes; a++)
-            for (uint32_t r = 0; r < make->roll_count; r++, number++) {
-                if ((double)rounds->room[number] * (1 + 1e-6) < least * price)
-                    continue;
-                sp_pose pose = {site, (uint32_t)k, a, r};
-                sp_score score = sp_score_pose(rounds->search, design->wet, pose);
-                rounds->room[number] = (float)score.room;
-                if (score.gain / price > best->merit)
-                    *best = (sp_round_best){pose, score.gain / price, score.gain};
-            }
+}
+
+static void scan_site(sp_rounds *rounds, const sp_design *design, sp_sweeper *sweeper, uint32_t site, double least)
+{
+    const sp_candidates *candidates = rounds->search->candidates;
+    uint32_t mount = rounds->search->sites->items[site].mount;
+    for (size_t k = 0; k < candidates->make_count; k++)
+        rounds->best[site * candidates->make_count + k] = (sp_round_best){0};
+    if (!sp_design_has_place(rounds->search, design, mount))
+        return;
+    for (size_t s = 0; s < candidates->speed_count; s++) {
+        size_t number = candidates->pose_start[site];
+        sp_sweeper_look(sweeper, rounds->search, design->wet, site, s);
+        for (size_t k = 0; k < candidates->make_count; k++) {
+            const sp_make *make = &candidates->makes[k];
+            if (make->speed_class == s && design->flow + make->flow <= rounds->budget)
+                scan_make(rounds, sweeper, (uint32_t)k, number, least);
+            number += sp_candidates_axes(candidates, mount, k)->count * make->roll_count;
+        }
     }
 }
 
@@ -128,7 +148,7 @@ static double round_floor(sp_rounds *rounds, const sp_design *design)
     const sp_search *search = rounds->search;
     size_t count = search->sites->count * search->candidates->make_count;
     double least = 0;
-    int threads = sp_threads(&search->options->run);
+    int threads = rounds->threads;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 16) reduction(max : least)
     for (size_t i = 0; i < count; i++) {
         const sp_round_best *best = &rounds->best[i];
@@ -138,7 +158,8 @@ static double round_floor(sp_rounds *rounds, const sp_design *design)
         if (design->flow + make->flow > rounds->budget ||
             !sp_design_has_place(search, design, search->sites->items[best->pose.site].mount))
             continue;
-        double gain = sp_score_pose(search, design->wet, best->pose).gain;
+        sp_sweeper *sweeper = &rounds->sweepers[omp_get_thread_num()];
+        double gain = sp_score_pose(sweeper, search, design->wet, best->pose).gain;
         least = fmax(least, gain / pow(make->flow, rounds->power));
     }
     return least;
@@ -146,13 +167,15 @@ static double round_floor(sp_rounds *rounds, const sp_design *design)
 
 static void scan(sp_rounds *rounds, const sp_design *design)
 {
+    for (int i = 0; i < rounds->threads; i++)
+        sp_sweeper_forget(&rounds->sweepers[i]);
     double least = rounds->started ? round_floor(rounds, design) : 0;
     rounds->started = true;
     size_t sites = rounds->search->sites->count;
-    int threads = sp_threads(&rounds->search->options->run);
+    int threads = rounds->threads;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
-        scan_site(rounds, design, (uint32_t)i, least);
+        scan_site(rounds, design, &rounds->sweepers[omp_get_thread_num()], (uint32_t)i, least);
 }
 
 static int compare_merit(const void *a, const void *b)
@@ -221,16 +244,38 @@ bool sp_greedy(const sp_search *search, double power, double target, double budg
     return done;
 }
 
-double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_design *design, double power, double budget,
-                    double *scores, sp_pose *best)
+bool sp_bench_create(const sp_search *search, const sp_pool *pool, sp_bench *bench, sp_error *error)
 {
-    int threads = sp_threads(&search->options->run);
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 32)
+    *bench = (sp_bench){.threads = sp_threads(&search->options->run)};
+    bench->scores = malloc((pool->count ? pool->count : 1) * sizeof *bench->scores);
+    if (!bench->scores)
+        return sp_fail_memory(error);
+    bench->sweepers = sp_sweepers_create(search, bench->threads, error);
+    if (!bench->sweepers)
+        sp_bench_free(bench);
+    return bench->sweepers;
+}
+
+void sp_bench_free(sp_bench *bench)
+{
+    free(bench->scores);
+    sp_sweepers_destroy(bench->sweepers, bench->threads);
+    *bench = (sp_bench){0};
+}
+
+double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_design *design, double power, double budget,
+                    sp_bench *bench, sp_pose *best)
+{
+    double *scores = bench->scores;
+    for (int i = 0; i < bench->threads; i++)
+        sp_sweeper_forget(&bench->sweepers[i]);
+#pragma omp parallel for num_threads(bench->threads) schedule(dynamic, 32)
     for (size_t i = 0; i < pool->count; i++) {
         sp_pose pose = pool->items[i];
         bool allowed = design->flow + search->candidates->makes[pose.make].flow <= budget &&
                        sp_design_has_place(search, design, search->sites->items[pose.site].mount);
-        scores[i] = allowed ? sp_score_pose(search, design->wet, pose).gain : 0;
+        sp_sweeper *sweeper = &bench->sweepers[omp_get_thread_num()];
+        scores[i] = allowed ? sp_score_pose(sweeper, search, design->wet, pose).gain : 0;
     }
     double merit = 0, gain = 0;
     for (size_t i = 0; i < pool->count; i++) {
@@ -245,19 +290,15 @@ double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_desig
 }
 
 bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, double target, double budget,
-                    sp_design *design, sp_error *error)
+                    sp_bench *bench, sp_design *design, sp_error *error)
 {
-    double *scores = malloc((pool->count ? pool->count : 1) * sizeof *scores);
-    if (!scores)
-        return sp_fail_memory(error);
     double least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
     bool done = true;
     while (done && design->covered < target) {
         sp_pose pose;
-        if (sp_pool_best(search, pool, design, power, budget, scores, &pose) < least)
+        if (sp_pool_best(search, pool, design, power, budget, bench, &pose) < least)
             break;
         done = sp_design_add_pose(search, design, pose, error);
     }
-    free(scores);
     return done;
 }

@@ -1,100 +1,142 @@
 #include "scoring.h"
 
-typedef struct {
-    const sp_view *view;
-    const float *cosine; /* [SP_BINS] */
-    bool fan;
-    float x[3], y[3], z[3]; /* the nozzle's frame */
-    float inner, outer;     /* cones: cosines of the polar angles */
-    float width, thickness; /* fans: cosine of the half-width, sine of the half-thickness */
-    float strength;         /* flux over threshold per unit transfer */
-} sp_sweep;
+#include <stdlib.h>
 
-static void narrow(sp_vec3 v, float out[3])
+static bool sweeper_create(const sp_search *search, sp_sweeper *sweeper, sp_error *error)
 {
-    out[0] = (float)v.x;
-    out[1] = (float)v.y;
-    out[2] = (float)v.z;
+    size_t room = (search->visibility->largest + SP_LANES) / SP_LANES * SP_LANES;
+    *sweeper = (sp_sweeper){.block = malloc(4 * room * sizeof *sweeper->block)};
+    if (!sweeper->block)
+        return sp_fail_memory(error);
+    float **column[] = {&sweeper->had, &sweeper->area, &sweeper->room, &sweeper->gain};
+    for (size_t i = 0; i < 4; i++)
+        *column[i] = sweeper->block + i * room;
+    /* what lies behind a view's end is computed with, though never counted */
+    for (size_t i = 0; i < 4 * room; i++)
+        sweeper->block[i] = 0;
+    return true;
 }
 
-static sp_sweep sweep_create(const sp_search *search, sp_pose pose)
+sp_sweeper *sp_sweepers_create(const sp_search *search, int count, sp_error *error)
 {
-    const sp_make *make = &search->candidates->makes[pose.make];
-    sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
-    sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
-    sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, up);
-    sp_sweep sweep = {
-        .view = sp_visibility_view(search->visibility, pose.site, make->speed_class),
-        .cosine = &search->bin_cosine[pose.make * SP_BINS],
-        .fan = make->spray.kind == SP_PATTERN_FLAT_FAN,
-        .inner = make->spray.inner > 0 ? (float)cos(make->spray.inner) : 2,
-        .outer = (float)cos(make->spray.outer),
-        .width = (float)cos(make->spray.half_width),
-        .thickness = (float)sin(make->spray.half_thickness),
-        .strength =
-            search->threshold > 0 ? (float)(make->flow / (make->spray.solid_angle * search->threshold)) : INFINITY,
-    };
-    narrow(frame.x, sweep.x);
-    narrow(frame.y, sweep.y);
-    narrow(frame.z, sweep.z);
-    return sweep;
-}
-
-/* Whether the pattern holds the direction of arrival i (DESIGN's regions, without an inverse trigonometric function).
- */
-static inline bool holds(const sp_sweep *sweep, uint32_t i)
-{
-    const sp_view *view = sweep->view;
-    float z = view->x[i] * sweep->z[0] + view->y[i] * sweep->z[1] + view->z[i] * sweep->z[2];
-    if (!sweep->fan)
-        return z >= sweep->outer && z <= sweep->inner;
-    float y = view->x[i] * sweep->y[0] + view->y[i] * sweep->y[1] + view->z[i] * sweep->y[2];
-    if (fabsf(y) > sweep->thickness)
-        return false;
-    float x = view->x[i] * sweep->x[0] + view->y[i] * sweep->x[1] + view->z[i] * sweep->x[2];
-    return z >= sweep->width * sqrtf(x * x + z * z);
-}
-
-static inline bool bin_missed(const sp_search *search, const sp_sweep *sweep, size_t bin)
-{
-    const sp_bins *bins = &search->visibility->bins;
-    return bins->x[bin] * sweep->z[0] + bins->y[bin] * sweep->z[1] + bins->z[bin] * sweep->z[2] < sweep->cosine[bin];
-}
-
-sp_score sp_score_pose(const sp_search *search, const float *wet, sp_pose pose)
-{
-    sp_sweep sweep = sweep_create(search, pose);
-    const sp_view *view = sweep.view;
-    sp_score score = {0};
-    for (size_t b = 0; view->start && b < SP_BINS; b++) {
-        if (view->start[b] == view->start[b + 1] || bin_missed(search, &sweep, b))
-            continue;
-        for (uint32_t i = view->start[b]; i < view->start[b + 1]; i++) {
-            float had = wet[view->patch[i]];
-            if (had >= 1 || !holds(&sweep, i))
-                continue;
-            float flux = sweep.strength * view->transfer[i];
-            float has = search->single ? fmaxf(had, flux) : had + flux;
-            float area = search->area[view->patch[i]], worth = sp_worth(search, had);
-            score.gain += (double)(area * (sp_worth(search, has) - worth));
-            score.room += (double)(area * (1 - worth));
+    sp_sweeper *sweepers = calloc((size_t)count, sizeof *sweepers);
+    if (!sweepers)
+        return sp_fail_memory(error);
+    for (int i = 0; i < count; i++)
+        if (!sweeper_create(search, &sweepers[i], error)) {
+            sp_sweepers_destroy(sweepers, count);
+            return NULL;
         }
+    return sweepers;
+}
+
+void sp_sweepers_destroy(sp_sweeper *sweepers, int count)
+{
+    for (int i = 0; sweepers && i < count; i++)
+        free(sweepers[i].block);
+    free(sweepers);
+}
+
+static sp_credit credit_of(const sp_search *search, const sp_make *make)
+{
+    double strength = search->threshold > 0 ? make->flow / (make->spray.solid_angle * search->threshold) : INFINITY;
+    return (sp_credit){search->single, search->credit, (float)strength};
+}
+
+void sp_sweeper_forget(sp_sweeper *sweeper)
+{
+    sweeper->search = NULL;
+}
+
+void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const float *wet, uint32_t site, size_t speed)
+{
+    const sp_view *view = sp_visibility_view(search->visibility, site, speed);
+    if (sweeper->search == search && sweeper->view == view)
+        return;
+    sweeper->search = search;
+    sweeper->make = SIZE_MAX;
+    sweeper->view = view;
+    sweeper->site = site;
+    sweeper->frame = sp_nozzle_frame(search->sites->items[site].axis, 0, sp_evaluator_setup(search->coarse)->up);
+    if (!view->start)
+        return;
+    for (size_t i = 0; i < view->count; i++) {
+        sweeper->had[i] = wet[view->patch[i]];
+        sweeper->area[i] = search->area[view->patch[i]];
     }
-    return score;
+    sp_credit credit = {search->single, search->credit, 0};
+    search->sweeps->room(&credit, view->count, sweeper->had, sweeper->area, sweeper->room);
+    search->sweeps->total(view, sweeper->room, sweeper->room_total);
+}
+
+void sp_sweeper_take(sp_sweeper *sweeper, size_t make)
+{
+    const sp_search *search = sweeper->search;
+    const sp_make *own = &search->candidates->makes[make];
+    sp_credit credit = credit_of(search, own);
+    if (sweeper->make == make)
+        return;
+    sweeper->make = make;
+    sweeper->region = sp_region_create(&own->spray, &sweeper->frame);
+    if (!sweeper->view->start)
+        return;
+    search->sweeps->gain(&credit, sweeper->view->count, sweeper->had, sweeper->area, sweeper->view->transfer,
+                         sweeper->gain);
+    search->sweeps->total(sweeper->view, sweeper->gain, sweeper->gain_total);
+}
+
+sp_region sp_sweeper_region(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll)
+{
+    const sp_search *search = sweeper->search;
+    const sp_make *make = &search->candidates->makes[sweeper->make];
+    uint32_t mount = search->sites->items[sweeper->site].mount;
+    sp_vec3 lean = sp_candidates_axes(search->candidates, mount, sweeper->make)->axes[axis];
+    sp_vec3 z = sp_frame_axis(&sweeper->frame, lean), up = sp_evaluator_setup(search->coarse)->up;
+    sp_region region = sweeper->region;
+    sp_frame frame = region.fan ? sp_nozzle_frame(z, sp_make_roll(make, roll), up) : (sp_frame){z, z, z};
+    sp_region_turn(&region, &frame);
+    return region;
+}
+
+sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll)
+{
+    const sp_search *search = sweeper->search;
+    if (!sweeper->view->start)
+        return (sp_score){0};
+    sp_region region = sp_sweeper_region(sweeper, axis, roll);
+    const sp_weight weights[] = {{sweeper->gain, sweeper->gain_total}, {sweeper->room, sweeper->room_total}};
+    double sums[2];
+    search->sweeps->sum(&search->visibility->bins, &search->culls[sweeper->make], &region, sweeper->view, weights, 2,
+                        sums);
+    return (sp_score){sums[0], sums[1]};
+}
+
+sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const float *wet, sp_pose pose)
+{
+    sp_sweeper_look(sweeper, search, wet, pose.site, search->candidates->makes[pose.make].speed_class);
+    sp_sweeper_take(sweeper, pose.make);
+    return sp_sweeper_score(sweeper, pose.axis, pose.roll);
 }
 
 void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
 {
-    sp_sweep sweep = sweep_create(search, pose);
-    const sp_view *view = sweep.view;
+    const sp_make *make = &search->candidates->makes[pose.make];
+    const sp_view *view = sp_visibility_view(search->visibility, pose.site, make->speed_class);
+    const sp_bins *bins = &search->visibility->bins;
+    sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
+    sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
+    sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, up);
+    sp_region region = sp_region_create(&make->spray, &frame);
+    float strength = credit_of(search, make).strength;
+    const float *z = region.z, *outside = search->culls[pose.make].outside;
     for (size_t p = 0; p < search->patch_count; p++)
         field[p] = 0;
     for (size_t b = 0; view->start && b < SP_BINS; b++) {
-        if (bin_missed(search, &sweep, b))
+        if (bins->x[b] * z[0] + bins->y[b] * z[1] + bins->z[b] * z[2] < outside[b])
             continue;
         for (uint32_t i = view->start[b]; i < view->start[b + 1]; i++)
-            if (holds(&sweep, i))
-                field[view->patch[i]] += sweep.strength * view->transfer[i];
+            if (sp_region_holds(&region, view->x[i], view->y[i], view->z[i]))
+                field[view->patch[i]] += strength * view->transfer[i];
     }
 }
 
@@ -120,8 +162,8 @@ bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, float *fi
 {
     sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
     double speed = sp_nozzle_speed(nozzle, &sp_evaluator_setup(search->coarse)->liquid);
-    sp_reach *reach = sp_evaluator_reach(search->coarse, nozzle->position, speed, nozzle->axis,
-                                         fmin(M_PI, sp_spray_reach(&spray) + 1e-6), error);
+    sp_reach *reach = sp_evaluator_reach_passing(search->coarse, nozzle->position, speed, nozzle->axis,
+                                                 fmin(M_PI, sp_spray_reach(&spray) + 1e-6), error);
     if (!reach)
         return false;
     sp_field_reach(search, nozzle, reach, field);

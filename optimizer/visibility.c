@@ -79,16 +79,19 @@ static double needed(const sp_place_options *options, const sp_candidates *candi
 static bool view_allocate(sp_view *view, size_t count)
 {
     /* one block: the bins' starts first, then the arrays */
-    char *block = malloc((SP_BINS + 1) * sizeof(uint32_t) + count * (4 * sizeof(float) + sizeof(uint32_t)));
+    size_t padded = count + SP_LANES;
+    char *block = malloc((SP_BINS + 1 + count) * sizeof(uint32_t) + 4 * padded * sizeof(float));
     if (!block)
         return false;
     view->count = (uint32_t)count;
     view->start = (uint32_t *)block;
     view->patch = view->start + SP_BINS + 1;
-    view->x = (float *)(view->patch + count);
-    view->y = view->x + count;
-    view->z = view->y + count;
-    view->transfer = view->z + count;
+    float *columns = (float *)(view->patch + count), **column[] = {&view->x, &view->y, &view->z, &view->transfer};
+    for (size_t i = 0; i < 4; i++) {
+        *column[i] = columns + i * padded;
+        for (size_t k = count; k < padded; k++)
+            (*column[i])[k] = 0;
+    }
     return true;
 }
 
@@ -132,7 +135,7 @@ static bool site_trace(const sp_place_options *options, const sp_site *site, con
         if (half_angle < 0)
             continue;
         sp_reach *reach =
-            sp_evaluator_reach(coarse, site->position, candidates->speeds[s], site->axis, half_angle, error);
+            sp_evaluator_reach_passing(coarse, site->position, candidates->speeds[s], site->axis, half_angle, error);
         if (!reach)
             return false;
         bool done = view_create(reach, &views[s]);
@@ -191,6 +194,9 @@ bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *op
             }
         }
     }
+    for (size_t i = 0; i < sites->count * candidates->speed_count; i++)
+        if (visibility->views[i].count > visibility->largest)
+            visibility->largest = visibility->views[i].count;
     if (failure.kind == SP_OK)
         return true;
     sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);

@@ -8,14 +8,15 @@
 
 #define SP_BINS_EDGE 32
 #define SP_BINS (SP_BINS_EDGE * SP_BINS_EDGE)
+#define SP_LANES 16 /* floats that a sweep takes at a time: views have as many more, all 0, behind their last */
 
 /* Arrivals that pass the criterion's speed and incidence, sorted by the octahedral bin of their direction, then by
  * patch. */
 typedef struct {
     uint32_t count;
     uint32_t *start;  /* [SP_BINS + 1]; NULL: not traced */
-    float *x, *y, *z; /* [count], unit direction at the nozzle */
-    float *transfer;  /* [count], 1/m² */
+    float *x, *y, *z; /* [count + SP_LANES], unit direction at the nozzle */
+    float *transfer;  /* [count + SP_LANES], 1/m² */
     uint32_t *patch;  /* [count] */
 } sp_view;
 
@@ -28,6 +29,7 @@ typedef struct {
 typedef struct {
     const sp_evaluator *evaluator; /* borrowed: the coarse one that was traced on */
     size_t site_count, speed_count;
+    size_t largest; /* most arrivals of a view */
     sp_view *views; /* [site_count x speed_count] */
     sp_bins bins;
 } sp_visibility;

@@ -75,6 +75,9 @@ typedef struct {
  * The caller destroys. Uses the setup's threads; inside a parallel region it runs on one. */
 sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                              double half_angle, sp_error *error);
+/* The same, of arrivals that pass the criterion's speed and incidence alone: less is traced. */
+sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
+                                     double half_angle, sp_error *error);
 void sp_reach_destroy(sp_reach *reach);
 
 /* The closed-form flights from `from` to `to` at `speed` under `gravity`: unit directions and flight times, low arc

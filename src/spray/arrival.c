@@ -26,12 +26,17 @@ bool sp_arrive(const sp_source *source, const sp_target *target, const sp_flight
     return true;
 }
 
+sp_ray sp_flight_ray(const sp_source *source, const sp_target *target, const sp_flight *flight)
+{
+    return (sp_ray){.origin = source->position,
+                    .velocity = sp_scale(flight->direction, source->speed),
+                    .t_min = ends * flight->time,
+                    .t_max = (1 - ends) * flight->time,
+                    .skip = target->triangle};
+}
+
 bool sp_flight_blocked(const sp_source *source, const sp_target *target, const sp_flight *flight)
 {
-    sp_ray ray = {.origin = source->position,
-                  .velocity = sp_scale(flight->direction, source->speed),
-                  .t_min = ends * flight->time,
-                  .t_max = (1 - ends) * flight->time,
-                  .skip = target->triangle};
+    sp_ray ray = sp_flight_ray(source, target, flight);
     return sp_trace_occluded(source->evaluator->tracer, &ray, source->evaluator->gravity);
 }

@@ -20,6 +20,8 @@ typedef struct {
 sp_target sp_patch_target(const sp_patches *patches, uint32_t patch);
 /* Fills everything but `patch`; false where the flight comes to the dry side. */
 bool sp_arrive(const sp_source *source, const sp_target *target, const sp_flight *flight, sp_arrival *arrival);
+/* The flight as a ray that ends at the target. */
+sp_ray sp_flight_ray(const sp_source *source, const sp_target *target, const sp_flight *flight);
 /* True where something lies in the way. */
 bool sp_flight_blocked(const sp_source *source, const sp_target *target, const sp_flight *flight);
 

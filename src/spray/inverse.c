@@ -1,5 +1,5 @@
 /* The inverse evaluator: for every patch, the closed-form flights that reach it and the pattern's density there. */
-#include "footprint.h"
+#include "reach.h"
 
 #include <stdlib.h>
 
@@ -15,20 +15,18 @@ static bool lay_points(const sp_emitter *emitter, double flow, sp_deposits *depo
 {
     const sp_source *source = &emitter->source;
     const sp_setup *setup = &source->evaluator->setup;
-    sp_reach *reach = sp_evaluator_reach(source->evaluator, source->position, source->speed, emitter->frame.z,
-                                         sp_spray_reach(&emitter->spray), error);
+    sp_aim aim = sp_aim_at(emitter->frame.z, sp_spray_reach(&emitter->spray));
+    aim.emitter = emitter;
+    sp_reach *reach = sp_reach_create(source, &aim, error);
     if (!reach)
         return false;
     for (size_t i = 0; i < reach->count;) {
         uint32_t patch = reach->arrivals[i].patch;
-        bool narrow = sp_emitter_is_narrow(emitter, patch);
         double passing = 0;
         for (; i < reach->count && reach->arrivals[i].patch == patch; i++) {
             const sp_arrival *arrival = &reach->arrivals[i];
             double intensity = sp_spray_intensity(&emitter->spray, sp_emitter_local(emitter, arrival->direction));
             double flux = flow * intensity * arrival->transfer;
-            if (narrow || !(flux > 0))
-                continue;
             sp_deposit(deposits, patch, flux, 1, arrival->speed, arrival->incidence, setup->liquid.density);
             passing += arrival->passes ? flux : 0;
         }

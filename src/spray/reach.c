@@ -1,89 +1,132 @@
 /* What one point can reach at one speed: the flights to every patch, less those that something blocks. */
-#include "arrival.h"
+#include "reach.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-/* A cone of directions, a hair wider than asked so that round-off never takes a jet of its edge away. */
+#define CHUNK 512 /* patches whose flights are traced together */
+
+/* A hair wider than asked, so that round-off never takes a jet of the edge away. */
+sp_aim sp_aim_at(sp_vec3 axis, double half_angle)
+{
+    return (sp_aim){.axis = axis, .least_cosine = half_angle < M_PI ? cos(half_angle) - 1e-12 : -2};
+}
+
+/* Flights that pass all questions but whether their way is free. */
 typedef struct {
-    sp_vec3 axis;
-    double least_cosine;
-} aim;
+    size_t count;
+    sp_arrival arrivals[2 * CHUNK];
+    sp_ray rays[2 * CHUNK];
+    bool blocked[2 * CHUNK];
+} flock;
 
-static aim aim_at(sp_vec3 axis, double half_angle)
+static bool aimed(const sp_aim *aim, const sp_flight *flight)
 {
-    return (aim){axis, half_angle < M_PI ? cos(half_angle) - 1e-12 : -2};
+    if (sp_dot(flight->direction, aim->axis) < aim->least_cosine)
+        return false;
+    return !aim->emitter ||
+           sp_spray_intensity(&aim->emitter->spray, sp_emitter_local(aim->emitter, flight->direction)) > 0;
 }
 
-/* Which of the flights to a patch arrive: bit 0 the low arc (or the line), bit 1 the high arc. */
-static uint8_t free_arcs(const sp_source *source, const aim *aim, uint32_t patch)
-{
-    sp_target target = sp_patch_target(&source->evaluator->patches, patch);
-    sp_flight flights[2];
-    sp_arrival arrival;
-    int count = sp_flights(source->position, target.point, source->speed, source->evaluator->gravity, flights);
-    uint8_t arcs = 0;
-    for (int k = 0; k < count; k++) {
-        if (sp_dot(flights[k].direction, aim->axis) >= aim->least_cosine &&
-            sp_arrive(source, &target, &flights[k], &arrival) && !sp_flight_blocked(source, &target, &flights[k]))
-            arcs |= (uint8_t)(1u << k);
-    }
-    return arcs;
-}
-
-/* Writes a patch's arrivals and returns the place after them. */
-static sp_arrival *write_arrivals(const sp_source *source, uint32_t patch, uint8_t arcs, sp_arrival *arrivals)
+static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, flock *flock)
 {
     sp_target target = sp_patch_target(&source->evaluator->patches, patch);
     sp_flight flights[2];
     int count = sp_flights(source->position, target.point, source->speed, source->evaluator->gravity, flights);
     for (int k = 0; k < count; k++) {
-        if (arcs & 1u << k) {
-            arrivals->patch = patch;
-            sp_arrive(source, &target, &flights[k], arrivals++);
-        }
+        sp_arrival *arrival = &flock->arrivals[flock->count];
+        if (!aimed(aim, &flights[k]) || !sp_arrive(source, &target, &flights[k], arrival) ||
+            (aim->passing && !arrival->passes))
+            continue;
+        arrival->patch = patch;
+        flock->rays[flock->count++] = sp_flight_ray(source, &target, &flights[k]);
     }
-    return arrivals;
 }
 
-/* Finding the free arcs is what takes time and is shared among the threads; writing them down in order is not. */
-static sp_reach *reach(const sp_source *source, const aim *aim, uint8_t *arcs, sp_error *error)
+/* A chunk's arrivals, malloc'd; NULL where there are none, or where memory ran out. */
+typedef struct harvest {
+    size_t count;
+    sp_arrival *arrivals;
+} harvest;
+
+/* The arrivals at patches first to end; false where memory ran out. */
+static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uint32_t end, flock *flock,
+                 harvest *harvest)
+{
+    flock->count = 0;
+    for (uint32_t patch = first; patch < end; patch++)
+        if (!aim->emitter || !sp_emitter_is_narrow(aim->emitter, patch))
+            gather(source, aim, patch, flock);
+    sp_trace_occluded_many(source->evaluator->tracer, flock->rays, flock->count, source->evaluator->gravity, 1,
+                           flock->blocked);
+    size_t free_ways = 0;
+    for (size_t i = 0; i < flock->count; i++)
+        if (!flock->blocked[i])
+            flock->arrivals[free_ways++] = flock->arrivals[i];
+    *harvest = (struct harvest){free_ways, free_ways ? malloc(free_ways * sizeof *harvest->arrivals) : NULL};
+    if (harvest->arrivals)
+        memcpy(harvest->arrivals, flock->arrivals, free_ways * sizeof *harvest->arrivals);
+    return harvest->arrivals || !free_ways;
+}
+
+static bool reap_all(const sp_source *source, const sp_aim *aim, harvest *harvests, size_t chunks)
 {
     const sp_evaluator *evaluator = source->evaluator;
-    size_t patches = evaluator->patches.count, count = 0;
+    size_t patches = evaluator->patches.count;
     int threads = omp_in_parallel() ? 1 : sp_thread_count(evaluator->setup.run.threads);
-#pragma omp parallel for schedule(dynamic, 512) num_threads(threads)
-    for (size_t i = 0; i < patches; i++)
-        arcs[i] = free_arcs(source, aim, (uint32_t)i);
-    for (size_t i = 0; i < patches; i++)
-        count += (arcs[i] & 1u) + (arcs[i] >> 1);
-    sp_reach *reach = malloc(sizeof *reach);
-    sp_arrival *arrivals = malloc((count ? count : 1) * sizeof *arrivals);
-    if (!reach || !arrivals) {
-        free(reach);
-        free(arrivals);
-        return sp_fail_memory(error);
+    if ((size_t)threads > chunks)
+        threads = chunks ? (int)chunks : 1;
+    flock *flocks = malloc((size_t)threads * sizeof *flocks);
+    bool done = flocks != NULL;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) reduction(&& : done)
+    for (size_t i = 0; i < chunks; i++) {
+        size_t end = (i + 1) * CHUNK < patches ? (i + 1) * CHUNK : patches;
+        done = done &&
+               reap(source, aim, (uint32_t)(i * CHUNK), (uint32_t)end, &flocks[omp_get_thread_num()], &harvests[i]);
     }
-    *reach = (sp_reach){count, arrivals};
-    for (size_t i = 0; i < patches; i++) {
-        if (arcs[i])
-            arrivals = write_arrivals(source, (uint32_t)i, arcs[i], arrivals);
+    free(flocks);
+    return done;
+}
+
+sp_reach *sp_reach_create(const sp_source *source, const sp_aim *aim, sp_error *error)
+{
+    size_t chunks = (source->evaluator->patches.count + CHUNK - 1) / CHUNK;
+    harvest *harvests = calloc(chunks ? chunks : 1, sizeof *harvests);
+    sp_reach *reach = calloc(1, sizeof *reach);
+    bool done = harvests && reach && reap_all(source, aim, harvests, chunks);
+    for (size_t i = 0; done && i < chunks; i++)
+        reach->count += harvests[i].count;
+    if (done)
+        reach->arrivals = malloc((reach->count ? reach->count : 1) * sizeof *reach->arrivals);
+    done = done && reach->arrivals;
+    for (size_t i = 0, at = 0; harvests && i < chunks; i++) {
+        if (done && harvests[i].count)
+            memcpy(&reach->arrivals[at], harvests[i].arrivals, harvests[i].count * sizeof *reach->arrivals);
+        at += harvests[i].count;
+        free(harvests[i].arrivals);
     }
-    return reach;
+    free(harvests);
+    if (done)
+        return reach;
+    sp_reach_destroy(reach);
+    return sp_fail_memory(error);
 }
 
 sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                              double half_angle, sp_error *error)
 {
-    if (!evaluator)
-        return NULL;
     sp_source source = {evaluator, position, speed};
-    aim aim = aim_at(axis, half_angle);
-    uint8_t *arcs = malloc(evaluator->patches.count ? evaluator->patches.count : 1);
-    if (!arcs)
-        return sp_fail_memory(error);
-    sp_reach *found = reach(&source, &aim, arcs, error);
-    free(arcs);
-    return found;
+    sp_aim aim = sp_aim_at(axis, half_angle);
+    return evaluator ? sp_reach_create(&source, &aim, error) : NULL;
+}
+
+sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
+                                     double half_angle, sp_error *error)
+{
+    sp_source source = {evaluator, position, speed};
+    sp_aim aim = sp_aim_at(axis, half_angle);
+    aim.passing = true;
+    return evaluator ? sp_reach_create(&source, &aim, error) : NULL;
 }
 
 void sp_reach_destroy(sp_reach *reach)

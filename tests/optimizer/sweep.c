@@ -1,0 +1,332 @@
+/* The sweep against one question at a time: what a view holds, what a pose's field is, and what scores add up to. */
+#include "room.h"
+
+#include "scoring.h"
+
+#ifdef SPRAYPLAN_SANITIZE
+#define TEXEL 0.12
+#else
+#define TEXEL 0.05
+#endif
+
+#define TYPES 7
+
+/* A room of 2 m with a block in it, nozzles on a line and in a port. */
+typedef struct {
+    room room;
+    sp_nozzle_type type[TYPES];
+    const sp_nozzle_type *types[TYPES];
+    double pressures[2];
+    sp_mount mounts[2];
+    sp_place_options options;
+    sp_watch watch;
+    sp_sites sites;
+    sp_candidates candidates;
+    sp_visibility visibility;
+    sp_search search;
+} stage;
+
+static void set_types(stage *s)
+{
+    s->type[0] = room_cone("wide", 90 * DEGREE, 20);
+    s->type[1] = room_cone("narrow", 30 * DEGREE, 9);
+    s->type[2] = room_cone("round", 360 * DEGREE, 40);
+    s->type[3] = room_cone("hollow", 120 * DEGREE, 16);
+    s->type[3].pattern = SP_PATTERN_HOLLOW_CONE;
+    s->type[3].hollow = 0.7;
+    s->type[4] = room_cone("fan", 80 * DEGREE, 10);
+    s->type[4].pattern = SP_PATTERN_FLAT_FAN;
+    s->type[4].thickness = 25 * DEGREE;
+    s->type[5] = room_cone("sheet", 240 * DEGREE, 10);
+    s->type[5].pattern = SP_PATTERN_FLAT_FAN;
+    s->type[5].thickness = 40 * DEGREE;
+    s->type[6] = room_cone("up", 360 * DEGREE, 28);
+    s->type[6].pattern = SP_PATTERN_HOLLOW_CONE;
+    s->type[6].hollow = 0.5;
+    for (int i = 0; i < TYPES; i++)
+        s->types[i] = &s->type[i];
+}
+
+static void stage_open(stage *s, sp_criterion criterion, sp_trajectory trajectory)
+{
+    *s = (stage){.pressures = {1e5, 2e5}};
+    room_builder b = {0};
+    room_box(&b, sp_v(-1, -1, 0), sp_v(1, 1, 2), "walls", "lid");
+    room_box(&b, sp_v(-0.3, -0.2, 0.6), sp_v(0.2, 0.2, 1.1), "block", "top");
+    s->room.setup = sp_setup_default();
+    s->room.setup.cavity = SP_CAVITY_POINT;
+    s->room.setup.cavity_point = sp_v(0.6, 0.6, 0.5);
+    s->room.setup.criterion = criterion;
+    s->room.setup.fidelity.trajectory = trajectory;
+    room_open(&s->room, &b, TEXEL);
+    set_types(s);
+    s->mounts[0] = (sp_mount){.kind = SP_MOUNT_LINE,
+                              .axis = sp_v(0, 0, -1),
+                              .tilt = M_PI,
+                              .spacing = 0.7,
+                              .from = sp_v(-0.7, 0.4, 1.5),
+                              .to = sp_v(0.7, 0.4, 1.5)};
+    s->mounts[1] = (sp_mount){.kind = SP_MOUNT_PORT,
+                              .position = sp_v(0.6, -0.5, 2),
+                              .axis = sp_v(0, 0, -1),
+                              .tilt = 50 * DEGREE,
+                              .depth_from = 0.2,
+                              .depth_to = 0.2};
+    s->options = room_options();
+    s->options.types = s->types;
+    s->options.type_count = TYPES;
+    s->options.pressures = s->pressures;
+    s->options.pressure_count = 2;
+    s->options.mounts = s->mounts;
+    s->options.mount_count = 2;
+    s->watch = sp_watch_start(&s->options.run);
+    sp_error error = {0};
+    assert_true(sp_sites_create(s->room.evaluator, &s->options, &s->sites, &error));
+    assert_true(sp_candidates_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &error));
+    assert_true(sp_visibility_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->watch,
+                                     &s->visibility, &error));
+    assert_true(sp_search_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->visibility, &s->search,
+                                 &error));
+    assert_int_equal(s->sites.count, 4);
+    assert_int_equal(s->candidates.speed_count, 2);
+}
+
+static void stage_close(stage *s)
+{
+    sp_search_free(&s->search);
+    sp_visibility_free(&s->visibility);
+    sp_candidates_free(&s->candidates);
+    sp_sites_free(&s->sites);
+    room_close(&s->room);
+}
+
+static const sp_criterion criterion_of_all = {
+    .flux = 2 * LITRES_PER_MINUTE, .impact_speed = 3, .incidence = 80 * DEGREE, .combine = SP_COMBINE_SUM};
+
+/* A number in [0, 1), the next of its sequence: xorshift64*. */
+static double next_random(uint64_t *state)
+{
+    *state ^= *state >> 12;
+    *state ^= *state << 25;
+    *state ^= *state >> 27;
+    return (double)((*state * 0x2545f4914f6cdd1du) >> 11) * 0x1p-53;
+}
+
+/* Every `stride`-th pose of the stage, as visited by its number. */
+static sp_pose pose_of(const stage *s, size_t number)
+{
+    const sp_candidates *candidates = &s->candidates;
+    sp_pose pose = {0};
+    while (candidates->pose_start[pose.site + 1] <= number)
+        pose.site++;
+    number -= candidates->pose_start[pose.site];
+    for (;; pose.make++) {
+        uint32_t rolls = (uint32_t)candidates->makes[pose.make].roll_count;
+        size_t count = sp_candidates_axes(candidates, s->sites.items[pose.site].mount, pose.make)->count * rolls;
+        if (number < count) {
+            pose.axis = (uint32_t)number / rolls;
+            pose.roll = (uint32_t)number % rolls;
+            return pose;
+        }
+        number -= count;
+    }
+}
+
+/* A view holds what is found by asking for every patch and arc alone, and nothing else. */
+static void views_hold_what_single_rays_find(void **state)
+{
+    (void)state;
+    stage s;
+    stage_open(&s, criterion_of_all, SP_TRAJECTORY_PARABOLA);
+    const sp_patches *patches = sp_evaluator_patches(s.room.evaluator);
+    sp_vec3 gravity = sp_evaluator_gravity(s.room.evaluator);
+    double *transfer = calloc(patches->count, sizeof *transfer);
+    for (uint32_t site = 0; site < s.sites.count; site++) {
+        const sp_view *view = sp_visibility_view(&s.visibility, site, 1);
+        size_t expected = 0;
+        double sum = 0, found = 0;
+        for (size_t p = 0; p < patches->count; p++) {
+            sp_flight flights[2];
+            int count =
+                sp_flights(s.sites.items[site].position, patches->point[p], s.candidates.speeds[1], gravity, flights);
+            for (int k = 0; k < count; k++) {
+                sp_vec3 w = flights[k].velocity;
+                double against = -sp_dot(w, patches->normal[p]) / sp_length(w);
+                sp_ray ray = {s.sites.items[site].position, sp_scale(flights[k].direction, s.candidates.speeds[1]),
+                              1e-7 * flights[k].time, (1 - 1e-7) * flights[k].time, patches->triangle[p]};
+                if (against <= 0 || acos(against) > 80 * DEGREE || sp_length(w) < 3 ||
+                    sp_trace_occluded(sp_evaluator_tracer(s.room.evaluator), &ray, gravity))
+                    continue;
+                expected++;
+                sum += against * sp_length(w) / flights[k].spread;
+            }
+        }
+        assert_true(expected > 100);
+        assert_int_equal(view->count, expected);
+        assert_int_equal(view->start[SP_BINS], expected);
+        for (size_t i = 0; i < view->count; i++)
+            found += (double)view->transfer[i];
+        assert_true(fabs(found - sum) < 1e-5 * sum);
+        for (size_t i = view->count; i < view->count + SP_LANES; i++)
+            assert_true(view->x[i] == 0 && view->y[i] == 0 && view->z[i] == 0 && view->transfer[i] == 0);
+    }
+    free(transfer);
+    stage_close(&s);
+}
+
+/* How far a direction is from the pattern's edge, rad. */
+static double margin_of(const sp_nozzle *nozzle, sp_vec3 up, sp_vec3 d)
+{
+    sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
+    sp_frame frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, up);
+    return sp_spray_margin(&spray, sp_v(sp_dot(d, frame.x), sp_dot(d, frame.y), sp_dot(d, frame.z)));
+}
+
+/* The field of a pose is what the evaluator deposits, but for patches at the pattern's very edge. */
+static void fields_are_the_evaluators(void **state)
+{
+    (void)state;
+    const sp_trajectory trajectories[] = {SP_TRAJECTORY_LINE, SP_TRAJECTORY_PARABOLA};
+    for (int t = 0; t < 2; t++) {
+        stage s;
+        sp_error error = {0};
+        stage_open(&s, criterion_of_all, trajectories[t]);
+        const sp_patches *patches = sp_evaluator_patches(s.room.evaluator);
+        float *field = malloc(patches->count * sizeof *field);
+        size_t poses = s.candidates.pose_start[s.sites.count], compared = 0;
+        sp_vec3 up = sp_v(0, 0, 1);
+        for (size_t number = 0; number < poses; number += poses / 60) {
+            sp_pose pose = pose_of(&s, number);
+            sp_nozzle nozzle = sp_pose_nozzle(&s.candidates, &s.sites, pose, up);
+            sp_layout *layout = sp_layout_create(&nozzle, 1, &error);
+            sp_coverage *coverage = sp_evaluate_inverse(s.room.evaluator, layout, &error);
+            sp_field_pose(&s.search, pose, field);
+            for (size_t p = 0; p < patches->count; p++) {
+                sp_flight flights[2];
+                double speed = sp_nozzle_speed(&nozzle, &s.room.setup.liquid);
+                int count = sp_flights(nozzle.position, patches->point[p], speed,
+                                       sp_evaluator_gravity(s.room.evaluator), flights);
+                bool at_edge = false;
+                for (int k = 0; k < count; k++)
+                    at_edge |= fabs(margin_of(&nozzle, up, flights[k].direction)) < 1e-5;
+                double expected = coverage->deposits.counted[p] / criterion_of_all.flux;
+                /* nearby the spray is narrower than two texels, and the evaluator integrates */
+                double width = 2 * TEXEL / (25 * DEGREE);
+                if (at_edge || sp_distance(patches->point[p], nozzle.position) < 1.5 * width)
+                    continue;
+                if (fabs((double)field[p] - expected) > 1e-5 * expected)
+                    fail_msg("pose %zu patch %zu: field %g, deposits %g", number, p, (double)field[p], expected);
+                compared += expected > 0;
+            }
+            sp_coverage_destroy(coverage);
+            sp_layout_destroy(layout);
+        }
+        assert_true(compared > 1000);
+        free(field);
+        stage_close(&s);
+    }
+}
+
+/* Every instruction set that this processor has gives the same bits, and the sums are those of a plain loop. */
+static void every_instruction_set_gives_the_same_bits(void **state)
+{
+    (void)state;
+    stage s;
+    stage_open(&s, criterion_of_all, SP_TRAJECTORY_PARABOLA);
+    uint64_t random = 7;
+    size_t room = s.visibility.largest + 2 * SP_LANES, poses = s.candidates.pose_start[s.sites.count];
+    float *items[2] = {malloc(room * sizeof(float)), malloc(room * sizeof(float))}, totals[2][SP_BINS];
+    for (size_t number = 0; number < poses; number += poses / 300) {
+        sp_pose pose = pose_of(&s, number);
+        const sp_make *make = &s.candidates.makes[pose.make];
+        const sp_view *view = sp_visibility_view(&s.visibility, pose.site, make->speed_class);
+        sp_nozzle nozzle = sp_pose_nozzle(&s.candidates, &s.sites, pose, sp_v(0, 0, 1));
+        sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, sp_v(0, 0, 1));
+        sp_region region = sp_region_create(&make->spray, &frame);
+        double naive[2] = {0}, first[2], sums[2];
+        for (size_t i = 0; i < room; i++)
+            for (int k = 0; k < 2; k++)
+                items[k][i] = (float)next_random(&random);
+        for (size_t i = 0; i < view->count; i++)
+            for (int k = 0; k < 2; k++)
+                naive[k] += sp_region_holds(&region, view->x[i], view->y[i], view->z[i]) ? (double)items[k][i] : 0;
+        for (size_t set = 0; set < sp_sweep_set_count; set++) {
+            const sp_sweep_set *sweeps = sp_sweep_sets[set];
+            if (!sweeps->available())
+                continue;
+            const sp_weight weights[2] = {{items[0], totals[0]}, {items[1], totals[1]}};
+            for (int k = 0; k < 2; k++)
+                sweeps->total(view, items[k], totals[k]);
+            sweeps->sum(&s.visibility.bins, &s.search.culls[pose.make], &region, view, weights, 2, sums);
+            for (int k = 0; k < 2; k++) {
+                double alone;
+                sweeps->sum(&s.visibility.bins, &s.search.culls[pose.make], &region, view, &weights[k], 1, &alone);
+                assert_true(alone == sums[k]);
+                assert_true(fabs(sums[k] - naive[k]) <= 1e-5 * naive[k]);
+                if (sweeps == sp_sweep_best())
+                    first[k] = sums[k];
+                assert_true(sums[k] == first[k]);
+            }
+        }
+    }
+    free(items[0]);
+    free(items[1]);
+    stage_close(&s);
+}
+
+/* A score is what the field adds to what is wet, patch by patch, where no two arcs meet. */
+static void scores_are_what_fields_add(void **state)
+{
+    (void)state;
+    for (int single = 0; single < 2; single++) {
+        stage s;
+        sp_error error = {0};
+        sp_criterion criterion = criterion_of_all;
+        criterion.combine = single ? SP_COMBINE_SINGLE : SP_COMBINE_SUM;
+        stage_open(&s, criterion, SP_TRAJECTORY_LINE);
+        size_t patches = s.search.patch_count, poses = s.candidates.pose_start[s.sites.count];
+        float *field = malloc(patches * sizeof *field), *wet = malloc(patches * sizeof *wet);
+        sp_sweeper *sweeper = sp_sweepers_create(&s.search, 1, &error);
+        uint64_t random = 11;
+        double total = 0;
+        for (size_t p = 0; p < patches; p++)
+            wet[p] = (float)(1.5 * next_random(&random));
+        for (size_t number = 0; number < poses; number += 1 + poses / 500) {
+            sp_pose pose = pose_of(&s, number);
+            sp_score score = sp_score_pose(sweeper, &s.search, wet, pose);
+            sp_field_pose(&s.search, pose, field);
+            double gain = sp_field_gain(&s.search, wet, field), room = 0;
+            for (size_t p = 0; p < patches; p++)
+                room += field[p] > 0 && wet[p] < 1
+                            ? (double)s.search.area[p] * (1 - (double)sp_worth(&s.search, wet[p]))
+                            : 0;
+            assert_true(fabs(score.gain - gain) <= 1e-5 * gain);
+            assert_true(fabs(score.room - room) <= 1e-5 * room);
+            total += gain;
+        }
+        assert_true(total > 0);
+        /* what is wet by now counts only once the sweeper has been told */
+        sp_pose pose = pose_of(&s, poses - 1);
+        double before = sp_score_pose(sweeper, &s.search, wet, pose).gain;
+        for (size_t p = 0; p < patches; p++)
+            wet[p] = 2;
+        assert_true(before > 0 && sp_score_pose(sweeper, &s.search, wet, pose).gain == before);
+        sp_sweeper_forget(sweeper);
+        assert_true(sp_score_pose(sweeper, &s.search, wet, pose).gain == 0);
+        sp_sweepers_destroy(sweeper, 1);
+        free(field);
+        free(wet);
+        stage_close(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(views_hold_what_single_rays_find),
+        cmocka_unit_test(fields_are_the_evaluators),
+        cmocka_unit_test(every_instruction_set_gives_the_same_bits),
+        cmocka_unit_test(scores_are_what_fields_add),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
