@@ -38,15 +38,13 @@ static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
 {
     const sp_patches *patches = sp_evaluator_patches(search->coarse);
     sp_vec3 gravity = sp_evaluator_gravity(search->coarse);
-    sp_reach *reach =
-        sp_evaluator_reach(search->coarse, sight->position, sight->speed, sight->axis, sight->half_angle, error);
+    sp_reach *reach = sp_evaluator_reach_passing(search->coarse, sight->position, sight->speed, sight->axis,
+                                                 sight->half_angle, error);
     if (!reach)
         return false;
     sight->seen = malloc((reach->count ? reach->count : 1) * sizeof *sight->seen);
     for (size_t i = 0; sight->seen && i < reach->count; i++) {
         const sp_arrival *arrival = &reach->arrivals[i];
-        if (!arrival->passes)
-            continue;
         sp_flight flights[2];
         int count = sp_flights(sight->position, patches->point[arrival->patch], sight->speed, gravity, flights);
         uint32_t arc = count == 2 && sp_dot(flights[1].direction, arrival->direction) >
