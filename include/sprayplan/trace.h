@@ -10,7 +10,8 @@ extern "C" {
 #endif
 
 typedef enum {
-    SP_ACCELERATOR_SAH,   /* kd-tree by the surface area heuristic (default) */
+    SP_ACCELERATOR_BVH,   /* wide bounding volume hierarchy (default); the others are for reference */
+    SP_ACCELERATOR_SAH,   /* kd-tree by the surface area heuristic */
     SP_ACCELERATOR_NAIVE, /* kd-tree split at the spatial median of the longest side */
     SP_ACCELERATOR_NONE,  /* every triangle is tested */
 } sp_accelerator;
@@ -32,9 +33,9 @@ typedef struct {
 
 typedef struct sp_tracer sp_tracer;
 
-/* Builds the accelerator. The mesh is borrowed and must outlive the tracer. Never fails for a valid mesh unless memory
- * runs out. */
-sp_tracer *sp_tracer_create(const sp_mesh *mesh, sp_accelerator accelerator, sp_error *error);
+/* Builds the accelerator. The mesh is borrowed and must outlive the tracer. `threads` as in sp_run; only the bvh is
+ * built by more than one. Never fails for a valid mesh unless memory runs out. */
+sp_tracer *sp_tracer_create(const sp_mesh *mesh, sp_accelerator accelerator, int threads, sp_error *error);
 /* Accepts NULL. */
 void sp_tracer_destroy(sp_tracer *tracer);
 const sp_mesh *sp_tracer_mesh(const sp_tracer *tracer);

@@ -67,7 +67,7 @@ static void print_command_usage(FILE *to, const cli_command *command)
     if (command->options & OPTION_RAYS)
         fprintf(to, "  --rays FILE                lines ox,oy,oz,vx,vy,vz in m and m/s; # begins a comment\n"
                     "  --gravity gx,gy,gz         m/s2; makes parabolas\n"
-                    "  --accel sah|naive|none     accelerator (default sah)\n");
+                    "  --accel bvh|sah|naive|none accelerator (default bvh)\n");
     fprintf(to, "  --json --threads N --quiet\n");
 }
 

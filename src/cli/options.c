@@ -107,14 +107,15 @@ static bool parse_gravity(const char *text, sp_vec3 *gravity)
 
 static bool parse_accelerator(const char *text, sp_accelerator *accelerator)
 {
-    static const char *const names[] = {"sah", "naive", "none"};
-    static const sp_accelerator values[] = {SP_ACCELERATOR_SAH, SP_ACCELERATOR_NAIVE, SP_ACCELERATOR_NONE};
-    for (int i = 0; i < 3; i++)
+    static const char *const names[] = {"bvh", "sah", "naive", "none"};
+    static const sp_accelerator values[] = {SP_ACCELERATOR_BVH, SP_ACCELERATOR_SAH, SP_ACCELERATOR_NAIVE,
+                                            SP_ACCELERATOR_NONE};
+    for (int i = 0; i < 4; i++)
         if (!strcmp(text, names[i])) {
             *accelerator = values[i];
             return true;
         }
-    return wrong("--accel", text, "sah, naive or none (bvh is not built yet)");
+    return wrong("--accel", text, "bvh, sah, naive or none");
 }
 
 static bool parse_override(const char *text, cli_options *options)
@@ -167,7 +168,7 @@ static bool take_option(int option, const char *value, cli_options *options, boo
 
 bool cli_parse(const cli_command *command, int count, char **arguments, cli_options *options, bool *help)
 {
-    *options = (cli_options){.accelerator = SP_ACCELERATOR_SAH};
+    *options = (cli_options){.accelerator = SP_ACCELERATOR_BVH};
     int option;
     while ((option = getopt_long(count, arguments, "o:h", long_options, NULL)) != -1) {
         unsigned flag = flag_of(option);

@@ -130,7 +130,7 @@ int cli_trace(const cli_options *options)
         return EXIT_USAGE;
     }
     sp_mesh *mesh = sp_mesh_load(options->inputs[0], 1, &error);
-    sp_tracer *tracer = mesh ? sp_tracer_create(mesh, options->accelerator, &error) : NULL;
+    sp_tracer *tracer = mesh ? sp_tracer_create(mesh, options->accelerator, options->threads, &error) : NULL;
     ray_reader reader = {.path = options->rays};
     if (tracer && !(reader.file = fopen(options->rays, "rb")))
         sp_fail(&error, SP_ERROR_INPUT, options->rays, 0, 0, "cannot be opened: %s", strerror(errno));

@@ -151,7 +151,7 @@ static bool build(sp_evaluator *evaluator, sp_error *error)
     const sp_setup *setup = &evaluator->setup;
     if (!sp_evaluator_progress(setup, "accelerator", 0, error))
         return false;
-    evaluator->tracer = sp_tracer_create(setup->mesh, SP_ACCELERATOR_SAH, error);
+    evaluator->tracer = sp_tracer_create(setup->mesh, SP_ACCELERATOR_BVH, setup->run.threads, error);
     if (!evaluator->tracer || !sp_evaluator_progress(setup, "wet sides", 0, error))
         return false;
     evaluator->wet = sp_wet_sides(setup, evaluator->tracer, error);

@@ -66,6 +66,11 @@ static inline void test(const sp_line *line, const sp_corners corners, uint32_t 
         sp_search_take(search, t, weights[1] / sum, weights[2] / sum, triangle);
 }
 
+void sp_line_test(const sp_line *line, const sp_corners corners, uint32_t triangle, sp_search *search)
+{
+    test(line, corners, triangle, search);
+}
+
 void sp_line_search_all(const sp_line *line, const sp_corners *corners, size_t count, sp_search *search)
 {
     for (size_t t = 0; t < count && !sp_search_done(search); t++)
@@ -92,7 +97,7 @@ static bool enter(walk *w, const sp_kd_tree *tree, double *from, double *to)
     for (int axis = 0; axis < 3; axis++)
         farthest = sp_greater(farthest, sp_greater(fabs(tree->low[axis] - line->origin[axis]),
                                                    fabs(tree->high[axis] - line->origin[axis])));
-    w->margin = 0x1p-36 * farthest;
+    w->margin = SP_LINE_MARGIN * farthest;
     for (int axis = 0; axis < 3; axis++) {
         double low = tree->low[axis] - w->margin - line->origin[axis];
         double high = tree->high[axis] + w->margin - line->origin[axis];

@@ -15,6 +15,12 @@ typedef struct {
 
 /* False where the velocity is zero or not finite: such a line hits nothing. */
 bool sp_line_start(sp_line *line, const sp_ray *ray);
+/* Where a line is at the time of a hit, it is less far from the triangle than this, relative to the distance of the
+ * farthest corner from its origin; with a good margin. */
+#define SP_LINE_MARGIN 0x1p-36
+
+/* Tests one triangle. */
+void sp_line_test(const sp_line *line, const sp_corners corners, uint32_t triangle, sp_search *search);
 /* Searches all triangles. */
 void sp_line_search_all(const sp_line *line, const sp_corners *corners, size_t count, sp_search *search);
 /* Searches those that the line passes in the tree. */

@@ -180,6 +180,11 @@ static inline void test(const sp_parabola *p, const sp_corners corners, uint32_t
     }
 }
 
+void sp_parabola_test(const sp_parabola *parabola, const sp_corners corners, uint32_t triangle, sp_search *search)
+{
+    test(parabola, corners, triangle, search);
+}
+
 void sp_parabola_search_all(const sp_parabola *parabola, const sp_corners *corners, size_t count, sp_search *search)
 {
     for (size_t t = 0; t < count && !sp_search_done(search); t++)

@@ -2,9 +2,6 @@
  * piece every coordinate goes one way only, so that it crosses a plane once, as a line does. */
 #include "trace/parabola.h"
 
-/* Every plane is taken as thick as this, relative to what positions are summed from: more than hits are off. */
-#define MARGIN (8 * SP_PARABOLA_GRAZING)
-
 typedef struct {
     const sp_parabola *flight;
     double margin;     /* m */
@@ -30,8 +27,7 @@ static inline double clamp(double t, double from, double to)
     return sp_lesser(sp_greater(t, from), to);
 }
 
-/* Cuts the piece to when the coordinate is between low and high. */
-static bool cut(const sp_parabola *p, int axis, double low, double high, double *from, double *to)
+bool sp_parabola_cut(const sp_parabola *p, int axis, double low, double high, double *from, double *to)
 {
     double a = sp_parabola_coordinate(p, axis, *from), b = sp_parabola_coordinate(p, axis, *to);
     if (sp_greater(a, b) < low || sp_lesser(a, b) > high)
@@ -50,9 +46,9 @@ static bool enter(walk *w, const sp_kd_tree *tree, double *from, double *to)
 {
     const sp_parabola *p = w->flight;
     for (int pass = 0; pass < 2; pass++) {
-        w->margin = MARGIN * sp_parabola_summed(p, sp_greater(fabs(*from), fabs(*to)));
+        w->margin = sp_parabola_margin(p, sp_greater(fabs(*from), fabs(*to)));
         for (int axis = 0; axis < 3; axis++)
-            if (!cut(p, axis, tree->low[axis] - w->margin, tree->high[axis] + w->margin, from, to))
+            if (!sp_parabola_cut(p, axis, tree->low[axis] - w->margin, tree->high[axis] + w->margin, from, to))
                 return false;
     }
     for (int axis = 0; axis < 3; axis++) {
@@ -142,16 +138,22 @@ static void search_piece(const sp_parabola *flight, const sp_corners *corners, c
     }
 }
 
+double sp_parabola_turn(const sp_parabola *p, double from)
+{
+    double to = p->last;
+    for (int axis = 0; axis < 3; axis++) {
+        double turn = -p->velocity[axis] / p->gravity[axis];
+        if (p->gravity[axis] != 0 && turn > from && turn < to)
+            to = turn;
+    }
+    return to;
+}
+
 void sp_parabola_search_tree(const sp_parabola *p, const sp_corners *corners, const sp_kd_tree *tree, sp_search *search)
 {
     double from = p->first;
     while (from <= sp_lesser(p->last, search->limit) && !sp_search_done(search)) {
-        double to = p->last;
-        for (int axis = 0; axis < 3; axis++) {
-            double turn = -p->velocity[axis] / p->gravity[axis];
-            if (p->gravity[axis] != 0 && turn > from && turn < to)
-                to = turn;
-        }
+        double to = sp_parabola_turn(p, from);
         search_piece(p, corners, tree, from, sp_lesser(to, search->limit), search);
         if (to == p->last)
             return;

@@ -1,4 +1,4 @@
-#include "trace/line.h"
+#include "trace/line_bvh.h"
 #include "trace/parabola.h"
 
 #include <omp.h>
@@ -6,10 +6,17 @@
 
 struct sp_tracer {
     const sp_mesh *mesh;
-    bool has_tree;
-    sp_kd_tree tree;     /* without one: only the box around all triangles */
-    sp_corners *corners; /* [triangle_count]: together in memory, as they are read together */
+    sp_accelerator accelerator;
+    sp_bvh bvh;
+    sp_instructions instructions; /* that walk the bvh */
+    sp_kd_tree tree;              /* SP_ACCELERATOR_NONE: only the box around all triangles */
+    sp_corners *corners;          /* [triangle_count]: together in memory, as they are read together; not for the bvh */
 };
+
+static int thread_count(int threads)
+{
+    return threads > 0 ? threads : omp_get_max_threads();
+}
 
 static bool enclose(const sp_mesh *mesh, sp_kd_tree *tree)
 {
@@ -20,23 +27,24 @@ static bool enclose(const sp_mesh *mesh, sp_kd_tree *tree)
     return boxes != NULL;
 }
 
-static bool build(sp_tracer *tracer, sp_accelerator accelerator)
+static bool build(sp_tracer *tracer, int threads)
 {
     const sp_mesh *mesh = tracer->mesh;
+    if (tracer->accelerator == SP_ACCELERATOR_BVH)
+        return sp_bvh_build(mesh, threads, &tracer->bvh);
     tracer->corners = malloc((mesh->triangle_count + 1) * sizeof *tracer->corners);
     if (!tracer->corners)
         return false;
     for (size_t t = 0; t < mesh->triangle_count; t++)
         for (int i = 0; i < 3; i++)
             sp_to_array(mesh->vertices[mesh->triangles[t][i]], tracer->corners[t][i]);
-    tracer->has_tree = accelerator != SP_ACCELERATOR_NONE;
-    if (!tracer->has_tree)
+    if (tracer->accelerator == SP_ACCELERATOR_NONE)
         return enclose(mesh, &tracer->tree);
-    return accelerator == SP_ACCELERATOR_NAIVE ? sp_kd_build_naive(mesh, &tracer->tree)
-                                               : sp_kd_build_sah(mesh, &tracer->tree);
+    return tracer->accelerator == SP_ACCELERATOR_NAIVE ? sp_kd_build_naive(mesh, &tracer->tree)
+                                                       : sp_kd_build_sah(mesh, &tracer->tree);
 }
 
-sp_tracer *sp_tracer_create(const sp_mesh *mesh, sp_accelerator accelerator, sp_error *error)
+sp_tracer *sp_tracer_create(const sp_mesh *mesh, sp_accelerator accelerator, int threads, sp_error *error)
 {
     if (!mesh) /* its making failed and said so */
         return NULL;
@@ -44,7 +52,9 @@ sp_tracer *sp_tracer_create(const sp_mesh *mesh, sp_accelerator accelerator, sp_
     if (!tracer)
         return sp_fail_memory(error);
     tracer->mesh = mesh;
-    if (!build(tracer, accelerator)) {
+    tracer->accelerator = accelerator;
+    tracer->instructions = sp_instructions_best();
+    if (!build(tracer, thread_count(threads))) {
         sp_tracer_destroy(tracer);
         return sp_fail_memory(error);
     }
@@ -55,6 +65,7 @@ void sp_tracer_destroy(sp_tracer *tracer)
 {
     if (!tracer)
         return;
+    sp_bvh_clear(&tracer->bvh);
     sp_kd_clear(&tracer->tree);
     free(tracer->corners);
     free(tracer);
@@ -67,34 +78,56 @@ const sp_mesh *sp_tracer_mesh(const sp_tracer *tracer)
 
 size_t sp_tracer_bytes(const sp_tracer *tracer)
 {
+    if (tracer->accelerator == SP_ACCELERATOR_BVH)
+        return sizeof *tracer + tracer->bvh.node_count * sizeof *tracer->bvh.nodes +
+               tracer->bvh.block_count * sizeof *tracer->bvh.blocks;
     return sizeof *tracer + tracer->mesh->triangle_count * sizeof *tracer->corners +
            tracer->tree.node_room * sizeof *tracer->tree.nodes +
            tracer->tree.reference_room * sizeof *tracer->tree.references;
 }
 
+void sp_tracer_use(sp_tracer *tracer, sp_instructions instructions)
+{
+    tracer->instructions = instructions;
+}
+
+static void search_line(const sp_tracer *tracer, const sp_line *line, sp_search *search)
+{
+    const sp_corners *corners = (const sp_corners *)tracer->corners;
+    if (tracer->accelerator == SP_ACCELERATOR_BVH)
+        sp_line_search_bvh(line, &tracer->bvh, tracer->instructions, search);
+    else if (tracer->accelerator == SP_ACCELERATOR_NONE)
+        sp_line_search_all(line, corners, tracer->mesh->triangle_count, search);
+    else
+        sp_line_search_tree(line, corners, &tracer->tree, search);
+}
+
+static void search_parabola(const sp_tracer *tracer, const sp_parabola *parabola, sp_search *search)
+{
+    const sp_corners *corners = (const sp_corners *)tracer->corners;
+    search->t_min = sp_greater(search->t_min, parabola->first);
+    search->limit = sp_lesser(search->limit, parabola->last);
+    if (tracer->accelerator == SP_ACCELERATOR_BVH)
+        sp_parabola_search_bvh(parabola, &tracer->bvh, search);
+    else if (tracer->accelerator == SP_ACCELERATOR_NONE)
+        sp_parabola_search_all(parabola, corners, tracer->mesh->triangle_count, search);
+    else
+        sp_parabola_search_tree(parabola, corners, &tracer->tree, search);
+}
+
 static sp_hit trace(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity, bool any)
 {
     sp_search search = sp_search_start(ray, any);
-    const sp_corners *corners = (const sp_corners *)tracer->corners;
-    size_t count = tracer->mesh->triangle_count;
+    const double *low = tracer->accelerator == SP_ACCELERATOR_BVH ? tracer->bvh.low : tracer->tree.low;
+    const double *high = tracer->accelerator == SP_ACCELERATOR_BVH ? tracer->bvh.high : tracer->tree.high;
     if (sp_length(gravity) == 0) { /* or so weak that its square is nothing */
         sp_line line;
-        if (!sp_line_start(&line, ray))
-            return search.best;
-        if (tracer->has_tree)
-            sp_line_search_tree(&line, corners, &tracer->tree, &search);
-        else
-            sp_line_search_all(&line, corners, count, &search);
+        if (sp_line_start(&line, ray))
+            search_line(tracer, &line, &search);
     } else {
         sp_parabola parabola;
-        if (!sp_parabola_start(&parabola, ray, gravity, tracer->tree.low, tracer->tree.high))
-            return search.best;
-        search.t_min = sp_greater(search.t_min, parabola.first);
-        search.limit = sp_lesser(search.limit, parabola.last);
-        if (tracer->has_tree)
-            sp_parabola_search_tree(&parabola, corners, &tracer->tree, &search);
-        else
-            sp_parabola_search_all(&parabola, corners, count, &search);
+        if (sp_parabola_start(&parabola, ray, gravity, low, high))
+            search_parabola(tracer, &parabola, &search);
     }
     return search.best;
 }
@@ -107,11 +140,6 @@ sp_hit sp_trace_nearest(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 grav
 bool sp_trace_occluded(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity)
 {
     return trace(tracer, ray, gravity, true).triangle != SP_NONE;
-}
-
-static int thread_count(int threads)
-{
-    return threads > 0 ? threads : omp_get_max_threads();
 }
 
 void sp_trace_nearest_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity, int threads,

@@ -58,9 +58,9 @@ static void every_accelerator_and_thread_count_gives_the_same_bytes(void **state
     free(text);
     static const char *const gravities[] = {"0,0,0", "0,0,-9.81"};
     for (int g = 0; g < 2; ++g) {
-        static const char *const ways[] = {"--accel sah", "--accel naive", "--accel none", "--threads 3"};
+        static const char *const ways[] = {"--accel sah", "--accel naive", "--accel none", "--accel bvh", "--threads 3"};
         outcome first = {0};
-        for (int i = 0; i < 4; ++i) {
+        for (int i = 0; i < 5; ++i) {
             char line[256];
             snprintf(line, sizeof line, "trace room.obj --rays many.csv --gravity %s %s", gravities[g], ways[i]);
             outcome result = run_program(line);

@@ -43,7 +43,7 @@ static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
         {"place room.yaml --time-limit 0", "--time-limit: found \"0\", expected seconds above 0"},
         {"place room.yaml --frobnicate", "frobnicate"},
         {"trace room.obj", "found no --rays"},
-        {"trace room.obj --rays r --accel octree", "--accel: found \"octree\", expected sah, naive or none"},
+        {"trace room.obj --rays r --accel octree", "--accel: found \"octree\", expected bvh, sah, naive or none"},
         {"trace room.obj --rays r --gravity 0,0", "--gravity: found \"0,0\", expected gx,gy,gz"},
         {"atlas room.obj --set simulate.jets=1", "atlas does not take --set"},
         {"atlas room.obj -o unfolded.png", "-o: found \"unfolded.png\", expected a file name ending in .obj"},

@@ -1,5 +1,7 @@
-/* The three accelerators give the same answers to the last bit, for rays of every kind. */
+/* All accelerators, with all instructions, give the same answers to the last bit, for rays of every kind. */
 #include "shapes.h"
+
+#include "trace/instructions.h"
 
 #ifdef SPRAYPLAN_SANITIZE
 enum { RAYS = 300 };
@@ -77,7 +79,9 @@ static sp_ray draw_ray(random_source *source, const sp_mesh *mesh, double scale,
             ends[i] = sp_triangle_point(mesh, triangle, kind < 0.2 ? 0 : u, w);
     }
     sp_ray ray = make_ray(ends[0], sp_scale(sp_sub(ends[1], ends[0]), 1 / time));
-    double kind = draw(source, 0, 1);
+    double kind = draw(source, 0, 1), away = draw(source, 0, 1);
+    if (away < 0.1) /* from afar */
+        ray.origin = sp_along(ray.origin, -time * pow(10, draw(source, 0, 6.5)), ray.velocity);
     if (kind < 0.3)
         ray.velocity.x = 0;
     if (kind < 0.1 || kind > 0.9)
@@ -118,10 +122,12 @@ static void assert_sound(const sp_mesh *mesh, const sp_ray *ray, sp_vec3 gravity
         fail_msg("the hit is %g off its triangle, scale %g", sp_distance(on_ray, on_triangle), scale);
 }
 
+static const char *const instruction_names[SP_INSTRUCTIONS_COUNT] = {"bvh, portable", "bvh, AVX2", "bvh, AVX-512"};
+
 static void compare(const sp_mesh *mesh, random_source *source, double scale, sp_vec3 offset, size_t count)
 {
     sp_tracer *sah = make_tracer(mesh, SP_ACCELERATOR_SAH), *naive = make_tracer(mesh, SP_ACCELERATOR_NAIVE);
-    sp_tracer *none = make_tracer(mesh, SP_ACCELERATOR_NONE);
+    sp_tracer *none = make_tracer(mesh, SP_ACCELERATOR_NONE), *bvh = make_tracer(mesh, SP_ACCELERATOR_BVH);
     size_t hits = 0;
     for (size_t i = 0; i < count; i++) {
         static const sp_vec3 pulls[] = {{0, 0, 0},    {0, 0, -9.81}, {0, 0, -1e-9},
@@ -132,6 +138,13 @@ static void compare(const sp_mesh *mesh, random_source *source, double scale, sp
         assert_same(sp_trace_nearest(sah, &ray, gravity), expected, "sah");
         assert_same(sp_trace_nearest(naive, &ray, gravity), expected, "naive");
         bool occluded = expected.triangle != SP_NONE;
+        for (int set = 0; set < SP_INSTRUCTIONS_COUNT; set++) {
+            if (!sp_instructions_available((sp_instructions)set))
+                continue;
+            sp_tracer_use(bvh, (sp_instructions)set);
+            assert_same(sp_trace_nearest(bvh, &ray, gravity), expected, instruction_names[set]);
+            assert_int_equal(sp_trace_occluded(bvh, &ray, gravity), occluded);
+        }
         assert_int_equal(sp_trace_occluded(sah, &ray, gravity), occluded);
         assert_int_equal(sp_trace_occluded(naive, &ray, gravity), occluded);
         assert_int_equal(sp_trace_occluded(none, &ray, gravity), occluded);
@@ -142,6 +155,7 @@ static void compare(const sp_mesh *mesh, random_source *source, double scale, sp
     sp_tracer_destroy(sah);
     sp_tracer_destroy(naive);
     sp_tracer_destroy(none);
+    sp_tracer_destroy(bvh);
 }
 
 static void random_meshes(void **state)
@@ -192,7 +206,7 @@ static void one_triangle_and_none(void **state)
     static const uint32_t triangle[][3] = {{0, 1, 2}};
     for (size_t count = 0; count < 2; count++) {
         sp_mesh *mesh = make_mesh(points, 3, triangle, count);
-        for (int a = SP_ACCELERATOR_SAH; a <= SP_ACCELERATOR_NONE; a++) {
+        for (int a = SP_ACCELERATOR_BVH; a <= SP_ACCELERATOR_NONE; a++) {
             sp_tracer *tracer = make_tracer(mesh, (sp_accelerator)a);
             sp_ray ray = make_ray(sp_v(0.25, 0.25, 0), sp_v(0, 0, 2));
             assert_int_equal(sp_trace_nearest(tracer, &ray, sp_v(0, 0, 0)).triangle, count ? 0 : SP_NONE);
@@ -203,7 +217,7 @@ static void one_triangle_and_none(void **state)
         }
         sp_mesh_destroy(mesh);
     }
-    assert_null(sp_tracer_create(NULL, SP_ACCELERATOR_SAH, NULL));
+    assert_null(sp_tracer_create(NULL, SP_ACCELERATOR_SAH, 0, NULL));
     sp_tracer_destroy(NULL);
 }
 
@@ -213,7 +227,7 @@ static void nonsense_hits_nothing(void **state)
     (void)state;
     static const double odd[] = {NAN, INFINITY, -INFINITY, 1e308, -1e308, 5e-324, 0};
     sp_mesh *mesh = make_ball(16, sp_v(0, 0, 0), 1, 0.1);
-    for (int a = SP_ACCELERATOR_SAH; a <= SP_ACCELERATOR_NONE; a++) {
+    for (int a = SP_ACCELERATOR_BVH; a <= SP_ACCELERATOR_NONE; a++) {
         sp_tracer *tracer = make_tracer(mesh, (sp_accelerator)a);
         for (size_t i = 0; i < 7 * 7 * 7 * 3; i++) {
             double x = odd[i % 7], y = odd[i / 7 % 7], z = odd[i / 49 % 7];
@@ -256,7 +270,7 @@ static void threads_change_nothing(void **state)
     bool *occluded[2] = {calloc(COUNT, sizeof **occluded), calloc(COUNT, sizeof **occluded)};
     assert_true(rays && hits[0] && hits[1] && occluded[0] && occluded[1]);
     sp_mesh *mesh = make_ball(40, sp_v(0, 0, 0), 1, 0.3);
-    sp_tracer *tracer = make_tracer(mesh, SP_ACCELERATOR_SAH);
+    sp_tracer *tracer = make_tracer(mesh, SP_ACCELERATOR_BVH);
     random_source source = {5};
     for (size_t i = 0; i < COUNT; i++)
         rays[i] = draw_ray(&source, mesh, 1, sp_v(0, 0, 0), 1);

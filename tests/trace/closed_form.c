@@ -17,7 +17,7 @@ static sp_mesh *make_plane(sp_vec3 point, sp_vec3 normal)
 
 static sp_hit trace_once(const sp_mesh *mesh, sp_ray ray, sp_vec3 gravity)
 {
-    sp_tracer *tracer = make_tracer(mesh, SP_ACCELERATOR_SAH);
+    sp_tracer *tracer = make_tracer(mesh, SP_ACCELERATOR_BVH);
     sp_hit hit = sp_trace_nearest(tracer, &ray, gravity);
     assert_int_equal(sp_trace_occluded(tracer, &ray, gravity), hit.triangle != SP_NONE);
     sp_tracer_destroy(tracer);
@@ -190,7 +190,7 @@ static void a_ball_is_nearly_a_sphere(void **state)
     enum { N = 200 };
     double radius = 2, sagitta = radius * (1 - cos(1.5 * M_PI / N));
     sp_mesh *mesh = make_ball(N, sp_v(0, 0, 0), radius, 0);
-    sp_tracer *tracer = make_tracer(mesh, SP_ACCELERATOR_SAH);
+    sp_tracer *tracer = make_tracer(mesh, SP_ACCELERATOR_BVH);
     random_source source = {13};
     for (int i = 0; i < 5000; i++) {
         sp_vec3 gravity = i % 2 ? none : down;
@@ -210,7 +210,7 @@ static void from_far_away(void **state)
 {
     (void)state;
     sp_mesh *mesh = make_ball(16, sp_v(0, 0, 0), 1, 0);
-    sp_tracer *tracer = make_tracer(mesh, SP_ACCELERATOR_SAH);
+    sp_tracer *tracer = make_tracer(mesh, SP_ACCELERATOR_BVH);
     random_source source = {17};
     for (int i = 0; i < 1000; i++) {
         sp_vec3 origin = sp_scale(sp_unit(draw_point(&source, 1)), 1e6), target = draw_point(&source, 0.5);

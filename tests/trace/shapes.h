@@ -78,7 +78,7 @@ static inline sp_mesh *make_ball(uint32_t n, sp_vec3 centre, double radius, doub
 static inline sp_tracer *make_tracer(const sp_mesh *mesh, sp_accelerator accelerator)
 {
     sp_error error = {0};
-    sp_tracer *tracer = sp_tracer_create(mesh, accelerator, &error);
+    sp_tracer *tracer = sp_tracer_create(mesh, accelerator, 0, &error);
     if (!tracer)
         fail_msg("%s", error.message);
     return tracer;

@@ -30,7 +30,7 @@ static sp_vec3 draw_target(random_source *source, const sp_mesh *mesh)
 /* `convex`: nothing can be passed on the way, so that the target is hit or what is before it. */
 static void shoot(const sp_mesh *mesh, sp_vec3 centre, double radius, double pull, bool convex, random_source *source)
 {
-    sp_tracer *tracer = make_tracer(mesh, SP_ACCELERATOR_SAH);
+    sp_tracer *tracer = make_tracer(mesh, SP_ACCELERATOR_BVH);
     for (size_t i = 0; i < TARGETS; i++) {
         sp_vec3 gravity = sp_v(0, i % 3 == 2 ? pull : 0, i % 3 == 2 ? 0 : -pull);
         sp_vec3 origin = i % 2 ? sp_add(centre, draw_point(source, 0.5 * radius)) : centre;
@@ -92,7 +92,7 @@ static void vertical_flights(void **state)
     static const uint32_t sides[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
                                           {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
     sp_mesh *mesh = make_mesh(box, 8, sides, 12);
-    sp_tracer *tracer = make_tracer(mesh, SP_ACCELERATOR_SAH);
+    sp_tracer *tracer = make_tracer(mesh, SP_ACCELERATOR_BVH);
     for (int i = 0; i < 81; i++) {
         double x = (i % 9 - 4) / 4.0, y = (i / 9 - 4) / 4.0;
         for (int k = 0; k < 6; k++) {
