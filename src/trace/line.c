@@ -1,4 +1,5 @@
 #include "trace/line.h"
+#include "trace/weigh.h"
 
 bool sp_line_start(sp_line *line, const sp_ray *ray)
 {
@@ -17,30 +18,7 @@ bool sp_line_start(sp_line *line, const sp_ray *ray)
     return along != 0 && isfinite(line->shear_x + line->shear_y + line->inverse_z);
 }
 
-/* a b - c d to the last bit but one: Kahan's algorithm (Jeannerod, Louvet, Muller, "Further analysis of Kahan's
- * algorithm for the accurate computation of 2x2 determinants", 2013). */
-static double difference_of_products(double a, double b, double c, double d)
-{
-    double cd = c * d, error = fma(-c, d, cd);
-    return fma(a, b, -cd) + error;
-}
-
-/* Weights of the corners of a triangle that is seen almost edge-on: there the plain ones are mostly round-off, and the
- * time would be anywhere along the triangle. */
-static bool weigh_sliver(const double x[3], const double y[3], double weights[3])
-{
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        weights[i] = difference_of_products(x[k], y[j], y[k], x[j]);
-    }
-    bool below = weights[0] < 0 || weights[1] < 0 || weights[2] < 0;
-    bool above = weights[0] > 0 || weights[1] > 0 || weights[2] > 0;
-    return above != below;
-}
-
-/* Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2013, in double precision. The triangle is sheared
- * so that the line becomes the z axis; triangles that share an edge decide by the same numbers on which side of it the
- * line passes, and a line through the edge belongs to both. */
+/* The triangle is sheared so that the line becomes the z axis. */
 static inline void test(const sp_line *line, const sp_corners corners, uint32_t triangle, sp_search *search)
 {
     double x[3], y[3], z[3], weights[3];
@@ -49,18 +27,9 @@ static inline void test(const sp_line *line, const sp_corners corners, uint32_t 
         x[i] = corners[i][line->x] - line->origin[line->x] - line->shear_x * z[i];
         y[i] = corners[i][line->y] - line->origin[line->y] - line->shear_y * z[i];
     }
-    weights[0] = x[2] * y[1] - y[2] * x[1];
-    weights[1] = x[0] * y[2] - y[0] * x[2];
-    weights[2] = x[1] * y[0] - y[1] * x[0];
-    if ((weights[0] < 0 || weights[1] < 0 || weights[2] < 0) && (weights[0] > 0 || weights[1] > 0 || weights[2] > 0))
+    if (!sp_weigh(x, y, weights))
         return;
     double sum = weights[0] + weights[1] + weights[2];
-    double reach = sp_greater(sp_greater(fabs(x[0]) + fabs(y[0]), fabs(x[1]) + fabs(y[1])), fabs(x[2]) + fabs(y[2]));
-    if (!(fabs(sum) > 0x1p-8 * reach * reach)) {
-        if (!weigh_sliver(x, y, weights))
-            return;
-        sum = weights[0] + weights[1] + weights[2];
-    }
     double t = (weights[0] * z[0] + weights[1] * z[1] + weights[2] * z[2]) / sum * line->inverse_z;
     if (triangle != search->skip && sp_search_wants(search, t, triangle))
         sp_search_take(search, t, weights[1] / sum, weights[2] / sum, triangle);

@@ -1,199 +1,284 @@
+/* Flights against triangles, watertight.
+ *
+ * A triangle is cut by the vertical plane of the flight, and what is left is a segment in which the flight is a
+ * parabola. On which side of the plane a corner lies is decided once for each corner; where an edge crosses the plane,
+ * from the corner on the one side to the corner on the other, whichever triangle asks, and whether that crossing lies
+ * below or above the flight, by the same operations on the same numbers. So the segments of a closed surface join to
+ * closed polygons without gaps, the flight and a polygon cross wherever a corner of it below the flight is followed by
+ * one above, and both triangles at a corner agree about it: nothing slips between them, however the decisions
+ * themselves were rounded. In detail:
+ *   - A segment with one end below and one above is crossed once. Its root is written so that it has no cancellation
+ *     and cannot but lie on the segment.
+ *   - With both ends below (the side on which the flight is convex) it is never crossed.
+ *   - With both ends above it is crossed twice or not at all; if that is rounded the wrong way the flight was touching.
+ *   - A corner exactly in the plane is taken to be on either side in turn, so that edges in the plane belong to all
+ *     their triangles, and a flight within a wall's plane still meets the floor that ends there.
+ * Towards the vertical the plane's direction and the times at which points are passed become mere rounding, but depths
+ * do not: the time is then found from the depth. When the flight is within 2^-42 of its reach of one vertical line, it
+ * is taken to be on it, and the decision is the line's. */
 #include "trace/parabola.h"
-
-#include <float.h>
-
-/* Rounding of positions, relative to the lengths that they are summed from: some operations' worth. */
-static const double rounding = 32 * DBL_EPSILON;
+#include "trace/weigh.h"
 
 static inline double dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Sets first and last. Within the box the way along gravity is at most `reach`, so that pull t²/2 ≤ reach + along |t|,
- * and so is the way across gravity, so that across |t| ≤ reach. */
+static inline void cross(const double a[3], const double b[3], double product[3])
+{
+    product[0] = a[1] * b[2] - a[2] * b[1];
+    product[1] = a[2] * b[0] - a[0] * b[2];
+    product[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+sp_pull sp_pull_of(sp_vec3 gravity)
+{
+    sp_pull pull = {.strength = 0};
+    sp_to_array(gravity, pull.vector);
+    if (gravity.x == 0 && gravity.y == 0 && gravity.z == 0)
+        return pull;
+    /* by its largest component, as the square of a weak one would be nothing */
+    double largest = sp_greater(sp_greater(fabs(gravity.x), fabs(gravity.y)), fabs(gravity.z));
+    for (int k = 0; k < 3; k++)
+        pull.down[k] = pull.vector[k] / largest;
+    double length = sqrt(dot(pull.down, pull.down));
+    for (int k = 0; k < 3; k++)
+        pull.down[k] /= length;
+    pull.strength = largest * length;
+    return pull;
+}
+
+/* Sets first and last. Within the box the way along gravity and the way across it are at most `reach`. */
 static void bound_time(sp_parabola *p, const sp_ray *ray)
 {
     double reach = 2 * p->farthest; /* a space diagonal has at most √3 */
-    double along = fabs(dot(p->velocity, p->gravity)) / p->pull;
-    double across = sqrt(sp_greater(0, p->speed * p->speed - along * along));
-    double longest = (along + sqrt(along * along + 2 * p->pull * reach)) / p->pull;
-    if (across > 0x1p-20 * p->speed) /* else it is mostly rounding */
-        longest = sp_lesser(longest, 2 * reach / across);
+    double longest = (fabs(p->fall) + sqrt(p->fall * p->fall + 2 * p->pull * reach)) / p->pull;
+    if (p->across > 0x1p-40 * p->speed * p->speed) /* else it is mostly rounding */
+        longest = sp_lesser(longest, reach / sqrt(p->across));
     longest = sp_lesser(1.01 * longest, 1e100);
     p->first = sp_greater(ray->t_min, -longest);
     p->last = sp_lesser(nextafter(ray->t_max, -INFINITY), longest);
 }
 
-bool sp_parabola_start(sp_parabola *p, const sp_ray *ray, sp_vec3 gravity, const double low[3], const double high[3])
+/* Two horizontal directions, along axes where gravity is. */
+static void set_vertical(sp_parabola *p)
+{
+    int least = fabs(p->down[0]) <= fabs(p->down[1]) ? 0 : 1;
+    least = fabs(p->down[2]) < fabs(p->down[least]) ? 2 : least;
+    double axis[3] = {least == 0, least == 1, least == 2};
+    p->vertical = true;
+    cross(p->down, axis, p->beside);
+    cross(p->beside, p->down, p->ahead);
+}
+
+bool sp_parabola_start(sp_parabola *p, const sp_ray *ray, const sp_pull *pull, const double low[3],
+                       const double high[3])
 {
     sp_to_array(ray->origin, p->origin);
     sp_to_array(ray->velocity, p->velocity);
-    sp_to_array(gravity, p->gravity);
+    double horizontal[3];
+    p->pull = pull->strength;
+    p->fall = dot(p->velocity, pull->down);
+    for (int k = 0; k < 3; k++) {
+        p->gravity[k] = pull->vector[k];
+        p->down[k] = pull->down[k];
+        horizontal[k] = p->velocity[k] - p->fall * p->down[k];
+    }
+    p->across = dot(horizontal, horizontal);
     p->speed = sqrt(dot(p->velocity, p->velocity));
-    p->pull = sqrt(dot(p->gravity, p->gravity));
     p->farthest = 0;
     for (int axis = 0; axis < 3; axis++)
         p->farthest =
             sp_greater(p->farthest, sp_greater(fabs(low[axis] - p->origin[axis]), fabs(high[axis] - p->origin[axis])));
+    /* Where it is again as deep as the box reaches, it has gone at most 2 across √(fall² + 4 pull farthest) / pull. */
+    double strength = 0x1p-43 * p->pull * p->farthest;
+    if (p->across < 1e-280 || p->across * (p->fall * p->fall + 4 * p->pull * p->farthest) <= strength * strength) {
+        set_vertical(p);
+    } else {
+        p->vertical = false;
+        cross(p->down, horizontal, p->beside);
+        for (int k = 0; k < 3; k++)
+            p->ahead[k] = horizontal[k] / p->across;
+    }
     bound_time(p, ray);
     return p->first <= p->last && isfinite(sp_parabola_summed(p, p->first) + sp_parabola_summed(p, p->last));
 }
 
-/* A flight and the plane of a triangle. */
+/* A triangle as the flight sees it: its three products for each corner. */
 typedef struct {
-    const sp_parabola *flight;
-    const double (*corners)[3];
-    double edge[2][3];       /* from the first corner to the second and third, m */
-    double normal[3];        /* twice the area long, m² */
-    double pull, speed, way; /* pull/2 t² + speed t + way = 0 in the plane */
+    double beside[3], time[3], depth[3];
+} view;
+
+static inline view look(const sp_parabola *p, const sp_corners corners)
+{
+    view v;
+    for (int i = 0; i < 3; i++) {
+        double way[3];
+        for (int k = 0; k < 3; k++)
+            way[k] = corners[i][k] - p->origin[k];
+        v.beside[i] = dot(p->beside, way);
+        v.time[i] = dot(p->ahead, way);
+        v.depth[i] = dot(p->down, way);
+    }
+    return v;
+}
+
+/* What a point of the flight's plane lies below the flight, m. */
+static inline double below_flight(const sp_parabola *p, double time, double depth)
+{
+    return depth - time * (p->fall + 0.5 * p->pull * time);
+}
+
+/* Where an edge crosses the flight's plane. */
+typedef struct {
+    double time, depth;
+    double below; /* m, depth below the flight at that time */
+    double share; /* how far along the edge from its negative corner, 0 to 1 */
 } crossing;
 
-static inline crossing cross_plane(const sp_parabola *p, const sp_corners corners)
+static inline crossing cross_edge(const sp_parabola *p, const view *v, int negative, int positive)
 {
-    crossing c = {.flight = p, .corners = corners};
-    double origin[3]; /* from the first corner */
-    for (int k = 0; k < 3; k++) {
-        origin[k] = p->origin[k] - corners[0][k];
-        c.edge[0][k] = corners[1][k] - corners[0][k];
-        c.edge[1][k] = corners[2][k] - corners[0][k];
-    }
-    c.normal[0] = c.edge[0][1] * c.edge[1][2] - c.edge[0][2] * c.edge[1][1];
-    c.normal[1] = c.edge[0][2] * c.edge[1][0] - c.edge[0][0] * c.edge[1][2];
-    c.normal[2] = c.edge[0][0] * c.edge[1][1] - c.edge[0][1] * c.edge[1][0];
-    c.pull = dot(c.normal, p->gravity);
-    c.speed = dot(c.normal, p->velocity);
-    c.way = dot(c.normal, origin);
+    crossing c = {.share = v->beside[negative] / (v->beside[negative] - v->beside[positive])};
+    c.time = v->time[negative] + c.share * (v->time[positive] - v->time[negative]);
+    c.depth = v->depth[negative] + c.share * (v->depth[positive] - v->depth[negative]);
+    c.below = below_flight(p, c.time, c.depth);
     return c;
 }
 
-/* How far rounding may move the plane and the flight against each other near the triangle at time t, m: the normal's
- * own error counts the more the thinner the triangle. */
-static double uncertainty(const crossing *c, double t)
+/* When the flight is there: told by the depth where it is steep, else by the way ahead. */
+static inline double arrival(const sp_parabola *p, double time, double depth)
 {
-    double longest = sp_greater(dot(c->edge[0], c->edge[0]), dot(c->edge[1], c->edge[1]));
-    double normal_error = longest * sqrt(longest) / sqrt(dot(c->normal, c->normal));
-    return rounding * (sp_parabola_summed(c->flight, t) + normal_error);
+    double speed = p->fall + p->pull * time, roots[2];
+    if (speed * speed <= p->across)
+        return time;
+    return sp_quadratic_roots(p->pull, p->fall, -depth, roots) ? roots[speed > 0] : -p->fall / p->pull;
 }
 
-/* Whether a flight whose roots are not real still touches the plane but for rounding; then at *t. */
-static bool touches(const crossing *c, double *t)
+/* The segment between two crossings. */
+typedef struct {
+    const sp_parabola *flight;
+    crossing ends[2];
+    int corner[3]; /* lone one, and the other end of either edge */
+    bool negative; /* the lone corner is */
+    uint32_t triangle;
+} segment;
+
+/* Takes the point at that share of the way from the first end to the second, if it is wanted. */
+static bool offer(const segment *s, double share, sp_search *search)
 {
-    *t = -c->speed / c->pull;
-    if (!isfinite(*t))
+    const crossing *a = &s->ends[0], *b = &s->ends[1];
+    double t = arrival(s->flight, a->time + share * (b->time - a->time), a->depth + share * (b->depth - a->depth));
+    if (!sp_search_wants(search, t, s->triangle))
         return false;
-    double beyond = (c->way + 0.5 * c->speed * *t) / sqrt(dot(c->normal, c->normal));
-    return fabs(beyond) <= uncertainty(c, *t);
+    double weights[3];
+    weights[s->corner[1]] = (1 - share) * (s->negative ? a->share : 1 - a->share);
+    weights[s->corner[2]] = share * (s->negative ? b->share : 1 - b->share);
+    weights[s->corner[0]] =
+        (1 - share) * (s->negative ? 1 - a->share : a->share) + share * (s->negative ? 1 - b->share : b->share);
+    sp_search_take(search, t, weights[1], weights[2], s->triangle);
+    return true;
 }
 
-/* Where the segment between two points of the plane is nearest to the origin, 0 at a, 1 at b; the square of that
- * distance. */
-static double nearest_on_segment(const double a[2], const double b[2], double *square)
+/* From an end above the flight to one below it. With μ the share of the way, A and B what they are above and below, and
+ * k = pull/2 (their times' difference)², the segment at μ is (A + B + k) μ - k μ² - A below the flight, and crosses it
+ * at 2 A / (A + B + k + √(slope²)), the slope there being √((k - A)² + B² + 2 B (k + A)): sums of what is not
+ * negative. */
+static void cross_once(const segment *s, int upper, sp_search *search)
 {
-    double along[2] = {b[0] - a[0], b[1] - a[1]};
-    double length = along[0] * along[0] + along[1] * along[1];
-    double share = length > 0 ? -(a[0] * along[0] + a[1] * along[1]) / length : 0;
+    const crossing *a = &s->ends[upper], *b = &s->ends[1 - upper];
+    double above = -a->below, below = b->below, step = b->time - a->time;
+    double k = 0.5 * s->flight->pull * step * step;
+    double slope = sqrt((k - above) * (k - above) + below * below + 2 * below * (k + above));
+    double share = 2 * above / (k + below + above + slope);
+    /* Where the ends are far out, they are so much above and below that digits were lost: once more, from nearby. */
+    double rest = below_flight(s->flight, a->time + share * step, a->depth + share * (b->depth - a->depth));
+    if (2 * k * fabs(rest) < slope * slope)
+        share -= rest / slope;
     share = sp_lesser(sp_greater(share, 0), 1);
-    double x = a[0] + share * along[0], y = a[1] + share * along[1];
-    *square = x * x + y * y;
-    return share;
+    offer(s, upper ? 1 - share : share, search);
 }
 
-/* Whether a point outside the triangle is no farther from it than rounding may have moved it in its plane: a flight
- * that crosses the plane at a flat angle is in it at a time that is the less certain. So nothing slips between two
- * triangles. `corner` holds the corners as seen from the point, projected. Sets the weights of the rim's nearest point.
- */
-static bool is_at_rim(const crossing *c, const double corner[3][2], double t, double weight[3])
+/* Between two ends above the flight: it comes nearest where it is as steep as the segment, and what the segment is
+ * below it there tells how long before and after it crosses. */
+static void cross_twice(const segment *s, sp_search *search)
 {
-    double speed[3];
-    for (int k = 0; k < 3; k++)
-        speed[k] = c->flight->velocity[k] + t * c->flight->gravity[k];
-    double flatness = sqrt(dot(speed, speed) * dot(c->normal, c->normal)) / fabs(dot(speed, c->normal));
-    double blur = sp_lesser(uncertainty(c, t) * flatness, SP_PARABOLA_GRAZING * sp_parabola_summed(c->flight, t));
-    double least = INFINITY;
-    for (int i = 0; i < 3; i++) {
-        double square, share = nearest_on_segment(corner[i], corner[(i + 1) % 3], &square);
-        if (square >= least)
-            continue;
-        least = square;
-        weight[i] = 1 - share;
-        weight[(i + 1) % 3] = share;
-        weight[(i + 2) % 3] = 0;
-    }
-    return least <= blur * blur;
+    const sp_parabola *p = s->flight;
+    const crossing *a = &s->ends[0], *b = &s->ends[1];
+    double step = b->time - a->time, rise = b->depth - a->depth;
+    double middle = (rise / step - p->fall) / p->pull, share = (middle - a->time) / step;
+    if (!(share > 0 && share < 1))
+        return;
+    double below = below_flight(p, middle, a->depth + share * rise);
+    if (!(below >= 0))
+        return;
+    double way = sqrt(2 * below / p->pull) / step; /* of the sign of step: less of it is sooner */
+    if (!offer(s, sp_lesser(sp_greater(share - way, 0), 1), search))
+        offer(s, sp_lesser(sp_greater(share + way, 0), 1), search);
 }
 
-/* Whether a point with that share of corner i lies so far beyond the opposite edge that it cannot be at the rim. */
-static bool is_far_outside(const crossing *c, int i, double share, double t)
+static void cross_segment(const segment *s, sp_search *search)
 {
-    double edge[3], most = SP_PARABOLA_GRAZING * sp_parabola_summed(c->flight, t);
-    for (int k = 0; k < 3; k++)
-        edge[k] = c->corners[(i + 2) % 3][k] - c->corners[(i + 1) % 3][k];
-    return share * share * dot(c->normal, c->normal) > most * most * dot(edge, edge);
+    bool first = s->ends[0].below >= 0, second = s->ends[1].below >= 0;
+    if (first != second)
+        cross_once(s, first, search);
+    else if (!first)
+        cross_twice(s, search);
 }
 
-/* Whether the flight is in the triangle at time t, when it is in its plane, edges included. Sets the weights of the
- * second and third corner. */
-static bool is_inside(const crossing *c, double t, double weights[2])
+/* `positive`: bit i for corner i. */
+static void cut(const sp_parabola *p, const view *v, unsigned positive, uint32_t triangle, sp_search *search)
 {
-    const double *n = c->normal;
-    int z = fabs(n[0]) > fabs(n[1]) ? 0 : 1;
-    z = fabs(n[2]) > fabs(n[z]) ? 2 : z;
-    double corner[3][2], weight[3];
-    for (int k = 0; k < 2; k++) {
-        int axis = (z + 1 + k) % 3;
-        double way = t * (c->flight->velocity[axis] + 0.5 * t * c->flight->gravity[axis]);
-        for (int i = 0; i < 3; i++)
-            corner[i][k] = c->corners[i][axis] - c->flight->origin[axis] - way;
-    }
-    bool outside = false;
-    for (int i = 0; i < 3; i++) {
-        const double *a = corner[(i + 1) % 3], *b = corner[(i + 2) % 3];
-        weight[i] = (a[0] * b[1] - a[1] * b[0]) / n[z];
-        if (weight[i] < 0 && is_far_outside(c, i, weight[i], t))
-            return false;
-        outside |= !(weight[i] >= 0);
-    }
-    if (outside && !is_at_rim(c, (const double(*)[2])corner, t, weight))
-        return false;
-    double sum = weight[0] + weight[1] + weight[2];
-    weights[0] = weight[1] / sum;
-    weights[1] = weight[2] / sum;
-    return sum > 0;
-}
-
-static inline void test(const sp_parabola *p, const sp_corners corners, uint32_t triangle, sp_search *search)
-{
-    crossing c = cross_plane(p, corners);
-    double roots[2], weights[2];
-    if (!sp_quadratic_roots(c.pull, c.speed, c.way, roots)) {
-        if (!touches(&c, &roots[0]))
-            return;
-        roots[1] = roots[0];
-    }
+    static const int lone[8] = {0, 0, 1, 2, 2, 1, 0, 0};
+    if (positive == 0 || positive == 7)
+        return;
+    int k = lone[positive];
+    segment s = {
+        .flight = p, .corner = {k, (k + 1) % 3, (k + 2) % 3}, .negative = !(positive >> k & 1), .triangle = triangle};
     for (int i = 0; i < 2; i++) {
-        if (!sp_search_wants(search, roots[i], triangle) || !is_inside(&c, roots[i], weights))
-            continue;
-        if (triangle != search->skip)
-            sp_search_take(search, roots[i], weights[0], weights[1], triangle);
+        int other = s.corner[1 + i];
+        s.ends[i] = cross_edge(p, v, s.negative ? k : other, s.negative ? other : k);
+    }
+    cross_segment(&s, search);
+}
+
+/* Of a flight that is a vertical line, up and down again. */
+static void pierce(const sp_parabola *p, const view *v, uint32_t triangle, sp_search *search)
+{
+    double weights[3], roots[2];
+    if (!sp_weigh(v->time, v->beside, weights))
+        return;
+    double sum = weights[0] + weights[1] + weights[2];
+    double depth = (weights[0] * v->depth[0] + weights[1] * v->depth[1] + weights[2] * v->depth[2]) / sum;
+    if (!sp_quadratic_roots(p->pull, p->fall, -depth, roots))
+        return;
+    for (int i = 0; i < 2; i++)
+        if (sp_search_wants(search, roots[i], triangle)) {
+            sp_search_take(search, roots[i], weights[1] / sum, weights[2] / sum, triangle);
+            return;
+        }
+}
+
+void sp_parabola_test(const sp_parabola *p, const sp_corners corners, uint32_t triangle, sp_search *search)
+{
+    if (triangle == search->skip)
+        return;
+    view v = look(p, corners);
+    if (p->vertical) {
+        pierce(p, &v, triangle, search);
         return;
     }
-}
-
-void sp_parabola_test(const sp_parabola *parabola, const sp_corners corners, uint32_t triangle, sp_search *search)
-{
-    test(parabola, corners, triangle, search);
+    unsigned positive = 0, within = 0;
+    for (int i = 0; i < 3; i++) {
+        positive |= (unsigned)(v.beside[i] > 0) << i;
+        within |= (unsigned)(v.beside[i] == 0) << i;
+    }
+    cut(p, &v, positive, triangle, search);
+    if (within)
+        cut(p, &v, positive | within, triangle, search);
 }
 
 void sp_parabola_search_all(const sp_parabola *parabola, const sp_corners *corners, size_t count, sp_search *search)
 {
     for (size_t t = 0; t < count && !sp_search_done(search); t++)
-        test(parabola, corners[t], (uint32_t)t, search);
-}
-
-void sp_parabola_search_some(const sp_parabola *parabola, const sp_corners *corners, const uint32_t *references,
-                             size_t count, sp_search *search)
-{
-    for (size_t i = 0; i < count; i++)
-        test(parabola, corners[references[i]], references[i], search);
+        sp_parabola_test(parabola, corners[t], (uint32_t)t, search);
 }

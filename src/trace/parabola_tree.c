@@ -128,7 +128,9 @@ static void search_piece(const sp_parabola *flight, const sp_corners *corners, c
             step(&w, node, &at, stack, &height);
             node = &tree->nodes[at.node];
         }
-        sp_parabola_search_some(flight, corners, tree->references + node->right, node->size / 4, search);
+        const uint32_t *references = tree->references + node->right;
+        for (uint32_t i = 0; i < node->size / 4; i++)
+            sp_parabola_test(flight, corners[references[i]], references[i], search);
         do {
             if (height == 0 || sp_search_done(search))
                 return;

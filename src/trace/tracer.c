@@ -1,5 +1,5 @@
 #include "trace/line_bvh.h"
-#include "trace/parabola.h"
+#include "trace/parabola_bvh.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -91,69 +91,73 @@ void sp_tracer_use(sp_tracer *tracer, sp_instructions instructions)
     tracer->instructions = instructions;
 }
 
-static void search_line(const sp_tracer *tracer, const sp_line *line, sp_search *search)
+static void search_line(const sp_tracer *tracer, const sp_ray *ray, sp_search *search)
 {
     const sp_corners *corners = (const sp_corners *)tracer->corners;
+    sp_line line;
+    if (!sp_line_start(&line, ray))
+        return;
     if (tracer->accelerator == SP_ACCELERATOR_BVH)
-        sp_line_search_bvh(line, &tracer->bvh, tracer->instructions, search);
+        sp_line_search_bvh(&line, &tracer->bvh, tracer->instructions, search);
     else if (tracer->accelerator == SP_ACCELERATOR_NONE)
-        sp_line_search_all(line, corners, tracer->mesh->triangle_count, search);
+        sp_line_search_all(&line, corners, tracer->mesh->triangle_count, search);
     else
-        sp_line_search_tree(line, corners, &tracer->tree, search);
+        sp_line_search_tree(&line, corners, &tracer->tree, search);
 }
 
-static void search_parabola(const sp_tracer *tracer, const sp_parabola *parabola, sp_search *search)
+static void search_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp_pull *pull, sp_search *search)
 {
     const sp_corners *corners = (const sp_corners *)tracer->corners;
-    search->t_min = sp_greater(search->t_min, parabola->first);
-    search->limit = sp_lesser(search->limit, parabola->last);
-    if (tracer->accelerator == SP_ACCELERATOR_BVH)
-        sp_parabola_search_bvh(parabola, &tracer->bvh, search);
-    else if (tracer->accelerator == SP_ACCELERATOR_NONE)
-        sp_parabola_search_all(parabola, corners, tracer->mesh->triangle_count, search);
+    sp_parabola parabola;
+    if (tracer->accelerator == SP_ACCELERATOR_BVH) {
+        sp_parabola_search_bvh(&tracer->bvh, ray, pull, tracer->instructions, search);
+        return;
+    }
+    if (!sp_parabola_start(&parabola, ray, pull, tracer->tree.low, tracer->tree.high))
+        return;
+    sp_parabola_limit(&parabola, search);
+    if (tracer->accelerator == SP_ACCELERATOR_NONE)
+        sp_parabola_search_all(&parabola, corners, tracer->mesh->triangle_count, search);
     else
-        sp_parabola_search_tree(parabola, corners, &tracer->tree, search);
+        sp_parabola_search_tree(&parabola, corners, &tracer->tree, search);
 }
 
-static sp_hit trace(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity, bool any)
+static sp_hit trace(const sp_tracer *tracer, const sp_ray *ray, const sp_pull *pull, bool any)
 {
     sp_search search = sp_search_start(ray, any);
-    const double *low = tracer->accelerator == SP_ACCELERATOR_BVH ? tracer->bvh.low : tracer->tree.low;
-    const double *high = tracer->accelerator == SP_ACCELERATOR_BVH ? tracer->bvh.high : tracer->tree.high;
-    if (sp_length(gravity) == 0) { /* or so weak that its square is nothing */
-        sp_line line;
-        if (sp_line_start(&line, ray))
-            search_line(tracer, &line, &search);
-    } else {
-        sp_parabola parabola;
-        if (sp_parabola_start(&parabola, ray, gravity, low, high))
-            search_parabola(tracer, &parabola, &search);
-    }
+    if (pull->strength != 0)
+        search_parabola(tracer, ray, pull, &search);
+    else
+        search_line(tracer, ray, &search);
     return search.best;
 }
 
 sp_hit sp_trace_nearest(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity)
 {
-    return trace(tracer, ray, gravity, false);
+    sp_pull pull = sp_pull_of(gravity);
+    return trace(tracer, ray, &pull, false);
 }
 
 bool sp_trace_occluded(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity)
 {
-    return trace(tracer, ray, gravity, true).triangle != SP_NONE;
+    sp_pull pull = sp_pull_of(gravity);
+    return trace(tracer, ray, &pull, true).triangle != SP_NONE;
 }
 
 void sp_trace_nearest_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity, int threads,
                            sp_hit *hits)
 {
+    sp_pull pull = sp_pull_of(gravity);
 #pragma omp parallel for schedule(dynamic, 256) num_threads(thread_count(threads))
     for (size_t i = 0; i < count; i++)
-        hits[i] = trace(tracer, &rays[i], gravity, false);
+        hits[i] = trace(tracer, &rays[i], &pull, false);
 }
 
 void sp_trace_occluded_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity, int threads,
                             bool *occluded)
 {
+    sp_pull pull = sp_pull_of(gravity);
 #pragma omp parallel for schedule(dynamic, 256) num_threads(thread_count(threads))
     for (size_t i = 0; i < count; i++)
-        occluded[i] = trace(tracer, &rays[i], gravity, true).triangle != SP_NONE;
+        occluded[i] = trace(tracer, &rays[i], &pull, true).triangle != SP_NONE;
 }

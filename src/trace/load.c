@@ -1,0 +1,107 @@
+#include "mesh/soup.h"
+
+#include <errno.h>
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* The whole file with a '\0' behind it; also of what has no size beforehand, such as a pipe. */
+static char *read_file(const char *path, size_t *size, sp_error *error)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file) {
+        sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot be opened: %s", strerror(errno));
+        return NULL;
+    }
+    size_t room = 1 << 16;
+    char *text = malloc(room);
+    *size = 0;
+    while (text) {
+        *size += fread(text + *size, 1, room - 1 - *size, file);
+        if (*size < room - 1)
+            break;
+        char *larger = room <= SIZE_MAX / 2 ? realloc(text, 2 * room) : NULL;
+        if (!larger)
+            free(text);
+        text = larger;
+        room *= 2;
+    }
+    if (!text) {
+        sp_fail_memory(error);
+    } else if (ferror(file)) {
+        sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot be read: %s", strerror(errno));
+        free(text);
+        text = NULL;
+    } else {
+        text[*size] = '\0';
+    }
+    fclose(file);
+    return text;
+}
+
+typedef bool read_function(const char *path, const char *text, size_t size, double unit, sp_soup *soup,
+                           sp_error *error);
+
+static read_function *reader_for(const char *path, sp_error *error)
+{
+    const char *dot = strrchr(path, '.');
+    if (dot && strcasecmp(dot, ".obj") == 0)
+        return sp_obj_read;
+    if (dot && strcasecmp(dot, ".stl") == 0)
+        return sp_stl_read;
+    sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found a file of unknown kind, expected .obj or .stl");
+    return NULL;
+}
+
+/* Numbers are read in the "C" locale whatever the program has set; only this thread is touched. */
+static bool read_in_c_locale(read_function *read, const char *path, const char *text, size_t size, double unit,
+                             sp_soup *soup, sp_error *error)
+{
+    locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    if (c == (locale_t)0)
+        return sp_fail_memory(error);
+    locale_t before = uselocale(c);
+    bool good = read(path, text, size, unit, soup, error);
+    uselocale(before);
+    freelocale(c);
+    return good;
+}
+
+static sp_mesh *weld(const char *path, const sp_soup *soup, sp_error *error)
+{
+    if (soup->triangle_count == 0) {
+        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found no triangle, expected at least one");
+        return NULL;
+    }
+    sp_mesh *mesh =
+        sp_mesh_create(soup->vertices, soup->vertex_count, (const uint32_t(*)[3])soup->triangles, soup->triangle_count,
+                       soup->part, (const char *const *)soup->part_names, soup->part_count, error);
+    if (mesh && mesh->triangle_count == 0) {
+        sp_fail(error, SP_ERROR_INPUT, path, 0, 0,
+                "found only triangles without area, expected at least one with some");
+        sp_mesh_destroy(mesh);
+        mesh = NULL;
+    }
+    return mesh;
+}
+
+sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error)
+{
+    if (!(unit > 0) || !isfinite(unit)) {
+        sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0, "found a unit of %g m, expected a positive one", unit);
+        return NULL;
+    }
+    size_t size;
+    read_function *read = reader_for(path, error);
+    char *text = read ? read_file(path, &size, error) : NULL;
+    if (!text)
+        return NULL;
+    sp_soup soup = {0};
+    bool good = read_in_c_locale(read, path, text, size, unit, &soup, error);
+    free(text);
+    sp_mesh *mesh = good ? weld(path, &soup, error) : NULL;
+    sp_soup_clear(&soup);
+    return mesh;
+}

@@ -1,0 +1,197 @@
+/* One piece of a parabola through the hierarchy. Included once by each file that is compiled for a set of instructions,
+ * with SP_KERNEL(name) naming its functions. */
+#include "trace/parabola_bvh.h"
+#include "trace/wide.h"
+
+typedef struct {
+    uint32_t child;
+    float from, to; /* ways at which the flight may be in its box */
+} pending;
+
+/* Which children the flight passes, and the ways between which it may be in each.
+ *
+ * Along each axis two parallel lines, the chord and the tangent, tell when it passes a plane at the soonest and at the
+ * latest; without gravity along the axis they are one. Between these ways the steep coordinate goes one way, so that
+ * what it is at either end, two products each, tells whether it can be in the box: no square root, and as sharp as if
+ * it were solved for, because the two other axes have cut the span to the box.
+ *
+ * Nothing that a hit is in is left out. Let e = 2^-24. The origin is at most 1.02 and the box at most 1 away from 0, so
+ * that planes are at most R = 2.03 away from the origin; direction and bend way are at most 1, way at most W = 4.2.
+ * Rounding moves, for the ways: sooner by e R; node's corner - sooner by e R; the slope's inverse, rounded twice, is a
+ * turn of 2 e, that is 2 e R of the plane; the corner's product and the step's by e R each; the sum by e R (without fma
+ * another e R): 8 e R < 17 e. And for the steep coordinate: direction and bend by e W each, the inner sum of the
+ * polynomial by e W, without fma another e W, the outer product by e R; origin and node's corner - origin by e R each,
+ * the plane's product and sum by 2 e R: 4 e W + 5 e R < 28 e. The double precision test's notion of where the flight is
+ * differs by less than 8 e: sp_bvh_arc_prepare sees to that. All are less than 64 e = SP_BVH_PAD, by which the boxes
+ * are wider than what they hold, so that the flight is in them from before the hit until after it. An inverse that is
+ * cut to 2^60 turns the chord by 2^-60. */
+static inline uint32_t enter_children(const sp_bvh_node *node, const sp_bvh_arc *arc, wide *first, wide *last)
+{
+    const uint8_t *bytes = (const uint8_t *)node->low;
+    wide from = wide_set(0), to = wide_set(arc->last);
+    for (int i = 1; i < 3; i++) {
+        int axis = arc->axis[i];
+        float corner = (node->origin[axis] - arc->sooner[i]) * arc->inverse[i];
+        wide step = wide_set(node->step[axis] * arc->inverse[i]);
+        uint32_t near = arc->near[i], far = near < 24 ? near + 24 : near - 24;
+        from = wide_greater(from, wide_multiply_add(wide_bytes(bytes + near), step, wide_set(corner)));
+        to = wide_lesser(to, wide_multiply_add(wide_bytes(bytes + far), step, wide_set(corner + arc->later[i])));
+    }
+    int steep = arc->axis[0];
+    uint32_t near = arc->near[0], far = near < 24 ? near + 24 : near - 24;
+    wide corner = wide_set((node->origin[steep] - arc->origin[steep]) * arc->sign);
+    wide step = wide_set(node->step[steep] * arc->sign), inverse = wide_set(arc->inverse[0]);
+    wide enter = wide_multiply_add(wide_bytes(bytes + near), step, corner);
+    wide leave = wide_multiply_add(wide_bytes(bytes + far), step, corner);
+    from = wide_greater(from, wide_multiply_add(enter, inverse, wide_set(arc->sooner[0])));
+    to = wide_lesser(to, wide_multiply_add(leave, inverse, wide_set(arc->later[0])));
+    wide bend = wide_set(arc->bend[steep] * arc->sign), direction = wide_set(arc->direction[steep] * arc->sign);
+    wide before = wide_multiply(wide_multiply_add(bend, from, direction), from);
+    wide after = wide_multiply(wide_multiply_add(bend, to, direction), to);
+    *first = from;
+    *last = to;
+    return wide_at_most(from, to) & wide_at_most(before, leave) & wide_at_most(enter, after);
+}
+
+/* The flight where it passes a block: a line parallel to it in the middle of the span, from which it is never farther
+ * than `blur`, rounding included. */
+typedef struct {
+    int x, y, z; /* axes, z the one of the largest component of direction */
+    float origin[3], shear_x, shear_y, sign;
+    float blur;
+    float first, last, surely_first, surely_last; /* along z, from the origin */
+} chord;
+
+/* With r half the span, the flight is away from its tangent in the middle by bend (way - middle)², so that halfway to
+ * the farthest it is off by at most bend r²/2 either way along each axis, and by bend r² when sheared. The rounding of
+ * the line's origin is that of the polynomial above and another 3 e; that of its direction, e W and e for bend and 2 e
+ * for its sums and the shear's own, makes 8 e over the box. */
+static inline chord chord_of(const sp_bvh_arc *arc, float from, float to)
+{
+    chord c;
+    float spare = 0x1p-4f * (to - from) + 16 * SP_BVH_PAD, r = 0.5f * (to - from) + spare, middle = 0.5f * (from + to);
+    float direction[3], most = 0, reach = 0;
+    c.z = 0;
+    for (int k = 0; k < 3; k++) {
+        direction[k] = arc->direction[k] + 2 * arc->bend[k] * middle;
+        float off = 0.5f * arc->bend[k] * r * r, amount = fabsf(off);
+        c.origin[k] = arc->origin[k] + (arc->direction[k] + arc->bend[k] * middle) * middle + off;
+        most = most > amount ? most : amount;
+        reach = reach > fabsf(c.origin[k]) ? reach : fabsf(c.origin[k]);
+        c.z = fabsf(direction[k]) > fabsf(direction[c.z]) ? k : c.z;
+    }
+    c.x = c.z == 2 ? 0 : c.z + 1;
+    c.y = c.z == 0 ? 2 : c.z - 1;
+    float inverse = 1 / direction[c.z], speed = fabsf(direction[c.z]);
+    c.shear_x = direction[c.x] * inverse;
+    c.shear_y = direction[c.y] * inverse;
+    c.sign = direction[c.z] > 0 ? 1 : -1;
+    c.blur = 0x1p-24f * (64 + 13 * reach) + 2.001f * most;
+    float slack = c.blur + 2 * SP_BVH_PAD * (1 + speed);
+    c.first = -r * speed - slack;
+    c.last = (arc->last - middle) * speed + slack;
+    float soonest = from - spare > arc->surely_first ? from - spare : arc->surely_first;
+    float latest = to + spare < arc->surely_last ? to + spare : arc->surely_last;
+    c.surely_first = (soonest - middle) * speed + slack;
+    c.surely_last = (latest - middle) * speed - slack;
+    return c;
+}
+
+/* What is to be known of a block's triangles: those that may be hit, and those that surely are. */
+typedef struct {
+    uint32_t maybe, surely;
+} verdict;
+
+/* As for lines, against the chord: a triangle that the flight meets is within `blur` of the chord where that passes, so
+ * that a weight below -error means that it passes beside. What lies inside by more, and between ways at which the
+ * flight is on the one side and on the other, is surely crossed. */
+static inline verdict test_block(const sp_bvh_block *block, const chord *c)
+{
+    wide x[3], y[3], z[3], sign = wide_set(c->sign);
+    for (int i = 0; i < 3; i++) {
+        wide away = wide_subtract(wide_load(block->corner[i][c->z]), wide_set(c->origin[c->z]));
+        x[i] = wide_subtract(wide_load(block->corner[i][c->x]), wide_set(c->origin[c->x]));
+        y[i] = wide_subtract(wide_load(block->corner[i][c->y]), wide_set(c->origin[c->y]));
+        x[i] = wide_subtract_product(x[i], wide_set(c->shear_x), away);
+        y[i] = wide_subtract_product(y[i], wide_set(c->shear_y), away);
+        z[i] = wide_multiply(away, sign);
+    }
+    wide u = wide_subtract_product(wide_multiply(x[2], y[1]), y[2], x[1]);
+    wide v = wide_subtract_product(wide_multiply(x[0], y[2]), y[0], x[2]);
+    wide w = wide_subtract_product(wide_multiply(x[1], y[0]), y[1], x[0]);
+    wide most =
+        wide_greater_amount(wide_greater_amount(wide_greater_amount(x[0], y[0]), wide_greater_amount(x[1], y[1])),
+                            wide_greater_amount(x[2], y[2]));
+    wide error = wide_multiply_add(most, wide_multiply_add(most, wide_set(5 * 0x1p-24f), wide_set(4 * c->blur)),
+                                   wide_set(2 * c->blur * c->blur + 0x1p-120f));
+    wide least = wide_lesser(wide_lesser(u, v), w), largest = wide_greater(wide_greater(u, v), w);
+    wide minus = wide_subtract(wide_set(0), error);
+    uint32_t inside = wide_at_most(minus, least) | wide_at_most(largest, error);
+    if (!inside)
+        return (verdict){0, 0};
+    wide nearest = wide_lesser(wide_lesser(z[0], z[1]), z[2]), farthest = wide_greater(wide_greater(z[0], z[1]), z[2]);
+    uint32_t maybe = inside & wide_at_most(nearest, wide_set(c->last)) & wide_at_most(wide_set(c->first), farthest);
+    uint32_t surely = maybe & (wide_at_most(error, least) | wide_at_most(largest, minus)) &
+                      wide_at_most(wide_set(c->surely_first), nearest) &
+                      wide_at_most(farthest, wide_set(c->surely_last));
+    return (verdict){maybe, surely};
+}
+
+/* Puts what a block decides into the search; true where the search is over. */
+static bool search_block(sp_bvh_jet *jet, const sp_bvh_block *block, float from, float to)
+{
+    sp_search *search = jet->search;
+    chord c = chord_of(&jet->arc, from, to);
+    verdict found = test_block(block, &c);
+    for (uint32_t rest = search->any ? found.surely : 0; rest; rest &= rest - 1) {
+        uint32_t triangle = block->triangle[__builtin_ctz(rest)];
+        if (triangle != search->skip) {
+            search->best.triangle = triangle;
+            return true;
+        }
+    }
+    for (uint32_t rest = found.maybe; rest; rest &= rest - 1)
+        sp_bvh_jet_test(jet, block->triangle[__builtin_ctz(rest)]);
+    if (found.maybe)
+        sp_bvh_arc_shorten(&jet->arc, search->limit);
+    return sp_search_done(search);
+}
+
+/* Puts the children onto the stack, the nearest on top. */
+static inline int push_children(const sp_bvh_node *node, uint32_t mask, wide from, wide to, pending *stack)
+{
+    float first[8], last[8];
+    int count = 0;
+    wide_store(first, from);
+    wide_store(last, to);
+    for (; mask; mask &= mask - 1) {
+        int i = __builtin_ctz(mask), place = count++;
+        pending item = {node->child[i], first[i], last[i]};
+        for (; place > 0 && stack[place - 1].from < item.from; place--)
+            stack[place] = stack[place - 1];
+        stack[place] = item;
+    }
+    return count;
+}
+
+void SP_KERNEL(sp_bvh_parabola)(sp_bvh_jet *jet)
+{
+    const sp_bvh *bvh = jet->bvh;
+    const sp_bvh_arc *arc = &jet->arc;
+    pending stack[SP_BVH_STACK] = {{0, 0, 0}};
+    int height = 1;
+    while (height > 0) {
+        pending at = stack[--height];
+        if (at.from > arc->last)
+            continue;
+        if (at.child & SP_BVH_LEAF) {
+            if (search_block(jet, &bvh->blocks[at.child - SP_BVH_LEAF], at.from, at.to))
+                return;
+            continue;
+        }
+        const sp_bvh_node *node = &bvh->nodes[at.child];
+        wide from, to;
+        uint32_t mask = enter_children(node, arc, &from, &to);
+        height += push_children(node, mask, from, to, stack + height);
+    }
+}
