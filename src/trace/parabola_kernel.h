@@ -50,7 +50,9 @@ static inline uint32_t enter_children(const sp_bvh_node *node, const sp_bvh_arc 
     wide after = wide_multiply(wide_multiply_add(bend, to, direction), to);
     *first = from;
     *last = to;
-    return wide_at_most(from, to) & wide_at_most(before, leave) & wide_at_most(enter, after);
+    /* What is not in use is inside out, which the room between the lines may turn back. */
+    return wide_at_most(from, to) & wide_at_most(before, leave) & wide_at_most(enter, after) &
+           ((1u << node->count) - 1);
 }
 
 /* The flight where it passes a block: a line parallel to it in the middle of the span, from which it is never farther
