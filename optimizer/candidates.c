@@ -2,11 +2,14 @@
 
 #include <stdlib.h>
 
-/* Axes lie about a third of the pattern's half-angle apart: finer ones look alike to the search, and refinement moves
- * them anyway. */
+/* Axes lie at most about a third of the pattern's half-angle apart, and closer, down to a twelfth, while there are
+ * fewer poses than POSES_ENOUGH: finer ones look alike to the search, and refinement moves them anyway. */
 #define AXIS_SHARE (1.0 / 3)
 #define AXIS_STEP_LEAST (8 * M_PI / 180)
 #define AXIS_STEP_MOST (20 * M_PI / 180)
+#define FINENESS_LEAST 0.25
+#define FINENESS_STEP 0.95
+#define POSES_ENOUGH 1.1e6
 #define FAN_ROLLS 8
 #define ANGLES 3
 
@@ -104,8 +107,46 @@ static bool fits(const sp_mount *mount, const sp_nozzle_type *type)
     return false;
 }
 
-static bool axes_create(const sp_place_options *options, sp_candidates *candidates, sp_error *error)
+/* How far apart a make's axes lie, and how far out. */
+static double axis_step(const sp_make *make, double fineness)
 {
+    return fineness * fmin(AXIS_STEP_MOST, fmax(AXIS_STEP_LEAST, AXIS_SHARE * make->reach));
+}
+
+static double axis_tilt(const sp_make *make, const sp_mount *mount)
+{
+    /* what sprays all round is the same whatever its axis */
+    bool all_round = make->spray.kind != SP_PATTERN_FLAT_FAN && make->spray.outer >= M_PI && make->spray.inner <= 0;
+    return all_round ? 0 : fmin(M_PI, mount->tilt);
+}
+
+static double count_poses(const sp_place_options *options, const sp_sites *sites, const sp_candidates *candidates,
+                          double fineness)
+{
+    double poses = 0, per_site = 0;
+    uint32_t counted = SP_NONE; /* the mount that per_site is of: sites come mount by mount */
+    for (size_t i = 0; i < sites->count; i++, poses += per_site) {
+        const sp_mount *mount = &options->mounts[sites->items[i].mount];
+        if (sites->items[i].mount == counted)
+            continue;
+        counted = sites->items[i].mount;
+        per_site = 0;
+        for (size_t k = 0; k < candidates->make_count; k++) {
+            const sp_make *make = &candidates->makes[k];
+            if (fits(mount, make->type))
+                per_site +=
+                    (double)make->roll_count * (double)rings(axis_tilt(make, mount), axis_step(make, fineness), NULL);
+        }
+    }
+    return poses;
+}
+
+static bool axes_create(const sp_place_options *options, const sp_sites *sites, sp_candidates *candidates,
+                        sp_error *error)
+{
+    double fineness = 1;
+    while (fineness > FINENESS_LEAST && count_poses(options, sites, candidates, fineness) < POSES_ENOUGH)
+        fineness *= FINENESS_STEP;
     candidates->mount_count = options->mount_count;
     candidates->axes = calloc(options->mount_count * candidates->make_count, sizeof *candidates->axes);
     if (!candidates->axes)
@@ -115,11 +156,7 @@ static bool axes_create(const sp_place_options *options, sp_candidates *candidat
             const sp_make *make = &candidates->makes[k];
             if (!fits(&options->mounts[m], make->type))
                 continue;
-            double step = fmin(AXIS_STEP_MOST, fmax(AXIS_STEP_LEAST, AXIS_SHARE * make->reach));
-            /* what sprays all round is the same whatever its axis */
-            bool all_round =
-                make->spray.kind != SP_PATTERN_FLAT_FAN && make->spray.outer >= M_PI && make->spray.inner <= 0;
-            double tilt = all_round ? 0 : fmin(M_PI, options->mounts[m].tilt);
+            double step = axis_step(make, fineness), tilt = axis_tilt(make, &options->mounts[m]);
             sp_axes *axes = &candidates->axes[m * candidates->make_count + k];
             axes->axes = malloc(rings(tilt, step, NULL) * sizeof *axes->axes);
             if (!axes->axes)
@@ -134,7 +171,7 @@ bool sp_candidates_create(const sp_evaluator *evaluator, const sp_place_options 
 {
     *candidates = (sp_candidates){0};
     const sp_setup *setup = sp_evaluator_setup(evaluator);
-    if (!makes_create(setup, options, candidates, error) || !axes_create(options, candidates, error)) {
+    if (!makes_create(setup, options, candidates, error) || !axes_create(options, sites, candidates, error)) {
         sp_candidates_free(candidates);
         return false;
     }

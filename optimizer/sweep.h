@@ -37,9 +37,10 @@ typedef struct {
     float strength; /* flux over threshold per unit transfer */
 } sp_credit;
 
-/* The loops, compiled for one instruction set. Every sum is made in SP_LANES lanes of single precision within a run of
- * neighbouring bins, and of double precision between runs, in the same order on every instruction set: relative to the
- * sum of magnitudes its error is below 2^-24 (4 + n / SP_LANES), n being the arrivals of the longest run. */
+/* The loops, compiled for one instruction set. Every sum is made in SP_LANES lanes, in single precision over at most 64
+ * vectors and the run of neighbouring bins that ends them, in double precision between these, in the same order on
+ * every instruction set: relative to the sum of magnitudes its error is below 2^-24 (68 + n / SP_LANES), n being the
+ * arrivals of the longest run. */
 typedef struct {
     const char *name;
     bool (*available)(void);

@@ -1,6 +1,6 @@
-/* The sweep's loops in terms of vectors of SP_LANES floats, which the compiler maps onto what the including file's
- * instruction set has. Operations on lanes are IEEE's one by one (the project forbids contraction), so that every
- * instruction set gives the same bits. */
+/* The sweep's loops in terms of SP_LANES floats at a time, held in as many vectors as the including file's instruction
+ * set takes for them. Operations on lanes are IEEE's one by one (the project forbids contraction) and their order does
+ * not depend on the vectors' width, so that every instruction set gives the same bits. */
 #ifndef OPTIMIZER_SWEEP_KERNEL_H
 #define OPTIMIZER_SWEEP_KERNEL_H
 
@@ -11,48 +11,147 @@
 #include <immintrin.h>
 #endif
 
-typedef float lanes __attribute__((vector_size(4 * SP_LANES)));
-typedef float half_lanes __attribute__((vector_size(2 * SP_LANES)));
-typedef float quarter_lanes __attribute__((vector_size(SP_LANES)));
-typedef int32_t mask __attribute__((vector_size(4 * SP_LANES)));
-typedef double wide_lanes __attribute__((vector_size(8 * SP_LANES)));
+#if defined __AVX512DQ__
+#define WIDTH 16
+#elif defined __AVX2__
+#define WIDTH 8
+#else
+#define WIDTH 4
+#endif
+#define PARTS (SP_LANES / WIDTH)
+#define FLUSH 64 /* vectors of lanes after which single precision goes into double */
+
+typedef float floats __attribute__((vector_size(4 * WIDTH)));
+typedef int32_t integers __attribute__((vector_size(4 * WIDTH)));
+typedef double doubles __attribute__((vector_size(8 * WIDTH)));
 /* the same anywhere in memory */
-typedef float loose_lanes __attribute__((vector_size(4 * SP_LANES), aligned(4), may_alias));
+typedef float loose_floats __attribute__((vector_size(4 * WIDTH), aligned(4), may_alias));
+
+typedef struct {
+    floats part[PARTS];
+} lanes;
+typedef struct {
+    integers part[PARTS]; /* all bits of a lane are set, or none */
+} mask;
+typedef struct {
+    doubles part[PARTS];
+} wide_lanes;
 
 #define INLINE static inline __attribute__((always_inline))
+#define EACH_PART(i) for (int i = 0; i < PARTS; i++)
 
 INLINE lanes load(const float *from)
 {
-    return *(const loose_lanes *)from;
+    lanes r;
+    EACH_PART(i) r.part[i] = *(const loose_floats *)(from + i * WIDTH);
+    return r;
+}
+INLINE void store(lanes a, float *to)
+{
+    EACH_PART(i) * (loose_floats *)(to + i * WIDTH) = a.part[i];
 }
 INLINE lanes all(float value)
 {
-    return value - (lanes){0};
+    lanes r;
+    EACH_PART(i) r.part[i] = value - (floats){0};
+    return r;
 }
-INLINE lanes keep(lanes value, mask where)
+INLINE lanes add(lanes a, lanes b)
 {
-    return (lanes)((mask)value & where);
+    EACH_PART(i) a.part[i] += b.part[i];
+    return a;
+}
+INLINE lanes subtract(lanes a, lanes b)
+{
+    EACH_PART(i) a.part[i] -= b.part[i];
+    return a;
+}
+INLINE lanes multiply(lanes a, lanes b)
+{
+    EACH_PART(i) a.part[i] *= b.part[i];
+    return a;
+}
+INLINE lanes scale(lanes a, float b)
+{
+    EACH_PART(i) a.part[i] *= b;
+    return a;
+}
+INLINE lanes magnitude(lanes a)
+{
+    EACH_PART(i) a.part[i] = (floats)((integers)a.part[i] & 0x7fffffff);
+    return a;
+}
+INLINE mask at_least(lanes a, lanes b)
+{
+    mask r;
+    EACH_PART(i) r.part[i] = a.part[i] >= b.part[i];
+    return r;
+}
+INLINE mask below(lanes a, lanes b)
+{
+    mask r;
+    EACH_PART(i) r.part[i] = a.part[i] < b.part[i];
+    return r;
+}
+INLINE mask both(mask a, mask b)
+{
+    EACH_PART(i) a.part[i] &= b.part[i];
+    return a;
+}
+INLINE mask but(mask a, mask b)
+{
+    EACH_PART(i) a.part[i] &= ~b.part[i];
+    return a;
+}
+INLINE lanes keep(lanes a, mask where)
+{
+    EACH_PART(i) a.part[i] = (floats)((integers)a.part[i] & where.part[i]);
+    return a;
 }
 INLINE lanes choose(mask where, lanes yes, lanes no)
 {
-    return (lanes)(((mask)yes & where) | ((mask)no & ~where));
+    EACH_PART(i)
+    yes.part[i] = (floats)(((integers)yes.part[i] & where.part[i]) | ((integers)no.part[i] & ~where.part[i]));
+    return yes;
 }
-INLINE lanes magnitude(lanes value)
+INLINE wide_lanes add_narrow(wide_lanes a, lanes b)
 {
-    return (lanes)((mask)value & 0x7fffffff);
+    EACH_PART(i) a.part[i] += __builtin_convertvector(b.part[i], doubles);
+    return a;
 }
 INLINE lanes dot(lanes x, lanes y, lanes z, const float v[3])
 {
-    return x * v[0] + y * v[1] + z * v[2];
+    return add(add(scale(x, v[0]), scale(y, v[1])), scale(z, v[2]));
 }
 
-/* The sum of all lanes, halves upon halves. */
-INLINE float fold(lanes value)
+/* The first `count` lanes. */
+INLINE mask first_lanes(size_t count)
 {
-    half_lanes half[2];
-    memcpy(half, &value, sizeof half);
+    static const int32_t number[SP_LANES] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    mask r;
+    memcpy(&r, number, sizeof r);
+    EACH_PART(i) r.part[i] = r.part[i] < (int32_t)count;
+    return r;
+}
+
+/* The sum of all lanes, in double precision from the first to the last, or, where that would take too long, in single
+ * precision by halves. */
+INLINE double sum_of(wide_lanes a)
+{
+    double lane[SP_LANES], sum = 0;
+    memcpy(lane, &a, sizeof lane);
+    for (int i = 0; i < SP_LANES; i++)
+        sum += lane[i];
+    return sum;
+}
+INLINE float fold(lanes a)
+{
+    typedef float eight __attribute__((vector_size(32)));
+    typedef float four __attribute__((vector_size(16)));
+    eight half[2];
+    memcpy(half, &a, sizeof half);
     half[0] += half[1];
-    quarter_lanes quarter[2];
+    four quarter[2];
     memcpy(quarter, &half[0], sizeof quarter);
     quarter[0] += quarter[1];
     return (quarter[0][0] + quarter[0][2]) + (quarter[0][1] + quarter[0][3]);
@@ -61,25 +160,20 @@ INLINE float fold(lanes value)
 /* Bit i: lane i of a mask. */
 INLINE unsigned bits_of(mask m)
 {
-#if defined __AVX512DQ__ && SP_LANES == 16
-    return _mm512_movepi32_mask((__m512i)m);
-#elif defined __AVX2__ && SP_LANES == 16
-    __m256 half[2];
-    memcpy(half, &m, sizeof half);
-    return (unsigned)_mm256_movemask_ps(half[0]) | (unsigned)_mm256_movemask_ps(half[1]) << 8;
-#elif defined __SSE2__ && SP_LANES == 16
-    __m128 quarter[4];
-    memcpy(quarter, &m, sizeof quarter);
     unsigned bits = 0;
-    for (int i = 0; i < 4; i++)
-        bits |= (unsigned)_mm_movemask_ps(quarter[i]) << 4 * i;
-    return bits;
+#if defined __AVX512DQ__
+    bits = _mm512_movepi32_mask((__m512i)m.part[0]);
+#elif defined __AVX2__
+    EACH_PART(i) bits |= (unsigned)_mm256_movemask_ps((__m256)m.part[i]) << i * WIDTH;
+#elif defined __SSE2__
+    EACH_PART(i) bits |= (unsigned)_mm_movemask_ps((__m128)m.part[i]) << i * WIDTH;
 #else
-    unsigned bits = 0;
+    int32_t lane[SP_LANES];
+    memcpy(lane, &m, sizeof lane);
     for (int i = 0; i < SP_LANES; i++)
-        bits |= (unsigned)(m[i] & 1) << i;
-    return bits;
+        bits |= (unsigned)(lane[i] & 1) << i;
 #endif
+    return bits;
 }
 
 /* The lanes of sp_region_holds. */
@@ -87,36 +181,48 @@ INLINE mask holds(const sp_region *region, bool fan, lanes x, lanes y, lanes z)
 {
     lanes along = dot(x, y, z, region->z);
     if (!fan)
-        return (along >= all(region->outer)) & (along <= all(region->inner));
+        return both(at_least(along, all(region->outer)), at_least(all(region->inner), along));
     lanes up = dot(x, y, z, region->y), across = dot(x, y, z, region->x);
-    return (magnitude(up) <= all(region->thickness)) &
-           (along * magnitude(along) * region->narrow >= across * across * region->width);
+    lanes left = scale(multiply(along, magnitude(along)), region->narrow),
+          right = scale(multiply(across, across), region->width);
+    return both(at_least(all(region->thickness), magnitude(up)), at_least(left, right));
 }
 
+/* A sum in the making. */
 typedef struct {
-    wide_lanes sum[SP_WEIGHTS];
+    lanes sum[SP_WEIGHTS];
+    wide_lanes flushed[SP_WEIGHTS];
+    size_t vectors; /* in `sum` */
 } tally;
+
+INLINE void flush(tally *tally, size_t weight_count)
+{
+    for (size_t k = 0; k < weight_count; k++) {
+        tally->flushed[k] = add_narrow(tally->flushed[k], tally->sum[k]);
+        tally->sum[k] = all(0);
+    }
+    tally->vectors = 0;
+}
 
 /* One run of arrivals, into the tally. */
 INLINE void sum_run(const sp_region *region, bool fan, const sp_view *view, const sp_weight *weights,
                     size_t weight_count, size_t first, size_t end, tally *tally)
 {
-    static const mask number = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    lanes sum[SP_WEIGHTS] = {{0}};
     size_t i = first;
     for (; i + SP_LANES <= end; i += SP_LANES) {
         mask in = holds(region, fan, load(&view->x[i]), load(&view->y[i]), load(&view->z[i]));
         for (size_t k = 0; k < weight_count; k++)
-            sum[k] += keep(load(&weights[k].item[i]), in);
+            tally->sum[k] = add(tally->sum[k], keep(load(&weights[k].item[i]), in));
     }
     if (i < end) {
-        mask in =
-            holds(region, fan, load(&view->x[i]), load(&view->y[i]), load(&view->z[i])) & (number < (int32_t)(end - i));
+        mask in = holds(region, fan, load(&view->x[i]), load(&view->y[i]), load(&view->z[i]));
+        in = both(in, first_lanes(end - i));
         for (size_t k = 0; k < weight_count; k++)
-            sum[k] += keep(load(&weights[k].item[i]), in);
+            tally->sum[k] = add(tally->sum[k], keep(load(&weights[k].item[i]), in));
     }
-    for (size_t k = 0; k < weight_count; k++)
-        tally->sum[k] += __builtin_convertvector(sum[k], wide_lanes);
+    tally->vectors += (end - first + SP_LANES - 1) / SP_LANES;
+    if (tally->vectors >= FLUSH)
+        flush(tally, weight_count);
 }
 
 /* Bins wholly inside give their totals; runs of bins that the pattern's edge crosses are gone through. */
@@ -124,20 +230,21 @@ INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *
                      const sp_weight *weights, size_t weight_count, double *sums)
 {
     tally tally = {0};
-    lanes whole[SP_WEIGHTS] = {{0}};
+    lanes whole[SP_WEIGHTS] = {{{{0}}}};
     size_t first = 0, end = 0; /* the run in the making */
     for (size_t b = 0; b < SP_BINS; b += SP_LANES) {
-        lanes x = load(&bins->x[b]), y = load(&bins->y[b]), z = load(&bins->z[b]);
-        lanes along = dot(x, y, z, region->z);
-        mask met = (along >= load(&cull->outside[b])) & (along <= load(&cull->inner_outside[b])), inside = {0};
+        lanes x = load(&bins->x[b]), y = load(&bins->y[b]), z = load(&bins->z[b]), along = dot(x, y, z, region->z);
+        mask cut = both(at_least(along, load(&cull->outside[b])), at_least(load(&cull->inner_outside[b]), along));
         if (fan) {
-            met &= magnitude(dot(x, y, z, region->y)) <= load(&cull->latitude[b]);
+            lanes up = magnitude(dot(x, y, z, region->y));
+            cut = both(cut, at_least(load(&cull->latitude[b]), up));
         } else {
-            inside = (along >= load(&cull->inside[b])) & (along <= load(&cull->inner_inside[b]));
+            mask inside = both(at_least(along, load(&cull->inside[b])), at_least(load(&cull->inner_inside[b]), along));
             for (size_t k = 0; k < weight_count; k++)
-                whole[k] += keep(load(&weights[k].total[b]), inside);
+                whole[k] = add(whole[k], keep(load(&weights[k].total[b]), inside));
+            cut = but(cut, inside);
         }
-        for (unsigned bits = bits_of(met & ~inside); bits; bits &= bits - 1) {
+        for (unsigned bits = bits_of(cut); bits; bits &= bits - 1) {
             size_t bin = b + (size_t)__builtin_ctz(bits);
             if (view->start[bin] != end) {
                 if (first < end)
@@ -149,12 +256,9 @@ INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *
     }
     if (first < end)
         sum_run(region, fan, view, weights, weight_count, first, end, &tally);
-    for (size_t k = 0; k < weight_count; k++) {
-        wide_lanes sum = tally.sum[k] + __builtin_convertvector(whole[k], wide_lanes);
-        sums[k] = 0;
-        for (int i = 0; i < SP_LANES; i++)
-            sums[k] += sum[i];
-    }
+    flush(&tally, weight_count);
+    for (size_t k = 0; k < weight_count; k++)
+        sums[k] = sum_of(add_narrow(tally.flushed[k], whole[k]));
 }
 
 static void kernel_sum(const sp_bins *bins, const sp_cull *cull, const sp_region *region, const sp_view *view,
@@ -172,17 +276,16 @@ static void kernel_sum(const sp_bins *bins, const sp_cull *cull, const sp_region
 
 static void kernel_total(const sp_view *view, const float *items, float *totals)
 {
-    static const mask number = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     for (size_t b = 0; b < SP_BINS; b++) {
         size_t i = view->start[b], end = view->start[b + 1];
         totals[b] = 0;
         if (i == end)
             continue;
-        lanes sum = {0};
+        lanes sum = all(0);
         for (; i + SP_LANES <= end; i += SP_LANES)
-            sum += load(&items[i]);
+            sum = add(sum, load(&items[i]));
         if (i < end)
-            sum += keep(load(&items[i]), number < (int32_t)(end - i));
+            sum = add(sum, keep(load(&items[i]), first_lanes(end - i)));
         totals[b] = fold(sum);
     }
 }
@@ -193,10 +296,11 @@ static void kernel_gain(const sp_credit *credit, size_t count, const float *had,
 {
     const lanes one = all(1);
     for (size_t i = 0; i < count; i += SP_LANES) {
-        lanes before = load(&had[i]), flux = load(&transfer[i]) * credit->strength;
-        lanes has = credit->single ? choose(before > flux, before, flux) : before + flux;
-        lanes worth = choose(has >= one, one, has * credit->credit) - before * credit->credit;
-        *(loose_lanes *)&gain[i] = keep(load(&area[i]) * worth, before < one);
+        lanes before = load(&had[i]), flux = scale(load(&transfer[i]), credit->strength);
+        lanes has = credit->single ? choose(below(flux, before), before, flux) : add(before, flux);
+        lanes worth =
+            subtract(choose(at_least(has, one), one, scale(has, credit->credit)), scale(before, credit->credit));
+        store(keep(multiply(load(&area[i]), worth), below(before, one)), &gain[i]);
     }
 }
 
@@ -204,8 +308,8 @@ static void kernel_room(const sp_credit *credit, size_t count, const float *had,
 {
     const lanes one = all(1);
     for (size_t i = 0; i < count; i += SP_LANES) {
-        lanes before = load(&had[i]);
-        *(loose_lanes *)&room[i] = keep(load(&area[i]) * (one - before * credit->credit), before < one);
+        lanes before = load(&had[i]), worth = subtract(one, scale(before, credit->credit));
+        store(keep(multiply(load(&area[i]), worth), below(before, one)), &room[i]);
     }
 }
 
