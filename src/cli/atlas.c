@@ -113,7 +113,7 @@ static bool print_json(const cli_atlas_work *work)
     return good;
 }
 
-static void print_table(const cli_atlas_work *work)
+void cli_atlas_print(const cli_atlas_work *work)
 {
     const sp_atlas_figures *f = &work->figures;
     printf("triangles        %zu\ncharts           %zu (%zu with at most 4 triangles)\n", f->triangles, f->charts,
@@ -141,7 +141,7 @@ int cli_atlas(const cli_options *options)
     if (good && options->json)
         good = print_json(&work) || sp_fail_memory(&error);
     else if (good && !options->quiet)
-        print_table(&work);
+        cli_atlas_print(&work);
     cli_atlas_clear(&work);
     sp_mesh_destroy(mesh);
     return good ? EXIT_DONE : cli_fail(&error);

@@ -19,6 +19,8 @@ bool cli_atlas_build(cli_atlas_work *work, sp_mesh *mesh, double texel, sp_error
 void cli_atlas_clear(cli_atlas_work *work);
 /* Wall time of all stages, s. */
 double cli_atlas_seconds(const cli_atlas_work *work);
+/* The table that `atlas` prints. */
+void cli_atlas_print(const cli_atlas_work *work);
 /* The object that `atlas --json` prints; NULL when memory runs out. */
 json_t *cli_atlas_json(const cli_atlas_work *work);
 

@@ -21,9 +21,10 @@ typedef struct {
     const char *output; /* -o, or NULL */
     const char *overrides[MAX_OVERRIDES];
     size_t override_count;
-    double texel;     /* m, 0: not given */
-    const char *rays; /* file, or NULL */
-    sp_vec3 gravity;  /* m/s² */
+    double texel;                  /* m, 0: not given */
+    const char *rays;              /* file, or for bench how many; or NULL */
+    const char *mode, *trajectory; /* or NULL */
+    sp_vec3 gravity;               /* m/s² */
     sp_accelerator accelerator;
 } cli_options;
 
@@ -42,6 +43,7 @@ enum option_flag {
     OPTION_TEXEL = 4,
     OPTION_RAYS = 8, /* with --gravity and --accel */
     OPTION_TIME_LIMIT = 16,
+    OPTION_BENCH = 32, /* --rays, --mode, --trajectory */
 };
 
 /* options.c: fills options from the arguments after the command's name; false after a message on standard error. */
@@ -71,6 +73,7 @@ int cli_place(const cli_options *options);
 int cli_compare(const cli_options *options);
 int cli_trace(const cli_options *options);
 int cli_atlas(const cli_options *options);
+int cli_bench(const cli_options *options);
 
 /* scene.c: what simulate, place and check begin with. */
 typedef struct {

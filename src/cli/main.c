@@ -13,10 +13,12 @@ static const cli_command commands[] = {
     {"atlas", "MESH -o OUT.obj [--texel L]", "texture atlas only: mesh with UVs, chart pictures beside it, figures",
      OPTION_OUTPUT | OPTION_TEXEL, cli_atlas, 1, 1},
     {"trace", "MESH --rays FILE", "nearest hits of given lines or parabolas, as CSV", OPTION_RAYS, cli_trace, 1, 1},
+    {"bench", "MESH", "build, trace and atlas timings of every accelerator on this mesh", OPTION_BENCH, cli_bench, 1,
+     1},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
-static const char *const later[] = {"study", "bench"};
+static const char *const later[] = {"study"};
 
 int cli_fail(const sp_error *error)
 {
@@ -67,7 +69,15 @@ static void print_command_usage(FILE *to, const cli_command *command)
     if (command->options & OPTION_RAYS)
         fprintf(to, "  --rays FILE                lines ox,oy,oz,vx,vy,vz in m and m/s; # begins a comment\n"
                     "  --gravity gx,gy,gz         m/s2; makes parabolas\n"
+<<<<<<< HEAD
                     "  --accel bvh|sah|naive|none accelerator (default bvh)\n");
+=======
+                    "  --accel sah|naive|none     accelerator (default sah)\n");
+    if (command->options & OPTION_BENCH)
+        fprintf(to, "  --rays N                   how many rays a mode has (default 262144)\n"
+                    "  --mode M                   cone, grid, incoherent or surface (default all)\n"
+                    "  --trajectory T             line or parabola (default both)\n");
+>>>>>>> c3ea0db (bench: builds, traces and unfolds with every accelerator in turn, beside Embree where its module was built; the study's tables 4.2 to 4.5 for the mesh at hand)
     fprintf(to, "  --json --threads N --quiet\n");
 }
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { JSON = 256, THREADS, TIME_LIMIT, QUIET, HELP, VERSION, SET, TEXEL, RAYS, GRAVITY, ACCEL };
+enum { JSON = 256, THREADS, TIME_LIMIT, QUIET, HELP, VERSION, SET, TEXEL, RAYS, GRAVITY, ACCEL, MODE, TRAJECTORY };
 
 static const struct option long_options[] = {
     {"json", no_argument, NULL, JSON},
@@ -21,10 +21,12 @@ static const struct option long_options[] = {
     {"rays", required_argument, NULL, RAYS},
     {"gravity", required_argument, NULL, GRAVITY},
     {"accel", required_argument, NULL, ACCEL},
+    {"mode", required_argument, NULL, MODE},
+    {"trajectory", required_argument, NULL, TRAJECTORY},
     {NULL, 0, NULL, 0},
 };
 
-/* Which flag of cli_command.options an option belongs to; 0: every command has it. */
+/* Which flags of cli_command.options an option belongs to; 0: every command has it. */
 static unsigned flag_of(int option)
 {
     switch (option) {
@@ -37,6 +39,10 @@ static unsigned flag_of(int option)
     case TEXEL:
         return OPTION_TEXEL;
     case RAYS:
+        return OPTION_RAYS | OPTION_BENCH;
+    case MODE:
+    case TRAJECTORY:
+        return OPTION_BENCH;
     case GRAVITY:
     case ACCEL:
         return OPTION_RAYS;
@@ -49,7 +55,8 @@ static const char *name_of(int option)
 {
     static const char *const names[] = {[SET - JSON] = "--set",         [TIME_LIMIT - JSON] = "--time-limit",
                                         [TEXEL - JSON] = "--texel",     [RAYS - JSON] = "--rays",
-                                        [GRAVITY - JSON] = "--gravity", [ACCEL - JSON] = "--accel"};
+                                        [GRAVITY - JSON] = "--gravity", [ACCEL - JSON] = "--accel",
+                                        [MODE - JSON] = "--mode",       [TRAJECTORY - JSON] = "--trajectory"};
     return option == 'o' ? "-o" : names[option - JSON];
 }
 
@@ -150,6 +157,12 @@ static bool take_option(int option, const char *value, cli_options *options, boo
         return parse_texel(value, &options->texel);
     case RAYS:
         options->rays = value;
+        return true;
+    case MODE:
+        options->mode = value;
+        return true;
+    case TRAJECTORY:
+        options->trajectory = value;
         return true;
     case GRAVITY:
         return parse_gravity(value, &options->gravity);

@@ -12,7 +12,7 @@ static void help_goes_to_standard_output(void **state)
 {
     (void)state;
     static const char *const calls[] = {"--help",         "check --help", "simulate --help", "place --help",
-                                        "compare --help", "trace --help", "atlas --help"};
+                                        "compare --help", "trace --help", "atlas --help",    "bench --help"};
     for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {
         outcome result = run_program(calls[i]);
         assert_int_equal(result.status, 0);
@@ -31,7 +31,6 @@ static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
         {"", "usage: sprayplan"},
         {"paint room.yaml", "unknown command \"paint\""},
         {"study room.yaml", "study is not built yet"},
-        {"bench room.obj", "bench is not built yet"},
         {"check", "found 0 file names, expected one"},
         {"check room.yaml room.yaml", "found 2 file names, expected one"},
         {"compare room.yaml", "found 1 file names, expected two or more"},
@@ -47,6 +46,13 @@ static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
         {"trace room.obj --rays r --gravity 0,0", "--gravity: found \"0,0\", expected gx,gy,gz"},
         {"atlas room.obj --set simulate.jets=1", "atlas does not take --set"},
         {"atlas room.obj -o unfolded.png", "-o: found \"unfolded.png\", expected a file name ending in .obj"},
+        {"bench room.obj --rays 0", "--rays: found \"0\", expected a whole number"},
+        {"bench room.obj --rays 1e3", "--rays: found \"1e3\", expected a whole number"},
+        {"bench room.obj --mode spiral", "--mode: found \"spiral\", expected cone, grid"},
+        {"bench room.obj --trajectory arc", "--trajectory: found \"arc\", expected line or parabola"},
+        {"bench room.obj --accel sah", "bench does not take --accel"},
+        {"bench", "found 0 file names, expected one"},
+        {"check room.yaml --mode cone", "check does not take --mode"},
         {"atlas room.obj --texel 3s", "--texel: found \"3s\", expected a length above 0"},
     };
     for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {
@@ -86,6 +92,8 @@ static void bad_input_ends_with_3_and_says_where(void **state)
         {"place bare.yaml", "bare.yaml", "place"},
         {"trace broken.obj --rays room.yaml", "broken.obj:4", ""},
         {"atlas nowhere.obj", "nowhere.obj", ""},
+        {"bench nowhere.obj", "nowhere.obj", ""},
+        {"bench broken.obj --rays 10", "broken.obj:4", ""},
     };
     for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i)
         for (int json = 0; json < 2; ++json) {
