@@ -69,15 +69,11 @@ static void print_command_usage(FILE *to, const cli_command *command)
     if (command->options & OPTION_RAYS)
         fprintf(to, "  --rays FILE                lines ox,oy,oz,vx,vy,vz in m and m/s; # begins a comment\n"
                     "  --gravity gx,gy,gz         m/s2; makes parabolas\n"
-<<<<<<< HEAD
                     "  --accel bvh|sah|naive|none accelerator (default bvh)\n");
-=======
-                    "  --accel sah|naive|none     accelerator (default sah)\n");
     if (command->options & OPTION_BENCH)
         fprintf(to, "  --rays N                   how many rays a mode has (default 262144)\n"
                     "  --mode M                   cone, grid, incoherent or surface (default all)\n"
                     "  --trajectory T             line or parabola (default both)\n");
->>>>>>> c3ea0db (bench: builds, traces and unfolds with every accelerator in turn, beside Embree where its module was built; the study's tables 4.2 to 4.5 for the mesh at hand)
     fprintf(to, "  --json --threads N --quiet\n");
 }
 
