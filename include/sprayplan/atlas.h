@@ -24,52 +24,109 @@ typedef struct {
 sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error);
 void sp_charts_destroy(sp_charts *charts);
 
+/* Used pixels side by side in one row of a page. Charts keep a pixel apart, so they are of one chart. */
 typedef struct {
-    uint32_t triangle;
-    double area; /* m², of the part of the triangle inside the texel, on the surface */
-} sp_fragment;
+    uint32_t texel; /* of the first pixel; the next pixels have the next texels */
+    uint32_t row;   /* page * page_edge + y */
+    uint32_t chart;
+    uint16_t x, count;
+} sp_texel_run;
 
-/* A texel is a square of the page that holds some surface of exactly one chart. Only such texels are numbered; memory
- * follows the surface, not the pages. Texel i covers [x, x+1] × [y, y+1] of its page. Read-only. */
+/* One triangle's share in a pixel where unconnected patches cross. */
 typedef struct {
-    double texel; /* edge length, m */
+    uint32_t pixel; /* the pixel's first texel */
+    uint32_t triangle;
+    uint32_t texel; /* to which this triangle belongs there */
+} sp_shared_pixel;
+
+/* Two texels that touch across a cut, and along which length on the surface, m. */
+typedef struct {
+    uint32_t texel, other;
+    double length;
+} sp_seam;
+
+/* A texel is one connected patch of one chart inside one pixel of a page. Nearly always it is all that the pixel holds;
+ * where the two lips of a cut or of a fold cross a pixel, each has a texel of its own. Texels [0, pixel_count) are the
+ * largest patch of every used pixel, ordered by page, then y, then x; further patches follow in the order of their
+ * pixels. A pixel is the square [x, x+1] × [y, y+1]. Only used pixels are numbered, and what is kept for one is its
+ * area: memory follows the surface, not the pages. Nothing is spread over unused pixels. Read-only. */
+typedef struct {
+    double texel; /* edge length of a pixel, m */
     size_t triangle_count, chart_count, page_count;
-    uint32_t page_edge;   /* every page is page_edge × page_edge texels */
+    uint32_t page_edge;   /* every page is page_edge × page_edge pixels */
     uint32_t *chart;      /* [triangle_count] */
     uint32_t *chart_page; /* [chart_count] */
-    double (*uv)[3][2];   /* [triangle_count], corners on the page, in texels */
-    size_t texel_count;
-    uint32_t *texel_page, *texel_x, *texel_y, *texel_chart; /* [texel_count], ordered by page, then y, then x */
-    double *texel_area;                                     /* [texel_count], m²; sums to the surface's area */
-    uint32_t *fragment_start;  /* [texel_count + 1]; fragments of texel i are [start[i], start[i+1]) */
-    sp_fragment *fragments;    /* ordered by texel, then triangle */
-    uint32_t *triangle_start;  /* [triangle_count + 1]; each triangle's own texels, at least one, are */
-    uint32_t *triangle_texels; /* [start[t], start[t + 1]), ascending */
-    uint32_t *neighbour_start; /* [texel_count + 1] */
-    uint32_t *neighbours;      /* texels that touch along an edge in the chart or across a seam; symmetric, ascending */
+    double (*uv)[3][2];   /* [triangle_count], corners on the page, in pixels */
+    size_t texel_count, pixel_count;
+    double *texel_area; /* [texel_count], m², on the surface; sums to the surface's area */
+    uint32_t *behind;   /* [texel_count - pixel_count], ascending: the pixel (its first texel) of each further texel */
+    size_t run_count;
+    sp_texel_run *runs;  /* [run_count], ordered by row, then x */
+    uint32_t *row_start; /* [page_count * page_edge + 1], the runs of each row */
+    size_t shared_count;
+    sp_shared_pixel *shared; /* [shared_count], every triangle in every pixel of several texels; by pixel, triangle */
+    size_t seam_count;
+    sp_seam *seams; /* [seam_count], ordered by texel, then other; each pair in both orders */
 } sp_atlas;
+
+typedef enum {
+    SP_PACKING_PIXELS,  /* charts lie in each other's hollows, quarter-turned as they fit best */
+    SP_PACKING_SKYLINE, /* bounding boxes, largest diagonal first (study 3.3.2.2) */
+} sp_packing;
 
 typedef struct {
     double texel;       /* edge length, m, > 0 */
     uint32_t page_edge; /* largest page in texels; 0: 4096 */
+    sp_packing packing;
 } sp_atlas_options;
 
-/* Packs the charts by a skyline of bounding boxes, largest diagonal first (study 3.3.2.2), a gap of one texel between
- * charts, as many pages as needed, and measures every texel by clipping. Fails with SP_ERROR_INPUT where a chart is
- * larger than a page at this texel: with an extent of page_edge texels that happens only to single triangles. charts
- * and mesh are only read. */
+/* Packs the charts with one pixel between any two, into the smallest square page found, or as many pages as needed, and
+ * measures every texel by exact coverage. Fails with SP_ERROR_INPUT where a chart is larger than a page at this texel:
+ * with an extent of page_edge texels that happens only to single triangles. charts and mesh are only read. */
 sp_atlas *sp_atlas_create(const sp_mesh *mesh, const sp_charts *charts, const sp_atlas_options *options,
                           sp_error *error);
 void sp_atlas_destroy(sp_atlas *atlas);
 
-/* The texel that holds the point (1-u-v, u, v) of a triangle; always one of that triangle's own texels. */
+/* The texel that holds the point (1-u-v, u, v) of a triangle; always one that the triangle has a part in. */
 uint32_t sp_atlas_texel(const sp_atlas *atlas, uint32_t triangle, double u, double v);
 
+/* Where a texel lies. */
+typedef struct {
+    uint32_t page, x, y, chart;
+} sp_texel_place;
+sp_texel_place sp_atlas_place(const sp_atlas *atlas, uint32_t texel);
+/* The first texel of a pixel, SP_NONE where nothing lies. x and y may lie beyond the page. */
+uint32_t sp_atlas_pixel(const sp_atlas *atlas, uint32_t page, uint32_t x, uint32_t y);
+/* The seams of a texel: *count of them, from the result on. */
+const sp_seam *sp_atlas_seams(const sp_atlas *atlas, uint32_t texel, size_t *count);
+
+/* Which triangles a texel consists of. What the evaluators need beyond the atlas; 16 bytes a piece. */
+typedef struct {
+    uint32_t triangle;
+    double area; /* m², of the part of the triangle inside the texel, on the surface */
+} sp_fragment;
+typedef struct {
+    uint32_t *start;    /* [texel_count + 1]; fragments of texel i are [start[i], start[i+1]) */
+    sp_fragment *items; /* ordered by texel, then triangle */
+} sp_fragments;
+bool sp_fragments_create(sp_fragments *fragments, const sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
+/* Accepts what was never created, if it is all zeros. */
+void sp_fragments_destroy(sp_fragments *fragments);
+
 #define SP_FRAGMENT_POINTS 7 /* a triangle clipped by a square has at most this many corners */
-/* The corners on the surface (m) of one fragment of `texel`, `fragment` being an index into fragments; returns how many
- * (0 where round-off left nothing). */
-int sp_atlas_fragment_polygon(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t texel, uint32_t fragment,
+/* The corners on the surface (m) of one triangle's part of a texel; returns how many (0 where round-off left nothing).
+ */
+int sp_atlas_fragment_polygon(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t texel, uint32_t triangle,
                               sp_vec3 polygon[SP_FRAGMENT_POINTS]);
+
+/* Which texels touch along an edge of a pixel in their chart, or across a cut. Symmetric. */
+typedef struct {
+    uint32_t *start; /* [texel_count + 1]; neighbours of texel i are items[start[i]] up to start[i+1], ascending */
+    uint32_t *items;
+} sp_texel_links;
+bool sp_texel_links_create(sp_texel_links *links, const sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
+/* Accepts what was never created, if it is all zeros. */
+void sp_texel_links_destroy(sp_texel_links *links);
 
 /* The `atlas` command's figures. */
 typedef struct {
@@ -77,7 +134,8 @@ typedef struct {
     double seam_over_sqrt_area;               /* length of the cuts, between charts and inside them, over √area */
     double strain_mean, strain95, strain_max; /* max(σ1-1, 1-σ2) of each triangle's map, weighted by area */
     double utilisation;                       /* flat area over the area of the pages */
-    size_t shared_texels, overlaps;           /* texels with two charts; pairs of triangles that overlap in a chart */
+    size_t shared_texels;                     /* texels of more than one connected patch */
+    size_t overlaps;                          /* pairs of triangles that overlap in a chart */
     double area_error;                        /* |Σ texel area − surface| / surface */
 } sp_atlas_figures;
 bool sp_atlas_measure(const sp_atlas *atlas, const sp_mesh *mesh, sp_atlas_figures *figures, sp_error *error);

@@ -1,6 +1,6 @@
 /* How good an atlas is: cuts, distortion, use of the pages, and checks that hold for every atlas. */
 #include "atlas/overlap.h"
-#include "mesh/half_edge.h"
+#include "atlas/texels.h"
 
 #include <sprayplan/atlas.h>
 
@@ -108,16 +108,12 @@ static bool measure_seams(const sp_atlas *atlas, const sp_mesh *mesh, double sur
     return true;
 }
 
-/* Texels with triangles of two charts, and pairs that overlap on their page: charts lie apart, so both are of one
- * chart. */
-static bool measure_conflicts(const sp_atlas *atlas, sp_atlas_figures *figures, sp_error *error)
+/* Texels of more than one connected patch, and pairs of triangles that overlap on their page: charts lie apart, so both
+ * are of one chart. */
+static bool measure_conflicts(const sp_atlas *atlas, const sp_mesh *mesh, sp_atlas_figures *figures, sp_error *error)
 {
-    for (size_t i = 0; i < atlas->texel_count; i++) {
-        bool shared = false;
-        for (uint32_t f = atlas->fragment_start[i]; f < atlas->fragment_start[i + 1]; f++)
-            shared = shared || atlas->chart[atlas->fragments[f].triangle] != atlas->texel_chart[i];
-        figures->shared_texels += shared;
-    }
+    if (!sp_atlas_count_shared(atlas, mesh, &figures->shared_texels, error))
+        return false;
     sp_plane *plane = sp_plane_create((const double(*)[3][2])atlas->uv, atlas->triangle_count, error);
     bool done = plane;
     for (uint32_t page = 0; done && page < atlas->page_count; page++) {
@@ -176,5 +172,5 @@ bool sp_atlas_measure(const sp_atlas *atlas, const sp_mesh *mesh, sp_atlas_figur
         sp_fail_memory(error);
         return false;
     }
-    return measure_conflicts(atlas, figures, error);
+    return measure_conflicts(atlas, mesh, figures, error);
 }

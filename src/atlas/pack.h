@@ -1,20 +1,11 @@
-/* Packing of rectangles of whole texels into square pages. */
+/* From charts to places on the pages. */
 #ifndef ATLAS_PACK_H
 #define ATLAS_PACK_H
 
-#include <sprayplan/error.h>
+#include <sprayplan/atlas.h>
 
-#include <stddef.h>
-#include <stdint.h>
-
-typedef struct {
-    uint32_t width, height; /* texels, 1 to the page limit */
-    uint32_t page, x, y;    /* where it was put */
-} sp_rectangle;
-
-/* Puts every rectangle on a page, one texel between any two. `limit` is the largest page edge; page_edge becomes the
- * edge chosen and page_count the number of pages. Returns false when memory runs out. */
-bool sp_pack(sp_rectangle *rectangles, size_t count, uint32_t limit, uint32_t *page_edge, size_t *page_count,
-             sp_error *error);
+/* Fills uv, chart_page, page_edge and page_count of an atlas that has its texel, counts, and room for both arrays.
+ * `limit` is the largest page edge. */
+bool sp_atlas_pack(sp_atlas *atlas, const sp_charts *charts, sp_packing packing, uint32_t limit, sp_error *error);
 
 #endif

@@ -18,7 +18,8 @@ bool cli_atlas_build(cli_atlas_work *work, sp_mesh *mesh, double texel, sp_error
     cli_clock_stage(&work->clock, "charts");
     if (!work->charts)
         return false;
-    work->atlas = sp_atlas_create(mesh, work->charts, &(sp_atlas_options){texel, PAGE_EDGE}, error);
+    work->atlas =
+        sp_atlas_create(mesh, work->charts, &(sp_atlas_options){.texel = texel, .page_edge = PAGE_EDGE}, error);
     cli_clock_stage(&work->clock, "texels");
     return work->atlas && sp_atlas_measure(work->atlas, mesh, &work->figures, error);
 }

@@ -68,13 +68,14 @@ static void fill_part(const sp_layers *layers, const sp_deposits *deposits, size
     const sp_atlas *atlas = sp_evaluator_atlas(layers->evaluator);
     const sp_patches *patches = sp_evaluator_patches(layers->evaluator);
     for (size_t i = 0; i < (size_t)atlas->page_edge * atlas->page_edge; ++i)
-        pixels[CHANNELS * i + CHANNELS - 1] = -1; /* no chart */
-    for (uint32_t texel = 0; texel < atlas->texel_count; ++texel) {
-        if (atlas->texel_page[texel] != page)
+        pixels[CHANNELS * i + CHANNELS - 1] = -1;                   /* no chart */
+    for (uint32_t texel = 0; texel < atlas->pixel_count; ++texel) { /* the largest patch of each pixel */
+        sp_texel_place place = sp_atlas_place(atlas, texel);
+        if (place.page != page)
             continue;
-        float *pixel = pixels + CHANNELS * sp_layers_pixel(atlas, texel);
+        float *pixel = pixels + CHANNELS * sp_layers_pixel(atlas, place);
         uint32_t patch = layers->patch[layer][texel];
-        pixel[CHANNELS - 1] = (float)atlas->texel_chart[texel];
+        pixel[CHANNELS - 1] = (float)place.chart;
         if (patch == SP_NONE)
             continue;
         const double values[CHANNELS - 1] = {
@@ -139,8 +140,10 @@ uint8_t *sp_report_charts(const sp_atlas *atlas, size_t page, sp_error *error)
     if (!pixels)
         return sp_fail_memory(error);
     memset(pixels, 255, 3 * edge * edge);
-    for (uint32_t texel = 0; texel < atlas->texel_count; ++texel)
-        if (atlas->texel_page[texel] == page)
-            chart_colour(atlas->texel_chart[texel], pixels + 3 * sp_layers_pixel(atlas, texel));
+    for (uint32_t texel = 0; texel < atlas->pixel_count; ++texel) {
+        sp_texel_place place = sp_atlas_place(atlas, texel);
+        if (place.page == page)
+            chart_colour(place.chart, pixels + 3 * sp_layers_pixel(atlas, place));
+    }
     return pixels;
 }

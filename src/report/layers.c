@@ -50,9 +50,9 @@ uint32_t sp_layers_patch(const sp_layers *layers, uint32_t triangle, double u, d
     return layers->patch[layers->two_sided ? 0 : back][texel];
 }
 
-size_t sp_layers_pixel(const sp_atlas *atlas, uint32_t texel)
+size_t sp_layers_pixel(const sp_atlas *atlas, sp_texel_place place)
 {
-    return (size_t)(atlas->page_edge - 1 - atlas->texel_y[texel]) * atlas->page_edge + atlas->texel_x[texel];
+    return (size_t)(atlas->page_edge - 1 - place.y) * atlas->page_edge + place.x;
 }
 
 /* Gives every empty pixel the colour of a neighbour that holds surface. */
@@ -85,12 +85,13 @@ uint8_t *sp_layers_picture(const sp_layers *layers, const sp_coverage *coverage,
     }
     for (size_t i = 0; i < edge * edge; ++i)
         memcpy(pixels + 3 * i, background, 3);
-    for (uint32_t texel = 0; texel < atlas->texel_count; ++texel) {
-        if (atlas->texel_page[texel] != page)
+    for (uint32_t texel = 0; texel < atlas->pixel_count; ++texel) { /* the largest patch of each pixel */
+        sp_texel_place place = sp_atlas_place(atlas, texel);
+        if (place.page != page)
             continue;
-        size_t pixel = sp_layers_pixel(atlas, texel);
+        size_t pixel = sp_layers_pixel(atlas, place);
         uint32_t patch = layers->patch[layer][texel];
-        int stripe = (atlas->texel_x[texel] + atlas->texel_y[texel]) % 6 < 2;
+        int stripe = (place.x + place.y) % 6 < 2;
         if (patch == SP_NONE)
             memcpy(pixels + 3 * pixel, sp_colour_obstacle, 3);
         else

@@ -23,7 +23,7 @@ bool sp_layers_clean(const sp_layers *layers, uint32_t triangle, int back);
 uint32_t sp_layers_patch(const sp_layers *layers, uint32_t triangle, double u, double v, int back);
 
 /* Pixels of a page are texels; the first row is the highest y, as pictures and OBJ textures have it. */
-size_t sp_layers_pixel(const sp_atlas *atlas, uint32_t texel);
+size_t sp_layers_pixel(const sp_atlas *atlas, sp_texel_place place);
 
 /* One page in false colour, malloc'd RGB of page_edge² pixels. What is not cleaned is grey, what holds no surface
  * `background`; with `spread` the charts run one texel over their rims, so that a texture leaves no seams. */

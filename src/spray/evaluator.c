@@ -138,7 +138,9 @@ static bool build_texels(sp_evaluator *evaluator, const sp_charts *charts, doubl
                        sqrt(area / MOST_TEXELS));
     sp_atlas_options options = {.texel = texel, .page_edge = page_edge(extent, texel)};
     evaluator->atlas = sp_atlas_create(evaluator->setup.mesh, charts, &options, error);
-    if (!evaluator->atlas || !sp_patches_create(evaluator, error))
+    if (!evaluator->atlas ||
+        !sp_fragments_create(&evaluator->fragments, evaluator->atlas, evaluator->setup.mesh, error) ||
+        !sp_patches_create(evaluator, error))
         return false;
     if (evaluator->patches.total_area > 0)
         return true;
@@ -229,6 +231,7 @@ void sp_evaluator_destroy(sp_evaluator *evaluator)
         free(evaluator->wet);
     }
     sp_atlas_destroy(evaluator->atlas);
+    sp_fragments_destroy(&evaluator->fragments);
     sp_patches_free(&evaluator->patches);
     free(evaluator->texel_patch);
     free(evaluator);

@@ -208,19 +208,19 @@ static sp_footprint integrate_patch(const sp_emitter *emitter, uint32_t patch)
 {
     const sp_evaluator *evaluator = emitter->source.evaluator;
     const sp_patches *patches = &evaluator->patches;
-    const sp_atlas *atlas = evaluator->atlas;
+    const sp_fragments *fragments = &evaluator->fragments;
     uint32_t texel = patches->texel[patch];
     patch_integral integral = {.emitter = emitter, .target = {.side = patches->side[patch]}, .sum = {.patch = patch}};
     for (integral.arc = 0; integral.arc < 2; integral.arc++) {
         double before = integral.sum.gain;
-        for (uint32_t f = atlas->fragment_start[texel]; f < atlas->fragment_start[texel + 1]; f++) {
-            uint32_t triangle = atlas->fragments[f].triangle;
+        for (uint32_t f = fragments->start[texel]; f < fragments->start[texel + 1]; f++) {
+            uint32_t triangle = fragments->items[f].triangle;
             if (!sp_side_is_counted(evaluator, triangle, integral.target.side == SP_SIDE_BACK))
                 continue;
             sp_vec3 polygon[SP_FRAGMENT_POINTS], normal = sp_triangle_normal(evaluator->setup.mesh, triangle);
             integral.target.triangle = triangle;
             integral.target.normal = integral.target.side == SP_SIDE_BACK ? sp_scale(normal, -1) : normal;
-            int corners = sp_atlas_fragment_polygon(atlas, evaluator->setup.mesh, texel, f, polygon);
+            int corners = sp_atlas_fragment_polygon(evaluator->atlas, evaluator->setup.mesh, texel, triangle, polygon);
             for (int i = 2; i < corners; i++)
                 integrate_cell(&integral, &(cell){{polygon[0], polygon[i - 1], polygon[i]}});
         }

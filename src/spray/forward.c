@@ -33,22 +33,6 @@ typedef struct {
     int threads;
 } jet_flight;
 
-static uint32_t find_texel(const sp_atlas *atlas, uint32_t page, uint32_t x, uint32_t y)
-{
-    size_t low = 0, high = atlas->texel_count;
-    while (low < high) {
-        size_t middle = low + (high - low) / 2;
-        uint32_t at_page = atlas->texel_page[middle], at_y = atlas->texel_y[middle], at_x = atlas->texel_x[middle];
-        if (at_page < page || (at_page == page && (at_y < y || (at_y == y && at_x < x))))
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    bool found = low < atlas->texel_count && atlas->texel_page[low] == page && atlas->texel_y[low] == y &&
-                 atlas->texel_x[low] == x;
-    return found ? (uint32_t)low : SP_NONE;
-}
-
 /* Shares an impact among the patches of its chart whose texels' centres are nearest, the nearer the more (the study's
  * weighted average, 3.3.1), and in proportion to their area: an even flux stays even at the rim of a chart. */
 static void share_linearly(const sp_evaluator *evaluator, const sp_hit *hit, bool back, jet_impact *impact)
@@ -65,8 +49,8 @@ static void share_linearly(const sp_evaluator *evaluator, const sp_hit *hit, boo
     int shares = 0;
     for (int i = 0; i < SHARES; i++) {
         double x = corner[0] + i % 2, y = corner[1] + i / 2;
-        uint32_t texel = x < 0 || y < 0 ? SP_NONE : find_texel(atlas, page, (uint32_t)x, (uint32_t)y);
-        if (texel == SP_NONE || atlas->texel_chart[texel] != chart)
+        uint32_t texel = x < 0 || y < 0 ? SP_NONE : sp_atlas_pixel(atlas, page, (uint32_t)x, (uint32_t)y);
+        if (texel == SP_NONE || sp_atlas_place(atlas, texel).chart != chart)
             continue;
         uint32_t patch = evaluator->texel_patch[texel][evaluator->setup.cavity != SP_CAVITY_NONE && back];
         if (patch == SP_NONE)

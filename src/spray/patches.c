@@ -75,19 +75,20 @@ typedef struct {
 static bool patch_centroid(const sp_evaluator *evaluator, uint32_t texel, unsigned side, sp_vec3 *centroid,
                            double *area)
 {
-    const sp_atlas *atlas = evaluator->atlas;
+    const sp_fragments *fragments = &evaluator->fragments;
     sp_vec3 moment = sp_v(0, 0, 0);
     double drawn = 0;
     *area = 0;
-    for (uint32_t f = atlas->fragment_start[texel]; f < atlas->fragment_start[texel + 1]; f++) {
-        if (!sp_side_is_counted(evaluator, atlas->fragments[f].triangle, side))
+    for (uint32_t f = fragments->start[texel]; f < fragments->start[texel + 1]; f++) {
+        uint32_t triangle = fragments->items[f].triangle;
+        if (!sp_side_is_counted(evaluator, triangle, side))
             continue;
         sp_vec3 polygon[SP_FRAGMENT_POINTS];
-        int corners = sp_atlas_fragment_polygon(atlas, evaluator->setup.mesh, texel, f, polygon);
+        int corners = sp_atlas_fragment_polygon(evaluator->atlas, evaluator->setup.mesh, texel, triangle, polygon);
         double part;
         moment = sp_add(moment, polygon_moment(polygon, corners, &part));
         drawn += part;
-        *area += atlas->fragments[f].area;
+        *area += fragments->items[f].area;
     }
     if (!(drawn > 0 && *area > 0))
         return false;
@@ -98,17 +99,17 @@ static bool patch_centroid(const sp_evaluator *evaluator, uint32_t texel, unsign
 /* False where the texel has nothing to count on that side. */
 static bool place_patch(const sp_evaluator *evaluator, uint32_t texel, unsigned side, patch_place *place)
 {
-    const sp_atlas *atlas = evaluator->atlas;
+    const sp_fragments *fragments = &evaluator->fragments;
     sp_vec3 centroid;
     if (!patch_centroid(evaluator, texel, side, &centroid, &place->area))
         return false;
     double least = INFINITY;
-    for (uint32_t f = atlas->fragment_start[texel]; f < atlas->fragment_start[texel + 1]; f++) {
-        uint32_t triangle = atlas->fragments[f].triangle;
+    for (uint32_t f = fragments->start[texel]; f < fragments->start[texel + 1]; f++) {
+        uint32_t triangle = fragments->items[f].triangle;
         if (!sp_side_is_counted(evaluator, triangle, side))
             continue;
         sp_vec3 polygon[SP_FRAGMENT_POINTS];
-        int corners = sp_atlas_fragment_polygon(atlas, evaluator->setup.mesh, texel, f, polygon);
+        int corners = sp_atlas_fragment_polygon(evaluator->atlas, evaluator->setup.mesh, texel, triangle, polygon);
         double area;
         sp_vec3 moment = polygon_moment(polygon, corners, &area);
         for (int i = 2; area > 0 && i < corners; i++) {
@@ -165,9 +166,8 @@ static void number_patches(sp_evaluator *evaluator, patch_place (*places)[2])
 }
 
 /* Neighbours of a patch: the patches on the same side of the texels that touch its own. */
-static bool link_patches(sp_evaluator *evaluator)
+static bool link_patches(sp_evaluator *evaluator, const sp_texel_links *touching)
 {
-    const sp_atlas *atlas = evaluator->atlas;
     sp_patches *patches = &evaluator->patches;
     uint32_t links = 0;
     for (int pass = 0; pass < 2; pass++) {
@@ -176,8 +176,8 @@ static bool link_patches(sp_evaluator *evaluator)
             uint32_t texel = patches->texel[patch];
             bool back = patches->side[patch] == SP_SIDE_BACK;
             patches->neighbour_start[patch] = links;
-            for (uint32_t k = atlas->neighbour_start[texel]; k < atlas->neighbour_start[texel + 1]; k++) {
-                uint32_t other = evaluator->texel_patch[atlas->neighbours[k]][back];
+            for (uint32_t k = touching->start[texel]; k < touching->start[texel + 1]; k++) {
+                uint32_t other = evaluator->texel_patch[touching->items[k]][back];
                 if (other == SP_NONE)
                     continue;
                 if (pass)
@@ -214,7 +214,10 @@ bool sp_patches_create(sp_evaluator *evaluator, sp_error *error)
     bool done = allocate_patches(&evaluator->patches, count);
     if (done) {
         number_patches(evaluator, places);
-        done = link_patches(evaluator);
+        sp_texel_links touching = {0};
+        done = sp_texel_links_create(&touching, evaluator->atlas, evaluator->setup.mesh, error) &&
+               link_patches(evaluator, &touching);
+        sp_texel_links_destroy(&touching);
     }
     free(places);
     return done || sp_fail_memory(error);

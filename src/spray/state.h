@@ -15,6 +15,7 @@ struct sp_evaluator {
     sp_charts *charts;
     uint8_t *wet; /* [triangle_count], bit 0 front, bit 1 back */
     sp_atlas *atlas;
+    sp_fragments fragments; /* of the atlas */
     sp_patches patches;
     uint32_t (*texel_patch)[2]; /* [texel_count], patch on the front (or both sides) and on the back, or SP_NONE */
 };

@@ -98,7 +98,8 @@ static inline sp_atlas *atlas_of(const sp_mesh *mesh, double texel, uint32_t pag
 {
     sp_error error = {0};
     sp_charts *charts = charts_of(mesh, texel * (page_edge ? page_edge : 4096));
-    sp_atlas *atlas = sp_atlas_create(mesh, charts, &(sp_atlas_options){texel, page_edge}, &error);
+    sp_atlas *atlas =
+        sp_atlas_create(mesh, charts, &(sp_atlas_options){.texel = texel, .page_edge = page_edge}, &error);
     if (!atlas)
         fail_msg("%s", error.message);
     sp_charts_destroy(charts);

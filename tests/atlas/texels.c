@@ -1,6 +1,8 @@
 /* Texels: their areas, to whom they belong, which point lies in which, and which of them touch. */
 #include "shapes.h"
 
+#include "atlas/texels.h"
+
 /* Where a point of a triangle lies on its page. */
 static void page_point(const sp_atlas *atlas, uint32_t t, double u, double v, double point[2])
 {
@@ -8,22 +10,40 @@ static void page_point(const sp_atlas *atlas, uint32_t t, double u, double v, do
         point[k] = (1 - u - v) * atlas->uv[t][0][k] + u * atlas->uv[t][1][k] + v * atlas->uv[t][2][k];
 }
 
-static bool holds(const sp_atlas *atlas, uint32_t texel, uint32_t triangle)
+static sp_fragments fragments_of(const sp_atlas *atlas, const sp_mesh *mesh)
 {
-    for (uint32_t f = atlas->fragment_start[texel]; f < atlas->fragment_start[texel + 1]; f++)
-        if (atlas->fragments[f].triangle == triangle)
+    sp_error error = {0};
+    sp_fragments fragments;
+    if (!sp_fragments_create(&fragments, atlas, mesh, &error))
+        fail_msg("%s", error.message);
+    return fragments;
+}
+
+static sp_texel_links links_of(const sp_atlas *atlas, const sp_mesh *mesh)
+{
+    sp_error error = {0};
+    sp_texel_links links;
+    if (!sp_texel_links_create(&links, atlas, mesh, &error))
+        fail_msg("%s", error.message);
+    return links;
+}
+
+static bool holds(const sp_fragments *fragments, uint32_t texel, uint32_t triangle)
+{
+    for (uint32_t f = fragments->start[texel]; f < fragments->start[texel + 1]; f++)
+        if (fragments->items[f].triangle == triangle)
             return true;
     return false;
 }
 
-static void expect_areas(const sp_atlas *atlas, const sp_mesh *mesh)
+static void expect_areas(const sp_atlas *atlas, const sp_fragments *fragments, const sp_mesh *mesh)
 {
     double *of_triangle = calloc(mesh->triangle_count, sizeof *of_triangle);
     for (size_t i = 0; i < atlas->texel_count; i++) {
         double sum = 0;
-        for (uint32_t f = atlas->fragment_start[i]; f < atlas->fragment_start[i + 1]; f++) {
-            const sp_fragment *fragment = &atlas->fragments[f];
-            assert_true(f == atlas->fragment_start[i] || fragment[-1].triangle < fragment->triangle);
+        for (uint32_t f = fragments->start[i]; f < fragments->start[i + 1]; f++) {
+            const sp_fragment *fragment = &fragments->items[f];
+            assert_true(f == fragments->start[i] || fragment[-1].triangle < fragment->triangle);
             assert_true(fragment->area > 0);
             sum += fragment->area;
             of_triangle[fragment->triangle] += fragment->area;
@@ -38,18 +58,28 @@ static void expect_areas(const sp_atlas *atlas, const sp_mesh *mesh)
 
 static void expect_order(const sp_atlas *atlas)
 {
-    for (size_t i = 0; i < atlas->texel_count; i++) {
-        assert_true(atlas->texel_page[i] < atlas->page_count);
-        assert_true(atlas->texel_x[i] < atlas->page_edge && atlas->texel_y[i] < atlas->page_edge);
-        if (i == 0)
-            continue;
-        uint64_t edge = atlas->page_edge;
-        uint64_t before = (atlas->texel_page[i - 1] * edge + atlas->texel_y[i - 1]) * edge + atlas->texel_x[i - 1];
-        assert_true(before < (atlas->texel_page[i] * edge + atlas->texel_y[i]) * edge + atlas->texel_x[i]);
+    uint64_t edge = atlas->page_edge, before = 0;
+    for (uint32_t i = 0; i < atlas->texel_count; i++) {
+        sp_texel_place place = sp_atlas_place(atlas, i);
+        assert_true(place.page < atlas->page_count && place.x < edge && place.y < edge);
+        uint64_t here = (place.page * edge + place.y) * edge + place.x;
+        assert_true(i == 0 || i == atlas->pixel_count || (i < atlas->pixel_count ? before < here : before <= here));
+        uint32_t first = sp_atlas_pixel(atlas, place.page, place.x, place.y);
+        assert_true(i < atlas->pixel_count ? first == i : first == atlas->behind[i - atlas->pixel_count]);
+        assert_true(i < atlas->pixel_count || atlas->texel_area[i] <= atlas->texel_area[first]);
+        before = here;
     }
+    assert_true(sp_atlas_pixel(atlas, (uint32_t)atlas->page_count, 0, 0) == SP_NONE);
+    assert_true(sp_atlas_pixel(atlas, 0, (uint32_t)edge, 0) == SP_NONE);
+    size_t used = 0;
+    for (uint32_t page = 0; page < atlas->page_count; page++)
+        for (uint32_t y = 0; y < edge; y++)
+            for (uint32_t x = 0; x < edge; x++)
+                used += sp_atlas_pixel(atlas, page, x, y) != SP_NONE;
+    assert_int_equal(used, atlas->pixel_count);
 }
 
-static void expect_points_found(const sp_atlas *atlas, int count)
+static void expect_points_found(const sp_atlas *atlas, const sp_fragments *fragments, int count)
 {
     uint64_t seed = 11;
     for (int i = 0; i < count; i++) {
@@ -60,10 +90,11 @@ static void expect_points_found(const sp_atlas *atlas, int count)
         if (i % 50 == 0)
             u = v = 0;
         uint32_t texel = sp_atlas_texel(atlas, t, u, v);
-        assert_true(texel < atlas->texel_count && holds(atlas, texel, t));
+        assert_true(texel < atlas->texel_count && holds(fragments, texel, t));
         page_point(atlas, t, u, v, point);
-        assert_true(point[0] >= atlas->texel_x[texel] - 1e-6 && point[0] <= atlas->texel_x[texel] + 1 + 1e-6);
-        assert_true(point[1] >= atlas->texel_y[texel] - 1e-6 && point[1] <= atlas->texel_y[texel] + 1 + 1e-6);
+        sp_texel_place place = sp_atlas_place(atlas, texel);
+        assert_true(point[0] >= place.x - 1e-6 && point[0] <= place.x + 1 + 1e-6);
+        assert_true(point[1] >= place.y - 1e-6 && point[1] <= place.y + 1 + 1e-6);
     }
 }
 
@@ -106,9 +137,10 @@ static void expect_charts_apart(const sp_atlas *atlas)
                 page[y * edge + x] = chart;
             }
     }
-    for (size_t i = 0; i < atlas->texel_count; i++) {
-        uint32_t *cell = &paint[(atlas->texel_page[i] * edge + atlas->texel_y[i]) * edge + atlas->texel_x[i]];
-        assert_true(*cell == 0 || *cell == atlas->texel_chart[i] + 1); /* 0: no more than round-off */
+    for (uint32_t i = 0; i < atlas->pixel_count; i++) {
+        sp_texel_place place = sp_atlas_place(atlas, i);
+        uint32_t *cell = &paint[(place.page * edge + place.y) * edge + place.x];
+        assert_true(*cell == 0 || *cell == place.chart + 1); /* 0: no more than round-off */
         *cell = 0;
     }
     for (size_t i = 0; i < edge * edge * atlas->page_count; i++)
@@ -116,26 +148,74 @@ static void expect_charts_apart(const sp_atlas *atlas)
     free(paint);
 }
 
-static bool are_neighbours(const sp_atlas *atlas, uint32_t a, uint32_t b)
+static bool are_neighbours(const sp_texel_links *links, uint32_t a, uint32_t b)
 {
-    for (uint32_t i = atlas->neighbour_start[a]; i < atlas->neighbour_start[a + 1]; i++)
-        if (atlas->neighbours[i] == b)
+    for (uint32_t i = links->start[a]; i < links->start[a + 1]; i++)
+        if (links->items[i] == b)
             return true;
     return false;
 }
 
-static void expect_neighbours_sound(const sp_atlas *atlas)
+static void expect_neighbours_sound(const sp_atlas *atlas, const sp_texel_links *links)
 {
     for (uint32_t i = 0; i < atlas->texel_count; i++)
-        for (uint32_t n = atlas->neighbour_start[i]; n < atlas->neighbour_start[i + 1]; n++) {
-            assert_true(n == atlas->neighbour_start[i] || atlas->neighbours[n - 1] < atlas->neighbours[n]);
-            assert_true(atlas->neighbours[n] < atlas->texel_count && atlas->neighbours[n] != i);
-            assert_true(are_neighbours(atlas, atlas->neighbours[n], i));
+        for (uint32_t n = links->start[i]; n < links->start[i + 1]; n++) {
+            assert_true(n == links->start[i] || links->items[n - 1] < links->items[n]);
+            assert_true(links->items[n] < atlas->texel_count && links->items[n] != i);
+            assert_true(are_neighbours(links, links->items[n], i));
         }
 }
 
+/* Every length of every edge whose sides lie apart on the pages, but where both sides lie in one texel. */
+static void expect_seams(const sp_atlas *atlas, const sp_texel_links *links, const sp_mesh *mesh)
+{
+    double sum = 0, cut = 0, sampled = 0;
+    bool lips = false; /* of a cut inside a chart, which may share a texel at its end */
+    for (size_t i = 0; i < atlas->seam_count; i++) {
+        const sp_seam *seam = &atlas->seams[i];
+        assert_true(seam->length > 0 && seam->texel != seam->other);
+        assert_true(i == 0 || seam[-1].texel < seam->texel ||
+                    (seam[-1].texel == seam->texel && seam[-1].other < seam->other));
+        assert_true(are_neighbours(links, seam->texel, seam->other));
+        size_t count, found = 0;
+        const sp_seam *back = sp_atlas_seams(atlas, seam->other, &count);
+        for (size_t k = 0; k < count; k++)
+            found += back[k].other == seam->texel && fabs(back[k].length - seam->length) <= 1e-12 * seam->length;
+        assert_int_equal(found, 1);
+        sum += 0.5 * seam->length;
+    }
+    sp_half_edges edges = {0};
+    assert_true(sp_half_edges_create(mesh, &edges, NULL));
+    for (uint32_t a = 0; a < 3 * mesh->triangle_count; a++) {
+        uint32_t b = edges.opposite[a];
+        if (b == SP_NONE || b < a)
+            continue;
+        const double *p = atlas->uv[a / 3][a % 3], *q = atlas->uv[b / 3][(b % 3 + 1) % 3];
+        const double *r = atlas->uv[a / 3][(a % 3 + 1) % 3], *s = atlas->uv[b / 3][b % 3];
+        if (atlas->chart[a / 3] == atlas->chart[b / 3] && hypot(p[0] - q[0], p[1] - q[1]) < 1e-5 &&
+            hypot(r[0] - s[0], r[1] - s[1]) < 1e-5)
+            continue;
+        lips = lips || atlas->chart[a / 3] == atlas->chart[b / 3];
+        double length =
+            sp_distance(mesh->vertices[sp_half_edge_from(mesh, a)], mesh->vertices[sp_half_edge_to(mesh, a)]);
+        enum { SAMPLES = 64 };
+        for (int i = 0; i < SAMPLES; i++) {
+            double t = (i + 0.5) / SAMPLES, at_a[2], at_b[2];
+            sp_edge_weights(a, t, &at_a[0], &at_a[1]);
+            sp_edge_weights(b, 1 - t, &at_b[0], &at_b[1]);
+            uint32_t one = sp_atlas_texel(atlas, a / 3, at_a[0], at_a[1]),
+                     other = sp_atlas_texel(atlas, b / 3, at_b[0], at_b[1]);
+            sampled += one == other ? length / SAMPLES : 0;
+        }
+        cut += length;
+    }
+    sp_half_edges_destroy(&edges);
+    assert_true(fabs(sum + sampled - cut) <= (lips ? 0.02 : 1e-9) * cut);
+    assert_true(lips || sampled == 0);
+}
+
 /* How many pieces the texels fall into. */
-static size_t count_pieces(const sp_atlas *atlas)
+static size_t count_pieces(const sp_atlas *atlas, const sp_texel_links *links)
 {
     uint8_t *seen = calloc(atlas->texel_count, 1);
     uint32_t *queue = malloc(atlas->texel_count * sizeof *queue);
@@ -149,10 +229,10 @@ static size_t count_pieces(const sp_atlas *atlas)
         pieces++;
         while (count) {
             uint32_t at = queue[--count];
-            for (uint32_t n = atlas->neighbour_start[at]; n < atlas->neighbour_start[at + 1]; n++)
-                if (!seen[atlas->neighbours[n]]) {
-                    seen[atlas->neighbours[n]] = 1;
-                    queue[count++] = atlas->neighbours[n];
+            for (uint32_t n = links->start[at]; n < links->start[at + 1]; n++)
+                if (!seen[links->items[n]]) {
+                    seen[links->items[n]] = 1;
+                    queue[count++] = links->items[n];
                 }
         }
     }
@@ -162,17 +242,18 @@ static size_t count_pieces(const sp_atlas *atlas)
 }
 
 /* Each fragment's polygon has the fragment's area and lies on the surface of its triangle. */
-static void expect_polygons(const sp_atlas *atlas, const sp_mesh *mesh)
+static void expect_polygons(const sp_atlas *atlas, const sp_fragments *fragments, const sp_mesh *mesh)
 {
     for (uint32_t i = 0; i < atlas->texel_count; i++)
-        for (uint32_t f = atlas->fragment_start[i]; f < atlas->fragment_start[i + 1]; f++) {
+        for (uint32_t f = fragments->start[i]; f < fragments->start[i + 1]; f++) {
             sp_vec3 polygon[SP_FRAGMENT_POINTS], twice = {0, 0, 0};
-            int count = sp_atlas_fragment_polygon(atlas, mesh, i, f, polygon);
-            uint32_t t = atlas->fragments[f].triangle;
+            uint32_t t = fragments->items[f].triangle;
+            int count = sp_atlas_fragment_polygon(atlas, mesh, i, t, polygon);
             double whole = sp_triangle_area(mesh, t);
             for (int k = 2; k < count; k++)
                 twice = sp_add(twice, sp_cross(sp_sub(polygon[k - 1], polygon[0]), sp_sub(polygon[k], polygon[0])));
-            assert_true(fabs(0.5 * sp_length(twice) - atlas->fragments[f].area) <= 1e-8 * whole);
+            double round_off = 1e-8 * whole + 1e-14 * sqrt(whole) * atlas->texel;
+            assert_true(fabs(0.5 * sp_length(twice) - fragments->items[f].area) <= round_off);
             assert_true(sp_dot(twice, sp_triangle_normal(mesh, t)) >= 0);
         }
 }
@@ -180,16 +261,22 @@ static void expect_polygons(const sp_atlas *atlas, const sp_mesh *mesh)
 static void expect_sound(sp_mesh *mesh, double texel, uint32_t page_edge)
 {
     sp_atlas *atlas = atlas_of(mesh, texel, page_edge);
-    expect_areas(atlas, mesh);
+    sp_fragments fragments = fragments_of(atlas, mesh);
+    sp_texel_links links = links_of(atlas, mesh);
+    expect_areas(atlas, &fragments, mesh);
     expect_order(atlas);
-    expect_points_found(atlas, 20000);
+    expect_points_found(atlas, &fragments, 20000);
     expect_charts_apart(atlas);
-    expect_neighbours_sound(atlas);
-    expect_polygons(atlas, mesh);
+    expect_neighbours_sound(atlas, &links);
+    expect_seams(atlas, &links, mesh);
+    expect_polygons(atlas, &fragments, mesh);
+    assert_int_equal(figures_of(atlas, mesh).shared_texels, 0);
     sp_mesh_diagnosis diagnosis;
     assert_true(sp_mesh_diagnose(mesh, &diagnosis, NULL));
     if (diagnosis.shells == 1)
-        assert_int_equal(count_pieces(atlas), 1);
+        assert_int_equal(count_pieces(atlas, &links), 1);
+    sp_fragments_destroy(&fragments);
+    sp_texel_links_destroy(&links);
     sp_atlas_destroy(atlas);
 }
 
@@ -251,10 +338,20 @@ static void whole_texels_of_a_sheet_are_whole(void **state)
     const sp_vec3 vertices[] = {{0, 0, 0}, {1, 0, 0}, {1, 0.5, 0}, {0, 0.5, 0}};
     sp_mesh *mesh = mesh_of(vertices, 4, (const uint32_t[][3]){{0, 1, 2}, {0, 2, 3}}, 2);
     sp_atlas *atlas = atlas_of(mesh, 0.1, 0);
-    assert_int_equal(atlas->texel_count, 50);
-    for (size_t i = 0; i < atlas->texel_count; i++)
-        assert_true(fabs(atlas->texel_area[i] - 0.01) < 1e-12);
-    assert_int_equal(atlas->neighbour_start[50], 2 * (9 * 5 + 10 * 4));
+    sp_texel_links links = links_of(atlas, mesh);
+    size_t whole = 0, half = 0, quarter = 0; /* it lies in the middle of 11 x 6 pixels */
+    for (size_t i = 0; i < atlas->texel_count; i++) {
+        whole += fabs(atlas->texel_area[i] - 0.01) < 1e-12;
+        half += fabs(atlas->texel_area[i] - 0.005) < 1e-12;
+        quarter += fabs(atlas->texel_area[i] - 0.0025) < 1e-12;
+    }
+    assert_int_equal(atlas->texel_count, 66);
+    assert_int_equal(whole, 9 * 4);
+    assert_int_equal(half, 2 * 9 + 2 * 4);
+    assert_int_equal(quarter, 4);
+    assert_int_equal(links.start[66], 2 * (10 * 6 + 11 * 5));
+    assert_int_equal(atlas->seam_count, 0);
+    sp_texel_links_destroy(&links);
     sp_atlas_destroy(atlas);
     sp_mesh_destroy(mesh);
 }
@@ -270,21 +367,31 @@ static void lips_of_a_cut_do_not_touch(void **state)
                                      {3, 4, 8}, {3, 8, 7}, {5, 6, 10}, {5, 10, 9}};
     sp_mesh *mesh = mesh_of(vertices, 11, triangles, 9);
     sp_atlas *atlas = atlas_of(mesh, 0.25, 0);
+    sp_texel_links links = links_of(atlas, mesh);
     assert_int_equal(atlas->chart_count, 1);
-    assert_int_equal(count_pieces(atlas), 1);
+    assert_int_equal(count_pieces(atlas, &links), 1);
     int above = 0, below = 0;
-    for (double t = 0.125; t < 1; t += 0.25) {
+    for (double t = 0.25; t < 1; t += 0.25) {
         /* Left and right of x = 1 at height t and at height 1 + t, as points of triangles 0, 4, 5 and 8. */
         uint32_t left_below = sp_atlas_texel(atlas, 0, 1 - 0.1 - t, t),
                  right_below = sp_atlas_texel(atlas, 4, 0.1, t - 0.1);
         uint32_t left_above = sp_atlas_texel(atlas, 5, 0.9 - t, t),
                  right_above = sp_atlas_texel(atlas, 8, 0.1, t - 0.1);
-        below += are_neighbours(atlas, left_below, right_below);
+        below += left_below == right_below || are_neighbours(&links, left_below, right_below);
         assert_true(left_above != right_above);
-        above += are_neighbours(atlas, left_above, right_above);
+        above += are_neighbours(&links, left_above, right_above);
     }
-    assert_int_equal(below, 4);
+    assert_int_equal(below, 3);
     assert_int_equal(above, 0);
+    /* Both lips cross the same pixels, and each has a texel of its own there. */
+    assert_true(atlas->texel_count >= atlas->pixel_count + 3);
+    sp_fragments fragments = fragments_of(atlas, mesh);
+    expect_areas(atlas, &fragments, mesh);
+    expect_order(atlas);
+    expect_points_found(atlas, &fragments, 20000);
+    expect_polygons(atlas, &fragments, mesh);
+    sp_fragments_destroy(&fragments);
+    sp_texel_links_destroy(&links);
     sp_atlas_destroy(atlas);
     sp_mesh_destroy(mesh);
 }
@@ -295,6 +402,7 @@ static void seams_are_bridged(void **state)
     (void)state;
     sp_mesh *mesh = net(40, 20, on_sphere, 1);
     sp_atlas *atlas = atlas_of(mesh, 0.02, 0);
+    sp_texel_links links = links_of(atlas, mesh);
     size_t edges = 0, direct = 0;
     uint64_t seed = 5;
     for (uint32_t a = 0; a < 3 * mesh->triangle_count; a++)
@@ -308,10 +416,11 @@ static void seams_are_bridged(void **state)
             uint32_t one = sp_atlas_texel(atlas, a / 3, weights_a[a % 3][0], weights_a[a % 3][1]);
             uint32_t other = sp_atlas_texel(atlas, b / 3, weights_b[b % 3][0], weights_b[b % 3][1]);
             edges++;
-            direct += one == other || are_neighbours(atlas, one, other);
+            direct += one == other || are_neighbours(&links, one, other);
         }
     assert_int_equal(edges, 3 * mesh->triangle_count / 2);
     assert_true(direct > 0.97 * edges);
+    sp_texel_links_destroy(&links);
     sp_atlas_destroy(atlas);
     sp_mesh_destroy(mesh);
 }
@@ -329,9 +438,12 @@ static void twice_gives_the_same_bytes(void **state)
     assert_true(a->texel_count == b->texel_count && a->chart_count == b->chart_count && a->page_edge == b->page_edge);
     assert_true(same(a->uv, b->uv, a->triangle_count, sizeof *a->uv));
     assert_true(same(a->texel_area, b->texel_area, a->texel_count, sizeof *a->texel_area));
-    assert_true(same(a->texel_chart, b->texel_chart, a->texel_count, sizeof *a->texel_chart));
-    assert_true(same(a->neighbour_start, b->neighbour_start, a->texel_count + 1, sizeof *a->neighbour_start));
-    assert_true(same(a->neighbours, b->neighbours, a->neighbour_start[a->texel_count], sizeof *a->neighbours));
+    assert_true(a->run_count == b->run_count && a->seam_count == b->seam_count && a->shared_count == b->shared_count);
+    assert_true(same(a->runs, b->runs, a->run_count, sizeof *a->runs));
+    assert_true(same(a->shared, b->shared, a->shared_count, sizeof *a->shared));
+    for (size_t i = 0; i < a->seam_count; i++)
+        assert_true(a->seams[i].texel == b->seams[i].texel && a->seams[i].other == b->seams[i].other &&
+                    a->seams[i].length == b->seams[i].length);
     sp_atlas_destroy(a);
     sp_atlas_destroy(b);
     sp_mesh_destroy(mesh);
@@ -343,21 +455,21 @@ static void refuses_what_does_not_fit(void **state)
     sp_mesh *mesh = one_triangle(1), *other = box(1, 1, 1);
     sp_charts *charts = charts_of(mesh, INFINITY);
     sp_error error = {0};
-    assert_null(sp_atlas_create(mesh, charts, &(sp_atlas_options){0.01, 100}, &error));
+    assert_null(sp_atlas_create(mesh, charts, &(sp_atlas_options){.texel = 0.01, .page_edge = 100}, &error));
     assert_int_equal(error.kind, SP_ERROR_INPUT);
     error = (sp_error){0};
-    assert_null(sp_atlas_create(mesh, charts, &(sp_atlas_options){1e-300, 0}, &error));
+    assert_null(sp_atlas_create(mesh, charts, &(sp_atlas_options){.texel = 1e-300, .page_edge = 0}, &error));
     assert_int_equal(error.kind, SP_ERROR_INPUT);
     const double texels[] = {0, -1, NAN, INFINITY};
     for (int i = 0; i < 4; i++) {
         error = (sp_error){0};
-        assert_null(sp_atlas_create(mesh, charts, &(sp_atlas_options){texels[i], 0}, &error));
+        assert_null(sp_atlas_create(mesh, charts, &(sp_atlas_options){.texel = texels[i], .page_edge = 0}, &error));
         assert_int_equal(error.kind, SP_ERROR_ARGUMENT);
     }
     error = (sp_error){0};
-    assert_null(sp_atlas_create(other, charts, &(sp_atlas_options){1, 0}, &error));
+    assert_null(sp_atlas_create(other, charts, &(sp_atlas_options){.texel = 1, .page_edge = 0}, &error));
     assert_int_equal(error.kind, SP_ERROR_ARGUMENT);
-    assert_null(sp_atlas_create(mesh, NULL, &(sp_atlas_options){1, 0}, NULL));
+    assert_null(sp_atlas_create(mesh, NULL, &(sp_atlas_options){.texel = 1, .page_edge = 0}, NULL));
     sp_atlas_destroy(NULL);
     sp_charts_destroy(charts);
     sp_mesh_destroy(mesh);

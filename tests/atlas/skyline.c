@@ -1,7 +1,7 @@
 /* Packing: everything on a page, nothing on anything else, one texel between, few texels wasted. */
 #include "shapes.h"
 
-#include "atlas/pack.h"
+#include "atlas/skyline.h"
 
 /* Paints every rectangle with its number and looks for others in it and around it. */
 static void expect_apart(const sp_rectangle *r, size_t count, uint32_t edge, size_t pages)
@@ -37,7 +37,7 @@ static void random_rectangles_keep_apart(void **state)
         }
         uint32_t edge;
         size_t pages;
-        assert_true(sp_pack(r, COUNT, limit, &edge, &pages, NULL));
+        assert_true(sp_skyline(r, COUNT, limit, &edge, &pages, NULL));
         assert_true(edge <= limit && (edge % 64 == 0 || edge == limit));
         expect_apart(r, COUNT, edge, pages);
         if (limit > 1000)
@@ -50,15 +50,15 @@ static void extremes(void **state)
     (void)state;
     uint32_t edge;
     size_t pages;
-    assert_true(sp_pack(NULL, 0, 4096, &edge, &pages, NULL));
+    assert_true(sp_skyline(NULL, 0, 4096, &edge, &pages, NULL));
     assert_int_equal(pages, 1);
     sp_rectangle whole[3] = {{.width = 100, .height = 100}, {.width = 100, .height = 100}, {.width = 1, .height = 1}};
-    assert_true(sp_pack(whole, 3, 100, &edge, &pages, NULL));
+    assert_true(sp_skyline(whole, 3, 100, &edge, &pages, NULL));
     assert_int_equal(edge, 100);
     assert_int_equal(pages, 3);
     expect_apart(whole, 3, edge, pages);
     sp_rectangle dots[2] = {{.width = 1, .height = 1}, {.width = 1, .height = 1}};
-    assert_true(sp_pack(dots, 2, 1, &edge, &pages, NULL));
+    assert_true(sp_skyline(dots, 2, 1, &edge, &pages, NULL));
     assert_int_equal(pages, 2);
 }
 
