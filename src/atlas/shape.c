@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #define MARGIN (1.0 / 64) /* pixels between a chart and its frame */
+#define WHOLE 1e-6        /* pixels: a chart this near to a whole number of them is laid along their borders */
 
 /* A picture of one shape in the making. */
 typedef struct {
@@ -90,14 +91,16 @@ static bool frame(const chart *c, uint32_t limit, sp_shape *shape, sp_error *err
                 high[k] = fmax(high[k], c->charts->flat[c->members[i]][corner][k]);
             }
     for (int k = 0; k < 2; k++) {
-        double extent = (high[k] - low[k]) / c->texel, pixels = fmin(floor(extent + 2 * MARGIN) + 1, limit);
+        double extent = (high[k] - low[k]) / c->texel, whole = round(extent);
+        bool fitting = whole >= 1 && fabs(extent - whole) < WHOLE;
+        double pixels = fmin(fitting ? whole + 2 : floor(extent + 2 * MARGIN) + 1, limit);
         /* Less a part in 10^9: a chart of a whole number of texels is not too large for round-off. */
         if (!(extent * (1 - 1e-9) <= limit))
             return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                            "a flat piece of the surface of %g m by %g m does not fit a page of %u texels of %g m",
                            high[0] - low[0], high[1] - low[1], limit, c->texel);
         size[k] = (uint32_t)pixels;
-        place[k] = fmax(0, 0.5 * (pixels - extent)) - low[k] / c->texel;
+        place[k] = (pixels == whole + 2 ? 1 : fmax(0, 0.5 * (pixels - extent))) - low[k] / c->texel;
     }
     shape->width = size[0];
     shape->height = size[1];

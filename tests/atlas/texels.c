@@ -339,17 +339,10 @@ static void whole_texels_of_a_sheet_are_whole(void **state)
     sp_mesh *mesh = mesh_of(vertices, 4, (const uint32_t[][3]){{0, 1, 2}, {0, 2, 3}}, 2);
     sp_atlas *atlas = atlas_of(mesh, 0.1, 0);
     sp_texel_links links = links_of(atlas, mesh);
-    size_t whole = 0, half = 0, quarter = 0; /* it lies in the middle of 11 x 6 pixels */
-    for (size_t i = 0; i < atlas->texel_count; i++) {
-        whole += fabs(atlas->texel_area[i] - 0.01) < 1e-12;
-        half += fabs(atlas->texel_area[i] - 0.005) < 1e-12;
-        quarter += fabs(atlas->texel_area[i] - 0.0025) < 1e-12;
-    }
-    assert_int_equal(atlas->texel_count, 66);
-    assert_int_equal(whole, 9 * 4);
-    assert_int_equal(half, 2 * 9 + 2 * 4);
-    assert_int_equal(quarter, 4);
-    assert_int_equal(links.start[66], 2 * (10 * 6 + 11 * 5));
+    assert_int_equal(atlas->texel_count, 50);
+    for (size_t i = 0; i < atlas->texel_count; i++)
+        assert_true(fabs(atlas->texel_area[i] - 0.01) < 1e-12);
+    assert_int_equal(links.start[50], 2 * (9 * 5 + 10 * 4));
     assert_int_equal(atlas->seam_count, 0);
     sp_texel_links_destroy(&links);
     sp_atlas_destroy(atlas);
@@ -360,9 +353,9 @@ static void whole_texels_of_a_sheet_are_whole(void **state)
 static void lips_of_a_cut_do_not_touch(void **state)
 {
     (void)state;
-    const double slit = 1 + 1e-9;
-    const sp_vec3 vertices[] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0},    {1, 1, 0}, {slit, 1, 0},
-                                {2, 1, 0}, {0, 2, 0}, {1, 2, 0}, {slit, 2, 0}, {2, 2, 0}};
+    const double slit = 1 + 1e-9, right = 2.1; /* the slit runs through pixels, not between them */
+    const sp_vec3 vertices[] = {{0, 0, 0},     {1, 0, 0}, {right, 0, 0}, {0, 1, 0},    {1, 1, 0},    {slit, 1, 0},
+                                {right, 1, 0}, {0, 2, 0}, {1, 2, 0},     {slit, 2, 0}, {right, 2, 0}};
     const uint32_t triangles[][3] = {{0, 1, 4}, {0, 4, 3}, {1, 5, 4},  {1, 2, 6}, {1, 6, 5},
                                      {3, 4, 8}, {3, 8, 7}, {5, 6, 10}, {5, 10, 9}};
     sp_mesh *mesh = mesh_of(vertices, 11, triangles, 9);

@@ -68,7 +68,7 @@ static void any_pressure(void **state)
     sp_nozzle_type type = spray_type(SP_PATTERN_FULL_CONE, 70);
     for (int t = SP_TRAJECTORY_LINE; t <= SP_TRAJECTORY_PARABOLA; t++) {
         scene s;
-        open_empty_room(&s, (sp_trajectory)t, ROOM_TEXEL);
+        open_empty_room(&s, (sp_trajectory)t, 0.5 * ROOM_TEXEL);
         sp_evaluator *evaluator = scene_evaluator(&s);
         for (size_t i = 0; i < sizeof pressures / sizeof *pressures; i++) {
             sp_nozzle nozzle = nozzle_at(&type, sp_v(-0.3, 0.1, 0.7), sp_v(1, 0.2, 0.3), 0);
