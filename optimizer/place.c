@@ -1,4 +1,5 @@
 #include "attainable.h"
+#include "certificate.h"
 #include "find.h"
 #include "refine.h"
 
@@ -125,7 +126,9 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
                 write_down(&placement, &proposal->greedy, &proposal->greedy_coverage, error) &&
                 sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
                 write_down(&placement, &proposal->layout, &proposal->coverage, error) &&
-                sp_watch_stage(&placement.watch, "refine", error) && conclude(&placement, proposal, error);
+                sp_watch_stage(&placement.watch, "refine", error) &&
+                sp_certify(&placement.search, &placement.watch, &placement.front, &proposal->certificate, error) &&
+                sp_watch_stage(&placement.watch, "certificate", error) && conclude(&placement, proposal, error);
     placement_free(&placement);
     if (done)
         return proposal;

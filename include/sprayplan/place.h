@@ -66,7 +66,25 @@ typedef struct {
     double flow; /* m³/s */
     double area; /* covered, m², by the scene's own evaluator on the final atlas */
     size_t nozzles;
+    double counted; /* m² that it covers on the certificate's patches; NAN: no certificate */
+    double bound;   /* m² of the same patches that no layout of as much water covers (see sp_certificate); NAN */
 } sp_front_point;
+
+/* How far from the best the proposal can be: no layout of the candidate poses and of the poses of the layouts found
+ * (the proposal's and the front's), within the limits on number, water and ports, does better than these bounds. They
+ * are proved, rounded outwards. Areas are counted by the inverse evaluation on the search's own patches, which may be
+ * coarser than the evaluator's; poses in between the candidates are not covered. */
+typedef struct {
+    bool computed;      /* false: nothing below means anything */
+    size_t texels;      /* patches that areas are counted on */
+    size_t candidates;  /* poses priced */
+    size_t own;         /* poses of layouts found, besides */
+    double whole;       /* m² of these patches */
+    double counted;     /* m² of them that the proposal covers */
+    double area_bound;  /* m² of them that no layout with the proposal's water exceeds */
+    double water_bound; /* m³/s that every layout needs at least to cover what the proposal does */
+    double gap;         /* (area_bound - counted) / area_bound */
+} sp_certificate;
 
 typedef struct {
     char name[32];
@@ -88,6 +106,7 @@ typedef struct {
         candidates; /* mounting points kept; poses considered (position × axis × roll × type × pressure) */
     size_t front_count;
     sp_front_point *front; /* best found for rising water, both strictly rising */
+    sp_certificate certificate;
     size_t stage_count;
     sp_stage *stages;
 } sp_proposal;

@@ -122,16 +122,32 @@ static bool same_fidelity(const sp_figures *a, const sp_figures *b)
 
 static bool put_front(json_t *root, const sp_proposal *proposal, double clean_area)
 {
+    double whole = proposal->certificate.whole;
     json_t *front = json_array();
     bool done = true;
     for (size_t i = 0; done && i < proposal->front_count; ++i) {
         const sp_front_point *point = &proposal->front[i];
         json_t *entry = json_object();
         done = put_real(entry, "water_l_min", 6e4 * point->flow) &&
-               put_real(entry, "coverage", point->area / clean_area) && put_count(entry, "nozzles", point->nozzles);
+               put_real(entry, "coverage", point->area / clean_area) && put_count(entry, "nozzles", point->nozzles) &&
+               (!proposal->certificate.computed || (put_real(entry, "coverage_on_texels", point->counted / whole) &&
+                                                    put_real(entry, "coverage_bound", point->bound / whole)));
         done = json_array_append_new(front, entry) == 0 && done;
     }
     return put(root, "front", front) && done;
+}
+
+/* Everything that it speaks of is counted on its own texels. */
+static bool put_certificate(json_t *root, const sp_certificate *found)
+{
+    json_t *certificate = json_object();
+    bool done = put_text(certificate, "method", "lagrangian dual") &&
+                put_real(certificate, "coverage", found->counted / found->whole) &&
+                put_real(certificate, "coverage_bound_same_water", found->area_bound / found->whole) &&
+                put_real(certificate, "water_bound_same_coverage_l_min", 6e4 * found->water_bound) &&
+                put_real(certificate, "gap", found->gap) && put_count(certificate, "candidates", found->candidates) &&
+                put_count(certificate, "own_poses", found->own) && put_count(certificate, "texels", found->texels);
+    return put(root, "certificate", certificate) && done;
 }
 
 static bool put_stages(json_t *stages, const sp_stage *list, size_t count)
@@ -161,7 +177,8 @@ static bool fill(json_t *root, const sp_result *result, const sp_figures *figure
         done = put_layout(layouts, &figures[i], !one_geometry, !one_fidelity);
     done = put(root, "layouts", layouts) && done;
     if (result->proposal)
-        done = done && put_front(root, result->proposal, figures[0].clean_area);
+        done = done && put_front(root, result->proposal, figures[0].clean_area) &&
+               (!result->proposal->certificate.computed || put_certificate(root, &result->proposal->certificate));
     done = done && put_stages(stages, result->stages, result->stage_count) &&
            (!result->proposal || put_stages(stages, result->proposal->stages, result->proposal->stage_count));
     return put(root, "stages", stages) && done;

@@ -1,0 +1,47 @@
+/* Bounds on what any layout could cover, whatever the number of candidates: prices are sought on a few of them and then
+ * proved on all. */
+#ifndef OPTIMIZER_BOUND_H
+#define OPTIMIZER_BOUND_H
+
+#include "dual.h"
+
+/* All candidates, however they are kept. */
+typedef struct {
+    void *user;
+    /* Adds every candidate's total price at texel prices u to `offers`, or something no lower. Appends to `rows` some
+     * of those worth more than needed[class] that are not among them yet (by key); none where `rows` is NULL. */
+    bool (*price)(void *user, const float *u, const double *needed, sp_offers *offers, sp_rows *rows, sp_error *error);
+} sp_pricer;
+
+/* What has been proved: no layout of at most so much covers more. m², base included. */
+typedef struct {
+    const sp_cover *cover;
+    const sp_pricer *pricer;
+    sp_rows rows; /* the few; a caller may put some in at the start */
+    sp_dual dual;
+    double *by_water;   /* [cover->water + 1], with all the nozzles; never falls */
+    double *by_nozzles; /* [cover->nozzles + 1], with all the water */
+    double *table, *needed;
+    sp_offers offers;
+    double best;  /* the lowest at the last task's number and water */
+    float *price; /* [texels], that show it */
+} sp_bound;
+
+bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *bound, sp_error *error);
+void sp_bound_free(sp_bound *bound);
+/* Lowers the bounds at and about `water` (units): solves and proves up to `rounds` times, fewer where that closes what
+ * lies between the few and all. */
+bool sp_bound_lower(sp_bound *bound, size_t water, size_t rounds, sp_error *error);
+/* The least water with which the bound does not rule out that `area` (m²) is covered; SIZE_MAX where it always does. */
+size_t sp_bound_water(const sp_bound *bound, double area);
+size_t sp_bound_nozzles(const sp_bound *bound, double area);
+
+/* Candidates that all lie in memory, as an sp_pricer. */
+typedef struct {
+    const sp_cover *cover;
+    const sp_rows *rows;
+    size_t most; /* rows to hand out at a time */
+} sp_stored;
+sp_pricer sp_stored_pricer(sp_stored *stored);
+
+#endif

@@ -1,0 +1,275 @@
+#include "certificate.h"
+
+#include "pose_prices.h"
+#include "water_units.h"
+
+#include <stdlib.h>
+
+#define ROUNDS_FIRST 8  /* of pricing all poses, at the proposal's water */
+#define ROUNDS_WATER 3  /* at a water that may be too little for the proposal's coverage */
+#define TRIALS_WATER 6  /* such waters */
+#define ROUNDS_FRONT 2  /* at a point of the front */
+#define POINTS_MOST 8   /* of the front, that get rounds of their own */
+#define OPEN_LEAST 0.01 /* gap of a point of the front that is worth rounds of its own */
+
+typedef struct {
+    const sp_search *search;
+    sp_watch *watch;
+    const sp_front *front;
+    sp_cover cover;
+    sp_water_units units;
+    float *area, *need; /* [patches] */
+    uint32_t *weight;   /* [classes] */
+    uint32_t *class_of; /* [makes] */
+    size_t *ports;      /* [mounts] */
+    double *flows;      /* [makes], then one for each nozzle of the front */
+    size_t own;         /* nozzles of the front */
+    sp_pose_prices *prices;
+    sp_pricer pricer;
+    sp_bound bound;
+} certifying;
+
+static void certifying_free(certifying *c)
+{
+    sp_bound_free(&c->bound);
+    sp_pose_prices_destroy(c->prices);
+    free(c->area);
+    free(c->need);
+    free(c->weight);
+    free(c->class_of);
+    free(c->ports);
+    free(c->flows);
+}
+
+static double least_of(const double *values, size_t count)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < count; i++)
+        least = fmin(least, values[i]);
+    return least;
+}
+
+/* Designs of the front, and the best. */
+static const sp_design *design_of(const sp_front *front, size_t i)
+{
+    return i < front->count ? &front->entries[i].design : &front->best;
+}
+
+static bool list_flows(certifying *c, sp_error *error)
+{
+    const sp_candidates *candidates = c->search->candidates;
+    for (size_t i = 0; i <= c->front->count; i++)
+        c->own += design_of(c->front, i)->count;
+    c->flows = malloc((candidates->make_count + c->own + 1) * sizeof *c->flows);
+    if (!c->flows)
+        return sp_fail_memory(error);
+    size_t count = 0;
+    for (size_t k = 0; k < candidates->make_count; k++)
+        c->flows[count++] = candidates->makes[k].flow;
+    for (size_t i = 0; i <= c->front->count; i++)
+        for (size_t n = 0; n < design_of(c->front, i)->count; n++)
+            c->flows[count++] = design_of(c->front, i)->items[n].flow;
+    return true;
+}
+
+static uint32_t class_for(certifying *c, double flow)
+{
+    uint32_t weight = sp_water_weight(&c->units, flow), class = 0;
+    while (class < c->cover.class_count && c->weight[class] != weight)
+        class ++;
+    if (class == c->cover.class_count)
+        c->weight[c->cover.class_count++] = weight;
+    return class;
+}
+
+/* Water of the layouts, in units, and number; false where nothing can be placed. */
+static bool set_limits(certifying *c)
+{
+    const sp_search *search = c->search;
+    size_t makes = search->candidates->make_count, limit = search->options->max_nozzles;
+    double most = 0, least = least_of(c->flows, makes + c->own);
+    for (size_t i = 0; i <= c->front->count; i++)
+        most = fmax(most, design_of(c->front, i)->flow - search->kept_flow);
+    if (!(most >= least) || (limit && limit <= search->kept_count))
+        return false;
+    c->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
+    if (limit && limit - search->kept_count < c->cover.nozzles)
+        c->cover.nozzles = limit - search->kept_count;
+    c->units = sp_water_units_create(c->flows, makes, least, c->cover.nozzles, most);
+    c->cover.water = sp_water_budget(&c->units, most);
+    return true;
+}
+
+static bool set_classes(certifying *c, sp_error *error)
+{
+    const sp_search *search = c->search;
+    size_t makes = search->candidates->make_count, mounts = search->options->mount_count;
+    c->weight = malloc((makes + c->own + 1) * sizeof *c->weight);
+    c->class_of = malloc((makes + 1) * sizeof *c->class_of);
+    c->ports = malloc((mounts + 1) * sizeof *c->ports);
+    if (!c->weight || !c->class_of || !c->ports)
+        return sp_fail_memory(error);
+    for (size_t k = 0; k < makes; k++)
+        c->class_of[k] = class_for(c, c->flows[k]);
+    for (size_t i = 0; i < c->own; i++)
+        class_for(c, c->flows[makes + i]);
+    for (size_t m = 0; m < mounts; m++)
+        c->ports[m] = search->options->mounts[m].kind == SP_MOUNT_PORT ? c->cover.port_count++ : SP_NO_PORT;
+    return true;
+}
+
+/* What every texel still needs besides the kept nozzles. */
+static bool set_texels(certifying *c, sp_error *error)
+{
+    const sp_search *search = c->search;
+    c->area = malloc((search->patch_count + 1) * sizeof *c->area);
+    c->need = malloc((search->patch_count + 1) * sizeof *c->need);
+    if (!c->area || !c->need)
+        return sp_fail_memory(error);
+    for (size_t t = 0; t < search->patch_count; t++) {
+        double had = (double)search->kept_wet[t] * (1 + SP_FIELD_MARGIN);
+        double need = had >= 1 ? 0 : search->single ? 1 : 1 - had;
+        c->need[t] = need > SP_FIELD_MARGIN ? (float)need : 0;
+        c->area[t] = c->need[t] > 0 ? search->area[t] : 0;
+        c->cover.base += c->need[t] > 0 ? 0 : (double)search->area[t];
+    }
+    c->cover.texel_count = search->patch_count;
+    c->cover.area = c->area;
+    c->cover.weight = c->weight;
+    c->cover.repeats = true;
+    c->cover.threads = sp_threads(&search->options->run);
+    return true;
+}
+
+static bool add_own(certifying *c, sp_error *error)
+{
+    for (size_t i = 0; i <= c->front->count; i++) {
+        const sp_design *design = design_of(c->front, i);
+        for (size_t n = 0; n < design->count; n++) {
+            const sp_placed *placed = &design->items[n];
+            if (!sp_pose_prices_row(c->prices, placed->field, SP_OWN_KEY, c->ports[placed->site.mount],
+                                    class_for(c, placed->flow), &c->bound.rows, error))
+                return false;
+        }
+    }
+    return true;
+}
+
+static bool prepare(certifying *c, sp_error *error)
+{
+    if (!set_classes(c, error) || !set_texels(c, error))
+        return false;
+    c->prices = sp_pose_prices_create(c->search, &c->cover, c->class_of, c->need, c->ports, error);
+    if (!c->prices)
+        return false;
+    c->pricer = sp_pose_pricer(c->prices);
+    return sp_bound_create(&c->cover, &c->pricer, &c->bound, error) && add_own(c, error);
+}
+
+static double counted_area(const sp_search *search, const sp_design *design)
+{
+    double area = 0;
+    for (size_t p = 0; p < search->patch_count; p++)
+        area += design->wet[p] >= 1 ? (double)search->area[p] : 0;
+    return area;
+}
+
+static size_t budget_of(const certifying *c, double flow)
+{
+    size_t budget = sp_water_budget(&c->units, flow - c->search->kept_flow);
+    return budget < c->cover.water ? budget : c->cover.water;
+}
+
+/* The least water for what the proposal covers: bounds are lowered where they first allow it, until they do not yield.
+ */
+static bool lower_water(certifying *c, double area, sp_error *error)
+{
+    for (int trial = 0; trial < TRIALS_WATER; trial++) {
+        size_t water = sp_bound_water(&c->bound, area);
+        if (!water || water > c->cover.water || !sp_watch_goes_on(c->watch, "certificate", 0.3 + 0.05 * trial))
+            return true;
+        if (!sp_bound_lower(&c->bound, water, ROUNDS_WATER, error))
+            return false;
+        if (sp_bound_water(&c->bound, area) == water)
+            return true;
+    }
+    return true;
+}
+
+static bool lower_front(certifying *c, sp_error *error)
+{
+    size_t stride = c->front->count / POINTS_MOST + 1;
+    for (size_t i = 0; i < c->front->count; i += stride) {
+        const sp_front_entry *entry = &c->front->entries[i];
+        size_t water = budget_of(c, entry->point.flow);
+        double bound = c->bound.by_water[water], open = 1 - counted_area(c->search, &entry->design) / bound;
+        if (!water || open < OPEN_LEAST)
+            continue;
+        if (!sp_watch_goes_on(c->watch, "certificate", 0.6 + 0.4 * (double)i / (double)c->front->count))
+            return true;
+        if (!sp_bound_lower(&c->bound, water, ROUNDS_FRONT, error))
+            return false;
+    }
+    return true;
+}
+
+/* Poses that were priced: those of mounting points that were traced, not in ports that kept nozzles take. */
+static size_t count_poses(const certifying *c)
+{
+    const sp_search *search = c->search;
+    size_t count = 0;
+    for (size_t i = 0; i < search->sites->count; i++)
+        for (size_t k = 0; k < search->candidates->make_count; k++) {
+            uint32_t mount = search->sites->items[i].mount;
+            const sp_make *make = &search->candidates->makes[k];
+            if (!search->port_taken[mount] &&
+                sp_visibility_view(search->visibility, (uint32_t)i, make->speed_class)->start)
+                count += sp_candidates_axes(search->candidates, mount, k)->count * make->roll_count;
+        }
+    return count;
+}
+
+static void conclude(const certifying *c, sp_front *front, sp_certificate *certificate)
+{
+    double whole = 0, counted = counted_area(c->search, &front->best);
+    for (size_t p = 0; p < c->search->patch_count; p++)
+        whole += (double)c->search->area[p];
+    for (size_t i = 0; i < front->count; i++) {
+        sp_front_point *point = &front->entries[i].point;
+        point->counted = counted_area(c->search, &front->entries[i].design);
+        point->bound = fmin(whole, c->bound.by_water[budget_of(c, point->flow)]);
+    }
+    size_t water = sp_bound_water(&c->bound, counted);
+    *certificate = (sp_certificate){
+        .computed = true,
+        .texels = c->search->patch_count,
+        .candidates = count_poses(c),
+        .own = c->own,
+        .whole = whole,
+        .counted = counted,
+        .area_bound = fmin(whole, c->bound.by_water[budget_of(c, front->best.flow)]),
+        .water_bound = fmin(front->best.flow, c->search->kept_flow + c->units.unit * (double)water),
+    };
+    certificate->gap = certificate->area_bound > 0 ? (certificate->area_bound - counted) / certificate->area_bound : 0;
+}
+
+bool sp_certify(const sp_search *search, sp_watch *watch, sp_front *front, sp_certificate *certificate, sp_error *error)
+{
+    certifying c = {.search = search, .watch = watch, .front = front};
+    *certificate = (sp_certificate){0};
+    for (size_t i = 0; i < front->count; i++)
+        front->entries[i].point.counted = front->entries[i].point.bound = NAN;
+    if (watch->cancelled || !front->found)
+        return true;
+    if (!list_flows(&c, error))
+        return false;
+    bool done = true;
+    if (set_limits(&c)) {
+        done = prepare(&c, error) && sp_bound_lower(&c.bound, budget_of(&c, front->best.flow), ROUNDS_FIRST, error) &&
+               lower_water(&c, counted_area(search, &front->best), error) && lower_front(&c, error);
+        if (done)
+            conclude(&c, front, certificate);
+    }
+    certifying_free(&c);
+    return done;
+}

@@ -1,0 +1,111 @@
+#include "cover.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define UPWARDS (1 + 1e-11)
+
+static bool make_room(sp_rows *rows, size_t more)
+{
+    if (rows->count == rows->capacity) {
+        size_t capacity = rows->capacity ? 2 * rows->capacity : 256;
+        size_t *start = realloc(rows->start, (capacity + 1) * sizeof *start);
+        if (start)
+            rows->start = start;
+        size_t *port = realloc(rows->port, capacity * sizeof *port);
+        if (port)
+            rows->port = port;
+        uint32_t *class = realloc(rows->class, capacity * sizeof *class);
+        if (class)
+            rows->class = class;
+        uint64_t *key = realloc(rows->key, capacity * sizeof *key);
+        if (key)
+            rows->key = key;
+        if (!start || !port || !class || !key)
+            return false;
+        rows->capacity = capacity;
+    }
+    if (more > rows->room - rows->used) {
+        if (more > SIZE_MAX / 4 / sizeof(float) - rows->used)
+            return false;
+        size_t room = 2 * (rows->used + more);
+        uint32_t *texel = realloc(rows->texel, room * sizeof *texel);
+        if (texel)
+            rows->texel = texel;
+        float *share = realloc(rows->share, room * sizeof *share);
+        if (share)
+            rows->share = share;
+        if (!texel || !share)
+            return false;
+        rows->room = room;
+    }
+    return true;
+}
+
+bool sp_rows_add(sp_rows *rows, uint64_t key, size_t port, uint32_t class, const uint32_t *texels, const float *shares,
+                 size_t count, sp_error *error)
+{
+    if (!make_room(rows, count))
+        return sp_fail_memory(error);
+    if (!rows->count)
+        rows->start[0] = 0;
+    if (count) {
+        memcpy(&rows->texel[rows->used], texels, count * sizeof *texels);
+        memcpy(&rows->share[rows->used], shares, count * sizeof *shares);
+    }
+    rows->port[rows->count] = port;
+    rows->class[rows->count] = class;
+    rows->key[rows->count] = key;
+    rows->used += count;
+    rows->start[++rows->count] = rows->used;
+    return true;
+}
+
+void sp_rows_keep(sp_rows *rows, const bool *marked)
+{
+    size_t kept = 0, used = 0;
+    for (size_t i = 0; i < rows->count; i++) {
+        size_t first = rows->start[i], count = rows->start[i + 1] - first;
+        if (!marked[i])
+            continue;
+        memmove(&rows->texel[used], &rows->texel[first], count * sizeof *rows->texel);
+        memmove(&rows->share[used], &rows->share[first], count * sizeof *rows->share);
+        rows->port[kept] = rows->port[i];
+        rows->class[kept] = rows->class[i];
+        rows->key[kept] = rows->key[i];
+        rows->start[kept++] = used;
+        used += count;
+    }
+    rows->count = kept;
+    rows->used = used;
+    if (rows->start)
+        rows->start[kept] = used;
+}
+
+void sp_rows_free(sp_rows *rows)
+{
+    free(rows->start);
+    free(rows->port);
+    free(rows->class);
+    free(rows->key);
+    free(rows->texel);
+    free(rows->share);
+    *rows = (sp_rows){0};
+}
+
+double sp_rows_price(const sp_rows *rows, size_t row, const float *price)
+{
+    double total = 0;
+    for (size_t i = rows->start[row]; i < rows->start[row + 1]; i++)
+        total += (double)rows->share[i] * (double)price[rows->texel[i]];
+    return total;
+}
+
+double sp_cover_rest(const sp_cover *cover, const float *price)
+{
+    double rest = 0;
+    for (size_t t = 0; t < cover->texel_count; t++)
+        rest += fmax(0, (double)cover->area[t] - (double)price[t]);
+    return rest * UPWARDS;
+}
