@@ -7,21 +7,21 @@
 #define ITERATIONS 300    /* of a solve, at most */
 #define TOLERANCE 5e-4    /* at which a solve ends, as a share of the bound */
 #define CLOSED 3e-4       /* all against the few: nearer than that, another round is not worth it */
-#define ROWS_MOST 1500    /* of the few */
+#define ROWS_MOST 800     /* of the few */
 #define CHOICE_LEAST 1e-6 /* a row that the linear program takes less of than this may go */
 
 bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *bound, sp_error *error)
 {
     *bound = (sp_bound){.cover = cover, .pricer = pricer, .best = INFINITY};
     if (!sp_dual_create(cover, &bound->dual, error) ||
-        !sp_offers_create(cover->class_count, cover->weight, cover->port_count, cover->nozzles, cover->repeats,
+        !sp_offers_create(cover->tier_count, cover->weight, cover->port_count, cover->nozzles, cover->repeats,
                           &bound->offers, error)) {
         sp_bound_free(bound);
         return false;
     }
     bound->by_water = malloc((cover->water + 1) * sizeof *bound->by_water);
     bound->by_nozzles = malloc((cover->nozzles + 1) * sizeof *bound->by_nozzles);
-    bound->needed = malloc(cover->class_count * sizeof *bound->needed);
+    bound->needed = malloc(cover->tier_count * sizeof *bound->needed);
     bound->price = malloc((cover->texel_count + 1) * sizeof *bound->price);
     if (cover->water < SIZE_MAX / sizeof(double) / (cover->nozzles + 1) - 1)
         bound->table = malloc((cover->nozzles + 1) * (cover->water + 1) * sizeof *bound->table);
@@ -52,12 +52,11 @@ void sp_bound_free(sp_bound *bound)
     *bound = (sp_bound){0};
 }
 
-static void offer_rows(sp_bound *bound, bool own_only)
+static void offer_rows(sp_bound *bound)
 {
     const sp_rows *rows = &bound->rows;
     for (size_t c = 0; c < rows->count; c++)
-        if (!own_only || rows->key[c] == SP_OWN_KEY)
-            sp_offers_add(&bound->offers, rows->port[c], rows->class[c], sp_rows_price(rows, c, bound->dual.price));
+        sp_offers_add(&bound->offers, rows->port[c], rows->tier[c], sp_rows_price(rows, c, bound->dual.price));
 }
 
 /* What a candidate must be worth to raise the bound at this water. */
@@ -65,25 +64,25 @@ static void find_needed(sp_bound *bound, size_t water)
 {
     const sp_cover *cover = bound->cover;
     sp_offers_clear(&bound->offers);
-    offer_rows(bound, false);
+    offer_rows(bound);
     sp_knapsack(&bound->offers, cover->nozzles, water, bound->table);
     double most = bound->table[(cover->nozzles + 1) * (water + 1) - 1];
-    for (size_t k = 0; k < cover->class_count; k++)
+    for (size_t k = 0; k < cover->tier_count; k++)
         bound->needed[k] = cover->weight[k] > water
                                ? INFINITY
                                : most - bound->table[cover->nozzles * (water + 1) - 1 - cover->weight[k]];
 }
 
-/* Prices all candidates and lowers every bound that these prices lower; returns the one at `water`. */
-static bool prove(sp_bound *bound, size_t water, bool more, double *proved, sp_error *error)
+/* Prices all candidates on top of the few and lowers every bound that these prices lower; *proved is the one at
+ * `water`.
+ */
+static bool prove(sp_bound *bound, size_t water, double *proved, sp_error *error)
 {
     const sp_cover *cover = bound->cover;
     size_t row = cover->water + 1;
-    sp_offers_clear(&bound->offers);
-    if (!bound->pricer->price(bound->pricer->user, bound->dual.price, bound->needed, &bound->offers,
-                              more ? &bound->rows : NULL, error))
+    if (!bound->pricer->price(bound->pricer->user, bound->dual.price, bound->needed, &bound->offers, &bound->rows,
+                              error))
         return false;
-    offer_rows(bound, true);
     sp_knapsack(&bound->offers, cover->nozzles, cover->water, bound->table);
     double rest = (cover->base + sp_cover_rest(cover, bound->dual.price)) * (1 + 1e-12);
     for (size_t w = 0; w < row; w++)
@@ -125,7 +124,7 @@ bool sp_bound_lower(sp_bound *bound, size_t water, size_t rounds, sp_error *erro
         if (!thin_out(bound, error) || !sp_dual_solve(&bound->dual, &bound->rows, &task, error))
             return false;
         find_needed(bound, water);
-        if (!prove(bound, water, true, &proved, error))
+        if (!prove(bound, water, &proved, error))
             return false;
         if (proved < bound->best) {
             bound->best = proved;

@@ -9,7 +9,7 @@
 typedef struct {
     void *user;
     /* Adds every candidate's total price at texel prices u to `offers`, or something no lower. Appends to `rows` some
-     * of those worth more than needed[class] that are not among them yet (by key); none where `rows` is NULL. */
+     * of those worth more than needed[tier] that are not among them yet (by key); none where `rows` is NULL. */
     bool (*price)(void *user, const float *u, const double *needed, sp_offers *offers, sp_rows *rows, sp_error *error);
 } sp_pricer;
 

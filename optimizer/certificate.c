@@ -5,10 +5,10 @@
 
 #include <stdlib.h>
 
-#define ROUNDS_FIRST 8  /* of pricing all poses, at the proposal's water */
-#define ROUNDS_WATER 3  /* at a water that may be too little for the proposal's coverage */
+#define ROUNDS_FIRST 5  /* of pricing all poses, at the proposal's water */
+#define ROUNDS_WATER 2  /* at a water that may be too little for the proposal's coverage */
 #define TRIALS_WATER 6  /* such waters */
-#define ROUNDS_FRONT 2  /* at a point of the front */
+#define ROUNDS_FRONT 1  /* at a point of the front */
 #define POINTS_MOST 8   /* of the front, that get rounds of their own */
 #define OPEN_LEAST 0.01 /* gap of a point of the front that is worth rounds of its own */
 
@@ -19,8 +19,8 @@ typedef struct {
     sp_cover cover;
     sp_water_units units;
     float *area, *need; /* [patches] */
-    uint32_t *weight;   /* [classes] */
-    uint32_t *class_of; /* [makes] */
+    uint32_t *weight;   /* [tiers] */
+    uint32_t *tier_of;  /* [makes] */
     size_t *ports;      /* [mounts] */
     double *flows;      /* [makes], then one for each nozzle of the front */
     size_t own;         /* nozzles of the front */
@@ -36,7 +36,7 @@ static void certifying_free(certifying *c)
     free(c->area);
     free(c->need);
     free(c->weight);
-    free(c->class_of);
+    free(c->tier_of);
     free(c->ports);
     free(c->flows);
 }
@@ -72,14 +72,14 @@ static bool list_flows(certifying *c, sp_error *error)
     return true;
 }
 
-static uint32_t class_for(certifying *c, double flow)
+static uint32_t tier_for(certifying *c, double flow)
 {
-    uint32_t weight = sp_water_weight(&c->units, flow), class = 0;
-    while (class < c->cover.class_count && c->weight[class] != weight)
-        class ++;
-    if (class == c->cover.class_count)
-        c->weight[c->cover.class_count++] = weight;
-    return class;
+    uint32_t weight = sp_water_weight(&c->units, flow), tier = 0;
+    while (tier < c->cover.tier_count && c->weight[tier] != weight)
+        tier++;
+    if (tier == c->cover.tier_count)
+        c->weight[c->cover.tier_count++] = weight;
+    return tier;
 }
 
 /* Water of the layouts, in units, and number; false where nothing can be placed. */
@@ -100,19 +100,19 @@ static bool set_limits(certifying *c)
     return true;
 }
 
-static bool set_classes(certifying *c, sp_error *error)
+static bool set_tiers(certifying *c, sp_error *error)
 {
     const sp_search *search = c->search;
     size_t makes = search->candidates->make_count, mounts = search->options->mount_count;
     c->weight = malloc((makes + c->own + 1) * sizeof *c->weight);
-    c->class_of = malloc((makes + 1) * sizeof *c->class_of);
+    c->tier_of = malloc((makes + 1) * sizeof *c->tier_of);
     c->ports = malloc((mounts + 1) * sizeof *c->ports);
-    if (!c->weight || !c->class_of || !c->ports)
+    if (!c->weight || !c->tier_of || !c->ports)
         return sp_fail_memory(error);
     for (size_t k = 0; k < makes; k++)
-        c->class_of[k] = class_for(c, c->flows[k]);
+        c->tier_of[k] = tier_for(c, c->flows[k]);
     for (size_t i = 0; i < c->own; i++)
-        class_for(c, c->flows[makes + i]);
+        tier_for(c, c->flows[makes + i]);
     for (size_t m = 0; m < mounts; m++)
         c->ports[m] = search->options->mounts[m].kind == SP_MOUNT_PORT ? c->cover.port_count++ : SP_NO_PORT;
     return true;
@@ -148,7 +148,7 @@ static bool add_own(certifying *c, sp_error *error)
         for (size_t n = 0; n < design->count; n++) {
             const sp_placed *placed = &design->items[n];
             if (!sp_pose_prices_row(c->prices, placed->field, SP_OWN_KEY, c->ports[placed->site.mount],
-                                    class_for(c, placed->flow), &c->bound.rows, error))
+                                    tier_for(c, placed->flow), &c->bound.rows, error))
                 return false;
         }
     }
@@ -157,9 +157,9 @@ static bool add_own(certifying *c, sp_error *error)
 
 static bool prepare(certifying *c, sp_error *error)
 {
-    if (!set_classes(c, error) || !set_texels(c, error))
+    if (!set_tiers(c, error) || !set_texels(c, error))
         return false;
-    c->prices = sp_pose_prices_create(c->search, &c->cover, c->class_of, c->need, c->ports, error);
+    c->prices = sp_pose_prices_create(c->search, &c->cover, c->tier_of, c->need, c->ports, error);
     if (!c->prices)
         return false;
     c->pricer = sp_pose_pricer(c->prices);

@@ -16,13 +16,13 @@ static bool make_room(sp_rows *rows, size_t more)
         size_t *port = realloc(rows->port, capacity * sizeof *port);
         if (port)
             rows->port = port;
-        uint32_t *class = realloc(rows->class, capacity * sizeof *class);
-        if (class)
-            rows->class = class;
+        uint32_t *tier = realloc(rows->tier, capacity * sizeof *tier);
+        if (tier)
+            rows->tier = tier;
         uint64_t *key = realloc(rows->key, capacity * sizeof *key);
         if (key)
             rows->key = key;
-        if (!start || !port || !class || !key)
+        if (!start || !port || !tier || !key)
             return false;
         rows->capacity = capacity;
     }
@@ -43,7 +43,7 @@ static bool make_room(sp_rows *rows, size_t more)
     return true;
 }
 
-bool sp_rows_add(sp_rows *rows, uint64_t key, size_t port, uint32_t class, const uint32_t *texels, const float *shares,
+bool sp_rows_add(sp_rows *rows, uint64_t key, size_t port, uint32_t tier, const uint32_t *texels, const float *shares,
                  size_t count, sp_error *error)
 {
     if (!make_room(rows, count))
@@ -55,7 +55,7 @@ bool sp_rows_add(sp_rows *rows, uint64_t key, size_t port, uint32_t class, const
         memcpy(&rows->share[rows->used], shares, count * sizeof *shares);
     }
     rows->port[rows->count] = port;
-    rows->class[rows->count] = class;
+    rows->tier[rows->count] = tier;
     rows->key[rows->count] = key;
     rows->used += count;
     rows->start[++rows->count] = rows->used;
@@ -72,7 +72,7 @@ void sp_rows_keep(sp_rows *rows, const bool *marked)
         memmove(&rows->texel[used], &rows->texel[first], count * sizeof *rows->texel);
         memmove(&rows->share[used], &rows->share[first], count * sizeof *rows->share);
         rows->port[kept] = rows->port[i];
-        rows->class[kept] = rows->class[i];
+        rows->tier[kept] = rows->tier[i];
         rows->key[kept] = rows->key[i];
         rows->start[kept++] = used;
         used += count;
@@ -87,7 +87,7 @@ void sp_rows_free(sp_rows *rows)
 {
     free(rows->start);
     free(rows->port);
-    free(rows->class);
+    free(rows->tier);
     free(rows->key);
     free(rows->texel);
     free(rows->share);
@@ -96,10 +96,15 @@ void sp_rows_free(sp_rows *rows)
 
 double sp_rows_price(const sp_rows *rows, size_t row, const float *price)
 {
-    double total = 0;
-    for (size_t i = rows->start[row]; i < rows->start[row + 1]; i++)
-        total += (double)rows->share[i] * (double)price[rows->texel[i]];
-    return total;
+    /* four sums side by side, so that none waits for the one before */
+    double total[4] = {0};
+    size_t i = rows->start[row], end = rows->start[row + 1];
+    for (; i + 4 <= end; i += 4)
+        for (size_t k = 0; k < 4; k++)
+            total[k] += (double)rows->share[i + k] * (double)price[rows->texel[i + k]];
+    for (; i < end; i++)
+        total[0] += (double)rows->share[i] * (double)price[rows->texel[i]];
+    return (total[0] + total[1]) + (total[2] + total[3]);
 }
 
 double sp_cover_rest(const sp_cover *cover, const float *price)

@@ -14,8 +14,8 @@ typedef struct {
     size_t texel_count;
     const float *area;      /* [texel_count], m²; 0: is covered anyway, or counts for nothing */
     double base;            /* m² that are covered whatever is chosen, besides */
-    size_t class_count;     /* of candidates, by water */
-    const uint32_t *weight; /* [class_count], whole units of water, above 0 */
+    size_t tier_count;      /* of candidates, by water */
+    const uint32_t *weight; /* [tier_count], whole units of water, above 0 */
     size_t port_count;      /* each holds one candidate at most */
     size_t nozzles, water;  /* most that may be chosen; units */
     bool repeats;           /* a candidate without a port may be chosen more than once */
@@ -26,7 +26,7 @@ typedef struct {
     size_t count, capacity;
     size_t *start; /* [count + 1] */
     size_t *port;  /* [count], SP_NO_PORT: none */
-    uint32_t *class;
+    uint32_t *tier;
     uint64_t *key; /* which candidate it is; SP_OWN_KEY: a nozzle of a layout that was found */
     size_t used, room;
     uint32_t *texel; /* [used], ascending in a row */
@@ -34,7 +34,7 @@ typedef struct {
 } sp_rows;
 
 /* Appends a row of `count` texels; false when memory runs out. */
-bool sp_rows_add(sp_rows *rows, uint64_t key, size_t port, uint32_t class, const uint32_t *texels, const float *shares,
+bool sp_rows_add(sp_rows *rows, uint64_t key, size_t port, uint32_t tier, const uint32_t *texels, const float *shares,
                  size_t count, sp_error *error);
 /* Keeps the rows that are marked, in their order. */
 void sp_rows_keep(sp_rows *rows, const bool *marked);

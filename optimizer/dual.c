@@ -93,13 +93,13 @@ static double use_of(const solver *s, size_t row, size_t resource)
 {
     const sp_cover *cover = s->dual->cover;
     if (resource == 0)
-        return s->scale * cover->weight[s->rows->class[row]] / (double)s->task->water;
+        return s->scale * cover->weight[s->rows->tier[row]] / (double)s->task->water;
     return s->scale / (double)s->task->nozzles; /* number, and the row's port */
 }
 
 static bool can_choose(const solver *s, size_t row)
 {
-    return s->dual->cover->weight[s->rows->class[row]] <= s->task->water &&
+    return s->dual->cover->weight[s->rows->tier[row]] <= s->task->water &&
            s->rows->start[row + 1] > s->rows->start[row];
 }
 
@@ -229,7 +229,7 @@ static double bound_of(solver *s, const float *u, const double *price, double ov
     sp_offers_clear(&s->offers);
     for (size_t c = 0; c < s->rows->count; c++)
         if (s->tau[c] > 0 && price[c] > 0)
-            sp_offers_add(&s->offers, s->rows->port[c], s->rows->class[c], price[c] / over);
+            sp_offers_add(&s->offers, s->rows->port[c], s->rows->tier[c], price[c] / over);
     sp_knapsack(&s->offers, s->task->nozzles, s->task->water, s->table);
     return s->dual->cover->base + sp_cover_rest(s->dual->cover, u) +
            s->table[(s->task->nozzles + 1) * (s->task->water + 1) - 1];
@@ -341,7 +341,7 @@ static bool solver_create(solver *s, sp_error *error)
     s->tau = calloc(6 * rows + 3 * texels + 4 * s->resources + 1, sizeof *s->tau);
     s->u_last = calloc(3 * texels + 1, sizeof *s->u_last);
     s->table = malloc((s->task->nozzles + 1) * (s->task->water + 1) * sizeof *s->table);
-    bool offers = sp_offers_create(cover->class_count, cover->weight, cover->port_count, s->task->nozzles,
+    bool offers = sp_offers_create(cover->tier_count, cover->weight, cover->port_count, s->task->nozzles,
                                    cover->repeats, &s->offers, error);
     if (!s->tau || !s->u_last || !s->table || !offers || !grow(s->dual, rows)) {
         solver_free(s);

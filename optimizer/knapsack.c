@@ -6,16 +6,16 @@
 
 #define UPWARDS (1 + 1e-12) /* more than all roundings of one table's sums */
 
-bool sp_offers_create(size_t class_count, const uint32_t *weight, size_t port_count, size_t most, bool repeats,
+bool sp_offers_create(size_t tier_count, const uint32_t *weight, size_t port_count, size_t most, bool repeats,
                       sp_offers *offers, sp_error *error)
 {
-    *offers = (sp_offers){.class_count = class_count,
+    *offers = (sp_offers){.tier_count = tier_count,
                           .weight = weight,
                           .port_count = port_count,
                           .most = repeats ? 1 : most,
                           .repeats = repeats};
-    offers->port = calloc(port_count * class_count + 1, sizeof *offers->port);
-    offers->free = calloc(class_count * offers->most + 1, sizeof *offers->free);
+    offers->port = calloc(port_count * tier_count + 1, sizeof *offers->port);
+    offers->free = calloc(tier_count * offers->most + 1, sizeof *offers->free);
     if (offers->port && offers->free)
         return true;
     sp_offers_free(offers);
@@ -31,18 +31,18 @@ void sp_offers_free(sp_offers *offers)
 
 void sp_offers_clear(sp_offers *offers)
 {
-    memset(offers->port, 0, offers->port_count * offers->class_count * sizeof *offers->port);
-    memset(offers->free, 0, offers->class_count * offers->most * sizeof *offers->free);
+    memset(offers->port, 0, offers->port_count * offers->tier_count * sizeof *offers->port);
+    memset(offers->free, 0, offers->tier_count * offers->most * sizeof *offers->free);
 }
 
-void sp_offers_add(sp_offers *offers, size_t port, size_t class, double price)
+void sp_offers_add(sp_offers *offers, size_t port, size_t tier, double price)
 {
     if (port != SIZE_MAX) {
-        double *best = &offers->port[port * offers->class_count + class];
+        double *best = &offers->port[port * offers->tier_count + tier];
         *best = fmax(*best, price);
         return;
     }
-    double *prices = &offers->free[class * offers->most];
+    double *prices = &offers->free[tier * offers->most];
     size_t at = offers->most;
     while (at > 0 && prices[at - 1] < price) {
         if (at < offers->most)
@@ -53,7 +53,7 @@ void sp_offers_add(sp_offers *offers, size_t port, size_t class, double price)
         prices[at] = price;
 }
 
-/* One nozzle at most out of a choice of prices by class, on top of `value`. Downwards, so that what is read is still
+/* One nozzle at most out of a choice of prices by tier, on top of `value`. Downwards, so that what is read is still
  * without it. */
 static void take_one(const sp_offers *offers, const double *prices, bool must, size_t nozzles, size_t water,
                      double *value)
@@ -62,7 +62,7 @@ static void take_one(const sp_offers *offers, const double *prices, bool must, s
     for (size_t n = nozzles + 1; n-- > 0;)
         for (size_t w = row; w-- > 0;) {
             double best = must ? -INFINITY : value[n * row + w];
-            for (size_t k = 0; n > 0 && k < offers->class_count; k++)
+            for (size_t k = 0; n > 0 && k < offers->tier_count; k++)
                 if (prices[k] > 0 && offers->weight[k] <= w)
                     best = fmax(best, prices[k] + value[(n - 1) * row + w - offers->weight[k]]);
             value[n * row + w] = best;
@@ -90,7 +90,7 @@ static void take_once(uint32_t weight, double price, size_t nozzles, size_t wate
 void sp_knapsack(const sp_offers *offers, size_t nozzles, size_t water, double *value)
 {
     memset(value, 0, (nozzles + 1) * (water + 1) * sizeof *value);
-    for (size_t k = 0; k < offers->class_count; k++) {
+    for (size_t k = 0; k < offers->tier_count; k++) {
         const double *prices = &offers->free[k * offers->most];
         if (offers->repeats && prices[0] > 0)
             take_many(offers->weight[k], prices[0], nozzles, water, value);
@@ -101,7 +101,7 @@ void sp_knapsack(const sp_offers *offers, size_t nozzles, size_t water, double *
         }
     }
     for (size_t p = 0; p < offers->port_count; p++)
-        take_one(offers, &offers->port[p * offers->class_count], false, nozzles, water, value);
+        take_one(offers, &offers->port[p * offers->tier_count], false, nozzles, water, value);
     for (size_t i = 0; i < (nozzles + 1) * (water + 1); i++)
         value[i] *= UPWARDS;
 }

@@ -7,28 +7,28 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The best prices on offer. A class is a weight: water in whole units. */
+/* The best prices on offer. A tier is a weight: water in whole units. */
 typedef struct {
-    size_t class_count;
-    const uint32_t *weight; /* [class_count], above 0; borrowed */
+    size_t tier_count;
+    const uint32_t *weight; /* [tier_count], above 0; borrowed */
     size_t port_count;
     size_t most;  /* free nozzles that could be taken at all */
     bool repeats; /* a free nozzle may be taken again and again */
-    double *port; /* [port_count x class_count], the best that fits the port, which takes one; 0: none */
-    double *free; /* [class_count x most] falling; with `repeats` [class_count], the best; 0: none */
+    double *port; /* [port_count x tier_count], the best that fits the port, which takes one; 0: none */
+    double *free; /* [tier_count x most] falling; with `repeats` [tier_count], the best; 0: none */
 } sp_offers;
 
-bool sp_offers_create(size_t class_count, const uint32_t *weight, size_t port_count, size_t most, bool repeats,
+bool sp_offers_create(size_t tier_count, const uint32_t *weight, size_t port_count, size_t most, bool repeats,
                       sp_offers *offers, sp_error *error);
 void sp_offers_free(sp_offers *offers);
 void sp_offers_clear(sp_offers *offers);
 /* One candidate's price; `port` SIZE_MAX: a free one. */
-void sp_offers_add(sp_offers *offers, size_t port, size_t class, double price);
+void sp_offers_add(sp_offers *offers, size_t port, size_t tier, double price);
 
 /* value[n * (water + 1) + w], [nozzles + 1][water + 1]: the highest total price of at most n nozzles of weight at most
  * w, rounded upwards. Dynamic programming: Martello and Toth, Knapsack Problems, 1990, chapter 2. */
 void sp_knapsack(const sp_offers *offers, size_t nozzles, size_t water, double *value);
-/* Of `value`, a table of sp_knapsack, the same where one more nozzle has to be taken at one of prices[class_count]
+/* Of `value`, a table of sp_knapsack, the same where one more nozzle has to be taken at one of prices[tier_count]
  * (0: none; -INFINITY where nothing fits), written over it. */
 void sp_knapsack_must(const sp_offers *offers, const double *prices, size_t nozzles, size_t water, double *value);
 

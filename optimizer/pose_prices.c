@@ -31,7 +31,7 @@ typedef struct {
 struct sp_pose_prices {
     const sp_search *search;
     const sp_cover *cover;
-    const uint32_t *class_of;
+    const uint32_t *tier_of;
     const float *need;
     const size_t *ports;
     uint8_t **twice; /* [views], NULL or [arrivals]: whether the view's other arc reaches the texel too */
@@ -89,7 +89,7 @@ static bool allocate(sp_pose_prices *prices)
     return true;
 }
 
-sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *cover, const uint32_t *class_of,
+sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of,
                                       const float *need, const size_t *ports, sp_error *error)
 {
     sp_pose_prices *prices = malloc(sizeof *prices);
@@ -97,7 +97,7 @@ sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *c
         return sp_fail_memory(error);
     *prices = (sp_pose_prices){.search = search,
                                .cover = cover,
-                               .class_of = class_of,
+                               .tier_of = tier_of,
                                .need = need,
                                .ports = ports,
                                .threads = sp_threads(&search->options->run)};
@@ -264,8 +264,18 @@ static double price_of(const sp_pose_prices *prices, const scratch *own, const s
     return whole * UPWARDS;
 }
 
-/* The best pose of every make at a site. What surely is worth no more than least[make] is passed over. */
-static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, const float *u, const double *least)
+/* What a site's pose of a make must be worth to matter: more than is on offer, or than is needed. */
+static double least_of(const sp_pose_prices *prices, size_t port, size_t tier, const double *needed,
+                       const sp_offers *offers)
+{
+    double offered =
+        port == SP_NO_PORT ? offers->free[tier * offers->most] : offers->port[port * offers->tier_count + tier];
+    return prices->cover->weight[tier] > prices->cover->water ? INFINITY : fmin(offered, needed[tier]);
+}
+
+/* The best pose of every make at a site, of those that matter. */
+static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, const float *u, const double *needed,
+                       const sp_offers *offers)
 {
     const sp_candidates *candidates = prices->search->candidates;
     uint32_t mount = prices->search->sites->items[site].mount;
@@ -275,8 +285,9 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
         size_t axes = sp_candidates_axes(candidates, mount, k)->count;
         size_t at = site * candidates->speed_count + make->speed_class;
         const sp_view *view = &prices->search->visibility->views[at];
+        double least = least_of(prices, prices->ports[mount], prices->tier_of[k], needed, offers);
         *found = (best){.price = 0};
-        if (!axes || !view->start || !isfinite(least[k]) || prices->search->port_taken[mount])
+        if (!axes || !view->start || !isfinite(least) || prices->search->port_taken[mount])
             continue;
         prepare_worth(prices, own, at, make, u);
         prepare_bins(prices, own, make);
@@ -284,8 +295,8 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
             for (uint32_t r = 0; r < make->roll_count; r++) {
                 sp_pose pose = {site, k, a, r};
                 region pattern = region_of(prices, make, pose);
-                double price = price_of(prices, own, view, &pattern, fmax(found->price, least[k]));
-                if (price > found->price)
+                double price = price_of(prices, own, view, &pattern, fmax(found->price, least));
+                if (price > fmax(found->price, least))
                     *found = (best){pose, price};
             }
     }
@@ -301,7 +312,7 @@ static uint64_t key_of(const sp_pose_prices *prices, sp_pose pose)
     return key + (uint64_t)pose.axis * candidates->makes[pose.make].roll_count + pose.roll;
 }
 
-bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t class,
+bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t tier,
                         sp_rows *rows, sp_error *error)
 {
     size_t count = 0;
@@ -314,14 +325,14 @@ bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64
             prices->shares[count++] = share;
         }
     }
-    return sp_rows_add(rows, key, port, class, prices->texels, prices->shares, count, error);
+    return sp_rows_add(rows, key, port, tier, prices->texels, prices->shares, count, error);
 }
 
 bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *rows, sp_error *error)
 {
     sp_field_pose(prices->search, pose, prices->field);
     return sp_pose_prices_row(prices, prices->field, key_of(prices, pose),
-                              prices->ports[prices->search->sites->items[pose.site].mount], prices->class_of[pose.make],
+                              prices->ports[prices->search->sites->items[pose.site].mount], prices->tier_of[pose.make],
                               rows, error);
 }
 
@@ -354,7 +365,7 @@ static bool hand_out(const sp_pose_prices *prices, const double *needed, sp_rows
     if (!done)
         sp_fail_memory(error);
     for (size_t i = 0; done && i < count; i++) {
-        double need = needed[prices->class_of[prices->bests[i].pose.make]], price = prices->bests[i].price;
+        double need = needed[prices->tier_of[prices->bests[i].pose.make]], price = prices->bests[i].price;
         if (price > need)
             entries[found++] = (entry){need > 0 ? price / need : price * 1e30, i};
     }
@@ -383,20 +394,14 @@ static bool price_poses(void *user, const float *u, const double *needed, sp_off
     sp_pose_prices *prices = user;
     const sp_search *search = prices->search;
     size_t makes = search->candidates->make_count, sites = search->sites->count;
-    double *least = malloc((makes + 1) * sizeof *least);
-    if (!least)
-        return sp_fail_memory(error);
-    for (size_t k = 0; k < makes; k++)
-        least[k] = prices->cover->weight[prices->class_of[k]] > prices->cover->water ? INFINITY : 0;
 #pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
-        price_site(prices, &prices->scratches[omp_get_thread_num()], (uint32_t)i, u, least);
-    free(least);
+        price_site(prices, &prices->scratches[omp_get_thread_num()], (uint32_t)i, u, needed, offers);
     for (size_t i = 0; i < sites * makes; i++)
         if (prices->bests[i].price > 0)
-            sp_offers_add(offers, prices->ports[search->sites->items[i / makes].mount], prices->class_of[i % makes],
+            sp_offers_add(offers, prices->ports[search->sites->items[i / makes].mount], prices->tier_of[i % makes],
                           prices->bests[i].price);
-    return !rows || hand_out(prices, needed, rows, error);
+    return hand_out(prices, needed, rows, error);
 }
 
 sp_pricer sp_pose_pricer(sp_pose_prices *prices)

@@ -11,15 +11,15 @@
 
 typedef struct sp_pose_prices sp_pose_prices;
 
-/* For the cover of `search`, its texels the coarse patches: class_of[make], the class of each make's water; need
+/* For the cover of `search`, its texels the coarse patches: tier_of[make], the tier of each make's water; need
  * [texels], flux over threshold that a texel lacks, 0 where it is not to be counted; ports [mounts], the port that a
  * mount is, SP_NO_PORT where it is none. All borrowed. */
-sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *cover, const uint32_t *class_of,
+sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of,
                                       const float *need, const size_t *ports, sp_error *error);
 void sp_pose_prices_destroy(sp_pose_prices *prices);
 sp_pricer sp_pose_pricer(sp_pose_prices *prices);
 /* Appends a field (flux over threshold) as a row. */
-bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t class,
+bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t tier,
                         sp_rows *rows, sp_error *error);
 /* Appends the row of a pose. */
 bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *rows, sp_error *error);

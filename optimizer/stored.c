@@ -22,28 +22,22 @@ static int by_key(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Appends the best of the entries that are not among the rows yet. */
+static bool is_among(const uint64_t *keys, size_t count, uint64_t key)
+{
+    return bsearch(&key, keys, count, sizeof *keys, by_key) != NULL;
+}
+
+/* Appends the best of the entries. */
 static bool hand_out(const sp_stored *stored, entry *entries, size_t count, sp_rows *rows, sp_error *error)
 {
     const sp_rows *all = stored->rows;
-    uint64_t *keys = malloc((rows->count + 1) * sizeof *keys);
-    if (!keys)
-        return sp_fail_memory(error);
-    size_t had = rows->count, given = 0;
-    for (size_t i = 0; i < had; i++)
-        keys[i] = rows->key[i];
-    qsort(keys, had, sizeof *keys, by_key);
-    qsort(entries, count, sizeof *entries, by_excess);
     bool done = true;
-    for (size_t i = 0; done && i < count && given < stored->most; i++) {
-        size_t row = entries[i].row, first = all->start[row];
-        if (bsearch(&all->key[row], keys, had, sizeof *keys, by_key))
-            continue;
-        done = sp_rows_add(rows, all->key[row], all->port[row], all->class[row], &all -> texel[first],
-                           &all -> share[first], all -> start[row + 1] - first, error);
-        given++;
+    qsort(entries, count, sizeof *entries, by_excess);
+    for (size_t i = 0; done && i < count && i < stored->most; i++) {
+        size_t row = entries[i].row, first = all->start[row], size = all->start[row + 1] - first;
+        done = sp_rows_add(rows, all->key[row], all->port[row], all->tier[row], all->texel + first, all->share + first,
+                           size, error);
     }
-    free(keys);
     return done;
 }
 
@@ -54,23 +48,30 @@ static bool price_stored(void *user, const float *u, const double *needed, sp_of
     const sp_rows *all = stored->rows;
     double *price = malloc((all->count + 1) * sizeof *price);
     entry *entries = malloc((all->count + 1) * sizeof *entries);
-    bool done = price && entries;
+    uint64_t *keys = malloc((rows->count + 1) * sizeof *keys);
+    bool done = price && entries && keys;
     if (!done)
         sp_fail_memory(error);
-    size_t count = 0;
+    size_t count = 0, had = rows->count;
+    for (size_t i = 0; done && i < had; i++)
+        keys[i] = rows->key[i];
+    if (done)
+        qsort(keys, had, sizeof *keys, by_key);
 #pragma omp parallel for num_threads(stored->cover->threads) schedule(dynamic, 16)
     for (size_t c = 0; c < (done ? all->count : 0); c++)
         price[c] = sp_rows_price(all, c, u);
     for (size_t c = 0; done && c < all->count; c++) {
-        double need = needed[all->class[c]];
-        sp_offers_add(offers, all->port[c], all->class[c], price[c]);
+        double need = needed[all->tier[c]];
+        if (is_among(keys, had, all->key[c]))
+            continue;
+        sp_offers_add(offers, all->port[c], all->tier[c], price[c]);
         if (price[c] > need)
             entries[count++] = (entry){need > 0 ? price[c] / need : price[c] * 1e30, c};
     }
-    if (done && rows)
-        done = hand_out(stored, entries, count, rows, error);
+    done = done && hand_out(stored, entries, count, rows, error);
     free(price);
     free(entries);
+    free(keys);
     return done;
 }
 

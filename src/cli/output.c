@@ -59,6 +59,21 @@ static void print_figures(const sp_figures *figures, const char *name, int width
     printf(" %14.4f\n", isnan(figures->area_per_water) ? 0 : figures->area_per_water / 6e4);
 }
 
+/* What is proved, in the report's own words; rounded so that it stays true. */
+static void print_certificate(const sp_certificate *certificate)
+{
+    if (!certificate->computed)
+        return;
+    printf(
+        "\nAmong these %zu candidate poses and the proposal's own, on %zu texels, no layout reaches %.1f %% with less "
+        "than %.1f L/min.\nWith the proposal's water none covers more than %.1f %% of them (gap %.1f %%). Poses "
+        "between "
+        "candidates are not covered.\n",
+        certificate->candidates, certificate->texels, ceil(1e3 * certificate->counted / certificate->whole - 1e-9) / 10,
+        floor(6e5 * certificate->water_bound + 1e-6) / 10,
+        ceil(1e3 * certificate->area_bound / certificate->whole - 1e-9) / 10, 100 * certificate->gap);
+}
+
 static bool print_summary(const sp_result *result, sp_error *error)
 {
     sp_figures *figures = sp_result_figures(result, error);
@@ -71,6 +86,8 @@ static bool print_summary(const sp_result *result, sp_error *error)
            "of attainable %", "m2 per L/min");
     for (size_t i = 0; i < result->design_count; i++)
         print_figures(&figures[i], result->designs[i].name, width);
+    if (result->proposal)
+        print_certificate(&result->proposal->certificate);
     sp_figures_destroy(figures, result->design_count);
     return true;
 }

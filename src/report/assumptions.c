@@ -108,7 +108,9 @@ static void add_search(sp_text *text, const sp_proposal *proposal)
         "the re-traced result improved</dd>\n",
         proposal->candidates, proposal->positions);
     add_item(text, "Not proved");
-    sp_text_add(text, "this report holds no bound on what the best possible layout could do</dd>\n");
+    sp_text_add(text, proposal->certificate.computed
+                          ? "what poses between the candidates could do</dd>\n"
+                          : "this report holds no bound on what the best possible layout could do</dd>\n");
 }
 
 void sp_page_assumptions(const sp_page *page, sp_text *text)

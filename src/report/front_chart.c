@@ -96,6 +96,22 @@ static void add_front(const sp_page *page, sp_text *text, const axes *a)
                     x_of(a, 6e4 * proposal->front[i].flow), y_of(a, 100 * proposal->front[i].area / whole));
 }
 
+/* What is proved that no layout exceeds, at the waters of the front. */
+static void add_bound(const sp_page *page, sp_text *text, const axes *a)
+{
+    const sp_proposal *proposal = page->result->proposal;
+    const sp_figures *figures = &page->figures[page->main == SP_UNKNOWN ? 0 : page->main];
+    if (!proposal || !proposal->certificate.computed || proposal->front_count == 0)
+        return;
+    sp_text_add(text, "<path class=\"bound\" d=\"");
+    for (size_t i = 0; i < proposal->front_count; ++i) {
+        double share = proposal->front[i].bound / proposal->certificate.whole;
+        double y = y_of(a, fmin(100, 100 * share * figures->clean_area / whole_area(page)));
+        sp_text_add(text, i == 0 ? "M%.1f %.1f" : "H%.1fV%.1f", x_of(a, 6e4 * proposal->front[i].flow), y);
+    }
+    sp_text_add(text, "H%d\"/>\n", WIDTH - RIGHT);
+}
+
 /* Shapes differ as well as colours. */
 static void add_marker(sp_text *text, double x, double y, size_t shape, const char *colour)
 {
@@ -130,6 +146,11 @@ static void add_designs(const sp_page *page, sp_text *text, const axes *a)
         "<path class=\"front\" d=\"M%d %.1fh20\"/><circle class=\"point\" cx=\"%d\" cy=\"%.1f\" r=\"3.5\"/><text "
         "class=\"legend\" x=\"%d\" y=\"%.1f\">Best found for rising water</text>\n",
         WIDTH - RIGHT - 260, legend - 4, WIDTH - RIGHT - 250, legend - 4, WIDTH - RIGHT - 234, legend);
+    if (page->result->proposal->certificate.computed)
+        sp_text_add(text,
+                    "<path class=\"bound\" d=\"M%d %.1fh20\"/><text class=\"legend\" x=\"%d\" y=\"%.1f\">Proved: none "
+                    "covers more</text>\n",
+                    WIDTH - RIGHT - 260, legend - 26, WIDTH - RIGHT - 234, legend - 22);
 }
 
 void sp_page_front_chart(const sp_page *page, sp_text *text)
@@ -143,13 +164,17 @@ void sp_page_front_chart(const sp_page *page, sp_text *text)
                 "role=\"img\" aria-label=\"Chart: coverage in per cent against water in litres a minute\">\n",
                 WIDTH, HEIGHT);
     add_grid(page, text, &a);
+    add_bound(page, text, &a);
     add_front(page, text, &a);
     add_designs(page, text, &a);
     sp_text_add(text, "</svg>\n");
     if (front)
-        sp_text_add(
-            text,
-            "<p class=\"note\">Each dot is a layout that the search found; none that it found covers more with as "
-            "little water. How far the best possible may lie above is not known.</p>\n");
+        sp_text_add(text,
+                    "<p class=\"note\">Each dot is a layout that the search found; none that it found covers more with "
+                    "as little water. %s</p>\n",
+                    page->result->proposal->certificate.computed
+                        ? "The dashed line is what no layout of the candidates exceeds, counted on the texels of the "
+                          "certificate below."
+                        : "How far the best possible may lie above is not known.");
     sp_text_add(text, "</section>\n");
 }

@@ -43,6 +43,7 @@ static const char *const style[] = {
     "text{fill:var(--ink)}\n"
     ".grid{stroke:var(--line)}\n.tick{stroke:var(--ink);fill:none}\n.swatch{stroke:#8b97a1}\n"
     ".front{fill:none;stroke:#0b6670;stroke-width:2}\n.point{fill:#0b6670}\n"
+    ".bound{fill:none;stroke:#8a5a00;stroke-width:1.5;stroke-dasharray:6 4}\n"
     "dl{display:grid;grid-template-columns:max-content 1fr;gap:6px 22px;margin:0}\ndt{font-weight:600}\ndd{margin:0}\n"
     "footer{margin-top:44px;padding-top:12px;border-top:1px solid var(--line);color:var(--soft);font-size:14px}\n"
     "@media (max-width:640px){.of2,.of3{grid-template-columns:1fr}dl{grid-template-columns:1fr}}\n"
@@ -136,6 +137,7 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
     sp_page_figures(page, text);
     sp_page_comparison(page, text);
     sp_page_front_chart(page, text);
+    sp_page_certificate(page, text);
     if (!sp_page_pictures(page, text, error))
         return false;
     sp_page_nozzles(page, text);

@@ -32,6 +32,8 @@ void sp_page_gain(const sp_page *page, sp_text *text);
 void sp_page_comparison(const sp_page *page, sp_text *text);
 /* front_chart.c: coverage against water, SVG. */
 void sp_page_front_chart(const sp_page *page, sp_text *text);
+/* certificate.c: what is proved about how good any layout could be; nothing where nothing is. */
+void sp_page_certificate(const sp_page *page, sp_text *text);
 /* pictures.c: three views of every design, with the colour bar. */
 bool sp_page_pictures(const sp_page *page, sp_text *text, sp_error *error);
 /* tables.c */

@@ -13,14 +13,14 @@
 
 #include "cover.h"
 
-#define INSTANCE_CLASSES 3
+#define INSTANCE_TIERS 3
 #define INSTANCE_WALLS 24
 
 typedef struct {
     sp_cover cover;
     sp_rows rows;
     float *area;
-    uint32_t weight[INSTANCE_CLASSES];
+    uint32_t weight[INSTANCE_TIERS];
 } instance;
 
 /* Marsaglia, Xorshift RNGs, 2003. */
@@ -41,14 +41,15 @@ static inline bool instance_crosses(const double w[4], double x, double y, doubl
 }
 
 /* One nozzle straight down: full cones of three flows and angles, flux as the inverse square of distance times the
- * cosine at the floor; 1 is enough. */
+ * cosine at the floor; 1 is enough. `plenty`: how strong they are; at 1 most of what a cone holds gets enough, at 0.3 a
+ * good part of it does not. */
 static inline void instance_add(instance *i, size_t edge, const double (*walls)[4], size_t wall_count, bool single,
-                                size_t port, uint64_t *seed, uint32_t *texels, float *shares)
+                                size_t port, double plenty, uint64_t *seed, uint32_t *texels, float *shares)
 {
-    static const double half_angles[INSTANCE_CLASSES] = {0.62, 0.85, 1.1};
+    static const double half_angles[INSTANCE_TIERS] = {0.62, 0.85, 1.1};
     double x = instance_random(seed), y = instance_random(seed), high = 0.09 + 0.16 * instance_random(seed);
-    uint32_t class = (uint32_t)(INSTANCE_CLASSES * instance_random(seed));
-    double cosine = cos(half_angles[class]), strength = 0.0045 * i->weight[class] / (2 * M_PI * (1 - cosine));
+    uint32_t tier = (uint32_t)(INSTANCE_TIERS * instance_random(seed));
+    double cosine = cos(half_angles[tier]), strength = 0.03 * plenty * i->weight[tier] / (2 * M_PI * (1 - cosine));
     size_t count = 0;
     for (size_t t = 0; t < edge * edge; t++) {
         double u = ((double)(t % edge) + 0.5) / (double)edge, v = ((double)(t / edge) + 0.5) / (double)edge;
@@ -63,12 +64,12 @@ static inline void instance_add(instance *i, size_t edge, const double (*walls)[
         shares[count++] = (float)fmin(1, flux);
     }
     sp_error error = {0};
-    assert_true(sp_rows_add(&i->rows, i->rows.count, port, class, texels, shares, count, &error));
+    assert_true(sp_rows_add(&i->rows, i->rows.count, port, tier, texels, shares, count, &error));
 }
 
 /* `ports`: so many, the first quarter of the candidates spread over them. */
 static inline void instance_create(instance *i, size_t candidates, size_t edge, bool single, size_t nozzles,
-                                   size_t water, size_t ports, uint64_t seed)
+                                   size_t water, size_t ports, double plenty, uint64_t seed)
 {
     *i = (instance){.weight = {8, 13, 20}};
     i->area = malloc(edge * edge * sizeof *i->area);
@@ -85,12 +86,12 @@ static inline void instance_create(instance *i, size_t candidates, size_t edge, 
     }
     for (size_t c = 0; c < candidates; c++)
         instance_add(i, edge, walls, INSTANCE_WALLS, single, ports && 4 * c < candidates ? c % ports : SP_NO_PORT,
-                     &seed, texels, shares);
+                     plenty, &seed, texels, shares);
     free(texels);
     free(shares);
     i->cover = (sp_cover){.texel_count = edge * edge,
                           .area = i->area,
-                          .class_count = INSTANCE_CLASSES,
+                          .tier_count = INSTANCE_TIERS,
                           .weight = i->weight,
                           .port_count = ports,
                           .nozzles = nozzles,

@@ -134,6 +134,34 @@ static void least_water_for_a_target(void **state)
     room_close(&j.room);
 }
 
+/* Against every layout of one or two, counted on the same patches. */
+static void nothing_exceeds_the_certificate(void **state)
+{
+    (void)state;
+    for (int single = 0; single < 2; single++) {
+        job j;
+        job_open(&j);
+        j.room.setup.criterion.combine = single ? SP_COMBINE_SINGLE : SP_COMBINE_SUM;
+        sp_evaluator_destroy(j.room.evaluator);
+        sp_error error = {0};
+        j.room.evaluator = sp_evaluator_create(&j.room.setup, &error);
+        j.options.max_nozzles = 2;
+        j.options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+        sp_proposal *proposal = job_place(&j);
+        const sp_certificate *certificate = &proposal->certificate;
+        assert_true(certificate->computed);
+        assert_int_equal(certificate->candidates, 10);
+        assert_int_equal(certificate->texels, sp_evaluator_patches(j.room.evaluator)->count);
+        assert_true(fabs(certificate->counted - proposal->coverage->covered_area) < 1e-5);
+        assert_true(certificate->area_bound + 1e-5 >= best_of_two(&j));
+        assert_true(certificate->area_bound < 1.25 * best_of_two(&j));
+        for (size_t i = 0; i < proposal->front_count; i++)
+            assert_true(proposal->front[i].bound >= proposal->front[i].counted);
+        sp_proposal_destroy(proposal);
+        room_close(&j.room);
+    }
+}
+
 static void limits_hold(void **state)
 {
     (void)state;
@@ -382,6 +410,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_nozzles_are_the_best_two),
         cmocka_unit_test(least_water_for_a_target),
+        cmocka_unit_test(nothing_exceeds_the_certificate),
         cmocka_unit_test(limits_hold),
         cmocka_unit_test(a_port_holds_one),
         cmocka_unit_test(a_kept_nozzle_takes_its_port),

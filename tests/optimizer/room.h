@@ -128,6 +128,15 @@ static inline void room_check(const sp_proposal *proposal, const sp_place_option
         assert_true(proposal->front[i].area > proposal->front[i - 1].area);
     }
     assert_true(proposal->coverage->covered_area <= proposal->attainable_area * (1 + 1e-12));
+    const sp_certificate *certificate = &proposal->certificate;
+    if (!certificate->computed)
+        return;
+    assert_true(certificate->area_bound >= certificate->counted);
+    assert_true(certificate->area_bound <= certificate->whole);
+    assert_true(certificate->water_bound <= proposal->coverage->flow * (1 + 1e-9));
+    assert_true(certificate->gap >= 0 && certificate->gap <= 1);
+    for (size_t i = 0; i < proposal->front_count; i++)
+        assert_true(proposal->front[i].bound >= proposal->front[i].counted);
 }
 
 #endif

@@ -44,7 +44,7 @@ static int set_up(void **state)
     memcpy(attainable, f.coverages[2]->deposits.covered, patches);
     for (int i = 0; i < 3; i++)
         f.front[i] = (sp_front_point){f.coverages[2]->flow * (i + 1) / 3,
-                                      f.coverages[2]->covered_area * (0.7 + 0.1 * i), (size_t)i + 1};
+                                      f.coverages[2]->covered_area * (0.7 + 0.1 * i), (size_t)i + 1, NAN, NAN};
     f.stages[0] = (sp_stage){"visibility", 1.25};
     f.stages[1] = (sp_stage){"refine", 2.5};
     f.proposal = (sp_proposal){.layout = f.layouts[2],
@@ -214,6 +214,55 @@ static void result_json_has_the_keys_of_the_contract(void **state)
     free(text);
 }
 
+/* The words of the report are the promise: rounded so that they stay true. */
+static void a_certificate_is_told_in_full(void **state)
+{
+    fixture *f = *state;
+    sp_error error = {0};
+    char *html = sp_report_html(&f->result, &error), *text;
+    assert_non_null(strstr(html, "is not known"));
+    assert_null(strstr(html, "id=\"certificate\""));
+    assert_null(strstr(html, "class=\"bound\""));
+    free(html);
+    sp_proposal proposal = f->proposal;
+    sp_front_point front[3];
+    for (int i = 0; i < 3; i++) {
+        front[i] = f->front[i];
+        front[i].counted = 6 + i;
+        front[i].bound = 8 + 0.5 * i;
+    }
+    proposal.front = front;
+    proposal.certificate = (sp_certificate){.computed = true,
+                                            .texels = 20011,
+                                            .candidates = 123456,
+                                            .own = 7,
+                                            .whole = 10,
+                                            .counted = 8.0401,
+                                            .area_bound = 9.0001,
+                                            .water_bound = 31.29 / 6e4,
+                                            .gap = 0.10667};
+    sp_result result = f->result;
+    result.proposal = &proposal;
+    html = sp_report_html(&result, &error);
+    assert_non_null(strstr(html,
+                           "Among these 123456 candidate poses and the proposal&#39;s own, on 20011 texels, no layout "
+                           "reaches 80.5&nbsp;% with less than 31.2&nbsp;L/min. Poses between candidates are not "
+                           "covered."));
+    assert_non_null(strstr(html, "no layout reaches more than 90.1&nbsp;%: at most 10.7&nbsp;% of what"));
+    assert_non_null(strstr(html, "<path class=\"bound\""));
+    assert_null(strstr(html, "is not known"));
+    free(html);
+    text = sp_result_json(&result, &error);
+    json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL), *certificate = json_object_get(all, "certificate");
+    EXPECT_KEYS(certificate, "method", "coverage", "coverage_bound_same_water", "water_bound_same_coverage_l_min",
+                "gap", "candidates", "own_poses", "texels");
+    EXPECT_KEYS(json_array_get(json_object_get(all, "front"), 0), "water_l_min", "coverage", "nozzles",
+                "coverage_on_texels", "coverage_bound");
+    assert_true(fabs(json_number_value(json_object_get(certificate, "coverage_bound_same_water")) - 0.90001) < 1e-12);
+    json_decref(all);
+    free(text);
+}
+
 static uint32_t word(const char *bytes)
 {
     const unsigned char *b = (const unsigned char *)bytes;
@@ -272,11 +321,9 @@ static void the_model_is_a_gltf(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_same_bytes_every_time),
-        cmocka_unit_test(the_page_stands_alone),
-        cmocka_unit_test(names_from_strangers_stay_text),
-        cmocka_unit_test(result_json_has_the_keys_of_the_contract),
-        cmocka_unit_test(the_model_is_a_gltf),
+        cmocka_unit_test(the_same_bytes_every_time),      cmocka_unit_test(the_page_stands_alone),
+        cmocka_unit_test(names_from_strangers_stay_text), cmocka_unit_test(result_json_has_the_keys_of_the_contract),
+        cmocka_unit_test(a_certificate_is_told_in_full),  cmocka_unit_test(the_model_is_a_gltf),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -1,0 +1,38 @@
+/* How far from the best possible the proposal can be, as far as that is proved. */
+#include "page.h"
+
+/* Fractions that are proved from above are rounded up, from below down. */
+static void add_percent(sp_text *text, double fraction, bool up)
+{
+    double tenths = 1000 * fraction;
+    sp_markup_decimals(text, (up ? ceil(tenths - 1e-9) : floor(tenths + 1e-9)) / 10, 1);
+    sp_text_add(text, "&nbsp;%%");
+}
+
+void sp_page_certificate(const sp_page *page, sp_text *text)
+{
+    const sp_proposal *proposal = page->result->proposal;
+    if (!proposal || !proposal->certificate.computed)
+        return;
+    const sp_certificate *found = &proposal->certificate;
+    sp_text_add(text,
+                "<section id=\"certificate\"><h2>How good any layout could be</h2>\n<p>Among these %zu candidate poses "
+                "and the proposal&#39;s own, on %zu texels, no layout reaches ",
+                found->candidates, found->texels);
+    add_percent(text, found->counted / found->whole, true);
+    sp_text_add(text, " with less than ");
+    sp_markup_decimals(text, floor(6e5 * found->water_bound + 1e-6) / 10, 1);
+    sp_text_add(
+        text, "&nbsp;L/min. Poses between candidates are not covered.</p>\n<p>That is what the proposal itself reaches "
+              "on these texels, with ");
+    sp_markup_decimals(text, 6e4 * proposal->coverage->flow, 1);
+    sp_text_add(text, "&nbsp;L/min. With as much water no layout reaches more than ");
+    add_percent(text, found->area_bound / found->whole, true);
+    sp_text_add(text, ": at most ");
+    add_percent(text, found->gap, true);
+    sp_text_add(text,
+                " of what is possible is left.</p>\n<p class=\"note\">Proved by Lagrangian duality for every choice "
+                "of these poses that keeps the limits on nozzles, water and ports, rounded outwards. The texels "
+                "are those of the search and may be coarser than those that the other figures are counted on; "
+                "liquid that is thrown back from walls does not count here.</p></section>\n");
+}

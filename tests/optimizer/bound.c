@@ -1,0 +1,253 @@
+/* Bounds against every layout there is, on instances small enough to try them all. */
+#include "instance.h"
+
+#include "bound.h"
+
+#define ROUNDS 6
+#ifdef SPRAYPLAN_SANITIZE
+#define INSTANCES 6
+#else
+#define INSTANCES 40
+#endif
+
+/* The most that layouts cover: by water and by number, [water + 1] and [nozzles + 1]. */
+typedef struct {
+    const instance *in;
+    double *by_water, *by_nozzles;
+    float *sum;
+    size_t chosen[8];
+} trial;
+
+static double covered(const trial *t, size_t count)
+{
+    const sp_rows *rows = &t->in->rows;
+    double area = t->in->cover.base;
+    for (size_t p = 0; p < t->in->cover.texel_count; p++)
+        t->sum[p] = 0;
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = rows->start[t->chosen[i]]; k < rows->start[t->chosen[i] + 1]; k++)
+            t->sum[rows->texel[k]] += rows->share[k];
+    for (size_t p = 0; p < t->in->cover.texel_count; p++)
+        area += t->sum[p] >= 1 ? (double)t->in->area[p] : 0;
+    return area;
+}
+
+static void try_all(trial *t, size_t count, size_t first, size_t water)
+{
+    const sp_cover *cover = &t->in->cover;
+    const sp_rows *rows = &t->in->rows;
+    double area = covered(t, count);
+    for (size_t w = water; w <= cover->water; w++)
+        t->by_water[w] = fmax(t->by_water[w], area);
+    for (size_t n = count; n <= cover->nozzles; n++)
+        t->by_nozzles[n] = fmax(t->by_nozzles[n], area);
+    if (count == cover->nozzles)
+        return;
+    for (size_t c = first; c < rows->count; c++) {
+        bool taken = false;
+        for (size_t i = 0; i < count; i++)
+            taken |= rows->port[c] != SP_NO_PORT && rows->port[t->chosen[i]] == rows->port[c];
+        size_t more = water + cover->weight[rows->tier[c]];
+        if (taken || more > cover->water)
+            continue;
+        t->chosen[count] = c;
+        try_all(t, count + 1, cover->repeats ? c : c + 1, more);
+    }
+}
+
+/* The instance's bounds against all its layouts; adds how far the last one lies above. */
+static void check_instance(instance *in, size_t start_rows, double *looseness)
+{
+    sp_error error = {0};
+    size_t water = in->cover.water, nozzles = in->cover.nozzles;
+    trial t = {.in = in};
+    t.by_water = calloc(water + 1, sizeof *t.by_water);
+    t.by_nozzles = calloc(nozzles + 1, sizeof *t.by_nozzles);
+    t.sum = malloc(in->cover.texel_count * sizeof *t.sum);
+    try_all(&t, 0, 0, 0);
+    sp_stored stored = {&in->cover, &in->rows, 4};
+    sp_pricer pricer = sp_stored_pricer(&stored);
+    sp_bound bound;
+    assert_true(sp_bound_create(&in->cover, &pricer, &bound, &error));
+    for (size_t c = 0; c < start_rows; c++)
+        assert_true(sp_rows_add(&bound.rows, in->rows.key[c], in->rows.port[c], in->rows.tier[c],
+                                in->rows.texel + in->rows.start[c], in->rows.share + in->rows.start[c],
+                                in->rows.start[c + 1] - in->rows.start[c], &error));
+    for (size_t w = water; w > water / 4; w -= 4) {
+        assert_true(sp_bound_lower(&bound, w, ROUNDS, &error));
+        assert_true(bound.best >= t.by_water[w]);
+        assert_true(bound.by_water[w] <= bound.best);
+    }
+    for (size_t w = 0; w <= water; w++)
+        assert_true(bound.by_water[w] >= t.by_water[w]);
+    for (size_t w = 0; w < water; w++)
+        assert_true(bound.by_water[w] <= bound.by_water[w + 1]);
+    for (size_t n = 0; n <= nozzles; n++)
+        assert_true(bound.by_nozzles[n] >= t.by_nozzles[n]);
+    size_t least = 0;
+    while (t.by_water[least] < t.by_water[water])
+        least++;
+    assert_true(sp_bound_water(&bound, t.by_water[water]) <= least);
+    *looseness += bound.by_water[water] / t.by_water[water] - 1;
+    sp_bound_free(&bound);
+    free(t.by_water);
+    free(t.by_nozzles);
+    free(t.sum);
+}
+
+static void never_below_the_optimum(void **state)
+{
+    (void)state;
+    for (int single = 0; single < 2; single++) {
+        double looseness = 0;
+        for (uint64_t i = 0; i < INSTANCES; i++) {
+            instance in;
+            instance_create(&in, 12, 14, single, 1 + i % 4, 26 + i % 30, i % 3, 0.1 + 0.03 * (double)(i % 20),
+                            77 + 1000 * i);
+            in.cover.repeats = i % 2 ? in.cover.repeats : false;
+            check_instance(&in, i % 5, &looseness);
+            instance_free(&in);
+        }
+        print_message("%s: on average %.1f %% above the optimum\n", single ? "single" : "sum",
+                      100 * looseness / INSTANCES);
+        /* and worth something: on average not far above it */
+        assert_true(looseness / INSTANCES < (single ? 0.1 : 1.0));
+    }
+}
+
+/* Discs that do not touch: the bound is the optimum. */
+static void tight_where_nothing_overlaps(void **state)
+{
+    (void)state;
+    enum { ROWS = 6, EACH = 10 };
+    float area[ROWS * EACH];
+    const uint32_t weight[2] = {3, 4};
+    for (size_t t = 0; t < ROWS * EACH; t++)
+        area[t] = 0.5f + (float)(t / EACH);
+    sp_cover cover = {.texel_count = ROWS * EACH,
+                      .area = area,
+                      .base = 2,
+                      .tier_count = 2,
+                      .weight = weight,
+                      .nozzles = 4,
+                      .water = 14,
+                      .threads = 1};
+    sp_rows rows = {0};
+    sp_error error = {0};
+    for (uint32_t c = 0; c < ROWS; c++) {
+        uint32_t texels[EACH];
+        float shares[EACH];
+        for (uint32_t t = 0; t < EACH; t++) {
+            texels[t] = c * EACH + t;
+            shares[t] = 1;
+        }
+        assert_true(sp_rows_add(&rows, c, SP_NO_PORT, c % 2, texels, shares, EACH, &error));
+    }
+    sp_stored stored = {&cover, &rows, ROWS};
+    sp_pricer pricer = sp_stored_pricer(&stored);
+    sp_bound bound;
+    assert_true(sp_bound_create(&cover, &pricer, &bound, &error));
+    assert_true(sp_bound_lower(&bound, 14, ROUNDS, &error));
+    /* the four largest, of 3 + 4 + 3 + 4: 25 + 35 + 45 + 55 */
+    assert_true(bound.by_water[14] >= 162);
+    assert_true(bound.by_water[14] <= 162 * (1 + 1e-6));
+    assert_true(bound.by_water[0] <= 2 * (1 + 1e-6));
+    assert_int_equal(sp_bound_water(&bound, 162), 14);
+    assert_int_equal(sp_bound_nozzles(&bound, 162), 4);
+    assert_true(sp_bound_water(&bound, 1e6) == SIZE_MAX);
+    sp_bound_free(&bound);
+    sp_rows_free(&rows);
+}
+
+static void threads_do_not_matter(void **state)
+{
+    (void)state;
+    float *price[2];
+    double *by_water[2];
+    for (int i = 0; i < 2; i++) {
+        sp_error error = {0};
+        instance in;
+        instance_create(&in, 120, 40, false, 6, 70, 2, 0.3, 5);
+        in.cover.threads = i ? 3 : 1;
+        sp_stored stored = {&in.cover, &in.rows, 20};
+        sp_pricer pricer = sp_stored_pricer(&stored);
+        sp_bound bound;
+        assert_true(sp_bound_create(&in.cover, &pricer, &bound, &error));
+        assert_true(sp_bound_lower(&bound, 70, 3, &error));
+        price[i] = bound.price;
+        by_water[i] = bound.by_water;
+        bound.price = NULL;
+        bound.by_water = NULL;
+        sp_bound_free(&bound);
+        instance_free(&in);
+    }
+    assert_memory_equal(price[0], price[1], 1600 * sizeof *price[0]);
+    assert_memory_equal(by_water[0], by_water[1], 71 * sizeof *by_water[0]);
+    for (int i = 0; i < 2; i++) {
+        free(price[i]);
+        free(by_water[i]);
+    }
+}
+
+/* The same by trying every choice: ports first, then free ones tier by tier. */
+static double pick(const sp_offers *o, const double *left, size_t nozzles, size_t port, const size_t *used)
+{
+    double best = 0;
+    if (!nozzles)
+        return 0;
+    if (port < o->port_count) {
+        best = pick(o, left, nozzles, port + 1, used);
+        for (size_t k = 0; k < o->tier_count; k++) {
+            double rest = *left - o->weight[k];
+            if (o->port[port * o->tier_count + k] > 0 && rest >= 0)
+                best = fmax(best, o->port[port * o->tier_count + k] + pick(o, &rest, nozzles - 1, port + 1, used));
+        }
+        return best;
+    }
+    for (size_t k = 0; k < o->tier_count; k++) {
+        double rest = *left - o->weight[k];
+        size_t at = o->repeats ? 0 : used[k], next[4];
+        memcpy(next, used, sizeof next);
+        next[k]++;
+        if (rest >= 0 && at < o->most && o->free[k * o->most + at] > 0)
+            best = fmax(best, o->free[k * o->most + at] + pick(o, &rest, nozzles - 1, port, next));
+    }
+    return best;
+}
+
+static void the_knapsack_is_the_best_choice(void **state)
+{
+    (void)state;
+    uint64_t seed = 4711;
+    const uint32_t weight[4] = {2, 3, 5, 7};
+    for (int i = 0; i < 60; i++) {
+        sp_offers offers;
+        sp_error error = {0};
+        assert_true(sp_offers_create(4, weight, (size_t)i % 3, 4, i % 2, &offers, &error));
+        for (int k = 0; k < 14; k++) {
+            size_t port = (size_t)(3 * instance_random(&seed));
+            sp_offers_add(&offers, port < offers.port_count ? port : SIZE_MAX, (size_t)(4 * instance_random(&seed)),
+                          instance_random(&seed));
+        }
+        double table[5 * 19];
+        sp_knapsack(&offers, 4, 18, table);
+        for (size_t n = 0; n <= 4; n++)
+            for (size_t w = 0; w <= 18; w++) {
+                double left = (double)w, best = pick(&offers, &left, n, 0, (const size_t[4]){0});
+                assert_true(table[n * 19 + w] >= best);
+                assert_true(table[n * 19 + w] <= best * (1 + 1e-9));
+            }
+        sp_offers_free(&offers);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_knapsack_is_the_best_choice),
+        cmocka_unit_test(never_below_the_optimum),
+        cmocka_unit_test(tight_where_nothing_overlaps),
+        cmocka_unit_test(threads_do_not_matter),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
