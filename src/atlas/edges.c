@@ -1,5 +1,6 @@
 /* Edges of the mesh on the pages. */
 #include "atlas/texels.h"
+#include "atlas/least.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 /* How a triangle's area on the surface is shared among its texels. */
 #include "atlas/texels.h"
+#include "atlas/least.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,7 +20,7 @@ static bool add_row(sp_pieces *pieces, const sp_atlas *atlas, uint32_t triangle)
     }
     uint32_t texel = sp_atlas_row_texel(atlas, triangle, cover);
     for (uint32_t i = 0; i < cover->count; i++)
-        pieces->items[pieces->count + i] = (sp_piece){texel + i, fmax(cover->area[i], LEAST_SHARE * cover->flat)};
+        pieces->items[pieces->count + i] = (sp_piece){texel + i, sp_most(cover->area[i], LEAST_SHARE * cover->flat)};
     for (size_t at = sp_atlas_shared_from(atlas, texel);
          at < atlas->shared_count && atlas->shared[at].pixel - texel < cover->count; at++)
         if (atlas->shared[at].triangle == triangle)

@@ -4,6 +4,7 @@
 #include "atlas/bits.h"
 #include "atlas/order.h"
 #include "atlas/texels.h"
+#include "atlas/least.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -105,8 +106,8 @@ static void clip_edge(const sp_atlas *atlas, uint32_t half_edge, double x, doubl
             continue;
         }
         double a = (low[k] - p[k]) / step, b = (high[k] - p[k]) / step;
-        *from = fmax(*from, fmin(a, b));
-        *to = fmin(*to, fmax(a, b));
+        *from = sp_most(*from, sp_least(a, b));
+        *to = sp_least(*to, sp_most(a, b));
     }
 }
 
@@ -116,7 +117,7 @@ static bool meet_in(const sp_atlas *atlas, uint32_t a, uint32_t b, sp_texel_plac
     double from_a, to_a, from_b, to_b;
     clip_edge(atlas, a, at.x, at.y, &from_a, &to_a);
     clip_edge(atlas, b, at.x, at.y, &from_b, &to_b);
-    return from_a < to_a && from_b < to_b && fmax(from_a, 1 - to_b) < fmin(to_a, 1 - from_b);
+    return from_a < to_a && from_b < to_b && sp_most(from_a, 1 - to_b) < sp_least(to_a, 1 - from_b);
 }
 
 /* The triangles of one pixel, as their pairs, and the patches that they make. */

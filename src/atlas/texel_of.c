@@ -1,5 +1,6 @@
 /* Which texel holds what, and where it lies. */
 #include "atlas/texels.h"
+#include "atlas/least.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -79,8 +80,9 @@ static uint32_t nearest_own(const sp_atlas *atlas, uint32_t triangle, double x, 
     uint32_t nearest = SP_NONE;
     sp_atlas_cover(atlas, triangle, SP_COVER_PIXELS, &cover); /* needs no memory */
     while (sp_cover_next(&cover)) {
-        double column = fmin(fmax(floor(x), cover.x), cover.x + cover.count - 1.0);
-        double dx = fmax(0, fmax(column - x, x - column - 1)), dy = fmax(0, fmax(cover.y - y, y - cover.y - 1));
+        double column = sp_least(sp_most(floor(x), cover.x), cover.x + cover.count - 1.0);
+        double dx = sp_most(0, sp_most(column - x, x - column - 1)),
+               dy = sp_most(0, sp_most(cover.y - y, y - cover.y - 1));
         if (dx * dx + dy * dy >= least)
             continue;
         least = dx * dx + dy * dy;

@@ -10,7 +10,7 @@
 /* texels.c: pixels, their patches, areas and seams, in this order. Needs uv and the pages. */
 bool sp_atlas_cut(sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
 
-/* runs.c: which pixels are used, and by which chart: runs, row_start and pixel_count. */
+/* pixels.c: which pixels are used, and by which chart: runs, row_start and pixel_count. */
 bool sp_atlas_find_pixels(sp_atlas *atlas, sp_error *error);
 /* share.c: the pixels where several unconnected patches cross: shared, behind and texel_count. */
 bool sp_atlas_share_pixels(sp_atlas *atlas, const sp_mesh *mesh, const sp_half_edges *edges, sp_error *error);
