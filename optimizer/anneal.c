@@ -131,7 +131,7 @@ bool sp_anneal(sp_sights *sights, size_t start, size_t end, double budget, sp_wa
     sp_design moving;
     if (!design->count)
         return true;
-    if (!sp_design_copy(sights->search, design, &moving, error))
+    if (!sp_sights_reserve(sights, design->count, error) || !sp_design_copy(sights->search, design, &moving, error))
         return false;
     bool done = true;
     for (size_t w = start; done && w < end && sp_watch_goes_on(watch, "refine", (double)w / SP_WIDTHS); w++) {

@@ -5,8 +5,6 @@
 
 #include <stdlib.h>
 
-#define STEP_FIRST 0.25 /* of half an unknown's range */
-#define STEP_LEAST 0.007
 #define PLACE_LEAST 0.05 /* of half the range: each move of a place is traced */
 #define SWEEPS_MOST 4    /* at one size of step */
 #define GAIN_LEAST 1e-6  /* of the area, for a step to count */
@@ -80,13 +78,14 @@ static bool try_nozzle(const sp_search *search, sp_sights *sights, double budget
     return sp_design_add(search, design, needle.placed, error) && done;
 }
 
-bool sp_compass(sp_sights *sights, double budget, sp_watch *watch, sp_design *design, sp_error *error)
+bool sp_compass(sp_sights *sights, double first, double least, double budget, sp_watch *watch, sp_design *design,
+                sp_error *error)
 {
     sp_search exact = *sights->search;
     exact.credit = 0;
     bool done = true;
     int sweeps = 0;
-    for (double step = STEP_FIRST; done && step >= STEP_LEAST;) {
+    for (double step = first; done && step > least;) {
         bool moved = false;
         if (!sp_watch_goes_on(watch, "refine", 1))
             break;

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define FLOW_LEAST 2e-3 /* share of the water by which points of the front differ */
+
 bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b)
 {
     bool both = a->area >= front->target && b->area >= front->target;
@@ -80,6 +82,11 @@ bool sp_front_measure(sp_front *front, const sp_search *search, const sp_design 
     return true;
 }
 
+bool sp_front_counts(const sp_front *front, size_t i)
+{
+    return i + 1 == front->count || front->entries[i + 1].point.flow > front->entries[i].point.flow * (1 + FLOW_LEAST);
+}
+
 sp_front_point *sp_front_points(const sp_front *front, size_t *count, sp_error *error)
 {
     sp_front_point *points = malloc((front->count ? front->count : 1) * sizeof *points);
@@ -87,7 +94,7 @@ sp_front_point *sp_front_points(const sp_front *front, size_t *count, sp_error *
         return sp_fail_memory(error);
     *count = 0;
     for (size_t i = 0; i < front->count; i++)
-        if (front->entries[i].point.flow > 0 && front->entries[i].point.area > 0)
+        if (front->entries[i].point.flow > 0 && front->entries[i].point.area > 0 && sp_front_counts(front, i))
             points[(*count)++] = front->entries[i].point;
     return points;
 }

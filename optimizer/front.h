@@ -27,7 +27,9 @@ bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_fr
 /* Measures the design, notes it, and keeps a copy where it is the best yet. *point may be NULL. */
 bool sp_front_measure(sp_front *front, const sp_search *search, const sp_design *design, sp_front_point *point,
                       sp_error *error);
-/* The points, without one of no water; malloc'd, the caller frees. */
+/* False where the next entry covers more with hardly more water. */
+bool sp_front_counts(const sp_front *front, size_t i);
+/* The points that count, without one of no water; malloc'd, the caller frees. */
 sp_front_point *sp_front_points(const sp_front *front, size_t *count, sp_error *error);
 void sp_front_free(sp_front *front);
 

@@ -9,7 +9,7 @@ typedef struct {
     const sp_freedom *freedom;
     sp_width width;
     sp_nozzle nozzle;
-    double speed;
+    const sp_sight *sight;
     sp_spray spray;
     sp_frame frame;
     double strength; /* flux over threshold per transfer */
@@ -52,7 +52,7 @@ static sp_posed pose(const sp_search *search, const sp_freedom *freedom, const s
                      const double *values, bool slopes)
 {
     const sp_setup *setup = sp_evaluator_setup(search->coarse);
-    sp_posed posed = {.search = search, .freedom = freedom, .width = width, .speed = sight->speed};
+    sp_posed posed = {.search = search, .freedom = freedom, .width = width, .sight = sight};
     posed.nozzle = sp_freedom_nozzle(freedom, values);
     posed.spray = sp_spray_create(posed.nozzle.type, sp_nozzle_angle(&posed.nozzle));
     posed.frame = sp_nozzle_frame(posed.nozzle.axis, posed.nozzle.roll, setup->up);
@@ -69,11 +69,11 @@ static sp_posed pose(const sp_search *search, const sp_freedom *freedom, const s
 /* An arrival in the nozzle's hands: where it goes, how thick it arrives, how far inside the pattern it starts. */
 typedef struct {
     sp_flight flight;
-    sp_vec3 normal;  /* of the patch */
-    double transfer; /* 1/m² */
-    sp_vec3 local;   /* its direction in the nozzle's frame */
-    double margin;   /* rad */
-    double inside;   /* soft, 0 to 1 */
+    double transfer;  /* 1/m² */
+    sp_vec3 local;    /* its direction in the nozzle's frame */
+    double margin;    /* rad */
+    sp_vec3 gradient; /* of the margin by `local`; for slopes alone */
+    double inside;    /* soft, 0 to 1 */
 } sp_borne;
 
 static sp_vec3 in_frame(const sp_frame *frame, sp_vec3 d)
@@ -81,35 +81,42 @@ static sp_vec3 in_frame(const sp_frame *frame, sp_vec3 d)
     return sp_v(sp_dot(d, frame->x), sp_dot(d, frame->y), sp_dot(d, frame->z));
 }
 
-/* Flies to the patch from where the nozzle is. */
-static bool fly(const sp_posed *posed, const sp_seen *seen, sp_borne *borne)
+/* How far inside the pattern a direction of the nozzle's frame lies, and where `gradient` is not NULL how that changes
+ * with the direction. */
+static double margin_of(const sp_spray *spray, sp_vec3 d, sp_vec3 *gradient)
 {
-    const sp_patches *patches = sp_evaluator_patches(posed->search->coarse);
-    sp_flight flights[2];
-    int count = sp_flights(posed->nozzle.position, patches->point[seen->patch], posed->speed,
-                           sp_evaluator_gravity(posed->search->coarse), flights);
-    if ((int)seen->arc >= count)
-        return false;
-    borne->flight = flights[seen->arc];
-    borne->normal = patches->normal[seen->patch];
-    double against = -sp_dot(borne->flight.velocity, borne->normal);
-    if (patches->side[seen->patch] == SP_SIDE_BOTH)
-        against = fabs(against);
-    borne->transfer = fmax(0, against) / borne->flight.spread;
-    return borne->transfer > 0;
+    if (spray->kind == SP_PATTERN_FLAT_FAN) {
+        double margin = sp_spray_margin(spray, d);
+        if (gradient) {
+            sp_vec3 a = sp_unit(sp_cross(d, fabs(d.x) < 0.5 ? sp_v(1, 0, 0) : sp_v(0, 1, 0))), b = sp_cross(d, a);
+            double by_a = (sp_spray_margin(spray, sp_unit(sp_along(d, STEP, a))) - margin) / STEP;
+            double by_b = (sp_spray_margin(spray, sp_unit(sp_along(d, STEP, b))) - margin) / STEP;
+            *gradient = sp_along(sp_scale(a, by_a), by_b, b);
+        }
+        return margin;
+    }
+    /* the polar angle's gradient on the sphere is -1/sin along z */
+    double sine = sqrt(d.x * d.x + d.y * d.y), polar = atan2(sine, d.z);
+    double outwards = spray->outer < M_PI ? spray->outer - polar : M_PI;
+    double inwards = spray->inner > 0 ? polar - spray->inner : M_PI;
+    bool out = outwards < inwards;
+    if (gradient)
+        *gradient = sp_v(0, 0, sine < 1e-9 || (out ? outwards : inwards) >= M_PI ? 0 : (out ? 1 : -1) / sine);
+    return out ? outwards : inwards;
 }
 
 /* False where nothing is left of the pattern. */
-static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, sp_borne *borne)
+static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool slopes, sp_borne *borne)
 {
     borne->flight.direction = seen->direction;
     borne->transfer = seen->transfer;
-    if (flies && !fly(posed, seen, borne))
+    if (flies &&
+        !sp_sight_fly(posed->search, posed->sight, seen, posed->nozzle.position, &borne->flight, &borne->transfer))
         return false;
     borne->local = in_frame(&posed->frame, borne->flight.direction);
     if (borne->local.z < posed->least)
         return false;
-    borne->margin = sp_spray_margin(&posed->spray, borne->local);
+    borne->margin = margin_of(&posed->spray, borne->local, slopes ? &borne->gradient : NULL);
     double widths = borne->margin / posed->width.edge;
     if (widths < -FAR)
         return false;
@@ -117,32 +124,16 @@ static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, sp_born
     return true;
 }
 
-/* Gradient of the margin by the direction in the nozzle's frame. */
-static sp_vec3 margin_gradient(const sp_spray *spray, sp_vec3 d, double margin)
-{
-    if (spray->kind == SP_PATTERN_FLAT_FAN) {
-        const double h = 1e-6;
-        sp_vec3 a = sp_unit(sp_cross(d, fabs(d.x) < 0.5 ? sp_v(1, 0, 0) : sp_v(0, 1, 0))), b = sp_cross(d, a);
-        double by_a = (sp_spray_margin(spray, sp_unit(sp_along(d, h, a))) - margin) / h;
-        double by_b = (sp_spray_margin(spray, sp_unit(sp_along(d, h, b))) - margin) / h;
-        return sp_along(sp_scale(a, by_a), by_b, b);
-    }
-    /* the polar angle has the gradient -1/sin about z, seen on the sphere */
-    double sine = hypot(d.x, d.y), polar = atan2(sine, d.z);
-    bool outwards = spray->inner <= 0 || spray->outer - polar < polar - spray->inner;
-    if (sine < 1e-9 || (outwards && spray->outer >= M_PI))
-        return sp_v(0, 0, 0);
-    return sp_v(0, 0, (outwards ? 1 : -1) / sine);
-}
-
 /* Derivatives of a flight when its start moves along `move`, differentiated from |r - g t²/2| = v t; with u the
  * direction, w the velocity on arrival: t' = u·r'/u·w, u' = (r' - w t')/(v t). Returns that of log transfer, and u'. */
-static double shift(const sp_posed *posed, const sp_borne *borne, sp_vec3 target, sp_vec3 move, sp_vec3 *turn)
+static double shift(const sp_posed *posed, const sp_borne *borne, uint32_t patch, sp_vec3 move, sp_vec3 *turn)
 {
+    const sp_patches *patches = sp_evaluator_patches(posed->search->coarse);
+    sp_vec3 target = patches->point[patch], normal = patches->normal[patch];
     sp_vec3 g = sp_evaluator_gravity(posed->search->coarse);
     sp_vec3 r = sp_sub(target, posed->nozzle.position), by = sp_scale(move, -1);
     sp_vec3 u = borne->flight.direction, w = borne->flight.velocity;
-    double v = posed->speed, t = borne->flight.time;
+    double v = posed->sight->speed, t = borne->flight.time;
     double later = sp_dot(u, by) / sp_dot(u, w);
     *turn = sp_scale(sp_along(by, -later, w), 1 / (v * t));
     sp_vec3 faster = sp_along(sp_scale(*turn, v), later, g);
@@ -150,25 +141,26 @@ static double shift(const sp_posed *posed, const sp_borne *borne, sp_vec3 target
     double b = v * v + sp_dot(r, g), root = borne->flight.spread / (v * t * t);
     double d = 2 * b * sp_dot(by, g) - 2 * sp_dot(g, g) * sp_dot(r, by);
     double spread = 2 * later / t + d / (2 * root * root);
-    return sp_dot(borne->normal, faster) / sp_dot(borne->normal, w) - spread;
+    return sp_dot(normal, faster) / sp_dot(normal, w) - spread;
 }
 
 /* Derivative of the logarithm of transfer times inside by unknown k, and of the strength. */
-static double log_slope(const sp_posed *posed, const sp_borne *borne, sp_vec3 target, sp_vec3 gradient, size_t k)
+static double log_slope(const sp_posed *posed, const sp_borne *borne, uint32_t patch, size_t k)
 {
     const sp_freedom *freedom = posed->freedom;
     double edge = (1 - borne->inside) / posed->width.edge, thicker = 0;
     sp_vec3 turn;
     switch (freedom->kind[k]) {
     case SP_UNKNOWN_PLACE:
-        thicker = shift(posed, borne, target, freedom->move[k], &turn);
-        return (posed->search->threshold > 0 ? thicker : 0) + edge * sp_dot(gradient, in_frame(&posed->frame, turn));
+        thicker = shift(posed, borne, patch, freedom->move[k], &turn);
+        return (posed->search->threshold > 0 ? thicker : 0) +
+               edge * sp_dot(borne->gradient, in_frame(&posed->frame, turn));
     case SP_UNKNOWN_AXIS:
     case SP_UNKNOWN_ROLL:
-        return edge > 0 ? edge * sp_dot(gradient, in_frame(&posed->turn[k], borne->flight.direction)) : 0;
+        return edge > 0 ? edge * sp_dot(borne->gradient, in_frame(&posed->turn[k], borne->flight.direction)) : 0;
     case SP_UNKNOWN_ANGLE:
         if (edge > 0)
-            thicker = edge * (sp_spray_margin(&posed->other[k], borne->local) - borne->margin) / posed->step[k];
+            thicker = edge * (margin_of(&posed->other[k], borne->local, NULL) - borne->margin) / posed->step[k];
         return thicker + (posed->search->threshold > 0 ? posed->thicken[k] : 0);
     case SP_UNKNOWN_FLOW:
         return posed->search->threshold > 0 ? posed->thicken[k] : 0;
@@ -200,22 +192,18 @@ static bool has_place(const sp_freedom *freedom)
 void sp_levels(const sp_search *search, const sp_freedom *freedom, const sp_sight *sight, sp_width width,
                const double *values, double *level, double *slope)
 {
-    const sp_patches *patches = sp_evaluator_patches(search->coarse);
     sp_posed posed = pose(search, freedom, sight, width, values, slope != NULL);
     bool flies = posed.moved || (slope && has_place(freedom));
     for (size_t i = 0; i < sight->count; i++) {
         const sp_seen *seen = &sight->seen[i];
         sp_borne borne = {0};
         double rise = 0;
-        bool borne_there = bear(&posed, seen, flies, &borne);
+        bool borne_there = bear(&posed, seen, flies, slope != NULL, &borne);
         level[i] = borne_there ? level_of(&posed, &borne, &rise) : 0;
         if (!slope)
             continue;
-        sp_vec3 gradient = {0, 0, 0};
-        if (rise > 0 && borne.inside < 1)
-            gradient = margin_gradient(&posed.spray, borne.local, borne.margin);
         for (size_t k = 0; k < freedom->count; k++) {
-            double by_k = rise > 0 ? rise * log_slope(&posed, &borne, patches->point[seen->patch], gradient, k) : 0;
+            double by_k = rise > 0 ? rise * log_slope(&posed, &borne, seen->patch, k) : 0;
             slope[k * sight->count + i] = isfinite(by_k) ? by_k : 0;
         }
     }

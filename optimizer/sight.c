@@ -3,17 +3,38 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define NEAR 0.2 /* of a texel */
+
+bool sp_sights_reserve(sp_sights *sights, size_t capacity, sp_error *error)
+{
+    if (capacity <= sights->capacity)
+        return true;
+    sp_sight *items = realloc(sights->items, capacity * sizeof *items);
+    if (!items)
+        return sp_fail_memory(error);
+    memset(&items[sights->capacity], 0, (capacity - sights->capacity) * sizeof *items);
+    sights->items = items;
+    sights->capacity = capacity;
+    return true;
+}
+
 bool sp_sights_create(const sp_search *search, size_t capacity, sp_sights *sights, sp_error *error)
 {
-    *sights = (sp_sights){.search = search, .capacity = capacity};
-    sights->items = calloc(capacity, sizeof *sights->items);
-    return sights->items || sp_fail_memory(error);
+    *sights = (sp_sights){.search = search, .tolerance = NEAR * sp_evaluator_fidelity(search->coarse)->texel};
+    return sp_sights_reserve(sights, capacity, error);
+}
+
+void sp_sights_forget(sp_sights *sights)
+{
+    for (size_t i = 0; i < sights->capacity; i++) {
+        free(sights->items[i].seen);
+        sights->items[i] = (sp_sight){0};
+    }
 }
 
 void sp_sights_free(sp_sights *sights)
 {
-    for (size_t i = 0; sights->items && i < sights->capacity; i++)
-        free(sights->items[i].seen);
+    sp_sights_forget(sights);
     free(sights->items);
     *sights = (sp_sights){0};
 }
@@ -34,10 +55,18 @@ static bool equal(sp_vec3 a, sp_vec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
+/* The two arcs to a point leave on either side of the bisector of the way there and the vertical (Torricelli), the high
+ * one above it. `up` is zero without gravity. */
+static bool is_high(sp_vec3 way, sp_vec3 up, sp_vec3 direction)
+{
+    sp_vec3 middle = sp_unit(sp_add(sp_unit(way), up));
+    return sp_dot(direction, sp_along(up, -sp_dot(up, middle), middle)) > 0;
+}
+
 static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
 {
     const sp_patches *patches = sp_evaluator_patches(search->coarse);
-    sp_vec3 gravity = sp_evaluator_gravity(search->coarse);
+    sp_vec3 up = sp_unit(sp_scale(sp_evaluator_gravity(search->coarse), -1));
     sp_reach *reach = sp_evaluator_reach_passing(search->coarse, sight->position, sight->speed, sight->axis,
                                                  sight->half_angle, error);
     if (!reach)
@@ -45,44 +74,72 @@ static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
     sight->seen = malloc((reach->count ? reach->count : 1) * sizeof *sight->seen);
     for (size_t i = 0; sight->seen && i < reach->count; i++) {
         const sp_arrival *arrival = &reach->arrivals[i];
-        sp_flight flights[2];
-        int count = sp_flights(sight->position, patches->point[arrival->patch], sight->speed, gravity, flights);
-        uint32_t arc = count == 2 && sp_dot(flights[1].direction, arrival->direction) >
-                                         sp_dot(flights[0].direction, arrival->direction);
+        uint32_t arc = is_high(sp_sub(patches->point[arrival->patch], sight->position), up, arrival->direction);
         sight->seen[sight->count++] = (sp_seen){arrival->patch, arc, arrival->direction, arrival->transfer};
     }
     sp_reach_destroy(reach);
     return sight->seen || sp_fail_memory(error);
 }
 
+/* The sight nearest to the one wanted of those that will do; NULL for none. */
+static sp_sight *known(const sp_sights *sights, const sp_sight *wanted)
+{
+    sp_sight *best = NULL;
+    double nearest = sights->tolerance;
+    for (size_t i = 0; i < sights->capacity; i++) {
+        sp_sight *item = &sights->items[i];
+        if (!item->seen || item->speed != wanted->speed || item->half_angle < wanted->half_angle ||
+            (item->half_angle < M_PI && !equal(item->axis, wanted->axis)))
+            continue;
+        double distance = sp_distance(item->position, wanted->position);
+        if (distance < nearest) {
+            best = item;
+            nearest = distance;
+        }
+    }
+    return best;
+}
+
 const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_error *error)
 {
     const sp_search *search = sights->search;
-    double speed = sp_nozzle_speed(&placed->nozzle, &sp_evaluator_setup(search->coarse)->liquid);
     sp_sight wanted = {.position = placed->nozzle.position,
-                       .speed = speed,
+                       .speed = sp_nozzle_speed(&placed->nozzle, &sp_evaluator_setup(search->coarse)->liquid),
                        .axis = placed->origin.axis,
-                       .half_angle = needed(search, placed),
-                       .used = ++sights->clock};
-    sp_sight *oldest = &sights->items[0];
-    for (size_t i = 0; i < sights->capacity; i++) {
-        sp_sight *item = &sights->items[i];
-        if (item->seen && item->speed == speed && equal(item->position, wanted.position) &&
-            (item->half_angle >= M_PI || (equal(item->axis, wanted.axis) && item->half_angle >= wanted.half_angle))) {
-            item->used = sights->clock;
-            return item;
+                       .half_angle = needed(search, placed)};
+    sp_sight *sight = known(sights, &wanted);
+    if (!sight) {
+        sight = &sights->items[0];
+        for (size_t i = 1; i < sights->capacity; i++)
+            if (sights->items[i].used < sight->used)
+                sight = &sights->items[i];
+        free(sight->seen);
+        *sight = (sp_sight){0};
+        if (!trace(search, &wanted, error)) {
+            free(wanted.seen);
+            return NULL;
         }
-        if (item->used < oldest->used)
-            oldest = item;
+        *sight = wanted;
     }
-    free(oldest->seen);
-    *oldest = (sp_sight){0};
-    if (!trace(search, &wanted, error)) {
-        free(wanted.seen);
-        return NULL;
-    }
-    *oldest = wanted;
-    return oldest;
+    sight->used = ++sights->clock;
+    return sight;
+}
+
+bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen *seen, sp_vec3 position,
+                  sp_flight *flight, double *transfer)
+{
+    const sp_patches *patches = sp_evaluator_patches(search->coarse);
+    sp_flight flights[2];
+    int count =
+        sp_flights(position, patches->point[seen->patch], sight->speed, sp_evaluator_gravity(search->coarse), flights);
+    if ((int)seen->arc >= count)
+        return false;
+    *flight = flights[seen->arc];
+    double against = -sp_dot(flight->velocity, patches->normal[seen->patch]);
+    if (patches->side[seen->patch] == SP_SIDE_BOTH)
+        against = fabs(against);
+    *transfer = fmax(0, against) / flight->spread;
+    return *transfer > 0;
 }
 
 /* Cones without an inverse trigonometric function, fans by the pattern itself. */
@@ -106,11 +163,16 @@ bool sp_sights_field(sp_sights *sights, sp_placed *placed, float *field, sp_erro
     sp_frame frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up);
     double inner = spray.inner > 0 ? cos(spray.inner) : 2, outer = spray.outer < M_PI ? cos(spray.outer) : -2;
     double strength = sp_nozzle_flow(nozzle, &setup->liquid) / (spray.solid_angle * search->threshold);
+    bool moved = !equal(nozzle->position, sight->position);
     memset(field, 0, search->patch_count * sizeof *field);
     for (size_t i = 0; i < sight->count; i++) {
         const sp_seen *seen = &sight->seen[i];
-        if (seen->transfer > 0 && holds(&spray, inner, outer, &frame, seen->direction))
-            field[seen->patch] += search->threshold > 0 ? (float)(strength * seen->transfer) : INFINITY;
+        sp_flight flight = {.direction = seen->direction};
+        double transfer = seen->transfer;
+        if (moved && !sp_sight_fly(search, sight, seen, nozzle->position, &flight, &transfer))
+            continue;
+        if (transfer > 0 && holds(&spray, inner, outer, &frame, flight.direction))
+            field[seen->patch] += search->threshold > 0 ? (float)(strength * transfer) : INFINITY;
     }
     return true;
 }

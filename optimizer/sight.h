@@ -25,16 +25,26 @@ typedef struct {
 /* Sights kept for another look: annealing, line search and compass come back to the same places. */
 typedef struct {
     const sp_search *search;
+    double tolerance; /* m */
     uint64_t clock;
     size_t capacity;
     sp_sight *items; /* [capacity], unused ones all zero */
 } sp_sights;
 
-/* Keeps the last `capacity` sights. */
+/* Keeps the last `capacity` sights. What lies in the way of a nozzle that moved by less than a fraction of a texel is
+ * taken to be as it was: shadows' edges are not known better anyway. So what is seen depends on what was looked at
+ * before, until it is forgotten. */
 bool sp_sights_create(const sp_search *search, size_t capacity, sp_sights *sights, sp_error *error);
+/* Room for at least as many. */
+bool sp_sights_reserve(sp_sights *sights, size_t capacity, sp_error *error);
+void sp_sights_forget(sp_sights *sights);
 void sp_sights_free(sp_sights *sights);
-/* From the nozzle's place, all that refinement may turn it to. Valid for the next capacity - 1 looks; NULL on error. */
+/* From the nozzle's place, or one near enough, all that refinement may turn it to. Valid for the next capacity - 1
+ * looks; NULL on error. */
 const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_error *error);
+/* Flies to a patch in sight from `position`, visibility as it was; false where no liquid arrives. */
+bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen *seen, sp_vec3 position,
+                  sp_flight *flight, double *transfer);
 /* The nozzle's field from where it is. */
 bool sp_sights_field(sp_sights *sights, sp_placed *placed, float *field, sp_error *error);
 

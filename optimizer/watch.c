@@ -26,12 +26,17 @@ double sp_watch_elapsed(const sp_watch *watch)
 
 bool sp_watch_goes_on(sp_watch *watch, const char *stage, double done)
 {
-    if (!watch->cancelled && watch->run.progress && !watch->run.progress(watch->run.user, stage, done))
-        watch->cancelled = watch->interrupted = true;
-    bool over = watch->run.time_limit > 0 && sp_watch_elapsed(watch) > watch->run.time_limit;
-    if (over)
-        watch->interrupted = true;
-    return !watch->cancelled && !over;
+    bool goes_on;
+#pragma omp critical(sp_watch)
+    {
+        if (!watch->cancelled && watch->run.progress && !watch->run.progress(watch->run.user, stage, done))
+            watch->cancelled = watch->interrupted = true;
+        bool over = watch->run.time_limit > 0 && sp_watch_elapsed(watch) > watch->run.time_limit;
+        if (over)
+            watch->interrupted = true;
+        goes_on = !watch->cancelled && !over;
+    }
+    return goes_on;
 }
 
 bool sp_watch_stage(sp_watch *watch, const char *name, sp_error *error)

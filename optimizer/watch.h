@@ -19,7 +19,7 @@ typedef struct {
 sp_watch sp_watch_start(const sp_run *run);
 /* Seconds since the start. */
 double sp_watch_elapsed(const sp_watch *watch);
-/* Reports progress; false once cancelled or out of time. Call from one thread at a time. */
+/* Reports progress; false once cancelled or out of time. Safe to call from many threads. */
 bool sp_watch_goes_on(sp_watch *watch, const char *stage, double done);
 /* Books the time since the last stage's end, or the start, under `name`; stages of equal name add up. */
 bool sp_watch_stage(sp_watch *watch, const char *name, sp_error *error);
