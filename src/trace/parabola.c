@@ -48,18 +48,6 @@ sp_pull sp_pull_of(sp_vec3 gravity)
     return pull;
 }
 
-/* Sets first and last. Within the box the way along gravity and the way across it are at most `reach`. */
-static void bound_time(sp_parabola *p, const sp_ray *ray)
-{
-    double reach = 2 * p->farthest; /* a space diagonal has at most √3 */
-    double longest = (fabs(p->fall) + sqrt(p->fall * p->fall + 2 * p->pull * reach)) / p->pull;
-    if (p->across > 0x1p-40 * p->speed * p->speed) /* else it is mostly rounding */
-        longest = sp_lesser(longest, reach / sqrt(p->across));
-    longest = sp_lesser(1.01 * longest, 1e100);
-    p->first = sp_greater(ray->t_min, -longest);
-    p->last = sp_lesser(nextafter(ray->t_max, -INFINITY), longest);
-}
-
 /* Two horizontal directions, along axes where gravity is. */
 static void set_vertical(sp_parabola *p)
 {
@@ -85,7 +73,7 @@ bool sp_parabola_start(sp_parabola *p, const sp_ray *ray, const sp_pull *pull, c
         horizontal[k] = p->velocity[k] - p->fall * p->down[k];
     }
     p->across = dot(horizontal, horizontal);
-    p->speed = sqrt(dot(p->velocity, p->velocity));
+    p->speed = fabs(p->velocity[0]) + fabs(p->velocity[1]) + fabs(p->velocity[2]);
     p->farthest = 0;
     for (int axis = 0; axis < 3; axis++)
         p->farthest =
@@ -97,11 +85,24 @@ bool sp_parabola_start(sp_parabola *p, const sp_ray *ray, const sp_pull *pull, c
     } else {
         p->vertical = false;
         cross(p->down, horizontal, p->beside);
+        double inverse = 1 / p->across;
         for (int k = 0; k < 3; k++)
-            p->ahead[k] = horizontal[k] / p->across;
+            p->ahead[k] = horizontal[k] * inverse;
     }
-    bound_time(p, ray);
-    return p->first <= p->last && isfinite(sp_parabola_summed(p, p->first) + sp_parabola_summed(p, p->last));
+    return isfinite(p->across + p->speed + p->pull + p->farthest);
+}
+
+bool sp_parabola_limit(const sp_parabola *p, sp_search *search)
+{
+    double reach = 2 * p->farthest; /* along gravity and across it; a space diagonal has at most √3 */
+    double longest = (fabs(p->fall) + sqrt(p->fall * p->fall + 2 * p->pull * reach)) / p->pull;
+    if (p->across > 0x1p-40 * p->speed * p->speed) /* else it is mostly rounding */
+        longest = sp_lesser(longest, reach / sqrt(p->across));
+    longest = sp_lesser(1.01 * longest, 1e100);
+    search->t_min = sp_greater(search->t_min, -longest);
+    search->limit = sp_lesser(search->limit, longest);
+    return search->t_min <= search->limit &&
+           isfinite(sp_parabola_summed(p, search->t_min) + sp_parabola_summed(p, search->limit));
 }
 
 /* A triangle as the flight sees it: its three products for each corner. */
@@ -145,12 +146,14 @@ static inline crossing cross_edge(const sp_parabola *p, const view *v, int negat
     return c;
 }
 
-/* When the flight is there: told by the depth where it is steep, else by the way ahead. */
+/* When the flight comes to a point of it: told by the depth where it is steep, else by the way ahead. */
 static inline double arrival(const sp_parabola *p, double time, double depth)
 {
-    double speed = p->fall + p->pull * time, roots[2];
-    if (speed * speed <= p->across)
+    double speed = p->fall + p->pull * time, rest = below_flight(p, time, depth), square = speed * speed, roots[2];
+    if (square <= p->across)
         return time;
+    if (p->pull * fabs(rest) <= 0x1p-26 * square) /* Newton's step leaves 2^-27 of itself undone */
+        return time + rest / speed;
     return sp_quadratic_roots(p->pull, p->fall, -depth, roots) ? roots[speed > 0] : -p->fall / p->pull;
 }
 
@@ -189,11 +192,11 @@ static void cross_once(const segment *s, int upper, sp_search *search)
     double above = -a->below, below = b->below, step = b->time - a->time;
     double k = 0.5 * s->flight->pull * step * step;
     double slope = sqrt((k - above) * (k - above) + below * below + 2 * below * (k + above));
-    double share = 2 * above / (k + below + above + slope);
+    double share = 2 * above / (k + below + above + slope), inverse = 1 / slope;
     /* Where the ends are far out, they are so much above and below that digits were lost: once more, from nearby. */
     double rest = below_flight(s->flight, a->time + share * step, a->depth + share * (b->depth - a->depth));
     if (2 * k * fabs(rest) < slope * slope)
-        share -= rest / slope;
+        share -= rest * inverse;
     share = sp_lesser(sp_greater(share, 0), 1);
     offer(s, upper ? 1 - share : share, search);
 }

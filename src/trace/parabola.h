@@ -21,28 +21,22 @@ sp_pull sp_pull_of(sp_vec3 gravity);
  * across it. */
 typedef struct {
     double origin[3], velocity[3], gravity[3];
-    double beside[3];   /* m²/s: horizontal, across the horizontal velocity, and as long */
-    double ahead[3];    /* s/m: the horizontal velocity over its square */
-    double down[3];     /* 1 */
-    bool vertical;      /* then beside and ahead are horizontal directions (1) */
-    double fall;        /* m/s, downward speed at t = 0 */
-    double across;      /* m²/s², square of the horizontal speed */
-    double pull;        /* m/s² */
-    double speed;       /* m/s, at t = 0 */
-    double farthest;    /* m, largest distance along an axis from the origin to the box around all triangles */
-    double first, last; /* s, the flight is not in that box before or after */
+    double beside[3]; /* m²/s: horizontal, across the horizontal velocity, and as long */
+    double ahead[3];  /* s/m: the horizontal velocity over its square */
+    double down[3];   /* 1 */
+    bool vertical;    /* then beside and ahead are horizontal directions (1) */
+    double fall;      /* m/s, downward speed at t = 0 */
+    double across;    /* m²/s², square of the horizontal speed */
+    double pull;      /* m/s² */
+    double speed;     /* m/s, at t = 0, all components added up */
+    double farthest;  /* m, largest distance along an axis from the origin to the box around all triangles */
 } sp_parabola;
 
-/* False where nothing can be hit: numbers that are not finite, or a time span that is empty. `low` and `high` are the
- * box around all triangles. */
+/* False where nothing can be hit: numbers that are not finite. `low` and `high` are the box around all triangles. */
 bool sp_parabola_start(sp_parabola *parabola, const sp_ray *ray, const sp_pull *pull, const double low[3],
                        const double high[3]);
-/* Leaves the search no times outside first..last. */
-static inline void sp_parabola_limit(const sp_parabola *p, sp_search *search)
-{
-    search->t_min = sp_greater(search->t_min, p->first);
-    search->limit = sp_lesser(search->limit, p->last);
-}
+/* Leaves the search no times at which the flight is not in that box; false where there are no others. */
+bool sp_parabola_limit(const sp_parabola *parabola, sp_search *search);
 /* x, along one axis, and all that it is summed from, m. */
 static inline double sp_parabola_coordinate(const sp_parabola *p, int axis, double t)
 {
@@ -67,8 +61,8 @@ static inline double sp_parabola_margin(const sp_parabola *p, double t)
     return 8 * SP_PARABOLA_ROUNDING * sp_parabola_summed(p, t);
 }
 
-/* When the flight next turns along an axis after `from`, or its last time. */
-double sp_parabola_turn(const sp_parabola *parabola, double from);
+/* When the flight next turns along an axis after `from`; `last` where it does not before. */
+double sp_parabola_turn(const sp_parabola *parabola, double from, double last);
 /* Cuts a piece without turns to when the coordinate is between low and high; false where nothing is left. */
 bool sp_parabola_cut(const sp_parabola *parabola, int axis, double low, double high, double *from, double *to);
 

@@ -1,5 +1,7 @@
 #include "trace/parabola_bvh.h"
 
+#include <string.h>
+
 /* Coordinates in the hierarchy's space up to which the fast walk goes: some more than the boxes with their padding. */
 #define LIMIT (1 + 0x1p-6)
 /* What positions may be summed from, in that space: 2^18 SP_PARABOLA_ROUNDING is 4 units of single precision at 1. */
@@ -22,8 +24,9 @@ static void test_block(const sp_parabola *flight, const sp_bvh *bvh, const sp_bv
 
 static void walk(const sp_parabola *flight, const sp_bvh *bvh, double from, double to, sp_search *search)
 {
-    pending stack[SP_BVH_STACK] = {{0, from, to}};
+    pending stack[SP_BVH_STACK];
     int height = 1;
+    stack[0] = (pending){0, from, to};
     double margin = sp_parabola_margin(flight, sp_greater(fabs(from), fabs(to)));
     while (height > 0 && !sp_search_done(search)) {
         pending at = stack[--height];
@@ -47,169 +50,208 @@ static void walk(const sp_parabola *flight, const sp_bvh *bvh, double from, doub
     }
 }
 
-/* False where the flight hits nothing. */
-static bool make_ready(sp_bvh_jet *jet)
-{
-    if (!jet->ready) {
-        jet->ready = true;
-        if (sp_parabola_start(&jet->parabola, jet->ray, jet->pull, jet->bvh->low, jet->bvh->high))
-            sp_parabola_limit(&jet->parabola, jet->search);
-        else
-            jet->search->limit = -INFINITY;
-    }
-    return jet->search->limit > -INFINITY;
-}
-
 void sp_bvh_jet_test(sp_bvh_jet *jet, uint32_t triangle)
 {
     sp_corners corners;
-    if (triangle == jet->search->skip || !make_ready(jet))
+    if (triangle == jet->search->skip)
         return;
+    if (!jet->ready) /* its numbers are finite, or it would not be here */
+        sp_parabola_start(&jet->parabola, jet->ray, jet->pull, jet->bvh->low, jet->bvh->high);
+    jet->ready = true;
     sp_bvh_corners(jet->bvh, triangle, corners);
     sp_parabola_test(&jet->parabola, (const double(*)[3])corners, triangle, jet->search);
 }
 
-/* One coordinate of a flight in the hierarchy's space: place + t (speed + t pull/2). */
-typedef struct {
-    double place, speed, pull;
-    double sign; /* of its motion in a piece */
-} course;
-
-static inline double course_at(const course *c, double t)
+static inline double course_at(const sp_bvh_course *c, double t)
 {
     return c->place + t * (c->speed + 0.5 * t * c->pull);
 }
 
-/* When it is `way` away from its place, moving as in the piece; never: not finite. */
-static double time_of(const course *c, double way)
+/* Cuts the span to when a coordinate without gravity is within ±LIMIT. */
+static inline void cut_straight(const sp_bvh_course *c, double *from, double *to)
 {
-    if (c->pull == 0)
-        return way / c->speed;
+    double way = c->speed < 0 ? -c->place : c->place, inverse = fabs(c->inverse);
+    /* Where the speed is 0 these are infinite, or no numbers, which change nothing. */
+    double leave = (LIMIT - way) * inverse, enter = (-LIMIT - way) * inverse;
+    *to = sp_lesser(leave, *to);
+    *from = sp_greater(enter, *from);
+}
+
+/* When a coordinate with gravity is `way` away from its place, moving with that sign; infinite for never. */
+static double time_of(const sp_bvh_course *c, double way, double sign)
+{
     double square = c->speed * c->speed + 2 * c->pull * way;
     if (!(square > 0))
         return INFINITY;
-    double speed = c->sign * sqrt(square);
+    double speed = sign * sqrt(square);
     return speed * c->speed > 0 ? 2 * way / (speed + c->speed) : (speed - c->speed) / c->pull;
 }
 
-/* Cuts the piece to when the coordinate is within ±LIMIT. */
-static bool cut(course *c, double *from, double *to)
+/* Likewise for a coordinate with gravity, which does not turn in the span. */
+static inline bool cut_curved(const sp_bvh_course *c, double *from, double *to)
 {
-    double speed = c->speed;
-    if (c->pull != 0) /* in the middle: at its ends it may be turning */
-        speed = *to < INFINITY ? c->speed + 0.5 * c->pull * (*from + *to) : c->pull;
-    c->sign = speed < 0 ? -1 : 1;
-    double first = c->sign * course_at(c, *from);
+    /* in the middle: at its ends it may be turning */
+    double middle = *to < INFINITY ? c->speed + 0.5 * c->pull * (*from + *to) : c->pull, sign = middle < 0 ? -1 : 1;
+    double first = sign * course_at(c, *from);
     if (!(first <= LIMIT))
         return false;
     if (first < -LIMIT)
-        *from = sp_greater(*from, c->pull == 0 && c->speed == 0 ? INFINITY : time_of(c, -c->sign * LIMIT - c->place));
-    if (c->pull != 0 || c->speed != 0)
-        *to = sp_lesser(*to, time_of(c, c->sign * LIMIT - c->place));
+        *from = sp_greater(*from, time_of(c, -sign * LIMIT - c->place, sign));
+    if (!(sign * course_at(c, *to) <= LIMIT))
+        *to = sp_lesser(*to, time_of(c, sign * LIMIT - c->place, sign));
     return *from <= *to;
 }
 
-/* Fills what of the arc is about the axis at this place in its order. */
-static void set_axis(sp_bvh_arc *arc, int i, double last)
+sp_bvh_fitness sp_bvh_jet_prepare(sp_bvh_jet *jet, double *from, double *to)
+{
+    const double *centre = jet->bvh->centre, scale = jet->bvh->scale;
+    double origin[3], velocity[3];
+    sp_to_array(jet->ray->origin, origin);
+    sp_to_array(jet->ray->velocity, velocity);
+    jet->summed = 1;
+    jet->speed = 0;
+    jet->strength = jet->pull->strength * scale;
+    for (int k = 0; k < 3; k++) {
+        sp_bvh_course *c = &jet->course[k];
+        *c = (sp_bvh_course){(origin[k] - centre[k]) * scale, velocity[k] * scale, jet->pull->vector[k] * scale, 0};
+        jet->summed = sp_greater(jet->summed, fabs(c->place));
+        jet->speed = sp_greater(jet->speed, fabs(c->speed));
+        if (c->pull == 0) {
+            c->inverse = 1 / c->speed;
+            cut_straight(c, from, to);
+        }
+    }
+    if (!isfinite(jet->speed + jet->strength + origin[0] + origin[1] + origin[2] + velocity[0] + velocity[1] +
+                  velocity[2]))
+        return SP_BVH_NOWHERE;
+    if (!(jet->summed <= SUMMED))
+        return SP_BVH_FAR;
+    return *from <= *to ? SP_BVH_READY : SP_BVH_NOWHERE;
+}
+
+/* The power of two above a positive number, and its inverse. */
+static inline double power_above(double a, double *inverse)
+{
+    uint64_t bits;
+    double power;
+    memcpy(&bits, &a, sizeof bits);
+    bits = (bits & 0x7FF0000000000000u) + 0x0010000000000000u;
+    memcpy(&power, &bits, sizeof power);
+    bits = 0x7FE0000000000000u - bits;
+    memcpy(inverse, &bits, sizeof bits);
+    return power;
+}
+
+/* Fills what of the arc is about the axis at this place in its order, `slope` being the chord's. */
+static inline void set_axis(sp_bvh_arc *arc, int i, double slope, double inverse, double last)
 {
     int axis = arc->axis[i];
-    double slope = arc->direction[axis] + arc->bend[axis] * last;
-    double way = fabs(slope) > 0x1p-60 ? 1 / fabs(slope) : 0x1p60; /* per unit along the axis */
     bool rises = slope > 0;
+    double way = fabs(slope) > 0x1p-60 ? fabs(inverse) : 0x1p60; /* per unit along the axis */
     /* Halfway the flight is away from the chord by this: all on one side. */
     double off = -0.25 * arc->bend[axis] * last * last, ahead = rises ? off : -off;
     double most = sp_greater(ahead, 0), least = sp_lesser(ahead, 0);
     arc->near[i] = (uint32_t)(8 * axis + (rises ? 0 : 24));
-    arc->inverse[i] = (float)(rises ? way : -way);
-    arc->sooner[i] = (float)(arc->origin[axis] + (rises ? most : -most));
-    arc->later[i] = (float)((most - least) * way);
+    arc->far[i] = (uint32_t)(8 * axis + (rises ? 24 : 0));
     if (i == 0) { /* along the motion, from the origin */
         arc->sign = rises ? 1 : -1;
         arc->inverse[0] = (float)way;
         arc->sooner[0] = (float)(-most * way);
         arc->later[0] = (float)(-least * way);
+    } else {
+        arc->inverse[i] = (float)(rises ? way : -way);
+        arc->sooner[i] = (float)(arc->origin[axis] + (rises ? most : -most));
+        arc->later[i] = (float)((most - least) * way);
     }
 }
 
-static float way_of(const sp_bvh_arc *arc, double t, double margin)
+/* The axes in order, gravity's largest component first. */
+static inline void order_axes(const sp_pull *pull, sp_bvh_arc *arc)
+{
+    int steep = fabs(pull->down[0]) > fabs(pull->down[1]) ? 0 : 1;
+    steep = fabs(pull->down[2]) > fabs(pull->down[steep]) ? 2 : steep;
+    arc->axis[0] = steep;
+    arc->axis[1] = steep == 2 ? 0 : steep + 1;
+    arc->axis[2] = steep == 0 ? 2 : steep - 1;
+    arc->aligned = pull->vector[arc->axis[1]] == 0 && pull->vector[arc->axis[2]] == 0;
+}
+
+static inline float way_of(const sp_bvh_arc *arc, double t, double margin)
 {
     return (float)sp_lesser(sp_greater((t - arc->start) * arc->rate + margin, -64), 64);
 }
 
-int sp_bvh_arc_prepare(sp_bvh_arc *arc, const sp_bvh *bvh, const sp_ray *ray, const sp_pull *pull, double from,
-                       double to)
+sp_bvh_fitness sp_bvh_arc_prepare(sp_bvh_jet *jet, double from, double to)
 {
-    course c[3];
-    double origin[3], velocity[3], farthest = 1, speed = 0, rate = 0, strength = pull->strength * bvh->scale;
-    double t_min = from, t_max = to;
-    sp_to_array(ray->origin, origin);
-    sp_to_array(ray->velocity, velocity);
-    for (int k = 0; k < 3; k++) {
-        c[k] = (course){(origin[k] - bvh->centre[k]) * bvh->scale, velocity[k] * bvh->scale,
-                        pull->vector[k] * bvh->scale, 0};
-        farthest = sp_greater(farthest, fabs(c[k].place));
-        speed = sp_greater(speed, fabs(c[k].speed));
-    }
-    if (!(farthest <= SUMMED))
-        return -1;
+    sp_bvh_arc *arc = &jet->arc;
+    double t_min = from, t_max = to, fastest = 0, span;
     for (int k = 0; k < 3; k++)
-        if (!cut(&c[k], &from, &to))
-            return isnan(from + to) ? -1 : 0;
+        if (jet->course[k].pull != 0 && !cut_curved(&jet->course[k], &from, &to))
+            return SP_BVH_NOWHERE;
     double latest = sp_greater(fabs(from), fabs(to));
-    if (!(2 * (farthest + latest * (speed + 0.5 * latest * strength)) <= SUMMED))
-        return -1;
-    for (int k = 0; k < 3; k++)
-        rate = sp_greater(rate, sp_greater(fabs(c[k].speed + from * c[k].pull), fabs(c[k].speed + to * c[k].pull)));
-    double span = 1 / rate, last = (to - from) * rate;
-    if (!(rate > 1e-100 && rate < 1e100 && last <= 4.5))
-        return -1;
-    arc->start = from;
-    arc->rate = rate;
-    arc->axis[0] = fabs(c[0].pull) > fabs(c[1].pull) ? 0 : 1;
-    arc->axis[0] = fabs(c[2].pull) > fabs(c[arc->axis[0]].pull) ? 2 : arc->axis[0];
-    arc->axis[1] = (arc->axis[0] + 1) % 3;
-    arc->axis[2] = (arc->axis[0] + 2) % 3;
     for (int k = 0; k < 3; k++) {
-        arc->origin[k] = (float)course_at(&c[k], from);
-        arc->direction[k] = (float)((c[k].speed + from * c[k].pull) * span);
-        arc->bend[k] = (float)(0.5 * c[k].pull * span * span);
+        const sp_bvh_course *c = &jet->course[k];
+        fastest = sp_greater(fastest, sp_greater(fabs(c->speed + from * c->pull), fabs(c->speed + to * c->pull)));
     }
-    for (int i = 0; i < 3; i++)
-        set_axis(arc, i, last);
-    arc->last = (float)(last + 0x1p-21);
+    if (!(2 * (jet->summed + latest * (jet->speed + 0.5 * latest * jet->strength)) <= SUMMED &&
+          (to - from) * fastest <= 4.2 && fastest > 1e-100 && fastest < 1e100))
+        return SP_BVH_FAR;
+    arc->start = from;
+    arc->rate = power_above(fastest, &span);
+    double last = (to - from) * arc->rate;
+    order_axes(jet->pull, arc);
+    arc->sag = 0;
+    for (int i = 0; i < 3; i++) {
+        int k = arc->axis[i];
+        const sp_bvh_course *c = &jet->course[k];
+        arc->origin[k] = (float)course_at(c, from);
+        arc->direction[k] = (float)((c->speed + from * c->pull) * span);
+        arc->bend[k] = (float)(0.5 * c->pull * span * span);
+        arc->sag = fabsf(arc->bend[k]) > arc->sag ? fabsf(arc->bend[k]) : arc->sag;
+        double slope = (c->speed + 0.5 * c->pull * (from + to)) * span;
+        set_axis(arc, i, slope, c->pull == 0 ? c->inverse * arc->rate : 1 / slope, last);
+    }
+    if (!arc->aligned)
+        arc->sag *= 2;
+    arc->last = (float)(last + 0x1p-20);
     arc->surely_first = way_of(arc, t_min, 4 * SP_BVH_PAD);
     arc->surely_last = way_of(arc, t_max, -4 * SP_BVH_PAD);
-    return 1;
+    return SP_BVH_READY;
 }
 
 /* When a coordinate next turns after `from`; `to` if none does before. */
-static double next_turn(const sp_ray *ray, const sp_pull *pull, double from, double to)
+static double next_turn(const sp_bvh_jet *jet, double from, double to)
 {
-    double velocity[3];
-    sp_to_array(ray->velocity, velocity);
     for (int k = 0; k < 3; k++) {
-        double turn = pull->vector[k] != 0 ? -velocity[k] / pull->vector[k] : from;
+        const sp_bvh_course *c = &jet->course[k];
+        double turn = c->pull != 0 ? -c->speed / c->pull : from;
         if (turn > from && turn < to)
             to = turn;
     }
     return to;
 }
 
-static void search_piece(sp_bvh_jet *jet, double from, double to, sp_instructions instructions)
+static void search_far(sp_bvh_jet *jet)
 {
-    static void (*const kernels[])(sp_bvh_jet *) = {sp_bvh_parabola_portable, sp_bvh_parabola_avx2,
-                                                    sp_bvh_parabola_avx512};
-    int prepared = sp_bvh_arc_prepare(&jet->arc, jet->bvh, jet->ray, jet->pull, from, to);
-    if (prepared > 0)
-        kernels[instructions](jet);
-    else if (prepared < 0 && make_ready(jet))
-        walk(&jet->parabola, jet->bvh, sp_greater(from, jet->parabola.first), sp_lesser(to, jet->parabola.last),
-             jet->search);
+    const sp_bvh *bvh = jet->bvh;
+    sp_parabola *p = &jet->parabola;
+    if (!sp_parabola_start(p, jet->ray, jet->pull, bvh->low, bvh->high) || !sp_parabola_limit(p, jet->search))
+        return;
+    double from = jet->search->t_min, last = jet->search->limit;
+    while (from <= sp_lesser(last, jet->search->limit) && !sp_search_done(jet->search)) {
+        double to = sp_parabola_turn(p, from, last);
+        walk(p, bvh, from, sp_lesser(to, jet->search->limit), jet->search);
+        if (to == last)
+            return;
+        from = to;
+    }
 }
 
 void sp_parabola_search_bvh(const sp_bvh *bvh, const sp_ray *ray, const sp_pull *pull, sp_instructions instructions,
                             sp_search *search)
 {
+    static void (*const kernels[])(sp_bvh_jet *) = {sp_bvh_parabola_portable, sp_bvh_parabola_avx2,
+                                                    sp_bvh_parabola_avx512};
     sp_bvh_jet jet;
     if (bvh->node_count == 0)
         return;
@@ -218,12 +260,17 @@ void sp_parabola_search_bvh(const sp_bvh *bvh, const sp_ray *ray, const sp_pull 
     jet.pull = pull;
     jet.search = search;
     jet.ready = false;
-    double from = ray->t_min, last = search->limit;
-    while (from <= sp_lesser(last, search->limit) && !sp_search_done(search)) {
-        double to = next_turn(ray, pull, from, last);
-        search_piece(&jet, from, sp_lesser(to, search->limit), instructions);
-        if (!(to > from && to < last))
-            return;
+    double from = search->t_min, last = search->limit;
+    sp_bvh_fitness fitness = sp_bvh_jet_prepare(&jet, &from, &last);
+    while (fitness != SP_BVH_FAR && from <= sp_lesser(last, search->limit) && !sp_search_done(search)) {
+        double to = next_turn(&jet, from, last);
+        fitness = sp_bvh_arc_prepare(&jet, from, sp_lesser(to, search->limit));
+        if (fitness == SP_BVH_READY)
+            kernels[instructions](&jet);
+        if (!(to < last))
+            break;
         from = to;
     }
+    if (fitness == SP_BVH_FAR)
+        search_far(&jet);
 }

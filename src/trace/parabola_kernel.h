@@ -4,7 +4,7 @@
 #include "trace/wide.h"
 
 typedef struct {
-    uint32_t child;
+    uint32_t child, unused;
     float from, to; /* ways at which the flight may be in its box */
 } pending;
 
@@ -16,33 +16,35 @@ typedef struct {
  * it were solved for, because the two other axes have cut the span to the box.
  *
  * Nothing that a hit is in is left out. Let e = 2^-24. The origin is at most 1.02 and the box at most 1 away from 0, so
- * that planes are at most R = 2.03 away from the origin; direction and bend way are at most 1, way at most W = 4.2.
- * Rounding moves, for the ways: sooner by e R; node's corner - sooner by e R; the slope's inverse, rounded twice, is a
- * turn of 2 e, that is 2 e R of the plane; the corner's product and the step's by e R each; the sum by e R (without fma
- * another e R): 8 e R < 17 e. And for the steep coordinate: direction and bend by e W each, the inner sum of the
- * polynomial by e W, without fma another e W, the outer product by e R; origin and node's corner - origin by e R each,
- * the plane's product and sum by 2 e R: 4 e W + 5 e R < 28 e. The double precision test's notion of where the flight is
- * differs by less than 8 e: sp_bvh_arc_prepare sees to that. All are less than 64 e = SP_BVH_PAD, by which the boxes
- * are wider than what they hold, so that the flight is in them from before the hit until after it. An inverse that is
- * cut to 2^60 turns the chord by 2^-60. */
-static inline uint32_t enter_children(const sp_bvh_node *node, const sp_bvh_arc *arc, wide *first, wide *last)
+ * that planes are at most R = 2.03 away from the origin; let S = 4.2 be the most that speed times way is, and ways be
+ * at most 2 S. Rounding moves, for the ways: sooner by e R; node's corner - sooner by e R; the slope's inverse, rounded
+ * once, and the direction are a turn of 2 e, that is 2 e R of the plane; the corner's product and the step's by e R
+ * each; the sum by e R (without fma another e R): 8 e R < 17 e. And for the steep coordinate: direction and bend by e S
+ * each, the inner sum of the polynomial by e S, without fma another e S, the outer product by e R; origin and node's
+ * corner - origin by e R each, the plane's product and sum by 2 e R: 4 e S + 5 e R < 28 e. The last way is lengthened
+ * by 16 e, over which the chord is off by no more. The double precision test's notion of where the flight is differs by
+ * less than 8 e: sp_bvh_arc_prepare sees to that. All together are less than 64 e = SP_BVH_PAD, by which the boxes are
+ * wider than what they hold, so that the flight is in them from before the hit until after it. An inverse that is cut
+ * to 2^60 turns the chord by 2^-60. */
+static inline uint32_t enter_children(const sp_bvh_node *node, const sp_bvh_arc *arc, bool aligned, wide *first,
+                                      wide *last)
 {
     const uint8_t *bytes = (const uint8_t *)node->low;
     wide from = wide_set(0), to = wide_set(arc->last);
     for (int i = 1; i < 3; i++) {
         int axis = arc->axis[i];
-        float corner = (node->origin[axis] - arc->sooner[i]) * arc->inverse[i];
-        wide step = wide_set(node->step[axis] * arc->inverse[i]);
-        uint32_t near = arc->near[i], far = near < 24 ? near + 24 : near - 24;
-        from = wide_greater(from, wide_multiply_add(wide_bytes(bytes + near), step, wide_set(corner)));
-        to = wide_lesser(to, wide_multiply_add(wide_bytes(bytes + far), step, wide_set(corner + arc->later[i])));
+        wide inverse = wide_set(arc->inverse[i]), step = wide_multiply(wide_set(node->step[axis]), inverse);
+        wide corner = wide_multiply(wide_subtract(wide_set(node->origin[axis]), wide_set(arc->sooner[i])), inverse);
+        wide beyond = aligned ? corner : wide_add(corner, wide_set(arc->later[i]));
+        from = wide_greater(from, wide_multiply_add(wide_bytes(bytes + arc->near[i]), step, corner));
+        to = wide_lesser(to, wide_multiply_add(wide_bytes(bytes + arc->far[i]), step, beyond));
     }
     int steep = arc->axis[0];
-    uint32_t near = arc->near[0], far = near < 24 ? near + 24 : near - 24;
-    wide corner = wide_set((node->origin[steep] - arc->origin[steep]) * arc->sign);
-    wide step = wide_set(node->step[steep] * arc->sign), inverse = wide_set(arc->inverse[0]);
-    wide enter = wide_multiply_add(wide_bytes(bytes + near), step, corner);
-    wide leave = wide_multiply_add(wide_bytes(bytes + far), step, corner);
+    wide sign = wide_set(arc->sign), inverse = wide_set(arc->inverse[0]);
+    wide corner = wide_multiply(wide_subtract(wide_set(node->origin[steep]), wide_set(arc->origin[steep])), sign);
+    wide step = wide_multiply(wide_set(node->step[steep]), sign);
+    wide enter = wide_multiply_add(wide_bytes(bytes + arc->near[0]), step, corner);
+    wide leave = wide_multiply_add(wide_bytes(bytes + arc->far[0]), step, corner);
     from = wide_greater(from, wide_multiply_add(enter, inverse, wide_set(arc->sooner[0])));
     to = wide_lesser(to, wide_multiply_add(leave, inverse, wide_set(arc->later[0])));
     wide bend = wide_set(arc->bend[steep] * arc->sign), direction = wide_set(arc->direction[steep] * arc->sign);
@@ -65,31 +67,29 @@ typedef struct {
 } chord;
 
 /* With r half the span, the flight is away from its tangent in the middle by bend (way - middle)², so that halfway to
- * the farthest it is off by at most bend r²/2 either way along each axis, and by bend r² when sheared. The rounding of
- * the line's origin is that of the polynomial above and another 3 e; that of its direction, e W and e for bend and 2 e
- * for its sums and the shear's own, makes 8 e over the box. */
+ * the farthest it is off by at most bend r²/2 either way along each axis; when sheared, by no more if gravity is along
+ * one axis, else by twice that: sag knows. The rounding of the line's origin is that of the polynomial above and
+ * another 3 e; that of its direction, e each for direction and bend, 2 e for its sum and as much for the shear, makes
+ * 12 e over the box; and of a sheared corner, as for lines, 13 e times 1.04 + the box: 28 + 3 + 12 + 27 = 70. */
 static inline chord chord_of(const sp_bvh_arc *arc, float from, float to)
 {
     chord c;
     float spare = 0x1p-4f * (to - from) + 16 * SP_BVH_PAD, r = 0.5f * (to - from) + spare, middle = 0.5f * (from + to);
-    float direction[3], most = 0, reach = 0;
-    c.z = 0;
+    float direction[3], half = 0.5f * r * r;
     for (int k = 0; k < 3; k++) {
-        direction[k] = arc->direction[k] + 2 * arc->bend[k] * middle;
-        float off = 0.5f * arc->bend[k] * r * r, amount = fabsf(off);
-        c.origin[k] = arc->origin[k] + (arc->direction[k] + arc->bend[k] * middle) * middle + off;
-        most = most > amount ? most : amount;
-        reach = reach > fabsf(c.origin[k]) ? reach : fabsf(c.origin[k]);
-        c.z = fabsf(direction[k]) > fabsf(direction[c.z]) ? k : c.z;
+        direction[k] = arc->direction[k] + 2 * middle * arc->bend[k];
+        c.origin[k] = arc->origin[k] + (arc->direction[k] + arc->bend[k] * middle) * middle + arc->bend[k] * half;
     }
+    c.z = fabsf(direction[0]) > fabsf(direction[1]) ? 0 : 1;
+    c.z = fabsf(direction[2]) > fabsf(direction[c.z]) ? 2 : c.z;
     c.x = c.z == 2 ? 0 : c.z + 1;
     c.y = c.z == 0 ? 2 : c.z - 1;
     float inverse = 1 / direction[c.z], speed = fabsf(direction[c.z]);
     c.shear_x = direction[c.x] * inverse;
     c.shear_y = direction[c.y] * inverse;
     c.sign = direction[c.z] > 0 ? 1 : -1;
-    c.blur = 0x1p-24f * (64 + 13 * reach) + 2.001f * most;
-    float slack = c.blur + 2 * SP_BVH_PAD * (1 + speed);
+    c.blur = 70 * 0x1p-24f + 1.001f * half * arc->sag;
+    float slack = c.blur + 4 * SP_BVH_PAD;
     c.first = -r * speed - slack;
     c.last = (arc->last - middle) * speed + slack;
     float soonest = from - spare > arc->surely_first ? from - spare : arc->surely_first;
@@ -105,9 +105,11 @@ typedef struct {
 } verdict;
 
 /* As for lines, against the chord: a triangle that the flight meets is within `blur` of the chord where that passes, so
- * that a weight below -error means that it passes beside. What lies inside by more, and between ways at which the
- * flight is on the one side and on the other, is surely crossed. */
-static inline verdict test_block(const sp_bvh_block *block, const chord *c)
+ * that a weight below -error means that it passes beside. What lies inside by more is surely crossed, if that is at a
+ * way between one at which the flight is still before the triangle and one at which it is beyond: the chord meets the
+ * triangle at the corners' mean by weight, and within `blur` of it the triangle is nearer or farther by no more than 3
+ * errors' share of its extent. */
+static inline verdict test_block(const sp_bvh_block *block, const chord *c, bool any)
 {
     wide x[3], y[3], z[3], sign = wide_set(c->sign);
     for (int i = 0; i < 3; i++) {
@@ -133,9 +135,16 @@ static inline verdict test_block(const sp_bvh_block *block, const chord *c)
         return (verdict){0, 0};
     wide nearest = wide_lesser(wide_lesser(z[0], z[1]), z[2]), farthest = wide_greater(wide_greater(z[0], z[1]), z[2]);
     uint32_t maybe = inside & wide_at_most(nearest, wide_set(c->last)) & wide_at_most(wide_set(c->first), farthest);
-    uint32_t surely = maybe & (wide_at_most(error, least) | wide_at_most(largest, minus)) &
-                      wide_at_most(wide_set(c->surely_first), nearest) &
-                      wide_at_most(farthest, wide_set(c->surely_last));
+    uint32_t surely = maybe & (wide_at_most(error, least) | wide_at_most(largest, minus));
+    if (any && surely) {
+        wide sum = wide_add(wide_add(u, v), w);
+        wide met = wide_multiply_add(u, z[0], wide_multiply_add(v, z[1], wide_multiply(w, z[2])));
+        wide unsure = wide_multiply(wide_set(4), wide_multiply(error, wide_subtract(farthest, nearest)));
+        wide square = wide_multiply(sum, sum), place = wide_multiply(met, sum);
+        unsure = wide_multiply(unsure, wide_absolute(sum));
+        surely &= wide_at_most(wide_multiply_add(square, wide_set(c->surely_first), unsure), place) &
+                  wide_at_most(wide_add(place, unsure), wide_multiply(square, wide_set(c->surely_last)));
+    }
     return (verdict){maybe, surely};
 }
 
@@ -144,7 +153,7 @@ static bool search_block(sp_bvh_jet *jet, const sp_bvh_block *block, float from,
 {
     sp_search *search = jet->search;
     chord c = chord_of(&jet->arc, from, to);
-    verdict found = test_block(block, &c);
+    verdict found = test_block(block, &c, search->any);
     for (uint32_t rest = search->any ? found.surely : 0; rest; rest &= rest - 1) {
         uint32_t triangle = block->triangle[__builtin_ctz(rest)];
         if (triangle != search->skip) {
@@ -168,7 +177,7 @@ static inline int push_children(const sp_bvh_node *node, uint32_t mask, wide fro
     wide_store(last, to);
     for (; mask; mask &= mask - 1) {
         int i = __builtin_ctz(mask), place = count++;
-        pending item = {node->child[i], first[i], last[i]};
+        pending item = {node->child[i], 0, first[i], last[i]};
         for (; place > 0 && stack[place - 1].from < item.from; place--)
             stack[place] = stack[place - 1];
         stack[place] = item;
@@ -176,12 +185,13 @@ static inline int push_children(const sp_bvh_node *node, uint32_t mask, wide fro
     return count;
 }
 
-void SP_KERNEL(sp_bvh_parabola)(sp_bvh_jet *jet)
+static inline void walk(sp_bvh_jet *jet, bool aligned)
 {
     const sp_bvh *bvh = jet->bvh;
     const sp_bvh_arc *arc = &jet->arc;
-    pending stack[SP_BVH_STACK] = {{0, 0, 0}};
+    pending stack[SP_BVH_STACK];
     int height = 1;
+    stack[0] = (pending){0, 0, 0, 0};
     while (height > 0) {
         pending at = stack[--height];
         if (at.from > arc->last)
@@ -193,7 +203,15 @@ void SP_KERNEL(sp_bvh_parabola)(sp_bvh_jet *jet)
         }
         const sp_bvh_node *node = &bvh->nodes[at.child];
         wide from, to;
-        uint32_t mask = enter_children(node, arc, &from, &to);
+        uint32_t mask = enter_children(node, arc, aligned, &from, &to);
         height += push_children(node, mask, from, to, stack + height);
     }
+}
+
+void SP_KERNEL(sp_bvh_parabola)(sp_bvh_jet *jet)
+{
+    if (jet->arc.aligned)
+        walk(jet, true);
+    else
+        walk(jet, false);
 }

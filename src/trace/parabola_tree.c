@@ -140,24 +140,23 @@ static void search_piece(const sp_parabola *flight, const sp_corners *corners, c
     }
 }
 
-double sp_parabola_turn(const sp_parabola *p, double from)
+double sp_parabola_turn(const sp_parabola *p, double from, double last)
 {
-    double to = p->last;
     for (int axis = 0; axis < 3; axis++) {
         double turn = -p->velocity[axis] / p->gravity[axis];
-        if (p->gravity[axis] != 0 && turn > from && turn < to)
-            to = turn;
+        if (p->gravity[axis] != 0 && turn > from && turn < last)
+            last = turn;
     }
-    return to;
+    return last;
 }
 
 void sp_parabola_search_tree(const sp_parabola *p, const sp_corners *corners, const sp_kd_tree *tree, sp_search *search)
 {
-    double from = p->first;
-    while (from <= sp_lesser(p->last, search->limit) && !sp_search_done(search)) {
-        double to = sp_parabola_turn(p, from);
+    double from = search->t_min, last = search->limit;
+    while (from <= sp_lesser(last, search->limit) && !sp_search_done(search)) {
+        double to = sp_parabola_turn(p, from, last);
         search_piece(p, corners, tree, from, sp_lesser(to, search->limit), search);
-        if (to == p->last)
+        if (to == last)
             return;
         from = to;
     }

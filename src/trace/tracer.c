@@ -113,9 +113,9 @@ static void search_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp
         sp_parabola_search_bvh(&tracer->bvh, ray, pull, tracer->instructions, search);
         return;
     }
-    if (!sp_parabola_start(&parabola, ray, pull, tracer->tree.low, tracer->tree.high))
+    if (!sp_parabola_start(&parabola, ray, pull, tracer->tree.low, tracer->tree.high) ||
+        !sp_parabola_limit(&parabola, search))
         return;
-    sp_parabola_limit(&parabola, search);
     if (tracer->accelerator == SP_ACCELERATOR_NONE)
         sp_parabola_search_all(&parabola, corners, tracer->mesh->triangle_count, search);
     else
