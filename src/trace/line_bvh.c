@@ -40,9 +40,10 @@ static void test_block(const sp_bvh *bvh, const sp_line *line, const sp_bvh_bloc
 
 static void walk(const sp_bvh *bvh, const sp_line *line, sp_search *search)
 {
-    pending stack[SP_BVH_STACK] = {{0, search->t_min}};
+    pending stack[SP_BVH_STACK];
     int height = 1;
     double farthest = 0;
+    stack[0] = (pending){0, search->t_min};
     for (int axis = 0; axis < 3; axis++)
         farthest = sp_greater(farthest, sp_greater(fabs(bvh->low[axis] - line->origin[axis]),
                                                    fabs(bvh->high[axis] - line->origin[axis])));

@@ -122,8 +122,9 @@ void SP_KERNEL(sp_bvh_line)(sp_bvh_flight *flight)
 {
     const sp_bvh *bvh = flight->bvh;
     sp_bvh_line *ray = &flight->ray;
-    pending stack[SP_BVH_STACK] = {{0, 0}};
+    pending stack[SP_BVH_STACK];
     int height = 1;
+    stack[0] = (pending){0, 0};
     while (height > 0) {
         pending at = stack[--height];
         if (at.way > ray->last)

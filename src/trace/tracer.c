@@ -1,3 +1,4 @@
+#include "trace/bundle.h"
 #include "trace/line_bvh.h"
 #include "trace/parabola_bvh.h"
 
@@ -144,20 +145,67 @@ bool sp_trace_occluded(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravi
     return trace(tracer, ray, &pull, true).triangle != SP_NONE;
 }
 
+/* Rays that one thread takes at a time: so many that sorting them brings neighbours together. */
+enum { CHUNK = 1 << 16, CHUNK_LEAST = 1 << 10, FAN_LEAST = 64 };
+
+static size_t chunk_size(size_t count, int threads)
+{
+    size_t share = threads > 1 ? count / (4 * (size_t)threads) + 1 : count;
+    return share < CHUNK_LEAST ? CHUNK_LEAST : share > CHUNK ? CHUNK : share;
+}
+
+/* How many rays from the first on have its origin. */
+static size_t count_fan(const sp_ray *rays, size_t count)
+{
+    size_t n = 1;
+    while (n < count && rays[n].origin.x == rays[0].origin.x && rays[n].origin.y == rays[0].origin.y &&
+           rays[n].origin.z == rays[0].origin.z)
+        n++;
+    return n;
+}
+
+/* hits or occluded, whichever is not NULL. */
+static void trace_chunk(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_pull *pull, sp_hit *hits,
+                        bool *occluded)
+{
+    bool fans = tracer->accelerator == SP_ACCELERATOR_BVH && pull->strength == 0;
+    for (size_t i = 0, n; i < count; i += n) {
+        n = fans ? count_fan(rays + i, count - i) : count - i;
+        if (fans && n >= FAN_LEAST &&
+            sp_fan_trace(&tracer->bvh, tracer->instructions, rays + i, n, hits ? hits + i : NULL,
+                         hits ? NULL : occluded + i))
+            continue;
+        for (size_t k = i; k < i + n; k++) {
+            sp_hit hit = trace(tracer, &rays[k], pull, !hits);
+            if (hits)
+                hits[k] = hit;
+            else
+                occluded[k] = hit.triangle != SP_NONE;
+        }
+    }
+}
+
+static void trace_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity, int threads,
+                       sp_hit *hits, bool *occluded)
+{
+    sp_pull pull = sp_pull_of(gravity);
+    threads = thread_count(threads);
+    size_t size = chunk_size(count, threads), chunks = (count + size - 1) / size;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+    for (size_t c = 0; c < chunks; c++) {
+        size_t first = c * size, n = count - first < size ? count - first : size;
+        trace_chunk(tracer, rays + first, n, &pull, hits ? hits + first : NULL, hits ? NULL : occluded + first);
+    }
+}
+
 void sp_trace_nearest_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity, int threads,
                            sp_hit *hits)
 {
-    sp_pull pull = sp_pull_of(gravity);
-#pragma omp parallel for schedule(dynamic, 256) num_threads(thread_count(threads))
-    for (size_t i = 0; i < count; i++)
-        hits[i] = trace(tracer, &rays[i], &pull, false);
+    trace_many(tracer, rays, count, gravity, threads, hits, NULL);
 }
 
 void sp_trace_occluded_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity, int threads,
                             bool *occluded)
 {
-    sp_pull pull = sp_pull_of(gravity);
-#pragma omp parallel for schedule(dynamic, 256) num_threads(thread_count(threads))
-    for (size_t i = 0; i < count; i++)
-        occluded[i] = trace(tracer, &rays[i], &pull, true).triangle != SP_NONE;
+    trace_many(tracer, rays, count, gravity, threads, NULL, occluded);
 }

@@ -51,6 +51,10 @@ static inline wide wide_subtract_product(wide c, wide a, wide b)
 {
     return _mm256_fnmadd_ps(a, b, c);
 }
+static inline wide wide_divide(wide a, wide b)
+{
+    return _mm256_div_ps(a, b);
+}
 static inline wide wide_lesser(wide a, wide b)
 {
     return _mm256_min_ps(a, b);
@@ -128,6 +132,10 @@ static inline wide wide_multiply_add(wide a, wide b, wide c)
 static inline wide wide_subtract_product(wide c, wide a, wide b)
 {
     WIDE_EACH(c.lane[i] - a.lane[i] * b.lane[i]);
+}
+static inline wide wide_divide(wide a, wide b)
+{
+    WIDE_EACH(a.lane[i] / b.lane[i]);
 }
 static inline wide wide_lesser(wide a, wide b)
 {

@@ -158,6 +158,50 @@ static void compare(const sp_mesh *mesh, random_source *source, double scale, sp
     sp_tracer_destroy(bvh);
 }
 
+/* Rays of one origin, which go through the hierarchy together: all kinds of them, and some that end or begin right at
+ * a hit. */
+static void compare_fan(const sp_mesh *mesh, random_source *source, double scale, sp_vec3 offset, size_t count)
+{
+    static const sp_vec3 no_pull = {0, 0, 0};
+    sp_tracer *none = make_tracer(mesh, SP_ACCELERATOR_NONE), *bvh = make_tracer(mesh, SP_ACCELERATOR_BVH);
+    sp_ray *rays = calloc(count, sizeof *rays);
+    sp_hit *hits = calloc(count, sizeof *hits), *expected = calloc(count, sizeof *expected);
+    bool *occluded = calloc(count, sizeof *occluded);
+    assert_true(rays && hits && expected && occluded);
+    sp_vec3 origin = draw_ray(source, mesh, scale, offset, 1).origin;
+    for (size_t i = 0; i < count; i++) {
+        rays[i] = draw_ray(source, mesh, scale, offset, 1);
+        rays[i].velocity = sp_sub(sp_along(rays[i].origin, 1, rays[i].velocity), origin);
+        rays[i].origin = origin;
+        rays[i].t_min = fmax(0, rays[i].t_min);
+        double kind = draw(source, 0, 1);
+        double t = kind < 0.2 ? sp_trace_nearest(none, &rays[i], no_pull).t : INFINITY;
+        if (t < INFINITY && kind < 0.1)
+            rays[i].t_max = kind < 0.05 ? t : nextafter(t, INFINITY);
+        else if (t < INFINITY)
+            rays[i].t_min = kind < 0.15 ? t : nextafter(t, 0);
+        expected[i] = sp_trace_nearest(none, &rays[i], no_pull);
+    }
+    for (int set = 0; set < SP_INSTRUCTIONS_COUNT; set++) {
+        if (!sp_instructions_available((sp_instructions)set))
+            continue;
+        sp_tracer_use(bvh, (sp_instructions)set);
+        sp_trace_nearest_many(bvh, rays, count, no_pull, 2, hits);
+        sp_trace_occluded_many(bvh, rays, count, no_pull, 1, occluded);
+        for (size_t i = 0; i < count; i++) {
+            assert_same(hits[i], expected[i], instruction_names[set]);
+            assert_int_equal(occluded[i], expected[i].triangle != SP_NONE);
+            assert_same(sp_trace_nearest(bvh, &rays[i], no_pull), expected[i], instruction_names[set]);
+        }
+    }
+    free(rays);
+    free(hits);
+    free(expected);
+    free(occluded);
+    sp_tracer_destroy(none);
+    sp_tracer_destroy(bvh);
+}
+
 static void random_meshes(void **state)
 {
     (void)state;
@@ -167,6 +211,8 @@ static void random_meshes(void **state)
         sp_vec3 offset = i < 6 ? sp_v(0, 0, 0) : sp_v(100 * scale, -1000 * scale, 10 * scale);
         sp_mesh *mesh = random_triangles(&source, i % 2 ? 40 : 700, scale, offset);
         compare(mesh, &source, scale, offset, RAYS);
+        for (int fan = 0; fan < 5; fan++)
+            compare_fan(mesh, &source, scale, offset, RAYS / 2);
         sp_mesh_destroy(mesh);
     }
 }
@@ -179,6 +225,8 @@ static void lattices(void **state)
         sp_vec3 offset = sp_v(-0.5 * scales[i], -0.25 * scales[i], 0);
         sp_mesh *mesh = lattice(5, scales[i], offset);
         compare(mesh, &source, scales[i], offset, RAYS);
+        for (int fan = 0; fan < 5; fan++)
+            compare_fan(mesh, &source, scales[i], offset, RAYS / 2);
         sp_mesh_destroy(mesh);
     }
 }
@@ -196,6 +244,8 @@ static void a_fan_of_needles(void **state)
     random_source source = {3};
     sp_mesh *mesh = make_mesh(points, N + 1, (const uint32_t(*)[3])triangles, N);
     compare(mesh, &source, 1, sp_v(0, 0, 0), RAYS);
+    for (int fan = 0; fan < 5; fan++)
+        compare_fan(mesh, &source, 1, sp_v(0, 0, 0), RAYS);
     sp_mesh_destroy(mesh);
 }
 
@@ -258,6 +308,7 @@ static void the_horse(void **state)
     assert_int_equal(mesh->triangle_count, 39698);
     random_source source = {4};
     compare(mesh, &source, 0.5, sp_v(0, 0, 0), RAYS / 20);
+    compare_fan(mesh, &source, 0.5, sp_v(0, 0, 0), RAYS / 3);
     sp_mesh_destroy(mesh);
 }
 

@@ -1,0 +1,60 @@
+/* Lines of one origin that fly close together, and are searched together. */
+#ifndef SPRAYPLAN_TRACE_BUNDLE_H
+#define SPRAYPLAN_TRACE_BUNDLE_H
+
+#include "trace/bvh.h"
+#include "trace/instructions.h"
+
+#include <stdalign.h>
+
+enum { SP_BUNDLE = 32 };
+
+/* What is told about a line, in the hierarchy's space: where it is at depth 1, seen from the origin along its longest
+ * axis, between which depths it may be hit. */
+typedef struct {
+    alignas(64) double velocity[3]; /* of the ray, m/s */
+    float u, v;
+    float first, last;
+    uint32_t skip;
+    uint32_t side; /* longest axis, twice, and 1 where it goes down that axis */
+} sp_fan_line;
+
+/* Lanes beyond `count` want nothing. Depths are along axis z, times `sign`. */
+typedef struct {
+    float u[SP_BUNDLE], v[SP_BUNDLE];         /* from the centre */
+    float first[SP_BUNDLE], last[SP_BUNDLE];  /* the depths that were asked for */
+    float low[SP_BUNDLE], high[SP_BUNDLE];    /* the best hit is between these; nothing beyond `high` is wanted */
+    uint32_t triangle[SP_BUNDLE];             /* the best so far */
+    uint32_t skip[SP_BUNDLE], ray[SP_BUNDLE]; /* ray: its number among `rays` */
+    int count;
+    int x, y, z;
+    float sign;
+    float origin[3];          /* along x, y, z */
+    float centre[2], half[2]; /* the range of u, v */
+    float blur;               /* how far rounding may move a sheared corner */
+    float farthest;           /* the largest `high` */
+    bool any;
+    const sp_bvh *bvh;
+    const sp_ray *rays;
+    const sp_fan_line *lines; /* as the rays */
+} sp_bundle;
+
+/* What double precision makes of a line and two triangles, of which the second may be SP_NONE. */
+sp_hit sp_bundle_ask(const sp_bundle *bundle, int lane, uint32_t triangle, uint32_t other);
+/* Decides between a triangle and the best so far. */
+void sp_bundle_settle(sp_bundle *bundle, int lane, uint32_t triangle);
+
+/* The kernels, one for each set of instructions: the search, and the hits that it found. */
+void sp_bundle_search_portable(sp_bundle *bundle);
+void sp_bundle_search_avx2(sp_bundle *bundle);
+void sp_bundle_search_avx512(sp_bundle *bundle);
+void sp_bundle_answer_portable(const sp_bundle *bundle, sp_hit *hits);
+void sp_bundle_answer_avx2(const sp_bundle *bundle, sp_hit *hits);
+void sp_bundle_answer_avx512(const sp_bundle *bundle, sp_hit *hits);
+
+/* Traces rays of one origin, none of which may begin before time 0: `hits`, or where that is NULL `occluded`, get an
+ * answer for each. False where single precision or memory do not suffice; nothing is written then. */
+bool sp_fan_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count, sp_hit *hits,
+                  bool *occluded);
+
+#endif
