@@ -2,8 +2,9 @@
 
 #include <stdlib.h>
 
-#define ROUNDS_MOST 4   /* corrections for what the coarse patches misjudge */
-#define FRONT_BUDGETS 8 /* about as many points of the front are searched for */
+#define ROUNDS_MOST 4    /* corrections for what the coarse patches misjudge */
+#define FRONT_BUDGETS 8  /* about as many points of the front are searched for */
+#define FRONT_RATIO 1.15 /* between two amounts of water at which the front is searched, at most */
 
 typedef struct {
     const sp_search *search;
@@ -120,9 +121,40 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* Sorts and drops what the front is not searched for: no more than the kept nozzles take, too much, or twice the same.
+ * Returns how many are left. */
+static size_t sift(const sp_finding *finding, double *budgets, size_t count)
+{
+    size_t unique = 0;
+    qsort(budgets, count, sizeof *budgets, by_size);
+    for (size_t i = 0; i < count; i++)
+        if (budgets[i] > finding->search->kept_flow && budgets[i] <= finding->budget &&
+            (!unique || budgets[i] > budgets[unique - 1] * (1 + 1e-9)))
+            budgets[unique++] = budgets[i];
+    return unique;
+}
+
+/* Puts amounts between those that lie further apart than FRONT_RATIO; NULL when memory runs out. */
+static double *densify(double *budgets, size_t *count)
+{
+    double most = *count ? log(budgets[*count - 1] / budgets[0]) / log(FRONT_RATIO) : 0;
+    double *dense = malloc((2 * *count + (size_t)most + 1) * sizeof *dense);
+    size_t found = 0;
+    for (size_t i = 0; dense && i < *count; i++) {
+        double gap = i ? log(budgets[i] / budgets[i - 1]) : 0;
+        size_t steps = i ? (size_t)ceil(gap / log(FRONT_RATIO) * (1 - 1e-9)) : 1;
+        for (size_t k = 1; k < steps; k++)
+            dense[found++] = budgets[i - 1] * exp(gap * (double)k / (double)steps);
+        dense[found++] = budgets[i];
+    }
+    free(budgets);
+    *count = found;
+    return dense;
+}
+
 /* The water at which the front is searched: what the greedy order used as it went, what one nozzle of each make takes,
- * and that of the scene's own layout, with which the proposal will be compared. Rising; malloc'd, NULL when memory runs
- * out. */
+ * that of the scene's own layout, with which the proposal will be compared, and enough between. Rising; malloc'd, NULL
+ * when memory runs out. */
 static double *list_budgets(const sp_finding *finding, const sp_design *greedy, size_t *count)
 {
     const sp_search *search = finding->search;
@@ -131,7 +163,7 @@ static double *list_budgets(const sp_finding *finding, const sp_design *greedy, 
     double *budgets = malloc((greedy->count + candidates->make_count + 1) * sizeof *budgets);
     if (!budgets)
         return NULL;
-    size_t found = 0, stride = greedy->count / (FRONT_BUDGETS + 1) + 1, unique = 0;
+    size_t found = 0, stride = greedy->count / (FRONT_BUDGETS + 1) + 1;
     double flow = search->kept_flow;
     for (size_t i = 0; i + 1 < greedy->count; i++) {
         flow += greedy->items[i].flow;
@@ -142,13 +174,8 @@ static double *list_budgets(const sp_finding *finding, const sp_design *greedy, 
         budgets[found++] = search->kept_flow + candidates->makes[m].flow;
     if (own)
         budgets[found++] = sp_layout_flow(own, &sp_evaluator_setup(search->coarse)->liquid);
-    qsort(budgets, found, sizeof *budgets, by_size);
-    for (size_t i = 0; i < found; i++)
-        if (budgets[i] > search->kept_flow && budgets[i] <= finding->budget &&
-            (!unique || budgets[i] > budgets[unique - 1] * (1 + 1e-9)))
-            budgets[unique++] = budgets[i];
-    *count = unique;
-    return budgets;
+    *count = sift(finding, budgets, found);
+    return densify(budgets, count);
 }
 
 /* The front besides the best. */

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FLOW_LEAST 2e-3 /* share of the water by which points of the front differ */
+#define FLOW_LEAST 0.01 /* share of the water by which points of the front differ */
 
 bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b)
 {

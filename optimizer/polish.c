@@ -42,7 +42,33 @@ void sp_polishing_free(sp_polishing *polishing)
     if (polishing->rough_evaluator)
         sp_search_free(&polishing->rough);
     sp_evaluator_destroy(polishing->rough_evaluator);
+    free(polishing->thrifty_candidates.makes);
     *polishing = (sp_polishing){0};
+}
+
+/* The same search for nozzles that are turned down as far as refinement may. */
+static bool thrifty_create(sp_polishing *polishing, sp_error *error)
+{
+    const sp_search *search = polishing->search;
+    const sp_candidates *candidates = search->candidates;
+    sp_make *makes = malloc(candidates->make_count * sizeof *makes);
+    if (!makes)
+        return sp_fail_memory(error);
+    for (size_t i = 0; i < candidates->make_count; i++) {
+        double low, high;
+        makes[i] = candidates->makes[i];
+        sp_flow_range(search->options, &sp_evaluator_setup(search->coarse)->liquid, makes[i].type, makes[i].pressure,
+                      &low, &high);
+        if (low < makes[i].flow * (1 - 1e-6)) {
+            makes[i].flow = low;
+            polishing->adjustable = true;
+        }
+    }
+    polishing->thrifty_candidates = *candidates;
+    polishing->thrifty_candidates.makes = makes;
+    polishing->thrifty = *search;
+    polishing->thrifty.candidates = &polishing->thrifty_candidates;
+    return true;
 }
 
 bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine, sp_watch *watch,
@@ -51,8 +77,8 @@ bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_
     const sp_patches *patches = sp_evaluator_patches(search->coarse);
     *polishing = (sp_polishing){
         .search = search, .pool = pool, .watch = watch, .rough = *search, .threads = sp_threads(&search->options->run)};
-    bool done = true;
-    if ((double)patches->count > 1.5 * ROUGH_PATCHES) {
+    bool done = thrifty_create(polishing, error);
+    if (done && (double)patches->count > 1.5 * ROUGH_PATCHES) {
         polishing->rough_evaluator = sp_evaluator_resample(fine, sqrt(patches->total_area / ROUGH_PATCHES), error);
         done = polishing->rough_evaluator &&
                sp_search_create(polishing->rough_evaluator, search->options, search->sites, search->candidates,
@@ -106,7 +132,7 @@ static bool anneal(const sp_polishing *polishing, sp_sights *sights, const sp_tr
 {
     static const size_t starts[] = {4, 2, 0};
     for (size_t i = 0; i < sizeof starts / sizeof *starts; i++)
-        if ((!trial->kick || i == 1 + trial->kick % 2) &&
+        if ((trial->kind == SP_TRIAL_POLISH || i == 1 + trial->seed % 2) &&
             !sp_anneal(sights, starts[i], SP_WIDTHS, trial->budget, polishing->watch, design, error))
             return false;
     return true;
@@ -142,6 +168,50 @@ static bool cover_before(sp_sights *sights, const sp_trial *trial, double *cover
     return done;
 }
 
+/* A nozzle of a make that was turned down says so itself. */
+static void write_flows(const sp_polishing *polishing, sp_design *design)
+{
+    const sp_fluid *liquid = &sp_evaluator_setup(polishing->search->coarse)->liquid;
+    for (size_t i = 0; i < design->count; i++) {
+        sp_placed *placed = &design->items[i];
+        if (fabs(sp_nozzle_flow(&placed->nozzle, liquid) - placed->flow) > 1e-9 * placed->flow)
+            placed->nozzle.flow = placed->flow;
+    }
+}
+
+/* The best of the pool within the trial's budget, all turned down. */
+static bool build_thrifty(const sp_polishing *polishing, const sp_trial *trial, sp_design *design, sp_error *error)
+{
+    const sp_search *search = &polishing->thrifty;
+    sp_bench bench;
+    if (!sp_design_create(search, design, error))
+        return false;
+    bool done = sp_bench_create(search, polishing->pool, &bench, error);
+    if (done) {
+        done = sp_greedy_pool(search, polishing->pool, 0.5, INFINITY, trial->budget, &bench, design, error) &&
+               sp_improve(search, polishing->pool, trial->budget, polishing->watch, design, error);
+        sp_bench_free(&bench);
+    }
+    write_flows(polishing, design);
+    if (!done)
+        sp_design_free(design);
+    return done;
+}
+
+/* What the trial starts from. */
+static bool begin(const sp_polishing *polishing, const sp_trial *trial, sp_design *start, sp_error *error)
+{
+    if (trial->kind == SP_TRIAL_THRIFT)
+        return build_thrifty(polishing, trial, start, error);
+    if (!sp_design_copy(polishing->search, &trial->design, start, error))
+        return false;
+    if (trial->kind == SP_TRIAL_POLISH ||
+        sp_kick(polishing->search, polishing->pool, trial->budget, trial->seed, start, error))
+        return true;
+    sp_design_free(start);
+    return false;
+}
+
 /* The refined design on the search's own patches, turned a little more on these, becomes the trial's. */
 static bool take_over(const sp_polishing *polishing, int thread, sp_trial *trial, const sp_design *refined,
                       sp_error *error)
@@ -169,12 +239,9 @@ static bool polish(const sp_polishing *polishing, int thread, sp_trial *trial, s
     /* what was looked at before is another thread's luck */
     sp_sights_forget(sights);
     sp_sights_forget(&polishing->sights[thread]);
-    if (!cover_before(sights, trial, &before, error) ||
-        !sp_design_copy(polishing->search, &trial->design, &start, error))
+    if (!cover_before(sights, trial, &before, error) || !begin(polishing, trial, &start, error))
         return false;
-    bool done =
-        (!trial->kick || sp_kick(polishing->search, polishing->pool, trial->budget, trial->kick, &start, error)) &&
-        refine(polishing, sights, trial, before, &start, &refined, error);
+    bool done = refine(polishing, sights, trial, before, &start, &refined, error);
     sp_design_free(&start);
     if (!done)
         return false;

@@ -3,13 +3,21 @@
 #define OPTIMIZER_POLISH_H
 
 #include "anneal.h"
+#include "exchange.h"
 #include "kick.h"
+
+typedef enum {
+    SP_TRIAL_POLISH, /* the design as it is */
+    SP_TRIAL_KICK,   /* after a kick */
+    SP_TRIAL_THRIFT, /* another in its place, of nozzles turned down as far as refinement may */
+} sp_trial_kind;
 
 /* One design to polish at equal water. */
 typedef struct {
+    sp_trial_kind kind;
     sp_design design; /* what comes out takes its place, if it is better */
     double budget;    /* m³/s */
-    uint64_t kick;    /* seed of the kick that it gets first; 0: none, and it is annealed more often */
+    uint64_t seed;    /* of the kick */
     bool better;      /* it came to cover more on few patches; the search's and the final ones may see it otherwise */
     double covered;   /* m² of few patches */
 } sp_trial;
@@ -20,6 +28,9 @@ typedef struct {
     sp_watch *watch;
     sp_evaluator *rough_evaluator; /* NULL: the search's patches are few enough */
     sp_search rough;
+    bool adjustable; /* some nozzles can be turned down */
+    sp_candidates thrifty_candidates;
+    sp_search thrifty; /* the search with all makes turned down */
     int threads;
     sp_sights *sights, *rough_sights; /* [threads] */
 } sp_polishing;

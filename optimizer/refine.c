@@ -9,7 +9,7 @@
 #define MISSING_MOST 0.03 /* of the target: more, refinement is not expected to make up for */
 #define BATCH 8           /* kicks of one design at a time; fixed, so that the answer does not depend on the threads */
 #define BATCHES 2         /* before less water is given up */
-#define FRONT_ROUNDS 3    /* kicks of every design of the front */
+#define FRONT_ROUNDS 2    /* kicks of every design of the front */
 
 typedef struct {
     const sp_search *search;
@@ -17,7 +17,7 @@ typedef struct {
     sp_watch *watch;
     sp_front *front;
     sp_polishing polishing;
-    uint64_t kicks; /* so far: their seeds */
+    uint64_t seeds; /* used so far */
     sp_error *error;
 } sp_refining;
 
@@ -35,7 +35,8 @@ static void trials_free(sp_trials *trials)
     *trials = (sp_trials){0};
 }
 
-static bool try_also(sp_refining *refining, sp_trials *trials, const sp_design *design, double budget, bool kicked)
+static bool try_also(sp_refining *refining, sp_trials *trials, const sp_design *design, double budget,
+                     sp_trial_kind kind)
 {
     if (trials->count == trials->capacity) {
         size_t capacity = trials->capacity ? 2 * trials->capacity : 16;
@@ -46,9 +47,8 @@ static bool try_also(sp_refining *refining, sp_trials *trials, const sp_design *
         trials->capacity = capacity;
     }
     sp_trial *trial = &trials->items[trials->count];
-    *trial = (sp_trial){.budget = fmin(budget, refining->search->options->max_water)};
-    if (kicked)
-        trial->kick = ++refining->kicks;
+    *trial = (sp_trial){
+        .kind = kind, .seed = ++refining->seeds, .budget = fmin(budget, refining->search->options->max_water)};
     if (!sp_design_copy(refining->search, design, &trial->design, refining->error))
         return false;
     trials->count++;
@@ -89,16 +89,33 @@ static bool carry_out(sp_refining *refining, sp_trials *trials, sp_design *best)
     return done;
 }
 
-/* Every design of the front, polished as it is or after a kick. */
-static bool polish_front(sp_refining *refining, bool kicked)
+/* Every design of the front once more. */
+static bool try_front(sp_refining *refining, sp_trials *trials, sp_trial_kind kind)
 {
-    sp_front *front = refining->front;
+    const sp_front *front = refining->front;
+    for (size_t i = 0; i < front->count; i++)
+        if (sp_front_counts(front, i) &&
+            !try_also(refining, trials, &front->entries[i].design, front->entries[i].point.flow, kind))
+            return false;
+    return true;
+}
+
+/* Every design of the front, and others that save by being turned down. */
+static bool polish_front(sp_refining *refining)
+{
     sp_trials trials = {0};
-    bool done = true;
-    for (size_t i = 0; done && i < front->count; i++)
-        if (sp_front_counts(front, i))
-            done = try_also(refining, &trials, &front->entries[i].design, front->entries[i].point.flow, kicked);
+    bool done = try_front(refining, &trials, SP_TRIAL_POLISH);
+    if (refining->polishing.adjustable)
+        done = done && try_front(refining, &trials, SP_TRIAL_THRIFT);
     done = done && carry_out(refining, &trials, NULL);
+    trials_free(&trials);
+    return done;
+}
+
+static bool kick_front(sp_refining *refining)
+{
+    sp_trials trials = {0};
+    bool done = try_front(refining, &trials, SP_TRIAL_KICK) && carry_out(refining, &trials, NULL);
     trials_free(&trials);
     return done;
 }
@@ -154,7 +171,7 @@ static bool insist(sp_refining *refining, sp_design *design, double budget, cons
             break;
         sp_trials trials = {0};
         for (size_t i = 0; done && i < (batch ? BATCH : 1); i++)
-            done = try_also(refining, &trials, design, budget, batch > 0);
+            done = try_also(refining, &trials, design, budget, batch ? SP_TRIAL_KICK : SP_TRIAL_POLISH);
         done = done && carry_out(refining, &trials, design);
         trials_free(&trials);
     }
@@ -213,13 +230,13 @@ static bool sharpen_best(sp_refining *refining)
 static bool refine_all(sp_refining *refining)
 {
     const sp_front *front = refining->front;
-    if (!polish_front(refining, false))
+    if (!polish_front(refining))
         return false;
     bool saves = front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
     if (saves && !(save_water(refining) && save_flow(refining)))
         return false;
     for (int round = 0; round < FRONT_ROUNDS; round++)
-        if (!polish_front(refining, true))
+        if (!kick_front(refining))
             return false;
     return sharpen_best(refining);
 }
