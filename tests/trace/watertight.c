@@ -1,4 +1,5 @@
-/* Nothing leaves a closed mesh unseen: rays aimed at corners, edges and everything else from inside. */
+/* Nothing leaves a closed mesh unseen: rays aimed at corners, edges and everything else from inside. With a number as
+ * its argument, the program shoots so many lines and so many parabolas instead and counts what it misses. */
 #include "shapes.h"
 
 #ifdef SPRAYPLAN_SANITIZE
@@ -63,12 +64,11 @@ static void balls(void **state)
 }
 
 /* A tall narrow tube: long thin triangles, as CAD programs make them. */
-static void needles(void **state)
+static sp_mesh *make_tube(void)
 {
-    (void)state;
     enum { N = 360 };
-    sp_vec3 points[2 * N + 2] = {{0, 0, -10}, {0, 0, 10}};
-    uint32_t triangles[4 * N][3];
+    static sp_vec3 points[2 * N + 2] = {{0, 0, -10}, {0, 0, 10}};
+    static uint32_t triangles[4 * N][3];
     for (uint32_t i = 0; i < N; i++) {
         uint32_t a = 2 + i, b = 2 + (i + 1) % N, c = a + N, d = b + N;
         points[a] = sp_v(cos(2 * M_PI * i / N), sin(2 * M_PI * i / N), -10);
@@ -76,8 +76,23 @@ static void needles(void **state)
         const uint32_t four[4][3] = {{0, b, a}, {1, c, d}, {a, b, d}, {a, d, c}};
         memcpy(triangles[4 * i], four, sizeof four);
     }
+    return make_mesh(points, 2 * N + 2, (const uint32_t(*)[3])triangles, 4 * N);
+}
+
+static sp_mesh *make_box(void)
+{
+    static const sp_vec3 box[8] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                   {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+    static const uint32_t sides[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+                                          {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+    return make_mesh(box, 8, sides, 12);
+}
+
+static void needles(void **state)
+{
+    (void)state;
     random_source source = {8};
-    sp_mesh *mesh = make_mesh(points, 2 * N + 2, (const uint32_t(*)[3])triangles, 4 * N);
+    sp_mesh *mesh = make_tube();
     shoot(mesh, sp_v(0, 0, 0), 1, 0, true, &source);
     shoot(mesh, sp_v(0, 0, 0), 1, 9.81, true, &source);
     sp_mesh_destroy(mesh);
@@ -87,11 +102,7 @@ static void needles(void **state)
 static void vertical_flights(void **state)
 {
     (void)state;
-    static const sp_vec3 box[8] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                                   {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
-    static const uint32_t sides[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
-                                          {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
-    sp_mesh *mesh = make_mesh(box, 8, sides, 12);
+    sp_mesh *mesh = make_box();
     sp_tracer *tracer = make_tracer(mesh, SP_ACCELERATOR_BVH);
     for (int i = 0; i < 81; i++) {
         double x = (i % 9 - 4) / 4.0, y = (i / 9 - 4) / 4.0;
@@ -111,12 +122,120 @@ static void vertical_flights(void **state)
     sp_mesh_destroy(mesh);
 }
 
-int main(void)
+enum { SHAPES = 6, INSIDE = 64 };
+
+/* A closed mesh, its normals outwards, and points inside it. */
+typedef struct {
+    sp_mesh *mesh;
+    sp_tracer *tracer;
+    sp_vec3 inside[INSIDE];
+    double size; /* m */
+} closed;
+
+/* NULL where the file is not here. */
+static sp_mesh *make_shape(int i, const char **name)
+{
+    static const char *const names[SHAPES] = {"ball", "bumpy ball", "tube", "box", "horse", "elephant"};
+    static const char *const paths[] = {DATA_DIR "/horse.obj", DATA_DIR "/elephant.obj"};
+    *name = names[i];
+    if (i < 2)
+        return make_ball(48, sp_v(0, 0, 0), 1, i ? 0.2 : 0);
+    if (i < 4)
+        return i == 2 ? make_tube() : make_box();
+    return access(paths[i - 4], R_OK) == 0 ? sp_mesh_load(paths[i - 4], 1, NULL) : NULL;
+}
+
+/* Halfway from the middle of a triangle to what lies opposite. */
+static void find_inside(closed *shape, random_source *source)
+{
+    sp_mesh_diagnosis diagnosis;
+    assert_true(sp_mesh_diagnose(shape->mesh, &diagnosis, NULL));
+    assert_int_equal(diagnosis.closed_shells, 1);
+    assert_int_equal(diagnosis.shells, 1);
+    shape->size = sp_distance(diagnosis.minimum, diagnosis.maximum);
+    for (int i = 0; i < INSIDE; i++) {
+        uint32_t triangle = (uint32_t)draw(source, 0, (double)shape->mesh->triangle_count);
+        sp_ray ray = make_ray(sp_triangle_point(shape->mesh, triangle, 1.0 / 3, 1.0 / 3),
+                              sp_scale(sp_triangle_normal(shape->mesh, triangle), -1));
+        ray.skip = triangle;
+        sp_hit hit = sp_trace_nearest(shape->tracer, &ray, sp_v(0, 0, 0));
+        assert_true(hit.t < shape->size);
+        shape->inside[i] = sp_along(ray.origin, 0.5 * hit.t, ray.velocity);
+    }
+}
+
+/* Whether a ray from inside, aimed to be at its target after one second, is not stopped there or before, or comes
+ * through a wall from outside: a flight that brushes an edge of a wall that bulges inwards may go on inside, but leaves
+ * in the end. */
+static bool slips(const closed *shape, const sp_ray *ray, sp_vec3 gravity)
+{
+    sp_hit hit = sp_trace_nearest(shape->tracer, ray, gravity);
+    if (hit.triangle == SP_NONE)
+        return true;
+    sp_vec3 velocity = sp_ray_velocity(ray, gravity, hit.t);
+    double outwards = sp_dot(velocity, sp_triangle_normal(shape->mesh, hit.triangle));
+    return fabs(hit.t - 1) > 1e-6 && outwards < -1e-6 * sp_length(velocity);
+}
+
+static size_t count_misses(const closed *shape, size_t shots, bool curved, random_source *source)
+{
+    static const sp_vec3 along[] = {{0, 0, -1}, {0, 0, -1}, {0, -1, 0}, {0.6, -0.48, 0.64}};
+    static const double pulls[] = {1, 0.1, 10, 1e-3, 100};
+    size_t misses = 0;
+    for (size_t i = 0; i < shots; i++) {
+        sp_vec3 gravity = curved ? sp_scale(along[i % 4], shape->size * pulls[i % 5]) : sp_v(0, 0, 0);
+        sp_vec3 origin = shape->inside[(size_t)draw(source, 0, INSIDE)];
+        sp_ray ray = aim(origin, draw_target(source, shape->mesh), gravity);
+        if (!slips(shape, &ray, gravity) && (i % 4 || sp_trace_occluded(shape->tracer, &ray, gravity)))
+            continue;
+        if (misses++ < 10)
+            printf("missed: (%a %a %a) (%a %a %a) pull (%a %a %a)\n", origin.x, origin.y, origin.z, ray.velocity.x,
+                   ray.velocity.y, ray.velocity.z, gravity.x, gravity.y, gravity.z);
+    }
+    return misses;
+}
+
+/* So many lines and so many parabolas, shared out among the shapes. */
+static size_t shoot_shapes(size_t shots, uint64_t seed)
+{
+    size_t misses = 0;
+    random_source source = {seed};
+    for (int i = 0; i < SHAPES; i++) {
+        const char *name;
+        closed shape = {.mesh = make_shape(i, &name)};
+        if (!shape.mesh) {
+            print_message("no %s here\n", name);
+            continue;
+        }
+        shape.tracer = make_tracer(shape.mesh, SP_ACCELERATOR_BVH);
+        find_inside(&shape, &source);
+        for (int curved = 0; curved < 2; curved++) {
+            size_t missed = count_misses(&shape, shots / SHAPES + 1, curved, &source);
+            print_message("%s: %zu of %zu %s missed\n", name, missed, shots / SHAPES + 1,
+                          curved ? "parabolas" : "lines");
+            misses += missed;
+        }
+        sp_tracer_destroy(shape.tracer);
+        sp_mesh_destroy(shape.mesh);
+    }
+    return misses;
+}
+
+static void from_inside_closed_meshes(void **state)
+{
+    (void)state;
+    assert_int_equal(shoot_shapes(10 * TARGETS, 9), 0);
+}
+
+int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(balls),
         cmocka_unit_test(needles),
         cmocka_unit_test(vertical_flights),
+        cmocka_unit_test(from_inside_closed_meshes),
     };
+    if (argc > 1) /* how many, and what to begin the random numbers with */
+        return shoot_shapes(strtoull(argv[1], NULL, 10), argc > 2 ? strtoull(argv[2], NULL, 10) : 1) > 0;
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
