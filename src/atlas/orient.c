@@ -1,17 +1,15 @@
-/* The least bounding box of a chart has a side along an edge of its convex hull (Freeman and Shapira, 1975). */
+/* The least bounding box has a side along an edge of the convex hull (Freeman and Shapira, 1975). */
 #include "atlas/orient.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+#define EDGES_TRIED 1000 /* of a hull */
 
 typedef struct {
     double x, y;
 } point;
-
-/* The turn that takes (cosine, sine) to the x axis, and the box that results. */
-typedef struct {
-    double cosine, sine, width, height;
-} turn;
 
 static int by_place(const void *a, const void *b)
 {
@@ -24,6 +22,28 @@ static int by_place(const void *a, const void *b)
 static double left_of(point o, point a, point b)
 {
     return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+
+/* Keeps what may lie on the hull: all but what is inside of the box between the outermost points of the diagonals. */
+static size_t outer_points(const double (*at)[2], size_t count, point *points)
+{
+    point out[4] = {{0, 0}};
+    double far[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < 4; k++) {
+            double along = (k & 1 ? -at[i][0] : at[i][0]) + (k & 2 ? -at[i][1] : at[i][1]);
+            if (along > far[k]) {
+                far[k] = along;
+                out[k] = (point){at[i][0], at[i][1]};
+            }
+        }
+    double right = fmin(out[0].x, out[2].x), left = fmax(out[1].x, out[3].x);
+    double top = fmin(out[0].y, out[1].y), bottom = fmax(out[2].y, out[3].y);
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++)
+        if (!(at[i][0] > left && at[i][0] < right && at[i][1] > bottom && at[i][1] < top))
+            points[kept++] = (point){at[i][0], at[i][1]};
+    return kept;
 }
 
 /* The convex hull, anticlockwise (Andrew's monotone chain, 1979). `points` gets sorted; hull holds 2 count at most. */
@@ -44,7 +64,7 @@ static size_t convex_hull(point *points, size_t count, point *hull)
     return size - 1;
 }
 
-static void measure(turn *t, const point *hull, size_t count)
+static void measure(sp_least_box *t, const point *hull, size_t count)
 {
     point low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
     for (size_t i = 0; i < count; i++) {
@@ -56,73 +76,46 @@ static void measure(turn *t, const point *hull, size_t count)
     t->height = high.y - low.y;
 }
 
-#define EDGES_TRIED 1000 /* of a hull */
-
-static turn best_turn(const point *hull, size_t count, double extent)
+static sp_least_box best_turn(const point *hull, size_t count, double extent)
 {
-    turn best = {.cosine = 1};
-    measure(&best, hull, count);
+    sp_least_box best = {.memory = true};
     for (size_t i = 0; i < count; i += 1 + count / EDGES_TRIED) {
         point p = hull[i], q = hull[(i + 1) % count];
         double length = hypot(q.x - p.x, q.y - p.y);
         if (!(length > 0))
             continue;
-        turn t = {.cosine = (q.x - p.x) / length, .sine = (q.y - p.y) / length};
+        sp_least_box t = {.cosine = (q.x - p.x) / length, .sine = (q.y - p.y) / length, .fits = true, .memory = true};
         measure(&t, hull, count);
         /* Clearly less, so that round-off does not choose among equals. */
-        if (fmax(t.width, t.height) <= extent && t.width * t.height < best.width * best.height * (1 - 1e-9))
+        if (fmax(t.width, t.height) <= extent &&
+            (!best.fits || t.width * t.height < best.width * best.height * (1 - 1e-9)))
             best = t;
     }
-    if (best.width >= best.height)
+    if (!best.fits || best.width >= best.height)
         return best;
-    return (turn){-best.sine, best.cosine, best.height, best.width}; /* a quarter further */
+    return (sp_least_box){-best.sine, best.cosine, best.height, best.width, true, true}; /* a quarter further */
 }
 
-static void apply(turn t, double flat[3][2])
+sp_least_box sp_find_least_box(const sp_sheet *sheet, double extent)
 {
-    for (int i = 0; i < 3; i++) {
-        double x = flat[i][0], y = flat[i][1];
-        flat[i][0] = t.cosine * x + t.sine * y;
-        flat[i][1] = t.cosine * y - t.sine * x;
-    }
-}
-
-/* start [chart_count + 1] and members [triangle_count]: the triangles of each chart. */
-static void list_members(const sp_charts *charts, uint32_t *start, uint32_t *members)
-{
-    for (size_t c = 0; c <= charts->chart_count; c++)
-        start[c] = 0;
-    for (size_t t = 0; t < charts->triangle_count; t++)
-        start[charts->chart[t]]++;
-    for (size_t c = 1; c <= charts->chart_count; c++)
-        start[c] += start[c - 1];
-    for (size_t t = charts->triangle_count; t-- > 0;)
-        members[--start[charts->chart[t]]] = (uint32_t)t;
-}
-
-bool sp_orient_charts(sp_charts *charts, sp_error *error)
-{
-    size_t corners = 3 * charts->triangle_count;
-    uint32_t *start = malloc((charts->chart_count + 1) * sizeof *start);
-    uint32_t *members = malloc((corners + 1) * sizeof *members);
-    point *points = malloc((corners + 1) * sizeof *points), *hull = malloc((corners + 1) * 2 * sizeof *hull);
-    bool done = start && members && points && hull;
-    if (done)
-        list_members(charts, start, members);
-    else
-        sp_fail_memory(error);
-    for (size_t c = 0; done && c < charts->chart_count; c++) {
-        size_t count = 0;
-        for (uint32_t i = start[c]; i < start[c + 1]; i++)
-            for (int k = 0; k < 3; k++)
-                points[count++] = (point){charts->flat[members[i]][k][0], charts->flat[members[i]][k][1]};
-        turn t = best_turn(hull, convex_hull(points, count, hull), charts->extent);
-        for (uint32_t i = start[c]; i < start[c + 1]; i++)
-            apply(t, charts->flat[members[i]]);
-    }
-    free(start);
-    free(members);
-    free(points);
+    sp_least_box found = {0};
+    point *points = malloc((sheet->vertex_count + 1) * sizeof *points);
+    if (!points)
+        return found;
+    size_t count = outer_points((const double(*)[2])sheet->at, sheet->vertex_count, points);
+    point *hull = malloc((count + 1) * 2 * sizeof *hull);
+    if (hull)
+        found = best_turn(hull, convex_hull(points, count, hull), extent);
     free(hull);
-    return done;
+    free(points);
+    return found;
+}
+
+void sp_turn_sheet(sp_sheet *sheet, const sp_least_box *box)
+{
+    for (size_t v = 0; v < sheet->vertex_count; v++) {
+        double x = sheet->at[v][0], y = sheet->at[v][1];
+        sheet->at[v][0] = box->cosine * x + box->sine * y;
+        sheet->at[v][1] = box->cosine * y - box->sine * x;
+    }
 }

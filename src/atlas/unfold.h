@@ -1,11 +1,11 @@
-/* Growth of one chart after another by isometric unfolding. */
+/* The first layout of a sheet. */
 #ifndef ATLAS_UNFOLD_H
 #define ATLAS_UNFOLD_H
 
-#include <sprayplan/atlas.h>
+#include "atlas/sheets.h"
 
-/* Grows charts until every triangle lies in one. `twin` [3 triangle_count] is the half-edge across each half-edge, or
- * SP_NONE at open, non-manifold and flipped edges. Fills charts->chart, ->flat and ->chart_count. */
-bool sp_unfold(sp_charts *charts, const sp_mesh *mesh, const uint32_t *twin, sp_error *error);
+/* Sets the positions of sheet `number` by averaged isometric unfolding from its first triangle: exact to round-off
+ * where the sheet is developable. False when memory runs out. */
+bool sp_unfold(sp_sheets *sheets, uint32_t number);
 
 #endif

@@ -1,0 +1,23 @@
+/* Cutting a region of the surface open, so that it can be laid flat. */
+#ifndef ATLAS_CUT_H
+#define ATLAS_CUT_H
+
+#include "atlas/sheets.h"
+
+typedef struct {
+    uint8_t *glued;     /* [3 triangle_count] */
+    uint32_t *degree;   /* [vertex_count] */
+    uint32_t *incident; /* [vertex_count] */
+    uint32_t *waiting;  /* [triangle_count] */
+} sp_cutter;
+
+/* False when memory runs out. */
+bool sp_cutter_create(sp_cutter *cutter, const sp_mesh *mesh);
+void sp_cutter_destroy(sp_cutter *cutter);
+
+/* Makes a sheet without positions of the triangles that are connected with `seed` inside its region, cut so that it is
+ * a disc: along a tree of edges without loose ends. `region` [triangle_count]. False when memory runs out; else the
+ * caller owns the sheet. */
+bool sp_cut_open(sp_cutter *cutter, const sp_sheets *sheets, const uint32_t *region, uint32_t seed, sp_sheet *sheet);
+
+#endif
