@@ -14,25 +14,36 @@ typedef struct {
     double low[2], high[2];
 } box;
 
-static bool between(double a, double b, double c)
-{
-    return (a <= c && c <= b) || (b <= c && c <= a);
-}
-
-/* True where c, which lies on the line through a and b, lies between them. */
-static bool on_segment(const double a[2], const double b[2], const double c[2])
-{
-    return between(a[0], b[0], c[0]) && between(a[1], b[1], c[1]);
-}
-
-/* Two segments from one point run into each other where they lie on one ray. */
+/* Two segments from one point run into each other where they lie on one ray, or nearly. */
 static bool same_ray(const double shared[2], const double a[2], const double b[2])
 {
-    if (sp_orientation(shared, a, b) != 0)
-        return false;
-    return (a[0] - shared[0]) * (b[0] - shared[0]) + (a[1] - shared[1]) * (b[1] - shared[1]) > 0;
+    double x = a[0] - shared[0], y = a[1] - shared[1], z = b[0] - shared[0], w = b[1] - shared[1];
+    double along = x * z + y * w, across = fabs(x * w - y * z);
+    return along > 0 && across <= SP_CLEARANCE * along;
 }
 
+static double squared_length(const sp_segment *s)
+{
+    return (s->q[0] - s->p[0]) * (s->q[0] - s->p[0]) + (s->q[1] - s->p[1]) * (s->q[1] - s->p[1]);
+}
+
+static double squared_distance(const sp_segment *s, const double point[2])
+{
+    double dx = s->q[0] - s->p[0], dy = s->q[1] - s->p[1], x = point[0] - s->p[0], y = point[1] - s->p[1];
+    double length = dx * dx + dy * dy, t = length > 0 ? fmin(fmax((x * dx + y * dy) / length, 0), 1) : 0;
+    return (x - t * dx) * (x - t * dx) + (y - t * dy) * (y - t * dy);
+}
+
+static bool cross(const sp_segment *s, const sp_segment *t)
+{
+    double a = sp_orientation(s->p, s->q, t->p), b = sp_orientation(s->p, s->q, t->q);
+    if (!((a > 0 && b < 0) || (a < 0 && b > 0)))
+        return false;
+    double c = sp_orientation(t->p, t->q, s->p), d = sp_orientation(t->p, t->q, s->q);
+    return (c > 0 && d < 0) || (c < 0 && d > 0);
+}
+
+/* Segments that do not cross are nearest at an end of one. */
 static bool touch(const sp_segment *s, const sp_segment *t)
 {
     int shared = (s->from == t->from) + (s->from == t->to) + (s->to == t->from) + (s->to == t->to);
@@ -42,22 +53,17 @@ static bool touch(const sp_segment *s, const sp_segment *t)
         return same_ray(s->p, s->q, s->from == t->from ? t->q : t->p);
     if (s->to == t->from || s->to == t->to)
         return same_ray(s->q, s->p, s->to == t->from ? t->q : t->p);
-    double a = sp_orientation(s->p, s->q, t->p), b = sp_orientation(s->p, s->q, t->q);
-    if ((a > 0 && b > 0) || (a < 0 && b < 0))
-        return false;
-    double c = sp_orientation(t->p, t->q, s->p), d = sp_orientation(t->p, t->q, s->q);
-    if ((c > 0 && d > 0) || (c < 0 && d < 0))
-        return false;
-    if (a != 0 && b != 0 && c != 0 && d != 0)
-        return true;
-    return (a == 0 && on_segment(s->p, s->q, t->p)) || (b == 0 && on_segment(s->p, s->q, t->q)) ||
-           (c == 0 && on_segment(t->p, t->q, s->p)) || (d == 0 && on_segment(t->p, t->q, s->q));
+    double near = SP_CLEARANCE * SP_CLEARANCE * fmin(squared_length(s), squared_length(t));
+    return squared_distance(s, t->p) <= near || squared_distance(s, t->q) <= near ||
+           squared_distance(t, s->p) <= near || squared_distance(t, s->q) <= near || cross(s, t);
 }
 
 static bool apart(const sp_segment *s, const sp_segment *t)
 {
+    double gap = SP_CLEARANCE * (fabs(s->q[0] - s->p[0]) + fabs(s->q[1] - s->p[1]));
     for (int k = 0; k < 2; k++)
-        if (fmax(s->p[k], s->q[k]) < fmin(t->p[k], t->q[k]) || fmax(t->p[k], t->q[k]) < fmin(s->p[k], s->q[k]))
+        if (fmax(s->p[k], s->q[k]) < fmin(t->p[k], t->q[k]) - gap ||
+            fmax(t->p[k], t->q[k]) < fmin(s->p[k], s->q[k]) - gap)
             return true;
     return false;
 }
@@ -71,7 +77,7 @@ typedef struct {
 /* The rows that a segment may touch within one column of the grid, widened against round-off. */
 static bool rows_in_column(const grid *g, const sp_segment *s, uint32_t column, uint32_t rows[2])
 {
-    double left = g->around.low[0] + column * g->cell[0], right = left + g->cell[0], slack = 1e-6 * g->cell[0];
+    double left = g->around.low[0] + column * g->cell[0], right = left + g->cell[0], slack = 1e-5 * g->cell[0];
     const double *p = s->p[0] <= s->q[0] ? s->p : s->q, *q = p == s->p ? s->q : s->p;
     if (q[0] < left - slack || p[0] > right + slack)
         return false;
@@ -80,8 +86,8 @@ static bool rows_in_column(const grid *g, const sp_segment *s, uint32_t column, 
         low = p[1] + (q[1] - p[1]) * fmin(fmax((left - slack - p[0]) / width, 0), 1);
         high = p[1] + (q[1] - p[1]) * fmin(fmax((right + slack - p[0]) / width, 0), 1);
     }
-    double first = floor((fmin(low, high) - g->around.low[1]) / g->cell[1] - 1e-6);
-    double last = floor((fmax(low, high) - g->around.low[1]) / g->cell[1] + 1e-6);
+    double first = floor((fmin(low, high) - g->around.low[1]) / g->cell[1] - 1e-5);
+    double last = floor((fmax(low, high) - g->around.low[1]) / g->cell[1] + 1e-5);
     if (last < 0 || first >= g->rows)
         return false;
     rows[0] = (uint32_t)fmax(first, 0);

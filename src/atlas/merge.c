@@ -10,10 +10,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define GAP_WEIGHT                                                                                                     \
-    4.0                 /* of the gap over the smaller sheet's size, against the share of its boundary not in the run  \
-                         */
-#define WIDEST_GAP 0.12 /* over the smaller sheet's size */
+/* The gap over the smaller sheet's size weighs this much against the share of its boundary that is not in the run. */
+#define GAP_WEIGHT 4.0
+#define WIDEST_GAP 0.12      /* over the smaller sheet's size */
 #define DEVELOPABLE_GAP 1e-4 /* over the length of the run */
 #define LEAST_SHARE 0.2      /* of the smaller sheet's boundary that the run must be */
 #define MOST_WASTE 1.5       /* box around the union over those around the two */
@@ -41,7 +40,7 @@ typedef struct {
 /* Scores are rounded like costs in regions.c. */
 static uint64_t key_of(double score, size_t candidate)
 {
-    double cell = fmin(fmax((score + 2) * 0x1p24 + 0.37, 0), 4294967295.0);
+    double cell = fmin(fmax((score + 2) * 0x1p14 + 0.37, 0), 4294967295.0);
     return (uint64_t)(uint32_t)cell << 32 | (uint32_t)candidate;
 }
 

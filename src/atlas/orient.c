@@ -7,8 +7,11 @@
 
 #define EDGES_TRIED 1000 /* of a hull */
 
+#define ALIKE 1e-9 /* relative differences of less are round-off, and what is chosen then does not depend on them */
+
 typedef struct {
     double x, y;
+    uint32_t vertex;
 } point;
 
 static int by_place(const void *a, const void *b)
@@ -24,17 +27,24 @@ static double left_of(point o, point a, point b)
     return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
+/* Whether the way from o over a to b turns left there, by more than round-off. */
+static bool turns_left(point o, point a, point b)
+{
+    double ax = a.x - o.x, ay = a.y - o.y, bx = b.x - a.x, by = b.y - a.y;
+    return ax * by - ay * bx > ALIKE * sqrt((ax * ax + ay * ay) * (bx * bx + by * by));
+}
+
 /* Keeps what may lie on the hull: all but what is inside of the box between the outermost points of the diagonals. */
 static size_t outer_points(const double (*at)[2], size_t count, point *points)
 {
-    point out[4] = {{0, 0}};
+    point out[4] = {{0}};
     double far[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 4; k++) {
             double along = (k & 1 ? -at[i][0] : at[i][0]) + (k & 2 ? -at[i][1] : at[i][1]);
             if (along > far[k]) {
                 far[k] = along;
-                out[k] = (point){at[i][0], at[i][1]};
+                out[k] = (point){at[i][0], at[i][1], (uint32_t)i};
             }
         }
     double right = fmin(out[0].x, out[2].x), left = fmax(out[1].x, out[3].x);
@@ -42,7 +52,7 @@ static size_t outer_points(const double (*at)[2], size_t count, point *points)
     size_t kept = 0;
     for (size_t i = 0; i < count; i++)
         if (!(at[i][0] > left && at[i][0] < right && at[i][1] > bottom && at[i][1] < top))
-            points[kept++] = (point){at[i][0], at[i][1]};
+            points[kept++] = (point){at[i][0], at[i][1], (uint32_t)i};
     return kept;
 }
 
@@ -64,21 +74,45 @@ static size_t convex_hull(point *points, size_t count, point *hull)
     return size - 1;
 }
 
+/* Keeps those corners of the hull that round-off could not have made. */
+static size_t true_corners(point *hull, size_t size)
+{
+    double reach = fabs(hull[size / 2].x - hull[0].x) + fabs(hull[size / 2].y - hull[0].y);
+    size_t apart = 0, corners = 0;
+    for (size_t i = 0; i < size; i++) {
+        point last = apart ? hull[apart - 1] : hull[size - 1];
+        if (fabs(hull[i].x - last.x) + fabs(hull[i].y - last.y) > ALIKE * reach)
+            hull[apart++] = hull[i];
+    }
+    point last = apart ? hull[apart - 1] : hull[0], first = hull[0];
+    for (size_t i = 0; i < apart; i++) {
+        point next = i + 1 < apart ? hull[i + 1] : first;
+        if (!turns_left(last, hull[i], next))
+            continue;
+        last = hull[i];
+        hull[corners++] = last;
+    }
+    return corners;
+}
+
 static void measure(sp_least_box *t, const point *hull, size_t count)
 {
-    point low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (size_t i = 0; i < count; i++) {
         double x = t->cosine * hull[i].x + t->sine * hull[i].y, y = t->cosine * hull[i].y - t->sine * hull[i].x;
-        low = (point){fmin(low.x, x), fmin(low.y, y)};
-        high = (point){fmax(high.x, x), fmax(high.y, y)};
+        low[0] = fmin(low[0], x);
+        low[1] = fmin(low[1], y);
+        high[0] = fmax(high[0], x);
+        high[1] = fmax(high[1], y);
     }
-    t->width = high.x - low.x;
-    t->height = high.y - low.y;
+    t->width = high[0] - low[0];
+    t->height = high[1] - low[1];
 }
 
 static sp_least_box best_turn(const point *hull, size_t count, double extent)
 {
     sp_least_box best = {.memory = true};
+    uint32_t vertex = 0; /* where the edge begins */
     for (size_t i = 0; i < count; i += 1 + count / EDGES_TRIED) {
         point p = hull[i], q = hull[(i + 1) % count];
         double length = hypot(q.x - p.x, q.y - p.y);
@@ -86,12 +120,16 @@ static sp_least_box best_turn(const point *hull, size_t count, double extent)
             continue;
         sp_least_box t = {.cosine = (q.x - p.x) / length, .sine = (q.y - p.y) / length, .fits = true, .memory = true};
         measure(&t, hull, count);
-        /* Clearly less, so that round-off does not choose among equals. */
-        if (fmax(t.width, t.height) <= extent &&
-            (!best.fits || t.width * t.height < best.width * best.height * (1 - 1e-9)))
+        if (fmax(t.width, t.height) > extent)
+            continue;
+        double area = t.width * t.height, least = best.width * best.height;
+        bool less = !best.fits || area < least * (1 - ALIKE);
+        if (less || (area < least * (1 + ALIKE) && p.vertex < vertex)) {
             best = t;
+            vertex = p.vertex;
+        }
     }
-    if (!best.fits || best.width >= best.height)
+    if (!best.fits || best.width >= best.height * (1 - ALIKE))
         return best;
     return (sp_least_box){-best.sine, best.cosine, best.height, best.width, true, true}; /* a quarter further */
 }
@@ -105,7 +143,7 @@ sp_least_box sp_find_least_box(const sp_sheet *sheet, double extent)
     size_t count = outer_points((const double(*)[2])sheet->at, sheet->vertex_count, points);
     point *hull = malloc((count + 1) * 2 * sizeof *hull);
     if (hull)
-        found = best_turn(hull, convex_hull(points, count, hull), extent);
+        found = best_turn(hull, true_corners(hull, convex_hull(points, count, hull)), extent);
     free(hull);
     free(points);
     return found;

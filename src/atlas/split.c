@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#define ALIKE 1e-6 /* relative differences of less are taken for round-off */
+
 static void middle_of(const sp_sheet *sheet, size_t i, double middle[2])
 {
     for (int k = 0; k < 2; k++)
@@ -27,7 +29,9 @@ static void long_axis(const sp_sheet *sheet, double centre[2], double axis[2])
         xy += x * y;
         yy += y * y;
     }
-    double angle = 0.5 * atan2(2 * xy, xx - yy);
+    /* Where no direction stands out, that of the first triangle, not of round-off. */
+    bool round = hypot(2 * xy, xx - yy) <= ALIKE * (xx + yy);
+    double angle = round ? 0 : 0.5 * atan2(2 * xy, xx - yy);
     axis[0] = cos(angle);
     axis[1] = sin(angle);
 }
@@ -39,7 +43,8 @@ void sp_split(const sp_sheet *sheet, uint32_t *region, uint32_t below, uint32_t 
     size_t counts[2] = {0, 0};
     for (size_t i = 0; i < sheet->triangle_count; i++) {
         middle_of(sheet, i, middle);
-        bool far = (middle[0] - centre[0]) * axis[0] + (middle[1] - centre[1]) * axis[1] > 0;
+        double along = (middle[0] - centre[0]) * axis[0] + (middle[1] - centre[1]) * axis[1];
+        bool far = along > ALIKE * (fabs(middle[0] - centre[0]) + fabs(middle[1] - centre[1]));
         region[sheet->triangle[i]] = far ? above : below;
         counts[far]++;
     }
