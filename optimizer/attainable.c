@@ -1,5 +1,7 @@
 #include "attainable.h"
 
+#include "bounce.h"
+
 #include <omp.h>
 #include <stdlib.h>
 
@@ -128,6 +130,8 @@ static bool suffices(const sp_reckoning *reckoning, const sp_offer *offers, size
 static bool enough(const sp_reckoning *reckoning, const sp_offers *offers, size_t patch)
 {
     const sp_search *search = reckoning->search;
+    if (!reckoning->nozzles_left)
+        return false;
     if (search->threshold <= 0)
         return true;
     if (search->single) {
@@ -141,24 +145,33 @@ static bool enough(const sp_reckoning *reckoning, const sp_offers *offers, size_
            suffices(reckoning, offers->thriftiest, offers->count, false, need);
 }
 
-/* One flight: whether it arrives, passes, and is free; its transfer. */
-static bool arrives(const sp_reckoning *reckoning, const sp_site *site, double speed, const sp_flight *flight,
-                    size_t patch, double *transfer)
+/* How near one flight brings the patch if its way is free; NO_LINE where it comes from behind. Its transfer where it
+ * passes. */
+static sp_reason judge(const sp_reckoning *reckoning, const sp_flight *flight, size_t patch, double *transfer)
 {
     const sp_patches *patches = sp_evaluator_patches(reckoning->fine);
     const sp_criterion *criterion = &sp_evaluator_setup(reckoning->fine)->criterion;
-    double against = -sp_dot(flight->velocity, patches->normal[patch]), impact = sp_length(flight->velocity);
+    double against = -sp_dot(flight->velocity, patches->normal[patch]);
     if (patches->side[patch] == SP_SIDE_BOTH)
         against = fabs(against);
-    double across = sp_length(sp_cross(flight->velocity, patches->normal[patch]));
-    if (!(against > 0) || impact < criterion->impact_speed || atan2(across, against) > criterion->incidence)
-        return false;
+    if (!(against > 0))
+        return SP_REASON_NO_LINE;
+    if (sp_length(flight->velocity) < criterion->impact_speed)
+        return SP_REASON_SLOW;
+    if (atan2(sp_length(sp_cross(flight->velocity, patches->normal[patch])), against) > criterion->incidence)
+        return SP_REASON_SLANTED;
     *transfer = against / flight->spread;
+    return SP_REASON_FLUX;
+}
+
+static bool is_free(const sp_reckoning *reckoning, const sp_site *site, double speed, const sp_flight *flight,
+                    size_t patch)
+{
     sp_ray ray = {.origin = site->position,
                   .velocity = sp_scale(flight->direction, speed),
                   .t_min = ENDS * flight->time,
                   .t_max = (1 - ENDS) * flight->time,
-                  .skip = patches->triangle[patch]};
+                  .skip = sp_evaluator_patches(reckoning->fine)->triangle[patch]};
     return !sp_trace_occluded(sp_evaluator_tracer(reckoning->fine), &ray, sp_evaluator_gravity(reckoning->fine));
 }
 
@@ -176,8 +189,9 @@ static bool aimable(const sp_reckoning *reckoning, const sp_site *site, size_t s
     return false;
 }
 
-/* What one site offers to a patch; true where something got better. */
-static bool site_offers(const sp_reckoning *reckoning, const sp_site *site, size_t patch, sp_offers *offers)
+/* What one site offers to a patch; true where something got better. *reason rises to how near it is brought. */
+static bool site_offers(const sp_reckoning *reckoning, const sp_site *site, size_t patch, sp_offers *offers,
+                        sp_reason *reason)
 {
     const sp_search *search = reckoning->search;
     const sp_patches *patches = sp_evaluator_patches(reckoning->fine);
@@ -189,32 +203,39 @@ static bool site_offers(const sp_reckoning *reckoning, const sp_site *site, size
         sp_flight flights[2];
         int count =
             sp_flights(site->position, patches->point[patch], speed, sp_evaluator_gravity(reckoning->fine), flights);
-        for (int f = 0; f < count; f++)
-            if (aimable(reckoning, site, s, flights[f].direction) &&
-                arrives(reckoning, site, speed, &flights[f], patch, &transfer))
+        for (int f = 0; f < count; f++) {
+            if (!aimable(reckoning, site, s, flights[f].direction))
+                continue;
+            sp_reason near = judge(reckoning, &flights[f], patch, &transfer);
+            if ((near < SP_REASON_FLUX && near <= *reason) || !is_free(reckoning, site, speed, &flights[f], patch))
+                continue;
+            *reason = near > *reason ? near : *reason;
+            if (near == SP_REASON_FLUX)
                 better |= offer(reckoning, site, s, flights[f].direction, transfer, patches->area[patch], offers);
+        }
     }
     return better;
 }
 
 /* Asks the sites in turn, the one that served the last patch first. */
-static bool patch_attainable(const sp_reckoning *reckoning, size_t patch, sp_offers *offers, size_t *hint)
+static sp_reason patch_reason(const sp_reckoning *reckoning, size_t patch, sp_offers *offers, size_t *hint)
 {
     size_t sites = reckoning->search->sites->count;
+    sp_reason reason = SP_REASON_NO_LINE;
     for (size_t i = 0; i < offers->count; i++)
         offers->strongest[i] = offers->thriftiest[i] = (sp_offer){0};
     for (size_t i = 0; i < sites; i++) {
         size_t site = (*hint + i) % sites;
-        if (site_offers(reckoning, &reckoning->search->sites->items[site], patch, offers) &&
+        if (site_offers(reckoning, &reckoning->search->sites->items[site], patch, offers, &reason) &&
             enough(reckoning, offers, patch)) {
             *hint = site;
-            return true;
+            return SP_REASON_ATTAINABLE;
         }
     }
-    return false;
+    return reason;
 }
 
-static bool reckon(const sp_reckoning *reckoning, sp_watch *watch, bool *attainable, sp_error *error)
+static bool reckon(const sp_reckoning *reckoning, sp_watch *watch, sp_reason *reasons, sp_error *error)
 {
     size_t patches = sp_evaluator_patches(reckoning->fine)->count;
     size_t places = reckoning->search->options->mount_count + 1;
@@ -234,7 +255,8 @@ static bool reckon(const sp_reckoning *reckoning, sp_watch *watch, bool *attaina
             sp_offers own = {mine, mine + places, places};
             size_t hint = 0;
             for (size_t p = chunk; p < chunk + CHUNK && p < end; p++)
-                attainable[p] = attainable[p] || patch_attainable(reckoning, p, &own, &hint);
+                if (reasons[p] != SP_REASON_ATTAINABLE)
+                    reasons[p] = patch_reason(reckoning, p, &own, &hint);
         }
     }
     free(offers);
@@ -252,7 +274,7 @@ static sp_scope *scopes_create(const sp_search *search, const sp_fluid *liquid)
     return scopes;
 }
 
-bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *watch, bool *attainable,
+bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *watch, sp_reason *reasons,
                    sp_error *error)
 {
     const sp_place_options *options = search->options;
@@ -273,9 +295,9 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *
         reckoning.scopes = scopes;
         reckoning.kept = kept->deposits.counted;
         for (size_t p = 0; p < kept->deposits.count; p++)
-            attainable[p] = kept->deposits.covered[p];
-        if (reckoning.nozzles_left)
-            done = reckon(&reckoning, watch, attainable, error);
+            reasons[p] = kept->deposits.covered[p] ? SP_REASON_ATTAINABLE : SP_REASON_UNKNOWN;
+        done =
+            reckon(&reckoning, watch, reasons, error) && (watch->cancelled || sp_bounces(fine, search, reasons, error));
     }
     free(scopes);
     sp_coverage_destroy(kept);

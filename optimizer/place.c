@@ -47,16 +47,11 @@ static bool look_around(sp_placement *placement, sp_error *error)
     if (!sp_sites_create(fine, placement->options, &placement->sites, error) ||
         !sp_candidates_create(fine, placement->options, &placement->sites, &placement->candidates, error))
         return false;
-    double texel = sp_visibility_texel(fine, &placement->sites, &placement->candidates);
-    if (texel > 1.1 * sp_evaluator_fidelity(fine)->texel) {
-        placement->resampled = sp_evaluator_resample(fine, texel, error);
-        if (!placement->resampled)
-            return false;
-    }
+    if (!sp_visibility_fit(fine, placement->options, &placement->sites, &placement->candidates, &placement->watch,
+                           &placement->resampled, &placement->visibility, error))
+        return false;
     const sp_evaluator *coarse = placement->resampled ? placement->resampled : fine;
-    return sp_visibility_create(coarse, placement->options, &placement->sites, &placement->candidates,
-                                &placement->watch, &placement->visibility, error) &&
-           sp_search_create(coarse, placement->options, &placement->sites, &placement->candidates,
+    return sp_search_create(coarse, placement->options, &placement->sites, &placement->candidates,
                             &placement->visibility, &placement->search, error) &&
            sp_watch_stage(&placement->watch, "visibility", error);
 }
@@ -74,10 +69,13 @@ static bool set_target(sp_placement *placement, sp_proposal *proposal, sp_error 
 {
     size_t patches = sp_evaluator_patches(placement->fine)->count;
     proposal->attainable = calloc(patches ? patches : 1, sizeof *proposal->attainable);
-    if (!proposal->attainable)
+    proposal->reasons = calloc(patches ? patches : 1, sizeof *proposal->reasons);
+    if (!proposal->attainable || !proposal->reasons)
         return sp_fail_memory(error);
-    if (!sp_attainable(placement->fine, &placement->search, &placement->watch, proposal->attainable, error))
+    if (!sp_attainable(placement->fine, &placement->search, &placement->watch, proposal->reasons, error))
         return false;
+    for (size_t p = 0; p < patches; p++)
+        proposal->attainable[p] = proposal->reasons[p] == SP_REASON_ATTAINABLE;
     proposal->target_area = placement->options->coverage * area_of(placement->fine, proposal->attainable);
     placement->front.fine = placement->fine;
     placement->front.objective = placement->options->objective;
@@ -97,8 +95,10 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
 {
     const sp_place_options *options = placement->options;
     for (size_t p = 0; p < proposal->coverage->deposits.count; p++)
-        proposal->attainable[p] = proposal->attainable[p] || proposal->coverage->deposits.covered[p] ||
-                                  proposal->greedy_coverage->deposits.covered[p];
+        if (proposal->coverage->deposits.covered[p] || proposal->greedy_coverage->deposits.covered[p]) {
+            proposal->attainable[p] = true;
+            proposal->reasons[p] = SP_REASON_ATTAINABLE;
+        }
     proposal->attainable_area = area_of(placement->fine, proposal->attainable);
     proposal->reached = proposal->target_area > 0 && proposal->coverage->covered_area >= proposal->target_area &&
                         proposal->coverage->flow <= options->max_water &&
@@ -145,6 +145,7 @@ void sp_proposal_destroy(sp_proposal *proposal)
     sp_layout_destroy(proposal->greedy);
     sp_coverage_destroy(proposal->greedy_coverage);
     free(proposal->attainable);
+    free(proposal->reasons);
     free(proposal->front);
     free(proposal->stages);
     free(proposal);

@@ -4,9 +4,11 @@
 
 #define PATCHES_MOST 20000.0
 #define PATCHES_LEAST 500.0
-#define MEMORY 1.0e9 /* bytes, for all views */
+#define RAYS_MOST 1e8 /* patches times views */
+#define MEMORY 1e9    /* bytes, for all views, where the options do not say */
 #define ARRIVAL_BYTES 20.0
-#define BATCH 8        /* sites a thread traces between two looks at the clock */
+#define COARSER 1.1    /* patches fewer than what should fit, where a first attempt did not */
+#define BATCH 16       /* sites traced between two looks at clock and memory */
 #define TIME_SHARE 0.5 /* of a time limit, that tracing may take */
 
 /* The octahedron unfolded onto [-1, 1]²: Cigolle et al., A survey of efficient representations for independent unit
@@ -58,16 +60,13 @@ static void bins_create(sp_bins *bins)
     }
 }
 
-double sp_visibility_texel(const sp_evaluator *evaluator, const sp_sites *sites, const sp_candidates *candidates)
+static double memory_of(const sp_place_options *options)
 {
-    double views = (double)sites->count * (double)candidates->speed_count;
-    double patches = fmax(PATCHES_LEAST, fmin(PATCHES_MOST, MEMORY / ARRIVAL_BYTES / views));
-    return sqrt(sp_evaluator_patches(evaluator)->total_area / patches);
+    return options->memory > 0 ? options->memory : MEMORY;
 }
 
-/* Half-angle about the site's axis that holds all that its candidates at this speed can reach; negative: none. */
-static double needed(const sp_place_options *options, const sp_candidates *candidates, const sp_site *site,
-                     size_t speed)
+double sp_visibility_needed(const sp_place_options *options, const sp_candidates *candidates, const sp_site *site,
+                            size_t speed)
 {
     double reach = -1;
     for (size_t k = 0; k < candidates->make_count; k++)
@@ -76,11 +75,16 @@ static double needed(const sp_place_options *options, const sp_candidates *candi
     return reach < 0 ? reach : fmin(M_PI, reach + options->mounts[site->mount].tilt + 1e-6);
 }
 
+static size_t view_bytes(size_t count)
+{
+    return (SP_BINS + 1 + count) * sizeof(uint32_t) + 4 * (count + SP_LANES) * sizeof(float);
+}
+
 static bool view_allocate(sp_view *view, size_t count)
 {
     /* one block: the bins' starts first, then the arrays */
     size_t padded = count + SP_LANES;
-    char *block = malloc((SP_BINS + 1 + count) * sizeof(uint32_t) + 4 * padded * sizeof(float));
+    char *block = malloc(view_bytes(count));
     if (!block)
         return false;
     view->count = (uint32_t)count;
@@ -131,7 +135,7 @@ static bool site_trace(const sp_place_options *options, const sp_site *site, con
                        const sp_evaluator *coarse, sp_view *views, sp_error *error)
 {
     for (size_t s = 0; s < candidates->speed_count; s++) {
-        double half_angle = needed(options, candidates, site, s);
+        double half_angle = sp_visibility_needed(options, candidates, site, s);
         if (half_angle < 0)
             continue;
         sp_reach *reach =
@@ -162,6 +166,41 @@ static size_t strided(size_t i, size_t count)
     }
 }
 
+static void views_free(sp_visibility *visibility)
+{
+    for (size_t i = 0; visibility->views && i < visibility->site_count * visibility->speed_count; i++)
+        free(visibility->views[i].start);
+    free(visibility->views);
+    visibility->views = NULL;
+}
+
+/* The sites first to end of the strided order; their bytes are added up. */
+static bool trace_batch(const sp_place_options *options, const sp_sites *sites, const sp_candidates *candidates,
+                        size_t first, size_t end, sp_visibility *visibility, double *bytes, sp_error *error)
+{
+    sp_error failure = {0};
+    int threads = sp_threads(&options->run);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+    for (size_t i = first; i < end; i++) {
+        size_t site = strided(i, sites->count);
+        sp_error mine = {0};
+        if (!site_trace(options, &sites->items[site], candidates, visibility->evaluator,
+                        &visibility->views[site * candidates->speed_count], &mine)) {
+#pragma omp critical(sp_visibility_failure)
+            failure = mine;
+        }
+    }
+    for (size_t i = first; i < end; i++)
+        for (size_t s = 0; s < candidates->speed_count; s++) {
+            const sp_view *view = &visibility->views[strided(i, sites->count) * candidates->speed_count + s];
+            *bytes += view->start ? (double)view_bytes(view->count) : 0;
+            visibility->largest = view->count > visibility->largest ? view->count : visibility->largest;
+        }
+    if (failure.kind == SP_OK)
+        return true;
+    return sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
+}
+
 bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
                           const sp_candidates *candidates, sp_watch *watch, sp_visibility *visibility, sp_error *error)
 {
@@ -169,12 +208,9 @@ bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *op
         (sp_visibility){.evaluator = coarse, .site_count = sites->count, .speed_count = candidates->speed_count};
     bins_create(&visibility->bins);
     visibility->views = calloc(sites->count, candidates->speed_count * sizeof *visibility->views);
-    if (!visibility->views)
-        return sp_fail_memory(error);
-    int threads = sp_threads(&options->run);
-    size_t batch = (size_t)threads * BATCH;
-    sp_error failure = {0};
-    for (size_t first = 0; first < sites->count && failure.kind == SP_OK; first += batch) {
+    bool done = visibility->views || sp_fail_memory(error);
+    double bytes = 0;
+    for (size_t first = 0; done && visibility->share <= 1 && first < sites->count; first += BATCH) {
         /* out of time the first batch is traced all the same, so that there is something to choose from */
         if (!sp_watch_goes_on(watch, "visibility", (double)first / (double)sites->count) && (first || watch->cancelled))
             break;
@@ -182,32 +218,52 @@ bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *op
             watch->interrupted = true;
             break;
         }
-        size_t end = first + batch < sites->count ? first + batch : sites->count;
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
-        for (size_t i = first; i < end; i++) {
-            size_t site = strided(i, sites->count);
-            sp_error mine = {0};
-            if (!site_trace(options, &sites->items[site], candidates, coarse,
-                            &visibility->views[site * candidates->speed_count], &mine)) {
-#pragma omp critical(sp_visibility_failure)
-                failure = mine;
-            }
-        }
+        size_t end = first + BATCH < sites->count ? first + BATCH : sites->count;
+        done = trace_batch(options, sites, candidates, first, end, visibility, &bytes, error);
+        visibility->share = bytes / memory_of(options);
+        if (visibility->share > 1) /* what all would take */
+            visibility->share *= (double)sites->count / (double)end;
     }
-    for (size_t i = 0; i < sites->count * candidates->speed_count; i++)
-        if (visibility->views[i].count > visibility->largest)
-            visibility->largest = visibility->views[i].count;
-    if (failure.kind == SP_OK)
-        return true;
-    sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
-    sp_visibility_free(visibility);
-    return false;
+    if (!done)
+        sp_visibility_free(visibility);
+    else if (visibility->share > 1)
+        views_free(visibility);
+    return done;
+}
+
+bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options, const sp_sites *sites,
+                       const sp_candidates *candidates, sp_watch *watch, sp_evaluator **resampled,
+                       sp_visibility *visibility, sp_error *error)
+{
+    double area = sp_evaluator_patches(fine)->total_area, memory = memory_of(options);
+    double views = (double)sites->count * (double)candidates->speed_count;
+    double patches = fmin(PATCHES_MOST, fmin(RAYS_MOST, memory / ARRIVAL_BYTES) / views);
+    for (*resampled = NULL;;) {
+        patches = fmax(PATCHES_LEAST, patches);
+        double texel = sqrt(area / patches);
+        if (texel > 1.1 * sp_evaluator_fidelity(fine)->texel) {
+            *resampled = sp_evaluator_resample(fine, texel, error);
+            if (!*resampled)
+                return false;
+        }
+        if (!sp_visibility_create(*resampled ? *resampled : fine, options, sites, candidates, watch, visibility, error))
+            return false;
+        if (visibility->share <= 1)
+            return true;
+        double share = visibility->share;
+        sp_visibility_free(visibility);
+        sp_evaluator_destroy(*resampled);
+        *resampled = NULL;
+        if (patches <= PATCHES_LEAST)
+            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                           "memory: %g bytes found, expected about %.2g or more for what %zu mounting points reach",
+                           memory, share * memory, sites->count);
+        patches = fmin(patches, (double)sp_evaluator_patches(fine)->count) / (COARSER * share);
+    }
 }
 
 void sp_visibility_free(sp_visibility *visibility)
 {
-    for (size_t i = 0; visibility->views && i < visibility->site_count * visibility->speed_count; i++)
-        free(visibility->views[i].start);
-    free(visibility->views);
+    views_free(visibility);
     *visibility = (sp_visibility){0};
 }

@@ -30,13 +30,21 @@ typedef struct {
     const sp_evaluator *evaluator; /* borrowed: the coarse one that was traced on */
     size_t site_count, speed_count;
     size_t largest; /* most arrivals of a view */
+    double share;   /* of the options' memory that the views take; where it would be above 1, none is kept */
     sp_view *views; /* [site_count x speed_count] */
     sp_bins bins;
 } sp_visibility;
 
-/* The texel edge (m) at which all views together keep within the memory that a placement may take. */
-double sp_visibility_texel(const sp_evaluator *evaluator, const sp_sites *sites, const sp_candidates *candidates);
-/* Sites left out when the time ends see nothing. */
+/* Half-angle (rad) about the site's axis that holds all that its candidates at this speed can reach; negative: there
+ * are none. */
+double sp_visibility_needed(const sp_place_options *options, const sp_candidates *candidates, const sp_site *site,
+                            size_t speed);
+/* Traces all views on patches as fine as time and the options' memory allow: those of *resampled, or of `fine` itself
+ * where that stays NULL. The caller destroys it. */
+bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options, const sp_sites *sites,
+                       const sp_candidates *candidates, sp_watch *watch, sp_evaluator **resampled,
+                       sp_visibility *visibility, sp_error *error);
+/* Traces all views on the patches of `coarse`. Sites left out when the time ends see nothing. */
 bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
                           const sp_candidates *candidates, sp_watch *watch, sp_visibility *visibility, sp_error *error);
 void sp_visibility_free(sp_visibility *visibility);

@@ -28,12 +28,26 @@ typedef struct {
     bool *covered;
 } sp_deposits;
 
+/* Why a patch is not attainable: how near the candidate that comes nearest brings it. */
+typedef enum {
+    SP_REASON_ATTAINABLE, /* it is */
+    SP_REASON_UNKNOWN,    /* the search for a reason was cut short */
+    SP_REASON_NO_LINE,    /* no flight from any mounting point arrives */
+    SP_REASON_REFLECTION, /* only liquid that a wall throws back does */
+    SP_REASON_SLOW,       /* what arrives is slower than the criterion asks */
+    SP_REASON_SLANTED,    /* what arrives fast enough is more slanted than the criterion allows */
+    SP_REASON_FLUX,       /* what arrives fast and steeply enough is too little: too far for the flux, within the limits
+                           * of number and water */
+    SP_REASONS,
+} sp_reason;
+
 /* A connected region without coverage. */
 typedef struct {
     double area;           /* m² */
     sp_vec3 centroid;      /* m */
     uint32_t part;         /* of the mesh: the part with most of the area */
     double reachable_area; /* m² of it that is attainable; -1 where attainable area was not computed */
+    sp_reason reason;      /* of most of its area that is not attainable; attainable or unknown where there is none */
 } sp_shadow;
 
 typedef struct {
@@ -49,9 +63,9 @@ typedef struct {
 void sp_coverage_destroy(sp_coverage *coverage);
 
 struct sp_evaluator;
-/* Connected uncovered regions, largest first (equal area: lowest patch first). `attainable` [patches] may be NULL.
+/* Connected uncovered regions, largest first (equal area: lowest patch first). `reasons` [patches] may be NULL.
  * On success *shadows is malloc'd (NULL where there are none) and the caller frees it. */
-bool sp_shadows(const struct sp_evaluator *evaluator, const sp_coverage *coverage, const bool *attainable,
+bool sp_shadows(const struct sp_evaluator *evaluator, const sp_coverage *coverage, const sp_reason *reasons,
                 sp_shadow **shadows, size_t *count, sp_error *error);
 
 #ifdef __cplusplus

@@ -52,6 +52,7 @@ typedef struct {
     size_t pressure_count;
     const double *pressures; /* Pa, borrowed */
     double clearance;        /* m */
+    double memory;           /* bytes that what the mounting points can reach may take; 0: 1 GB */
     size_t mount_count;
     const sp_mount *mounts; /* borrowed */
     sp_refine refine;
@@ -98,6 +99,7 @@ typedef struct {
     sp_layout *greedy;     /* the best found on the candidates, before refinement */
     sp_coverage *greedy_coverage;
     bool *attainable;       /* [patches] */
+    sp_reason *reasons;     /* [patches]: why not */
     double attainable_area; /* m² */
     double target_area;     /* m² that had to be covered */
     bool reached;           /* the proposal covers target_area within all limits */

@@ -18,6 +18,7 @@ typedef struct {
     sp_vec3 centroid; /* m */
     char *part;       /* owned */
     int reachable;    /* 1 where most of it is attainable, 0 where not, -1: not known */
+    sp_reason reason; /* where not, of most of what is not attainable of it; else unknown */
 } sp_shadow_figures;
 
 typedef struct {
@@ -32,6 +33,7 @@ typedef struct {
     size_t triangles;
     double area, clean_area;                        /* of the geometry, m² */
     double attainable_area;                         /* m², with whatever a reported layout covers */
+    double missing_area[SP_REASONS];                /* m² that are not attainable, by reason */
     char trajectory[16], evaluator[16];             /* "line" or "parabola", "forward" or "inverse" */
     size_t reflections, jets;                       /* jets: per nozzle, unknown for the inverse evaluator */
     double texel, error_estimate;                   /* m; points of coverage as a fraction */
@@ -46,6 +48,11 @@ typedef struct {
 } sp_figures;
 
 #define SP_SHADOWS_KEPT 100
+
+/* The name of a reason in result.json, "no_line_of_reach" for instance; NULL for attainable and unknown. */
+const char *sp_reason_key(sp_reason reason);
+/* The same for readers, "no line of reach". */
+const char *sp_reason_text(sp_reason reason);
 
 /* Accepts NULL. */
 void sp_figures_destroy(sp_figures *figures, size_t count);

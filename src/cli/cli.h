@@ -18,6 +18,7 @@ typedef struct {
     bool json, quiet, version;
     int threads;
     double time_limit;  /* s, 0: none */
+    double memory;      /* bytes, 0: not given */
     const char *output; /* -o, or NULL */
     const char *overrides[MAX_OVERRIDES];
     size_t override_count;
@@ -44,6 +45,7 @@ enum option_flag {
     OPTION_RAYS = 8, /* with --gravity and --accel */
     OPTION_TIME_LIMIT = 16,
     OPTION_BENCH = 32, /* --rays, --mode, --trajectory */
+    OPTION_MEMORY = 64,
 };
 
 /* options.c: fills options from the arguments after the command's name; false after a message on standard error. */

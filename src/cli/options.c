@@ -7,7 +7,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { JSON = 256, THREADS, TIME_LIMIT, QUIET, HELP, VERSION, SET, TEXEL, RAYS, GRAVITY, ACCEL, MODE, TRAJECTORY };
+enum {
+    JSON = 256,
+    THREADS,
+    TIME_LIMIT,
+    QUIET,
+    HELP,
+    VERSION,
+    SET,
+    TEXEL,
+    RAYS,
+    GRAVITY,
+    ACCEL,
+    MODE,
+    TRAJECTORY,
+    MEMORY
+};
 
 static const struct option long_options[] = {
     {"json", no_argument, NULL, JSON},
@@ -23,6 +38,7 @@ static const struct option long_options[] = {
     {"accel", required_argument, NULL, ACCEL},
     {"mode", required_argument, NULL, MODE},
     {"trajectory", required_argument, NULL, TRAJECTORY},
+    {"memory", required_argument, NULL, MEMORY},
     {NULL, 0, NULL, 0},
 };
 
@@ -38,6 +54,8 @@ static unsigned flag_of(int option)
         return OPTION_TIME_LIMIT;
     case TEXEL:
         return OPTION_TEXEL;
+    case MEMORY:
+        return OPTION_MEMORY;
     case RAYS:
         return OPTION_RAYS | OPTION_BENCH;
     case MODE:
@@ -53,10 +71,10 @@ static unsigned flag_of(int option)
 
 static const char *name_of(int option)
 {
-    static const char *const names[] = {[SET - JSON] = "--set",         [TIME_LIMIT - JSON] = "--time-limit",
-                                        [TEXEL - JSON] = "--texel",     [RAYS - JSON] = "--rays",
-                                        [GRAVITY - JSON] = "--gravity", [ACCEL - JSON] = "--accel",
-                                        [MODE - JSON] = "--mode",       [TRAJECTORY - JSON] = "--trajectory"};
+    static const char *const names[] = {
+        [SET - JSON] = "--set",   [TIME_LIMIT - JSON] = "--time-limit", [TEXEL - JSON] = "--texel",
+        [RAYS - JSON] = "--rays", [GRAVITY - JSON] = "--gravity",       [ACCEL - JSON] = "--accel",
+        [MODE - JSON] = "--mode", [TRAJECTORY - JSON] = "--trajectory", [MEMORY - JSON] = "--memory"};
     return option == 'o' ? "-o" : names[option - JSON];
 }
 
@@ -93,6 +111,27 @@ static bool parse_time_limit(const char *text, double *seconds)
     if (!read_number(&rest, seconds) || (*rest && strcmp(rest, "s")) || *seconds <= 0)
         return wrong("--time-limit", text, "seconds above 0");
     return true;
+}
+
+static bool parse_memory(const char *text, double *bytes)
+{
+    static const struct {
+        const char *name;
+        double bytes;
+    } units[] = {{"B", 1},           {"kB", 1e3},           {"MB", 1e6},
+                 {"GB", 1e9},        {"TB", 1e12},          {"KiB", 1024.0},
+                 {"MiB", 1048576.0}, {"GiB", 1073741824.0}, {"TiB", 1099511627776.0}};
+    const char *rest = text;
+    double value;
+    if (read_number(&rest, &value) && value > 0) {
+        rest += strspn(rest, " ");
+        for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+            if (!strcmp(rest, units[i].name)) {
+                *bytes = value * units[i].bytes;
+                return true;
+            }
+    }
+    return wrong("--memory", text, "a size above 0 with its unit, as \"2 GB\" or 500MiB");
 }
 
 static bool parse_texel(const char *text, double *texel)
@@ -155,6 +194,8 @@ static bool take_option(int option, const char *value, cli_options *options, boo
         return parse_override(value, options);
     case TEXEL:
         return parse_texel(value, &options->texel);
+    case MEMORY:
+        return parse_memory(value, &options->memory);
     case RAYS:
         options->rays = value;
         return true;

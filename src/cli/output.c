@@ -74,6 +74,19 @@ static void print_certificate(const sp_certificate *certificate)
         ceil(1e3 * certificate->area_bound / certificate->whole - 1e-9) / 10, 100 * certificate->gap);
 }
 
+/* What no layout can cover, by reason. */
+static void print_missing(const sp_figures *figures)
+{
+    const char *lead = "not attainable: ";
+    for (sp_reason reason = 0; isfinite(figures->attainable_area) && reason < SP_REASONS; reason++)
+        if (sp_reason_text(reason) && figures->missing_area[reason] > 0) {
+            printf("%s%.4f m2 %s", lead, figures->missing_area[reason], sp_reason_text(reason));
+            lead = ", ";
+        }
+    if (lead[0] == ',')
+        printf("\n");
+}
+
 static bool print_summary(const sp_result *result, sp_error *error)
 {
     sp_figures *figures = sp_result_figures(result, error);
@@ -86,6 +99,8 @@ static bool print_summary(const sp_result *result, sp_error *error)
            "of attainable %", "m2 per L/min");
     for (size_t i = 0; i < result->design_count; i++)
         print_figures(&figures[i], result->designs[i].name, width);
+    if (result->proposal && result->design_count)
+        print_missing(&figures[result->design_count - 1]);
     if (result->proposal)
         print_certificate(&result->proposal->certificate);
     sp_figures_destroy(figures, result->design_count);

@@ -69,6 +69,7 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
         cli_clock_stage(clock, "simulate");
         sp_place_options how = sp_scene_place_options(opened->scene);
         how.run = cli_run(options);
+        how.memory = options->memory;
         found.proposal = sp_place(opened->evaluator, &how, error);
     }
     int status = found.proposal ? report(options, opened, &found, clock, error) : cli_fail_in(opened, error);

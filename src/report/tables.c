@@ -194,7 +194,8 @@ static void add_shadow(sp_text *text, const sp_shadow_figures *shadow, double cl
     sp_text_add(text, "<tr>");
     add_text_cell(text, "th scope=\"row\"", shadow->part);
     add_numbers(text, values, decimals, 5);
-    sp_text_add(text, "<td class=\"text\">%s</td></tr>\n", reachable);
+    const char *reason = shadow->reachable == 0 ? sp_reason_text(shadow->reason) : NULL;
+    sp_text_add(text, "<td class=\"text\">%s%s%s</td></tr>\n", reachable, reason ? ": " : "", reason ? reason : "");
 }
 
 static void add_shadows(const sp_page *page, sp_text *text, size_t design)

@@ -62,22 +62,34 @@ static bool set_shadows(sp_figures *figures, const sp_shadow *shadows, const sp_
             .area = shadow->area,
             .centroid = shadow->centroid,
             .part = sp_text_utf8(mesh->parts[shadow->part].name),
-            .reachable = shadow->reachable_area < 0 ? -1 : shadow->reachable_area >= 0.5 * shadow->area};
+            .reachable = shadow->reachable_area < 0 ? -1 : shadow->reachable_area >= 0.5 * shadow->area,
+            .reason = shadow->reason};
         copied &= figures->shadows[i].part != NULL;
     }
     return copied;
 }
 
-static bool describe(sp_figures *figures, const sp_design *design, const bool *attainable, double attainable_area,
-                     sp_error *error)
+/* Area by reason; the attainable area is that of no reason. */
+static void set_attainable(sp_figures *figures, const sp_patches *patches, const sp_reason *reasons)
+{
+    for (sp_reason reason = 0; reason < SP_REASONS; reason++)
+        figures->missing_area[reason] = reasons ? 0 : NAN;
+    for (size_t k = 0; reasons && k < patches->count; ++k)
+        figures->missing_area[reasons[k]] += patches->area[k];
+    figures->attainable_area = figures->missing_area[SP_REASON_ATTAINABLE];
+    figures->missing_area[SP_REASON_ATTAINABLE] = reasons ? 0 : NAN;
+}
+
+/* With `reasons` NULL attainable area is not known. */
+static bool describe(sp_figures *figures, const sp_design *design, const sp_reason *reasons, sp_error *error)
 {
     const sp_setup *setup = sp_evaluator_setup(design->evaluator);
     sp_shadow *shadows = NULL;
     size_t shadow_count = 0;
-    if (!sp_shadows(design->evaluator, design->coverage, attainable, &shadows, &shadow_count, error))
+    if (!sp_shadows(design->evaluator, design->coverage, reasons, &shadows, &shadow_count, error))
         return false;
     set_geometry_and_fidelity(figures, design->evaluator);
-    figures->attainable_area = attainable ? attainable_area : NAN;
+    set_attainable(figures, sp_evaluator_patches(design->evaluator), reasons);
     set_coverage(figures, design->coverage);
     bool done = sp_figures_make_rows(figures, shadow_count < SP_SHADOWS_KEPT ? shadow_count : SP_SHADOWS_KEPT,
                                      design->layout->count) &&
@@ -86,27 +98,26 @@ static bool describe(sp_figures *figures, const sp_design *design, const bool *a
     return done || sp_fail_memory(error);
 }
 
-/* What the proposal calls attainable or any design covers, and its area. Without a proposal NULL and no error. */
-static bool *reported_attainable(const sp_result *result, const sp_evaluator **evaluator, double *area, sp_error *error)
+/* Why patches are not attainable: what the proposal says, but for what any design covers. Without a proposal NULL and
+ * no error. */
+static sp_reason *reported_reasons(const sp_result *result, const sp_evaluator **evaluator, sp_error *error)
 {
     *evaluator = NULL;
-    *area = 0;
     for (size_t i = 0; result->proposal && i < result->design_count; ++i)
         if (result->designs[i].coverage == result->proposal->coverage)
             *evaluator = result->designs[i].evaluator;
     if (!*evaluator)
         return NULL;
     const sp_patches *patches = sp_evaluator_patches(*evaluator);
-    bool *attainable = malloc(patches->count + 1);
-    if (!attainable)
+    sp_reason *reasons = malloc((patches->count + 1) * sizeof *reasons);
+    if (!reasons)
         return sp_fail_memory(error);
-    memcpy(attainable, result->proposal->attainable, patches->count);
+    memcpy(reasons, result->proposal->reasons, patches->count * sizeof *reasons);
     for (size_t i = 0; i < result->design_count; ++i)
         for (size_t k = 0; result->designs[i].evaluator == *evaluator && k < patches->count; ++k)
-            attainable[k] |= result->designs[i].coverage->deposits.covered[k];
-    for (size_t k = 0; k < patches->count; ++k)
-        *area += attainable[k] ? patches->area[k] : 0;
-    return attainable;
+            if (result->designs[i].coverage->deposits.covered[k])
+                reasons[k] = SP_REASON_ATTAINABLE;
+    return reasons;
 }
 
 sp_figures *sp_result_figures(const sp_result *result, sp_error *error)
@@ -116,18 +127,17 @@ sp_figures *sp_result_figures(const sp_result *result, sp_error *error)
         return sp_fail_memory(error);
     sp_error failure = {0};
     const sp_evaluator *home;
-    double attainable_area;
-    bool *attainable = reported_attainable(result, &home, &attainable_area, &failure);
+    sp_reason *reasons = reported_reasons(result, &home, &failure);
     for (size_t i = 0; failure.kind == SP_OK && i < result->design_count; ++i) {
         const sp_design *design = &result->designs[i];
         if (design->evaluator)
-            describe(&figures[i], design, design->evaluator == home ? attainable : NULL, attainable_area, &failure);
+            describe(&figures[i], design, design->evaluator == home ? reasons : NULL, &failure);
         else if (!sp_figures_copy(&figures[i], design->figures))
             sp_fail_memory(&failure);
         if (failure.kind == SP_OK && !(figures[i].name = sp_text_utf8(design->name)))
             sp_fail_memory(&failure);
     }
-    free(attainable);
+    free(reasons);
     if (failure.kind == SP_OK)
         return figures;
     if (error && error->kind == SP_OK)

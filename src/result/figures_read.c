@@ -134,12 +134,29 @@ static bool get_part(const reader *in, const json_t *object, const char *key, js
     return wrong(in, key, *value, type == JSON_ARRAY ? "a list" : "an object");
 }
 
+static bool read_missing(const reader *in, const json_t *geometry, sp_figures *figures)
+{
+    const json_t *missing;
+    if (!get_part(in, geometry, "unattainable_m2", JSON_OBJECT, false, &missing))
+        return false;
+    reader inner = *in;
+    snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "unattainable_m2.");
+    for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
+        const char *key = sp_reason_key(reason);
+        figures->missing_area[reason] = NAN;
+        if (key && !get_real(&inner, missing, key, 0, 1e12, 1, &figures->missing_area[reason]))
+            return false;
+    }
+    return true;
+}
+
 static bool read_geometry(const reader *in, const json_t *geometry, sp_figures *figures)
 {
     return get_count(in, geometry, "triangles", &figures->triangles) &&
            get_real(in, geometry, "area_m2", 0, 1e12, 1, &figures->area) &&
            get_real(in, geometry, "clean_area_m2", 0, 1e12, 1, &figures->clean_area) &&
-           get_real(in, geometry, "attainable_area_m2", 0, 1e12, 1, &figures->attainable_area);
+           get_real(in, geometry, "attainable_area_m2", 0, 1e12, 1, &figures->attainable_area) &&
+           read_missing(in, geometry, figures);
 }
 
 static bool read_fidelity(const reader *in, const json_t *fidelity, sp_figures *figures)
@@ -175,13 +192,27 @@ static bool read_coverage(const reader *in, const json_t *layout, sp_figures *fi
            get_real(&inner, flux, "max", 0, 1e12, l_min, &figures->flux_max);
 }
 
+static bool read_reason(const reader *in, const json_t *entry, sp_reason *reason)
+{
+    const json_t *found = json_object_get(entry, "reason");
+    *reason = SP_REASON_UNKNOWN;
+    if (!found)
+        return true;
+    for (sp_reason i = 0; json_is_string(found) && i < SP_REASONS; i++)
+        if (sp_reason_key(i) && !strcmp(json_string_value(found), sp_reason_key(i))) {
+            *reason = i;
+            return true;
+        }
+    return wrong(in, "reason", found, "no_line_of_reach, reflection_only, too_slow, too_slanted or too_little_flux");
+}
+
 static bool read_shadow(const reader *in, const json_t *entry, sp_shadow_figures *shadow)
 {
     const json_t *reachable = json_object_get(entry, "reachable");
     if (reachable && !json_is_boolean(reachable))
         return wrong(in, "reachable", reachable, "true or false");
     shadow->reachable = reachable ? json_is_true(reachable) : -1;
-    return get_real(in, entry, "area_m2", 0, 1e12, 1, &shadow->area) &&
+    return read_reason(in, entry, &shadow->reason) && get_real(in, entry, "area_m2", 0, 1e12, 1, &shadow->area) &&
            get_vector(in, entry, "centroid_m", &shadow->centroid) && get_text(in, entry, "part", &shadow->part);
 }
 

@@ -36,12 +36,24 @@ static bool put_vector(json_t *object, const char *key, sp_vec3 value)
     return put(object, key, json_pack("[fff]", value.x, value.y, value.z));
 }
 
+/* Area by reason, where attainable area was computed. */
+static bool put_missing(json_t *geometry, const sp_figures *figures)
+{
+    if (!isfinite(figures->attainable_area))
+        return true;
+    json_t *missing = json_object();
+    bool done = true;
+    for (sp_reason reason = 0; done && reason < SP_REASONS; reason++)
+        done = !sp_reason_key(reason) || put_real(missing, sp_reason_key(reason), figures->missing_area[reason]);
+    return put(geometry, "unattainable_m2", missing) && done;
+}
+
 static bool put_geometry(json_t *object, const sp_figures *figures)
 {
     json_t *geometry = json_object();
     bool done = put_count(geometry, "triangles", figures->triangles) && put_real(geometry, "area_m2", figures->area) &&
                 put_real(geometry, "clean_area_m2", figures->clean_area) &&
-                put_real(geometry, "attainable_area_m2", figures->attainable_area);
+                put_real(geometry, "attainable_area_m2", figures->attainable_area) && put_missing(geometry, figures);
     return put(object, "geometry", geometry) && done;
 }
 
@@ -69,7 +81,9 @@ static bool put_shadow(json_t *shadows, const sp_shadow_figures *figures)
     json_t *shadow = json_object();
     bool done = put_real(shadow, "area_m2", figures->area) && put_vector(shadow, "centroid_m", figures->centroid) &&
                 put_text(shadow, "part", figures->part) &&
-                (figures->reachable < 0 || put(shadow, "reachable", json_boolean(figures->reachable)));
+                (figures->reachable < 0 || put(shadow, "reachable", json_boolean(figures->reachable))) &&
+                (figures->reachable || !sp_reason_key(figures->reason) ||
+                 put_text(shadow, "reason", sp_reason_key(figures->reason)));
     return json_array_append_new(shadows, shadow) == 0 && done;
 }
 

@@ -11,7 +11,7 @@ typedef struct {
 
 typedef struct {
     const sp_evaluator *evaluator;
-    const bool *attainable;
+    const sp_reason *reasons;
     bool *visited;     /* [patches], covered ones too */
     uint32_t *queue;   /* [patches] */
     double *part_area; /* [parts], zero between regions */
@@ -36,6 +36,21 @@ static uint32_t main_part(const shadow_search *search, size_t members)
     return best;
 }
 
+/* Why most of the region's unattainable area is so; of equal ones the first. */
+static sp_reason main_reason(const shadow_search *search, size_t members)
+{
+    double area[SP_REASONS] = {0};
+    if (!search->reasons)
+        return SP_REASON_UNKNOWN;
+    for (size_t i = 0; i < members; i++)
+        area[search->reasons[search->queue[i]]] += search->evaluator->patches.area[search->queue[i]];
+    sp_reason best = SP_REASON_ATTAINABLE;
+    for (sp_reason reason = SP_REASON_UNKNOWN; reason < SP_REASONS; reason++)
+        if (area[reason] > 0 && (best == SP_REASON_ATTAINABLE || area[reason] > area[best]))
+            best = reason;
+    return best;
+}
+
 /* The region that holds patch `first`. */
 static region grow(const shadow_search *search, uint32_t first)
 {
@@ -53,16 +68,17 @@ static region grow(const shadow_search *search, uint32_t first)
             }
         }
     }
-    sp_shadow shadow = {.reachable_area = search->attainable ? 0 : -1};
+    sp_shadow shadow = {.reachable_area = search->reasons ? 0 : -1};
     for (size_t i = 0; i < members; i++) {
         uint32_t patch = search->queue[i];
         shadow.area += patches->area[patch];
         shadow.centroid = sp_along(shadow.centroid, patches->area[patch], patches->point[patch]);
-        if (search->attainable && search->attainable[patch])
+        if (search->reasons && search->reasons[patch] == SP_REASON_ATTAINABLE)
             shadow.reachable_area += patches->area[patch];
     }
     shadow.centroid = sp_scale(shadow.centroid, 1 / shadow.area);
     shadow.part = main_part(search, members);
+    shadow.reason = main_reason(search, members);
     return (region){shadow, first};
 }
 
@@ -107,8 +123,8 @@ static bool hand_over(const region *regions, size_t count, sp_shadow **shadows)
     return *shadows || count == 0;
 }
 
-bool sp_shadows(const sp_evaluator *evaluator, const sp_coverage *coverage, const bool *attainable, sp_shadow **shadows,
-                size_t *count, sp_error *error)
+bool sp_shadows(const sp_evaluator *evaluator, const sp_coverage *coverage, const sp_reason *reasons,
+                sp_shadow **shadows, size_t *count, sp_error *error)
 {
     if (!evaluator || !coverage)
         return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "shadows: evaluator and coverage must not be NULL");
@@ -116,7 +132,7 @@ bool sp_shadows(const sp_evaluator *evaluator, const sp_coverage *coverage, cons
     if (coverage->deposits.count != patches)
         return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "shadows: the coverage is of another evaluator");
     shadow_search search = {.evaluator = evaluator,
-                            .attainable = attainable,
+                            .reasons = reasons,
                             .visited = malloc(patches ? patches * sizeof(bool) : 1),
                             .queue = malloc(patches ? patches * sizeof(uint32_t) : 1),
                             .part_area = calloc(evaluator->setup.mesh->part_count, sizeof(double))};

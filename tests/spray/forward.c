@@ -375,14 +375,18 @@ static void shadows_are_found(void **state)
     free(shadows);
 
     const sp_patches *patches = sp_evaluator_patches(evaluator);
-    bool *attainable = calloc(patches->count, sizeof *attainable);
-    for (size_t i = 0; i < patches->count; i++)
-        attainable[i] = patches->point[i].x > -2;
-    assert_true(sp_shadows(evaluator, coverage, attainable, &shadows, &count, &error));
+    sp_reason *reasons = calloc(patches->count, sizeof *reasons);
+    for (size_t i = 0; i < patches->count; i++) {
+        double x = patches->point[i].x;
+        reasons[i] = x > -2 ? SP_REASON_ATTAINABLE : x > -2.3 ? SP_REASON_FLUX : SP_REASON_SLANTED;
+    }
+    assert_true(sp_shadows(evaluator, coverage, reasons, &shadows, &count, &error));
     assert_near(shadows[0].reachable_area, 0.2, 0.1);
     assert_near(shadows[1].reachable_area, shadows[1].area, 1e-12);
+    assert_int_equal(shadows[0].reason, SP_REASON_SLANTED); /* 0.7 m of 1 m */
+    assert_int_equal(shadows[1].reason, SP_REASON_ATTAINABLE);
     free(shadows);
-    free(attainable);
+    free(reasons);
     for (size_t i = 0; i < patches->count; i++)
         coverage->deposits.covered[i] = true;
     assert_true(sp_shadows(evaluator, coverage, NULL, &shadows, &count, &error));
