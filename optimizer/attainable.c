@@ -199,7 +199,7 @@ static bool site_offers(const sp_reckoning *reckoning, const sp_site *site, size
     if (search->options->mounts[site->mount].kind == SP_MOUNT_PORT && search->port_taken[site->mount])
         return false;
     for (size_t s = 0; s < search->candidates->speed_count; s++) {
-        double speed = search->candidates->speeds[s], transfer;
+        double speed = search->candidates->speeds[s], transfer = 0;
         sp_flight flights[2];
         int count =
             sp_flights(site->position, patches->point[patch], speed, sp_evaluator_gravity(reckoning->fine), flights);

@@ -1,0 +1,315 @@
+/* What is attainable, and why the rest is not, where it is known in closed form. */
+#include "room.h"
+
+#include "visibility.h"
+
+#ifdef SPRAYPLAN_SANITIZE
+#define TEXEL 0.08
+#else
+#define TEXEL 0.04
+#endif
+
+#define FLOW (20 * LITRES_PER_MINUTE)
+#define HEIGHT 2.0 /* m of the nozzle above the floor */
+
+/* A floor of 6 m, and above it what a test adds; straight jets downwards from one point. */
+typedef struct {
+    room room;
+    room_builder builder;
+    sp_nozzle_type type;
+    const sp_nozzle_type *types[1];
+    double pressure;
+    sp_mount mount;
+    sp_place_options options;
+    sp_proposal *proposal;
+    double area[SP_REASONS];
+} job;
+
+static void job_begin(job *j, double angle)
+{
+    *j = (job){.pressure = 2e5};
+    room_part(&j->builder, "floor");
+    room_sheet(&j->builder, sp_v(-3, -3, 0), sp_v(6, 0, 0), sp_v(0, 6, 0));
+    j->room.setup = sp_setup_default();
+    j->room.setup.fidelity.trajectory = SP_TRAJECTORY_LINE;
+    j->type = room_cone("cone", angle, FLOW / LITRES_PER_MINUTE);
+    j->types[0] = &j->type;
+    j->mount =
+        (sp_mount){.kind = SP_MOUNT_BOX, .axis = sp_v(0, 0, -1), .from = sp_v(0, 0, HEIGHT), .to = sp_v(0, 0, HEIGHT)};
+    j->options = room_options();
+    j->options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    j->options.max_nozzles = 1;
+    /* small rooms: what threads would wait for each other is more than they save */
+    j->options.run.threads = j->room.setup.run.threads = 1;
+}
+
+static void job_place(job *j)
+{
+    sp_error error = {0};
+    j->options.types = j->types;
+    j->options.type_count = 1;
+    j->options.pressures = &j->pressure;
+    j->options.pressure_count = 1;
+    j->options.mounts = &j->mount;
+    j->options.mount_count = 1;
+    j->proposal = sp_place(j->room.evaluator, &j->options, &error);
+    assert_string_equal(error.message, "");
+    assert_non_null(j->proposal);
+    const sp_patches *patches = sp_evaluator_patches(j->room.evaluator);
+    double total = 0;
+    for (size_t i = 0; i < SP_REASONS; i++)
+        j->area[i] = 0;
+    for (size_t p = 0; p < patches->count; p++) {
+        sp_reason reason = j->proposal->reasons[p];
+        assert_int_equal(reason == SP_REASON_ATTAINABLE, j->proposal->attainable[p]);
+        j->area[reason] += patches->area[p];
+    }
+    for (size_t i = 0; i < SP_REASONS; i++)
+        total += j->area[i];
+    assert_true(fabs(total - patches->total_area) < 1e-9);
+    assert_true(fabs(j->area[SP_REASON_ATTAINABLE] - j->proposal->attainable_area) < 1e-9);
+    assert_true(j->area[SP_REASON_UNKNOWN] == 0);
+}
+
+static void job_run(job *j)
+{
+    room_open(&j->room, &j->builder, TEXEL);
+    job_place(j);
+}
+
+static void job_end(job *j)
+{
+    sp_proposal_destroy(j->proposal);
+    room_close(&j->room);
+}
+
+static double disc(double radius)
+{
+    return M_PI * radius * radius;
+}
+
+#define assert_area(found, expected)                                                                                   \
+    do {                                                                                                               \
+        if (!(fabs((found) - (expected)) < 0.02 * (expected) + 1e-9))                                                  \
+            fail_msg("%s: %g m2, expected %g", #found, (double)(found), (double)(expected));                           \
+    } while (0)
+
+/* Flux of a cone of half-angle a on a floor, at the angle b from its axis: Q cos³b / (2π (1 - cos a) h²). */
+static double flux_at(double half_angle, double b)
+{
+    return FLOW * pow(cos(b), 3) / (2 * M_PI * (1 - cos(half_angle)) * HEIGHT * HEIGHT);
+}
+
+static void beyond_the_cone_there_is_no_line(void **state)
+{
+    (void)state;
+    job j;
+    job_begin(&j, 60 * DEGREE);
+    j.room.setup.criterion.flux = flux_at(30 * DEGREE, 20 * DEGREE);
+    job_run(&j);
+    double cone = disc(HEIGHT * tan(30 * DEGREE)), wet = disc(HEIGHT * tan(20 * DEGREE));
+    assert_area(j.area[SP_REASON_ATTAINABLE], wet);
+    assert_area(j.area[SP_REASON_FLUX], cone - wet);
+    assert_area(j.area[SP_REASON_NO_LINE], 36 - cone);
+    job_end(&j);
+
+    /* a lean of 10 degrees takes the cone's edge from 30 to 40 degrees, and the flux reaches as far as before */
+    job_begin(&j, 60 * DEGREE);
+    j.room.setup.criterion.flux = flux_at(30 * DEGREE, 20 * DEGREE);
+    j.mount.tilt = 10 * DEGREE;
+    job_run(&j);
+    cone = disc(HEIGHT * tan(40 * DEGREE));
+    assert_area(j.area[SP_REASON_ATTAINABLE], wet);
+    assert_area(j.area[SP_REASON_FLUX], cone - wet);
+    assert_area(j.area[SP_REASON_NO_LINE], 36 - cone);
+    job_end(&j);
+}
+
+static void a_plate_throws_its_shadow(void **state)
+{
+    (void)state;
+    job j;
+    job_begin(&j, 100 * DEGREE);
+    room_part(&j.builder, "plate");
+    room_sheet(&j.builder, sp_v(-0.2, -0.2, 1), sp_v(0.4, 0, 0), sp_v(0, 0.4, 0));
+    room_open(&j.room, &j.builder, TEXEL);
+    job_place(&j);
+    double cone = disc(HEIGHT * tan(50 * DEGREE));
+    /* the plate is half way: its shadow is four times as large */
+    assert_area(j.area[SP_REASON_ATTAINABLE], cone - 0.64 + 0.16);
+    assert_area(j.area[SP_REASON_NO_LINE], 36 + 0.16 - j.area[SP_REASON_ATTAINABLE]);
+    const sp_patches *patches = sp_evaluator_patches(j.room.evaluator);
+    for (size_t p = 0; p < patches->count; p++) {
+        sp_vec3 at = patches->point[p];
+        if (at.z < 0.5 && fabs(at.x) < 0.35 && fabs(at.y) < 0.35)
+            assert_int_equal(j.proposal->reasons[p], SP_REASON_NO_LINE);
+    }
+    job_end(&j);
+}
+
+static void slow_and_slanted(void **state)
+{
+    (void)state;
+    job j;
+    job_begin(&j, 100 * DEGREE);
+    j.room.setup.criterion.incidence = 30 * DEGREE;
+    job_run(&j);
+    double cone = disc(HEIGHT * tan(50 * DEGREE)), steep = disc(HEIGHT * tan(30 * DEGREE));
+    assert_area(j.area[SP_REASON_ATTAINABLE], steep);
+    assert_area(j.area[SP_REASON_SLANTED], cone - steep);
+    assert_area(j.area[SP_REASON_NO_LINE], 36 - cone);
+    job_end(&j);
+
+    /* too slow counts before too slanted: a steeper jet would not help */
+    job_begin(&j, 100 * DEGREE);
+    j.room.setup.criterion.incidence = 30 * DEGREE;
+    j.room.setup.criterion.impact_speed = 1.01 * 0.95 * sqrt(2 * 2e5 / 1000);
+    job_run(&j);
+    assert_true(j.area[SP_REASON_ATTAINABLE] == 0 && j.area[SP_REASON_SLANTED] == 0);
+    assert_area(j.area[SP_REASON_SLOW], cone);
+    job_end(&j);
+}
+
+/* A nozzle hanging between floor and ceiling sprays the floor; a floor that mirrors sends it to the ceiling. */
+static void by_reflection_only(void **state)
+{
+    (void)state;
+    for (int mirror = 0; mirror < 2; mirror++) {
+        job j;
+        job_begin(&j, 40 * DEGREE);
+        room_part(&j.builder, "ceiling");
+        room_sheet(&j.builder, sp_v(-3, -3, 3), sp_v(6, 0, 0), sp_v(0, 6, 0));
+        room_open(&j.room, &j.builder, TEXEL);
+        j.room.surfaces[0].restitution = mirror;
+        /* the evaluator has the surfaces at hand, and knows by then that it is to be inverse */
+        job_place(&j);
+        double cone = disc(HEIGHT * tan(20 * DEGREE)), thrown = disc((HEIGHT + 3) * tan(20 * DEGREE));
+        assert_area(j.area[SP_REASON_ATTAINABLE], cone);
+        if (!mirror)
+            assert_true(j.area[SP_REASON_REFLECTION] == 0);
+        else
+            assert_true(fabs(j.area[SP_REASON_REFLECTION] - thrown) < 0.05 * thrown);
+        assert_area(j.area[SP_REASON_NO_LINE], 72 - cone - j.area[SP_REASON_REFLECTION]);
+        job_end(&j);
+    }
+}
+
+/* Two nozzles bring twice the flux of one: with `sum` that counts, with `single` it does not. */
+static void together_or_each_alone(void **state)
+{
+    (void)state;
+    double half = 30 * DEGREE, alone = disc(HEIGHT * tan(15 * DEGREE)), cone = disc(HEIGHT * tan(half));
+    double twice_the_flux = 0.5 * flux_at(half, 15 * DEGREE), b = acos(cbrt(twice_the_flux / flux_at(half, 0)));
+    double together = disc(HEIGHT * tan(fmin(b, half)));
+    for (int single = 0; single < 2; single++)
+        for (size_t nozzles = 1; nozzles <= 2; nozzles++) {
+            job j;
+            job_begin(&j, 2 * half);
+            j.room.setup.criterion.flux = flux_at(half, 15 * DEGREE);
+            j.room.setup.criterion.combine = single ? SP_COMBINE_SINGLE : SP_COMBINE_SUM;
+            j.options.max_nozzles = nozzles;
+            job_run(&j);
+            double expected = single || nozzles == 1 ? alone : together;
+            assert_area(j.area[SP_REASON_ATTAINABLE], expected);
+            assert_true(fabs(j.area[SP_REASON_FLUX] - (cone - expected)) < 0.02 * cone);
+            assert_area(j.proposal->coverage->covered_area, expected);
+            job_end(&j);
+        }
+    assert_true(together > 1.5 * alone);
+}
+
+/* Little memory means coarser patches to search on, not another problem; and too little is an error. */
+static void little_memory_is_enough(void **state)
+{
+    (void)state;
+    job j;
+    job_begin(&j, 60 * DEGREE);
+    j.mount.from = sp_v(-2, -2, HEIGHT);
+    j.mount.to = sp_v(2, 2, HEIGHT);
+    j.mount.spacing = 1;
+    j.options.max_nozzles = 4;
+    job_run(&j);
+    double plenty = j.proposal->coverage->covered_area, attainable = j.area[SP_REASON_ATTAINABLE];
+    sp_proposal *first = j.proposal;
+    j.options.memory = 4e5;
+    for (int threads = 1; threads <= 2; threads++) {
+        j.options.run.threads = threads;
+        job_place(&j);
+        room_check(j.proposal, &j.options);
+        assert_true(j.area[SP_REASON_ATTAINABLE] == attainable);
+        assert_true(j.proposal->coverage->covered_area > 0.9 * plenty);
+        if (threads == 2) {
+            assert_true(j.proposal->coverage->covered_area == first->coverage->covered_area);
+            assert_memory_equal(j.proposal->coverage->deposits.counted, first->coverage->deposits.counted,
+                                first->coverage->deposits.count * sizeof(double));
+        }
+        sp_proposal_destroy(first);
+        first = j.proposal;
+    }
+    sp_error error = {0};
+    j.options.memory = 1e4;
+    assert_null(sp_place(j.room.evaluator, &j.options, &error));
+    assert_int_equal(error.kind, SP_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "memory"));
+    job_end(&j);
+}
+
+/* What the views take is what the memory allows, whatever the number of threads. */
+static void views_keep_within_memory(void **state)
+{
+    (void)state;
+    job j;
+    job_begin(&j, 60 * DEGREE);
+    j.mount.from = sp_v(-2, -2, HEIGHT);
+    j.mount.to = sp_v(2, 2, HEIGHT);
+    j.mount.spacing = 0.5;
+    j.mount.tilt = 30 * DEGREE;
+    job_run(&j);
+    const double memories[] = {0, 4e6, 2e6, 1.2e6};
+    size_t before = SIZE_MAX;
+    for (size_t i = 0; i < sizeof memories / sizeof *memories; i++) {
+        size_t patches[2];
+        for (int threads = 1; threads <= 2; threads++) {
+            sp_error error = {0};
+            sp_sites sites;
+            sp_candidates candidates;
+            sp_visibility visibility;
+            sp_evaluator *resampled;
+            j.options.memory = memories[i];
+            j.options.run.threads = threads;
+            sp_watch watch = sp_watch_start(&j.options.run);
+            assert_true(sp_sites_create(j.room.evaluator, &j.options, &sites, &error));
+            assert_true(sp_candidates_create(j.room.evaluator, &j.options, &sites, &candidates, &error));
+            assert_true(sp_visibility_fit(j.room.evaluator, &j.options, &sites, &candidates, &watch, &resampled,
+                                          &visibility, &error));
+            double bytes = 0;
+            for (size_t v = 0; v < sites.count * candidates.speed_count; v++)
+                bytes += 4 * (SP_BINS + 1) + 20.0 * visibility.views[v].count + 16 * SP_LANES;
+            assert_true(visibility.share <= 1);
+            assert_true(!(memories[i] > 0) || fabs(bytes - visibility.share * memories[i]) < 1);
+            patches[threads - 1] = sp_evaluator_patches(resampled ? resampled : j.room.evaluator)->count;
+            sp_visibility_free(&visibility);
+            sp_evaluator_destroy(resampled);
+            sp_candidates_free(&candidates);
+            sp_sites_free(&sites);
+        }
+        assert_int_equal(patches[0], patches[1]);
+        assert_true(i == 0 || patches[0] < before);
+        before = patches[0];
+    }
+    job_end(&j);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(beyond_the_cone_there_is_no_line),
+        cmocka_unit_test(a_plate_throws_its_shadow),
+        cmocka_unit_test(slow_and_slanted),
+        cmocka_unit_test(by_reflection_only),
+        cmocka_unit_test(together_or_each_alone),
+        cmocka_unit_test(little_memory_is_enough),
+        cmocka_unit_test(views_keep_within_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
