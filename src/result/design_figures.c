@@ -112,7 +112,11 @@ static sp_reason *reported_reasons(const sp_result *result, const sp_evaluator *
     sp_reason *reasons = malloc((patches->count + 1) * sizeof *reasons);
     if (!reasons)
         return sp_fail_memory(error);
-    memcpy(reasons, result->proposal->reasons, patches->count * sizeof *reasons);
+    const sp_proposal *proposal = result->proposal;
+    for (size_t k = 0; k < patches->count; ++k)
+        reasons[k] = proposal->attainable[k] ? SP_REASON_ATTAINABLE
+                     : proposal->reasons     ? proposal->reasons[k]
+                                             : SP_REASON_UNKNOWN;
     for (size_t i = 0; i < result->design_count; ++i)
         for (size_t k = 0; result->designs[i].evaluator == *evaluator && k < patches->count; ++k)
             if (result->designs[i].coverage->deposits.covered[k])

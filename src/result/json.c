@@ -36,10 +36,10 @@ static bool put_vector(json_t *object, const char *key, sp_vec3 value)
     return put(object, key, json_pack("[fff]", value.x, value.y, value.z));
 }
 
-/* Area by reason, where attainable area was computed. */
+/* Area by reason, where all reasons are known. */
 static bool put_missing(json_t *geometry, const sp_figures *figures)
 {
-    if (!isfinite(figures->attainable_area))
+    if (!isfinite(figures->attainable_area) || figures->missing_area[SP_REASON_UNKNOWN] > 0)
         return true;
     json_t *missing = json_object();
     bool done = true;
