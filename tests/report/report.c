@@ -42,6 +42,9 @@ static int set_up(void **state)
     size_t patches = sp_evaluator_patches(f.evaluator)->count;
     bool *attainable = malloc(patches);
     memcpy(attainable, f.coverages[2]->deposits.covered, patches);
+    sp_reason *reasons = malloc(patches * sizeof *reasons);
+    for (size_t i = 0; i < patches; i++)
+        reasons[i] = attainable[i] ? SP_REASON_ATTAINABLE : i % 3 ? SP_REASON_SLANTED : SP_REASON_NO_LINE;
     for (int i = 0; i < 3; i++)
         f.front[i] = (sp_front_point){f.coverages[2]->flow * (i + 1) / 3,
                                       f.coverages[2]->covered_area * (0.7 + 0.1 * i), (size_t)i + 1, NAN, NAN};
@@ -52,6 +55,7 @@ static int set_up(void **state)
                                .greedy = f.layouts[1],
                                .greedy_coverage = f.coverages[1],
                                .attainable = attainable,
+                               .reasons = reasons,
                                .attainable_area = 5,
                                .target_area = 99,
                                .positions = 100,
@@ -74,6 +78,7 @@ static int tear_down(void **state)
         sp_coverage_destroy(f->coverages[i]);
     }
     free(f->proposal.attainable);
+    free(f->proposal.reasons);
     sp_evaluator_destroy(f->evaluator);
     sp_mesh_destroy(f->mesh);
     return 0;
@@ -193,7 +198,10 @@ static void result_json_has_the_keys_of_the_contract(void **state)
     char *text = read_whole("result.json", &size);
     json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
     EXPECT_KEYS(all, "sprayplan", "command", "scene", "geometry", "fidelity", "layouts", "front", "stages");
-    EXPECT_KEYS(json_object_get(all, "geometry"), "triangles", "area_m2", "clean_area_m2", "attainable_area_m2");
+    EXPECT_KEYS(json_object_get(all, "geometry"), "triangles", "area_m2", "clean_area_m2", "attainable_area_m2",
+                "unattainable_m2");
+    EXPECT_KEYS(json_object_get(json_object_get(all, "geometry"), "unattainable_m2"), "no_line_of_reach",
+                "reflection_only", "too_slow", "too_slanted", "too_little_flux");
     EXPECT_KEYS(json_object_get(all, "fidelity"), "trajectory", "evaluator", "reflections", "texel_m");
     json_t *layouts = json_object_get(all, "layouts");
     assert_int_equal(json_array_size(layouts), 3);
@@ -211,6 +219,52 @@ static void result_json_has_the_keys_of_the_contract(void **state)
     assert_true(fabs(water - 6e4 * f->coverages[0]->flow) < 1e-9 * water);
     assert_true(json_number_value(json_object_get(manual, "coverage")) == f->coverages[0]->fraction);
     json_decref(all);
+    free(text);
+}
+
+static double real_of(const json_t *object, const char *key)
+{
+    return json_number_value(json_object_get(object, key));
+}
+
+/* What is out of reach is so for reasons that add up to it; unknown ones are not told. */
+static void reasons_add_up(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    char *html = sp_report_html(&f->result, &error), *text = sp_result_json(&f->result, &error);
+    json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL), *geometry = json_object_get(all, "geometry");
+    const json_t *missing = json_object_get(geometry, "unattainable_m2");
+    double lines = real_of(missing, "no_line_of_reach"), slanted = real_of(missing, "too_slanted");
+    assert_true(lines > 0 && slanted > 1.5 * lines);
+    assert_true(fabs(real_of(geometry, "clean_area_m2") - real_of(geometry, "attainable_area_m2") - lines - slanted) <
+                1e-9);
+    assert_true(real_of(missing, "reflection_only") == 0 && real_of(missing, "too_slow") == 0);
+    const char *list = strstr(html, "<ul id=\"reasons\">"), *first = list ? strstr(list, "too slanted: ") : NULL;
+    const char *second = list ? strstr(list, "no line of reach: ") : NULL;
+    assert_true(first && second && first < second);
+    assert_null(strstr(list, "too slow: "));
+    json_t *shadow;
+    size_t i, told = 0;
+    json_array_foreach(json_object_get(json_array_get(json_object_get(all, "layouts"), 0), "shadows"), i, shadow)
+    {
+        const char *reason = json_string_value(json_object_get(shadow, "reason"));
+        assert_true(!reason == json_is_true(json_object_get(shadow, "reachable")));
+        told += reason && !strcmp(reason, "too_slanted");
+    }
+    assert_true(told > 0);
+    json_decref(all);
+    free(text);
+    free(html);
+
+    sp_proposal proposal = f->proposal;
+    sp_result result = f->result;
+    proposal.reasons = NULL;
+    result.proposal = &proposal;
+    text = sp_result_json(&result, &error);
+    assert_non_null(strstr(text, "attainable_area_m2"));
+    assert_null(strstr(text, "unattainable_m2"));
+    assert_null(strstr(text, "\"reason\""));
     free(text);
 }
 
@@ -321,9 +375,13 @@ static void the_model_is_a_gltf(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_same_bytes_every_time),      cmocka_unit_test(the_page_stands_alone),
-        cmocka_unit_test(names_from_strangers_stay_text), cmocka_unit_test(result_json_has_the_keys_of_the_contract),
-        cmocka_unit_test(a_certificate_is_told_in_full),  cmocka_unit_test(the_model_is_a_gltf),
+        cmocka_unit_test(the_same_bytes_every_time),
+        cmocka_unit_test(the_page_stands_alone),
+        cmocka_unit_test(names_from_strangers_stay_text),
+        cmocka_unit_test(result_json_has_the_keys_of_the_contract),
+        cmocka_unit_test(reasons_add_up),
+        cmocka_unit_test(a_certificate_is_told_in_full),
+        cmocka_unit_test(the_model_is_a_gltf),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
