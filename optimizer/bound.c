@@ -4,8 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ITERATIONS 300    /* of a solve, at most */
+#define ITERATIONS 200    /* of a solve, at most */
 #define TOLERANCE 5e-4    /* at which a solve ends, as a share of the bound */
+#define ROUNDS_LIFTED 3   /* at least, so that the lifts have settled */
 #define CLOSED 3e-4       /* all against the few: nearer than that, another round is not worth it */
 #define ROWS_MOST 800     /* of the few */
 #define CHOICE_LEAST 1e-6 /* a row that the linear program takes less of than this may go */
@@ -15,20 +16,23 @@ bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *b
     *bound = (sp_bound){.cover = cover, .pricer = pricer, .best = INFINITY};
     if (!sp_dual_create(cover, &bound->dual, error) ||
         !sp_offers_create(cover->tier_count, cover->weight, cover->port_count, cover->nozzles, cover->repeats,
-                          &bound->offers, error)) {
+                          &bound->offers, error) ||
+        !sp_prices_create(cover, &bound->price, error)) {
         sp_bound_free(bound);
         return false;
     }
     bound->by_water = malloc((cover->water + 1) * sizeof *bound->by_water);
     bound->by_nozzles = malloc((cover->nozzles + 1) * sizeof *bound->by_nozzles);
     bound->needed = malloc(cover->tier_count * sizeof *bound->needed);
-    bound->price = malloc((cover->texel_count + 1) * sizeof *bound->price);
     if (cover->water < SIZE_MAX / sizeof(double) / (cover->nozzles + 1) - 1)
         bound->table = malloc((cover->nozzles + 1) * (cover->water + 1) * sizeof *bound->table);
-    if (!bound->by_water || !bound->by_nozzles || !bound->needed || !bound->price || !bound->table) {
+    if (!bound->by_water || !bound->by_nozzles || !bound->needed || !bound->table) {
         sp_bound_free(bound);
         return sp_fail_memory(error);
     }
+    bound->lightest = UINT32_MAX;
+    for (size_t k = 0; k < cover->tier_count; k++)
+        bound->lightest = cover->weight[k] < bound->lightest ? cover->weight[k] : bound->lightest;
     double whole = cover->base;
     for (size_t t = 0; t < cover->texel_count; t++)
         whole += (double)cover->area[t];
@@ -47,7 +51,7 @@ void sp_bound_free(sp_bound *bound)
     free(bound->by_water);
     free(bound->by_nozzles);
     free(bound->needed);
-    free(bound->price);
+    sp_prices_free(&bound->price);
     free(bound->table);
     *bound = (sp_bound){0};
 }
@@ -56,7 +60,7 @@ static void offer_rows(sp_bound *bound)
 {
     const sp_rows *rows = &bound->rows;
     for (size_t c = 0; c < rows->count; c++)
-        sp_offers_add(&bound->offers, rows->port[c], rows->tier[c], sp_rows_price(rows, c, bound->dual.price));
+        sp_offers_add(&bound->offers, rows->port[c], rows->tier[c], sp_rows_price(rows, c, &bound->dual.price));
 }
 
 /* What a candidate must be worth to raise the bound at this water. */
@@ -80,14 +84,15 @@ static bool prove(sp_bound *bound, size_t water, double *proved, sp_error *error
 {
     const sp_cover *cover = bound->cover;
     size_t row = cover->water + 1;
-    if (!bound->pricer->price(bound->pricer->user, bound->dual.price, bound->needed, &bound->offers, &bound->rows,
+    if (!bound->pricer->price(bound->pricer->user, &bound->dual.price, bound->needed, &bound->offers, &bound->rows,
                               error))
         return false;
     sp_knapsack(&bound->offers, cover->nozzles, cover->water, bound->table);
-    double rest = (cover->base + sp_cover_rest(cover, bound->dual.price)) * (1 + 1e-12);
-    for (size_t w = 0; w < row; w++)
+    double rest = (cover->base + sp_cover_rest(cover, &bound->dual.price)) * (1 + 1e-12);
+    size_t nozzles = bound->dual.price.lifts ? bound->lifts.nozzles : cover->nozzles;
+    for (size_t w = 0; w < row && (nozzles == cover->nozzles || w / bound->lightest <= nozzles); w++)
         bound->by_water[w] = fmin(bound->by_water[w], rest + bound->table[cover->nozzles * row + w]);
-    for (size_t n = 0; n <= cover->nozzles; n++)
+    for (size_t n = 0; n <= nozzles; n++)
         bound->by_nozzles[n] = fmin(bound->by_nozzles[n], rest + bound->table[n * row + cover->water]);
     *proved = rest + bound->table[cover->nozzles * row + water];
     return true;
@@ -119,6 +124,9 @@ bool sp_bound_lower(sp_bound *bound, size_t water, size_t rounds, sp_error *erro
     const sp_cover *cover = bound->cover;
     sp_dual_task task = {.nozzles = cover->nozzles, .water = water, .iterations = ITERATIONS, .tolerance = TOLERANCE};
     bound->best = INFINITY;
+    size_t fit = water / bound->lightest;
+    sp_lifts_create(fit < 1 ? 1 : fit < cover->nozzles ? fit : cover->nozzles, &bound->lifts);
+    task.lifts = bound->lifting ? &bound->lifts : NULL;
     for (size_t round = 0; round < rounds; round++) {
         double proved;
         if (!thin_out(bound, error) || !sp_dual_solve(&bound->dual, &bound->rows, &task, error))
@@ -128,10 +136,17 @@ bool sp_bound_lower(sp_bound *bound, size_t water, size_t rounds, sp_error *erro
             return false;
         if (proved < bound->best) {
             bound->best = proved;
-            memcpy(bound->price, bound->dual.price, cover->texel_count * sizeof *bound->price);
+            sp_prices_copy(cover, &bound->dual.price, &bound->price);
         }
-        if (proved <= bound->dual.bound * (1 + CLOSED))
+        bool closed = proved <= bound->dual.bound * (1 + CLOSED);
+        if (closed && (cover->whole || round >= ROUNDS_LIFTED))
             break;
+        if (!cover->whole) {
+            task.lifts = &bound->lifts;
+            bound->lifting = true;
+            if (!sp_dual_lift(&bound->dual, &bound->rows, &bound->lifts, error))
+                return false;
+        }
     }
     return true;
 }

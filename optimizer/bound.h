@@ -10,7 +10,8 @@ typedef struct {
     void *user;
     /* Adds every candidate's total price at texel prices u to `offers`, or something no lower. Appends to `rows` some
      * of those worth more than needed[tier] that are not among them yet (by key); none where `rows` is NULL. */
-    bool (*price)(void *user, const float *u, const double *needed, sp_offers *offers, sp_rows *rows, sp_error *error);
+    bool (*price)(void *user, const sp_prices *u, const double *needed, sp_offers *offers, sp_rows *rows,
+                  sp_error *error);
 } sp_pricer;
 
 /* What has been proved: no layout of at most so much covers more. m², base included. */
@@ -23,8 +24,11 @@ typedef struct {
     double *by_nozzles; /* [cover->nozzles + 1], with all the water */
     double *table, *needed;
     sp_offers offers;
-    double best;  /* the lowest at the last task's number and water */
-    float *price; /* [texels], that show it */
+    uint32_t lightest; /* of the tiers */
+    double best;       /* the lowest at the last task's number and water */
+    sp_prices price;   /* that show it; until the next task */
+    sp_lifts lifts;    /* of the last task */
+    bool lifting;      /* they have come into use */
 } sp_bound;
 
 bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *bound, sp_error *error);

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 
 #define ROUNDS_FIRST 5  /* of pricing all poses, at the proposal's water */
-#define ROUNDS_WATER 2  /* at a water that may be too little for the proposal's coverage */
-#define TRIALS_WATER 6  /* such waters */
+#define ROUNDS_WATER 1  /* at a water that may be too little for the proposal's coverage */
+#define TRIALS_WATER 3  /* such waters */
 #define ROUNDS_FRONT 1  /* at a point of the front */
-#define POINTS_MOST 8   /* of the front, that get rounds of their own */
+#define POINTS_MOST 6   /* of the front, that get rounds of their own */
 #define OPEN_LEAST 0.01 /* gap of a point of the front that is worth rounds of its own */
 
 typedef struct {
@@ -137,6 +137,7 @@ static bool set_texels(certifying *c, sp_error *error)
     c->cover.area = c->area;
     c->cover.weight = c->weight;
     c->cover.repeats = true;
+    c->cover.whole = search->single || search->threshold <= 0;
     c->cover.threads = sp_threads(&search->options->run);
     return true;
 }

@@ -94,23 +94,53 @@ void sp_rows_free(sp_rows *rows)
     *rows = (sp_rows){0};
 }
 
-double sp_rows_price(const sp_rows *rows, size_t row, const float *price)
+bool sp_prices_create(const sp_cover *cover, sp_prices *prices, sp_error *error)
 {
-    /* four sums side by side, so that none waits for the one before */
-    double total[4] = {0};
-    size_t i = rows->start[row], end = rows->start[row + 1];
-    for (; i + 4 <= end; i += 4)
-        for (size_t k = 0; k < 4; k++)
-            total[k] += (double)rows->share[i + k] * (double)price[rows->texel[i + k]];
-    for (; i < end; i++)
-        total[0] += (double)rows->share[i] * (double)price[rows->texel[i]];
-    return (total[0] + total[1]) + (total[2] + total[3]);
+    size_t texels = cover->texel_count + 1;
+    *prices = (sp_prices){.plain = malloc(texels * sizeof *prices->plain),
+                          .lifted = calloc(texels, sizeof *prices->lifted),
+                          .kind = calloc(texels, sizeof *prices->kind)};
+    if (!prices->plain || !prices->lifted || !prices->kind) {
+        sp_prices_free(prices);
+        return sp_fail_memory(error);
+    }
+    memcpy(prices->plain, cover->area, cover->texel_count * sizeof *prices->plain);
+    return true;
 }
 
-double sp_cover_rest(const sp_cover *cover, const float *price)
+void sp_prices_copy(const sp_cover *cover, const sp_prices *from, sp_prices *to)
+{
+    to->lifts = from->lifts;
+    memcpy(to->plain, from->plain, cover->texel_count * sizeof *to->plain);
+    memcpy(to->lifted, from->lifted, cover->texel_count * sizeof *to->lifted);
+    memcpy(to->kind, from->kind, cover->texel_count * sizeof *to->kind);
+}
+
+void sp_prices_free(sp_prices *prices)
+{
+    free(prices->plain);
+    free(prices->lifted);
+    free(prices->kind);
+    *prices = (sp_prices){0};
+}
+
+double sp_rows_price(const sp_rows *rows, size_t row, const sp_prices *prices)
+{
+    /* two sums side by side, so that neither waits for the other */
+    double plain = 0, lifted = 0;
+    for (size_t i = rows->start[row]; i < rows->start[row + 1]; i++) {
+        uint32_t t = rows->texel[i];
+        plain += (double)rows->share[i] * (double)prices->plain[t];
+        if (prices->lifts && prices->lifted[t] > 0)
+            lifted += (double)sp_lift(prices->lifts, prices->kind[t], rows->share[i]) * (double)prices->lifted[t];
+    }
+    return (plain + lifted) * UPWARDS;
+}
+
+double sp_cover_rest(const sp_cover *cover, const sp_prices *prices)
 {
     double rest = 0;
     for (size_t t = 0; t < cover->texel_count; t++)
-        rest += fmax(0, (double)cover->area[t] - (double)price[t]);
+        rest += fmax(0, (double)cover->area[t] - (double)prices->plain[t] - (double)prices->lifted[t]);
     return rest * UPWARDS;
 }

@@ -6,6 +6,7 @@
 #define OPTIMIZER_COVER_H
 
 #include "knapsack.h"
+#include "lift.h"
 
 #define SP_NO_PORT SIZE_MAX
 #define SP_OWN_KEY UINT64_MAX
@@ -19,6 +20,7 @@ typedef struct {
     size_t port_count;      /* each holds one candidate at most */
     size_t nozzles, water;  /* most that may be chosen; units */
     bool repeats;           /* a candidate without a port may be chosen more than once */
+    bool whole;             /* every share is 1: nothing to lift */
     int threads;
 } sp_cover;
 
@@ -39,10 +41,20 @@ bool sp_rows_add(sp_rows *rows, uint64_t key, size_t port, uint32_t tier, const 
 /* Keeps the rows that are marked, in their order. */
 void sp_rows_keep(sp_rows *rows, const bool *marked);
 void sp_rows_free(sp_rows *rows);
-/* Σ price share of one row; at most what it is in real numbers, but for 1e-12 of it. */
-double sp_rows_price(const sp_rows *rows, size_t row, const float *price);
+/* Prices of texels, m²: of their shares, and of what one of the lifts makes of these. */
+typedef struct {
+    const sp_lifts *lifts; /* NULL: only shares count */
+    float *plain, *lifted; /* [texels], plain + lifted <= area */
+    uint8_t *kind;         /* [texels], which lift */
+} sp_prices;
 
+bool sp_prices_create(const sp_cover *cover, sp_prices *prices, sp_error *error);
+void sp_prices_copy(const sp_cover *cover, const sp_prices *from, sp_prices *to);
+void sp_prices_free(sp_prices *prices);
+
+/* What a row is worth; rounded upwards. */
+double sp_rows_price(const sp_rows *rows, size_t row, const sp_prices *prices);
 /* The area, Σ (area - price), that prices leave: what no candidate has to bring. Rounded upwards. */
-double sp_cover_rest(const sp_cover *cover, const float *price);
+double sp_cover_rest(const sp_cover *cover, const sp_prices *prices);
 
 #endif

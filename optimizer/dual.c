@@ -5,10 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LOOK 25        /* iterations between two looks at the bound */
-#define RESTART 0.5    /* starts anew from the average once that has closed this share of the gap */
-#define STALE 0.4      /* or once that share of all iterations has passed without */
-#define WEIGHT_FIRST 5 /* primal weight to begin with, in mean texel areas */
+#define LOOK 25            /* iterations between two looks at the bound */
+#define RESTART 0.5        /* starts anew from the average once that has closed this share of the gap */
+#define STALE 0.4          /* or once that share of all iterations has passed without */
+#define CHOICE_LEAST 1e-4f /* of a row, that is worth a look */
+#define KIND_BETTER 1e-3f  /* by which another lift must cover less */
+#define WEIGHT_FIRST 5     /* primal weight to begin with, in mean texel areas */
 
 /* Everything that one solve needs besides. Resources: water, number, ports. */
 typedef struct {
@@ -16,14 +18,15 @@ typedef struct {
     const sp_rows *rows;
     const sp_dual_task *task;
     double *tau;                         /* [rows], of the step in x; 0: a row that cannot be chosen */
-    double *sigma;                       /* [texels] */
+    double *sigma; /* [2 texels], plain and lifted, as all that follows of [2 texels] */
+    float *lifted; /* [rows->used], the shares lifted; NULL: no lifts */
     double *sigma_resource, *load, *use; /* [resources]; load: Σ of a row's use over the rows */
     double *price, *price_sum;           /* [rows] */
     double *x_sum, *x_bar;               /* [rows] */
-    double *u_sum;                       /* [texels] */
-    float *u_last, *u_mean;              /* [texels] */
+    double *u_sum;                       /* [2 texels] */
+    sp_prices u_last, u_mean;
     double *resource_sum;
-    float *cover; /* [texels], Σ share x */
+    float *cover; /* [2 texels], Σ share x */
     double *x_start, *u_start;
     double *table; /* of the knapsack */
     sp_offers offers;
@@ -34,25 +37,23 @@ typedef struct {
 
 bool sp_dual_create(const sp_cover *cover, sp_dual *dual, sp_error *error)
 {
-    size_t texels = cover->texel_count ? cover->texel_count : 1;
     *dual = (sp_dual){.cover = cover, .texels = cover->texel_count};
-    dual->price = malloc(texels * sizeof *dual->price);
-    dual->u = malloc(texels * sizeof *dual->u);
-    dual->dual_resource = calloc(2 + cover->port_count, sizeof *dual->dual_resource);
-    if (!dual->price || !dual->u || !dual->dual_resource) {
+    if (!sp_prices_create(cover, &dual->price, error) || !sp_prices_create(cover, &dual->u, error)) {
         sp_dual_free(dual);
-        return sp_fail_memory(error);
+        return false;
     }
-    memcpy(dual->price, cover->area, cover->texel_count * sizeof *dual->price);
-    memcpy(dual->u, cover->area, cover->texel_count * sizeof *dual->u);
-    return true;
+    dual->dual_resource = calloc(2 + cover->port_count, sizeof *dual->dual_resource);
+    if (dual->dual_resource)
+        return true;
+    sp_dual_free(dual);
+    return sp_fail_memory(error);
 }
 
 void sp_dual_free(sp_dual *dual)
 {
-    free(dual->price);
+    sp_prices_free(&dual->price);
+    sp_prices_free(&dual->u);
     free(dual->choice);
-    free(dual->u);
     free(dual->x);
     free(dual->dual_resource);
     *dual = (sp_dual){0};
@@ -109,7 +110,8 @@ static void set_steps(solver *s)
     const sp_rows *rows = s->rows;
     double mean = 0, most = 0;
     size_t chosen = 0;
-    for (size_t t = 0; t < s->dual->texels; t++)
+    size_t texels = s->dual->texels;
+    for (size_t t = 0; t < 2 * texels; t++)
         s->sigma[t] = 0;
     for (size_t c = 0; c < rows->count; c++) {
         s->tau[c] = 0;
@@ -118,6 +120,10 @@ static void set_steps(solver *s)
         for (size_t i = rows->start[c]; i < rows->start[c + 1]; i++) {
             s->tau[c] += (double)rows->share[i];
             s->sigma[rows->texel[i]] += (double)rows->share[i];
+            if (s->lifted) {
+                s->tau[c] += (double)s->lifted[i];
+                s->sigma[texels + rows->texel[i]] += (double)s->lifted[i];
+            }
         }
         mean += s->tau[c];
         most = fmax(most, s->tau[c]);
@@ -136,7 +142,7 @@ static void set_steps(solver *s)
             s->load[2 + rows->port[c]] += number;
         s->tau[c] = 1 / (s->tau[c] + water + number + (rows->port[c] != SP_NO_PORT ? number : 0));
     }
-    for (size_t t = 0; t < s->dual->texels; t++)
+    for (size_t t = 0; t < 2 * texels; t++)
         s->sigma[t] = s->sigma[t] > 0 ? 1 / s->sigma[t] : 0;
     for (size_t r = 0; r < s->resources; r++)
         s->sigma_resource[r] = s->load[r] > 0 ? 1 / s->load[r] : 0;
@@ -165,31 +171,80 @@ static void add_up(solver *s, const double *x)
     for (int part = 0; part < threads; part++) {
         size_t first = texels * (size_t)part / (size_t)threads, end = texels * ((size_t)part + 1) / (size_t)threads;
         for (size_t t = first; t < end; t++)
-            s->cover[t] = 0;
+            s->cover[t] = s->cover[texels + t] = 0;
         for (size_t c = 0; c < rows->count; c++) {
             float amount = (float)x[c];
             if (amount == 0)
                 continue;
             size_t i = lower_bound(rows->texel, rows->start[c], rows->start[c + 1], first);
-            for (; i < rows->start[c + 1] && rows->texel[i] < end; i++)
-                s->cover[rows->texel[i]] += rows->share[i] * amount;
+            size_t stop = lower_bound(rows->texel, i, rows->start[c + 1], end);
+            for (size_t k = i; k < stop; k++)
+                s->cover[rows->texel[k]] += rows->share[k] * amount;
+            for (size_t k = i; s->lifted && k < stop; k++)
+                s->cover[texels + rows->texel[k]] += s->lifted[k] * amount;
         }
     }
 }
 
-static void find_prices(solver *s, const float *u)
+/* What a row is worth where the iterations stand. Four sums side by side, so that none waits for the one before. */
+static double worth(const uint32_t *texel, const float *share, size_t count, const float *u)
 {
+    double total[4] = {0};
+    size_t i = 0;
+    for (; i + 4 <= count; i += 4)
+        for (size_t k = 0; k < 4; k++)
+            total[k] += (double)share[i + k] * (double)u[texel[i + k]];
+    for (; i < count; i++)
+        total[0] += (double)share[i] * (double)u[texel[i]];
+    return (total[0] + total[1]) + (total[2] + total[3]);
+}
+
+static void find_prices(solver *s)
+{
+    const sp_rows *rows = s->rows;
+    const sp_prices *u = &s->dual->u;
     int threads = s->dual->cover->threads;
 #pragma omp parallel for num_threads(threads) schedule(static, 16)
-    for (size_t c = 0; c < s->rows->count; c++)
-        s->price[c] = s->tau[c] > 0 ? sp_rows_price(s->rows, c, u) : 0;
+    for (size_t c = 0; c < rows->count; c++) {
+        size_t first = rows->start[c], count = rows->start[c + 1] - first;
+        s->price[c] = 0;
+        if (s->tau[c] <= 0)
+            continue;
+        s->price[c] = worth(rows->texel + first, rows->share + first, count, u->plain);
+        if (s->lifted)
+            s->price[c] += worth(rows->texel + first, s->lifted + first, count, u->lifted);
+    }
+}
+
+/* A step in a texel's two prices, which together stay within its area. */
+static void step_texel(solver *s, size_t t)
+{
+    sp_dual *dual = s->dual;
+    size_t texels = dual->texels;
+    double area = (double)dual->cover->area[t], *const sum = s->u_sum;
+    double plain_step = dual->weight * s->sigma[t], lifted_step = dual->weight * s->sigma[texels + t];
+    double plain = (double)dual->u.plain[t], lifted = (double)dual->u.lifted[t];
+    sum[t] += plain;
+    sum[texels + t] += lifted;
+    s->u_last.plain[t] = dual->u.plain[t];
+    s->u_last.lifted[t] = dual->u.lifted[t];
+    plain = fmax(plain - plain_step * ((double)s->cover[t] - 1), 0);
+    lifted = s->lifted ? fmax(lifted - lifted_step * ((double)s->cover[texels + t] - 1), 0) : 0;
+    double excess = plain + lifted - area, steps = plain_step + lifted_step;
+    if (excess > 0 && lifted > 0 && steps > 0) {
+        double from_plain = fmin(plain, fmax(excess - lifted, excess * plain_step / steps));
+        plain -= from_plain;
+        lifted = fmin(lifted, fmax(0, area - plain));
+    }
+    dual->u.plain[t] = (float)fmin(plain, area);
+    dual->u.lifted[t] = (float)lifted;
 }
 
 static void step(solver *s)
 {
     sp_dual *dual = s->dual;
     const double weight = dual->weight, most = dual->cover->repeats ? (double)s->task->nozzles : 1;
-    find_prices(s, dual->u);
+    find_prices(s);
     for (size_t r = 0; r < s->resources; r++)
         s->use[r] = 0;
     for (size_t c = 0; c < s->rows->count; c++) {
@@ -209,12 +264,10 @@ static void step(solver *s)
             s->use[2 + port] += number * s->x_bar[c];
     }
     add_up(s, s->x_bar);
-    for (size_t t = 0; t < dual->texels; t++) {
-        double u = (double)dual->u[t];
-        s->u_sum[t] += u;
-        s->u_last[t] = dual->u[t];
-        dual->u[t] = (float)fmin(fmax(u - weight * s->sigma[t] * ((double)s->cover[t] - 1), 0), dual->cover->area[t]);
-    }
+    int threads = dual->cover->threads;
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (size_t t = 0; t < dual->texels; t++)
+        step_texel(s, t);
     for (size_t r = 0; r < s->resources; r++) {
         double limit = r < 1 ? s->scale : r < 2 ? s->scale : s->scale / (double)s->task->nozzles;
         s->resource_sum[r] += dual->dual_resource[r];
@@ -224,7 +277,7 @@ static void step(solver *s)
 }
 
 /* The bound of prices u at which the rows are worth `price` / `over`. */
-static double bound_of(solver *s, const float *u, const double *price, double over)
+static double bound_of(solver *s, const sp_prices *u, const double *price, double over)
 {
     sp_offers_clear(&s->offers);
     for (size_t c = 0; c < s->rows->count; c++)
@@ -252,17 +305,21 @@ static double reached_by(solver *s, const double *x, double over)
         beyond = fmax(beyond, s->use[r] / over / (r < 2 ? s->scale : s->scale / (double)s->task->nozzles));
     add_up(s, x);
     double area = cover->base;
-    for (size_t t = 0; t < cover->texel_count; t++)
-        area += (double)cover->area[t] * fmin(1, (double)s->cover[t] / (over * beyond));
+    for (size_t t = 0; t < cover->texel_count; t++) {
+        double least = (double)s->cover[t];
+        if (s->lifted)
+            least = fmin(least, (double)s->cover[cover->texel_count + t]);
+        area += (double)cover->area[t] * fmin(1, least / (over * beyond));
+    }
     return area;
 }
 
-static void note_best(solver *s, double bound, const float *u, double reached, const double *x, double over)
+static void note_best(solver *s, double bound, const sp_prices *u, double reached, const double *x, double over)
 {
     sp_dual *dual = s->dual;
     if (bound < dual->bound) {
         dual->bound = bound;
-        memcpy(dual->price, u, dual->texels * sizeof *u);
+        sp_prices_copy(dual->cover, u, &dual->price);
     }
     if (reached > dual->reached) {
         dual->reached = reached;
@@ -284,13 +341,15 @@ static void restart(solver *s, bool from_mean, double gap)
         s->x_start[c] = dual->x[c];
         s->x_sum[c] = s->price_sum[c] = 0;
     }
-    for (size_t t = 0; t < dual->texels; t++) {
+    for (size_t i = 0; i < 2 * dual->texels; i++) {
+        size_t t = i < dual->texels ? i : i - dual->texels;
+        float *u = i < dual->texels ? &dual->u.plain[t] : &dual->u.lifted[t];
         if (from_mean)
-            dual->u[t] = s->u_mean[t];
-        double way = (double)dual->u[t] - s->u_start[t];
-        far_u += s->sigma[t] > 0 ? way * way / s->sigma[t] : 0;
-        s->u_start[t] = (double)dual->u[t];
-        s->u_sum[t] = 0;
+            *u = i < dual->texels ? s->u_mean.plain[t] : s->u_mean.lifted[t];
+        double way = (double)*u - s->u_start[i];
+        far_u += s->sigma[i] > 0 ? way * way / s->sigma[i] : 0;
+        s->u_start[i] = (double)*u;
+        s->u_sum[i] = 0;
     }
     for (size_t r = 0; r < s->resources; r++) {
         if (from_mean)
@@ -308,12 +367,15 @@ static bool look(solver *s, size_t iteration)
 {
     sp_dual *dual = s->dual;
     double over = (double)s->since;
-    for (size_t t = 0; t < dual->texels; t++)
-        s->u_mean[t] = fminf((float)(s->u_sum[t] / over), dual->cover->area[t]);
-    double mean_bound = bound_of(s, s->u_mean, s->price_sum, over), last_bound = bound_of(s, s->u_last, s->price, 1);
+    for (size_t t = 0; t < dual->texels; t++) {
+        float area = dual->cover->area[t];
+        s->u_mean.plain[t] = fminf((float)(s->u_sum[t] / over), area);
+        s->u_mean.lifted[t] = fminf((float)(s->u_sum[dual->texels + t] / over), area - s->u_mean.plain[t]);
+    }
+    double mean_bound = bound_of(s, &s->u_mean, s->price_sum, over), last_bound = bound_of(s, &s->u_last, s->price, 1);
     double mean_reached = reached_by(s, s->x_sum, over), last_reached = reached_by(s, dual->x, 1);
-    note_best(s, mean_bound, s->u_mean, mean_reached, s->x_sum, over);
-    note_best(s, last_bound, s->u_last, last_reached, dual->x, 1);
+    note_best(s, mean_bound, &s->u_mean, mean_reached, s->x_sum, over);
+    note_best(s, last_bound, &s->u_last, last_reached, dual->x, 1);
     if (dual->bound - dual->reached <= s->task->tolerance * dual->bound)
         return true;
     double mean_gap = mean_bound - mean_reached, last_gap = last_bound - last_reached, gap = fmin(mean_gap, last_gap);
@@ -325,12 +387,15 @@ static bool look(solver *s, size_t iteration)
 static void solver_free(solver *s)
 {
     free(s->tau);
-    free(s->u_last);
+    free(s->cover);
+    free(s->lifted);
+    sp_prices_free(&s->u_last);
+    sp_prices_free(&s->u_mean);
     free(s->table);
     sp_offers_free(&s->offers);
 }
 
-/* Two blocks: all doubles, all floats. */
+/* All doubles in one block. */
 static bool solver_create(solver *s, sp_error *error)
 {
     const sp_cover *cover = s->dual->cover;
@@ -338,12 +403,13 @@ static bool solver_create(solver *s, sp_error *error)
     s->resources = 2 + cover->port_count;
     if (s->task->water + 1 > SIZE_MAX / sizeof(double) / (s->task->nozzles + 1))
         return sp_fail_memory(error);
-    s->tau = calloc(6 * rows + 3 * texels + 4 * s->resources + 1, sizeof *s->tau);
-    s->u_last = calloc(3 * texels + 1, sizeof *s->u_last);
+    s->tau = calloc(6 * rows + 6 * texels + 4 * s->resources + 1, sizeof *s->tau);
+    s->cover = calloc(2 * texels + 1, sizeof *s->cover);
     s->table = malloc((s->task->nozzles + 1) * (s->task->water + 1) * sizeof *s->table);
     bool offers = sp_offers_create(cover->tier_count, cover->weight, cover->port_count, s->task->nozzles,
-                                   cover->repeats, &s->offers, error);
-    if (!s->tau || !s->u_last || !s->table || !offers || !grow(s->dual, rows)) {
+                                   cover->repeats, &s->offers, error) &&
+                  sp_prices_create(cover, &s->u_last, error) && sp_prices_create(cover, &s->u_mean, error);
+    if (!s->tau || !s->cover || !s->table || !offers || !grow(s->dual, rows)) {
         solver_free(s);
         return offers ? sp_fail_memory(error) : false;
     }
@@ -353,14 +419,33 @@ static bool solver_create(solver *s, sp_error *error)
     s->x_bar = s->x_sum + rows;
     s->x_start = s->x_bar + rows;
     s->sigma = s->x_start + rows;
-    s->u_sum = s->sigma + texels;
-    s->u_start = s->u_sum + texels;
-    s->sigma_resource = s->u_start + texels;
+    s->u_sum = s->sigma + 2 * texels;
+    s->u_start = s->u_sum + 2 * texels;
+    s->sigma_resource = s->u_start + 2 * texels;
     s->load = s->sigma_resource + s->resources;
     s->use = s->load + s->resources;
     s->resource_sum = s->use + s->resources;
-    s->u_mean = s->u_last + texels;
-    s->cover = s->u_mean + texels;
+    return true;
+}
+
+/* The rows' shares as the texels' lifts make them. What they are worth changes with the lifts. */
+static bool lift_rows(solver *s, sp_error *error)
+{
+    sp_prices *const all[] = {&s->dual->u, &s->u_last, &s->u_mean};
+    const sp_rows *rows = s->rows;
+    for (size_t i = 0; i < 3; i++) {
+        all[i]->lifts = s->task->lifts;
+        memcpy(all[i]->kind, s->dual->u.kind, s->dual->texels);
+    }
+    if (!s->task->lifts) {
+        memset(s->dual->u.lifted, 0, s->dual->texels * sizeof *s->dual->u.lifted);
+        return true;
+    }
+    s->lifted = malloc((rows->used + 1) * sizeof *s->lifted);
+    if (!s->lifted)
+        return sp_fail_memory(error);
+    for (size_t i = 0; i < rows->used; i++)
+        s->lifted[i] = sp_lift(s->task->lifts, s->dual->u.kind[rows->texel[i]], rows->share[i]);
     return true;
 }
 
@@ -369,6 +454,10 @@ bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task,
     solver s = {.dual = dual, .rows = rows, .task = task, .gap_start = INFINITY};
     if (!solver_create(&s, error))
         return false;
+    if (!lift_rows(&s, error)) {
+        solver_free(&s);
+        return false;
+    }
     set_steps(&s);
     if (!(dual->weight > 0)) {
         double area = 0;
@@ -377,8 +466,10 @@ bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task,
         dual->weight = fmax(WEIGHT_FIRST * area / (double)(dual->texels ? dual->texels : 1), 1e-30);
     }
     memcpy(s.x_start, dual->x, rows->count * sizeof *dual->x);
-    for (size_t t = 0; t < dual->texels; t++)
-        s.u_start[t] = (double)dual->u[t];
+    for (size_t t = 0; t < dual->texels; t++) {
+        s.u_start[t] = (double)dual->u.plain[t];
+        s.u_start[dual->texels + t] = (double)dual->u.lifted[t];
+    }
     dual->bound = INFINITY;
     dual->reached = -INFINITY;
     for (size_t i = 1; i <= task->iterations; i++) {
@@ -387,5 +478,28 @@ bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task,
             break;
     }
     solver_free(&s);
+    return true;
+}
+
+bool sp_dual_lift(sp_dual *dual, const sp_rows *rows, const sp_lifts *lifts, sp_error *error)
+{
+    size_t kinds = lifts->kinds;
+    float *sums = calloc(dual->texels * kinds + 1, sizeof *sums);
+    if (!sums)
+        return sp_fail_memory(error);
+    for (size_t c = 0; c < rows->count && c < dual->row_capacity; c++) {
+        float amount = (float)dual->choice[c];
+        for (size_t i = rows->start[c]; amount > CHOICE_LEAST && i < rows->start[c + 1]; i++)
+            for (size_t k = 0; k < kinds; k++)
+                sums[rows->texel[i] * kinds + k] += amount * sp_lift(lifts, k, rows->share[i]);
+    }
+    for (size_t t = 0; t < dual->texels; t++) {
+        uint8_t best = dual->u.kind[t];
+        for (size_t k = 0; k < kinds; k++)
+            if (sums[t * kinds + k] < sums[t * kinds + best] - KIND_BETTER)
+                best = (uint8_t)k;
+        dual->u.kind[t] = best;
+    }
+    free(sums);
     return true;
 }

@@ -1,7 +1,7 @@
 /* Prices of texels that make the best layout's bound low: the Lagrangian dual of maximum coverage.
  *
  * For prices 0 <= u <= area no layout covers more than Σ (area - u) + the most that Σ u share of its nozzles can come
- * to. That holds for any u; the iterations here only look for a good one. */
+ * to. That holds for any u, and for any lift of the shares; the iterations here only look for good ones. */
 #ifndef OPTIMIZER_DUAL_H
 #define OPTIMIZER_DUAL_H
 
@@ -10,12 +10,12 @@
 typedef struct {
     const sp_cover *cover;
     size_t texels;
-    float *price;          /* [texels], the best prices found by the last solve, m² */
+    sp_prices price;       /* the best found by the last solve */
     double bound;          /* m² that it shows for the rows it was solved on, cover->base included */
     double reached;        /* m² that fractions of those rows do cover (the linear program's own value, from below) */
     size_t row_capacity;   /* of what follows */
     double *choice;        /* [rows], fraction of each row in the average of the last solve */
-    float *u;              /* [texels], where the iterations stand */
+    sp_prices u;           /* where the iterations stand */
     double *x;             /* [rows] */
     double *dual_resource; /* [2 + ports], of water, number and ports */
     double weight;         /* primal weight: steps in price over steps in choice */
@@ -29,12 +29,15 @@ typedef struct {
     size_t nozzles, water; /* at most; no more than the cover's */
     size_t iterations;     /* at most */
     double tolerance;      /* ends where bound and linear program are this near, as a share of the bound */
+    const sp_lifts *lifts; /* for as many nozzles at least, or NULL */
 } sp_dual_task;
 
 /* Goes on from where the last solve ended; rows that are new since then start at 0. Primal-dual hybrid gradient with
  * averages, restarts and diagonal steps: Chambolle and Pock 2011; Pock and Chambolle 2011; Applegate et al., Practical
  * large-scale linear programming using primal-dual hybrid gradient, 2021. */
 bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_error *error);
+/* Gives every texel the lift under which what the last solve chose covers it least. */
+bool sp_dual_lift(sp_dual *dual, const sp_rows *rows, const sp_lifts *lifts, sp_error *error);
 /* After sp_rows_keep with the same marks. */
 void sp_dual_keep(sp_dual *dual, size_t rows, const bool *marked);
 

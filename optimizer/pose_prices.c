@@ -6,9 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define EDGE 2e-6          /* how far off single precision may see a pattern's edge (cosine, sine) */
-#define BIN_EDGE 1e-4      /* rad, the same for bins */
-#define UPWARDS (1 + 4e-6) /* more than the rounding of a price in single precision */
+#define UPWARDS (1 + 1e-4) /* more than a sweep's sum may lie off, see sweep.h */
 #define ROWS_AT_A_TIME 300
 
 /* The pose of highest price of a site and make. */
@@ -19,13 +17,9 @@ typedef struct {
 
 /* One thread's own. */
 typedef struct {
-    float *worth;          /* [arrivals of a view], price that it brings to a make */
-    double total[SP_BINS]; /* of worth */
-    uint32_t list[SP_BINS];
-    size_t listed;            /* bins of any worth */
-    float beyond[SP_BINS];    /* by bin: cosine of the angle at and beyond which the make misses all of it */
-    float within[SP_BINS][2]; /* cosines between which it holds all of it; the first above 1: never */
-    uint8_t *seen;            /* [texels] */
+    float *worth; /* [arrivals of a view + SP_LANES], price that it brings to a make */
+    float total[SP_BINS];
+    uint8_t *seen; /* [texels] */
 } scratch;
 
 struct sp_pose_prices {
@@ -78,7 +72,7 @@ static bool allocate(sp_pose_prices *prices)
     if (!prices->twice || !prices->bests || !prices->scratches || !prices->field || !prices->texels || !prices->shares)
         return false;
     for (int i = 0; i < prices->threads; i++) {
-        prices->scratches[i].worth = malloc((prices->most + 1) * sizeof *prices->scratches[i].worth);
+        prices->scratches[i].worth = calloc(prices->most + SP_LANES, sizeof *prices->scratches[i].worth);
         prices->scratches[i].seen = calloc(texels, 1);
         if (!prices->scratches[i].worth || !prices->scratches[i].seen)
             return false;
@@ -140,128 +134,39 @@ static inline float share_of(const sp_pose_prices *prices, uint32_t texel, float
 }
 
 /* What each arrival of a view brings to a make, and each bin in all. */
-static void prepare_worth(const sp_pose_prices *prices, scratch *own, size_t at, const sp_make *make, const float *u)
+static void prepare_worth(const sp_pose_prices *prices, scratch *own, size_t at, const sp_make *make,
+                          const sp_prices *u)
 {
     const sp_view *view = &prices->search->visibility->views[at];
     const uint8_t *twice = prices->twice[at];
     double threshold = prices->search->threshold;
     float strength = threshold > 0 ? (float)(make->flow / (make->spray.solid_angle * threshold)) : INFINITY;
-    own->listed = 0;
-    for (uint32_t b = 0; b < SP_BINS; b++) {
-        double total = 0;
-        for (uint32_t i = view->start[b]; i < view->start[b + 1]; i++) {
-            uint32_t texel = view->patch[i];
-            own->worth[i] =
-                u[texel] > 0 ? u[texel] * share_of(prices, texel, strength * view->transfer[i], twice && twice[i]) : 0;
-            total += (double)own->worth[i];
-        }
-        own->total[b] = total;
-        if (total > 0)
-            own->list[own->listed++] = b;
+    for (uint32_t i = 0; i < view->count; i++) {
+        uint32_t t = view->patch[i];
+        own->worth[i] = 0;
+        if (!(prices->need[t] > 0))
+            continue;
+        float share = share_of(prices, t, strength * view->transfer[i], twice && twice[i]);
+        own->worth[i] = u->plain[t] * share;
+        if (u->lifts && u->lifted[t] > 0)
+            own->worth[i] += u->lifted[t] * sp_lift(u->lifts, u->kind[t], share);
     }
+    prices->search->sweeps->total(view, own->worth, own->total);
 }
 
-static void prepare_bins(const sp_pose_prices *prices, scratch *own, const sp_make *make)
-{
-    const sp_bins *bins = &prices->search->visibility->bins;
-    bool cone = make->spray.kind != SP_PATTERN_FLAT_FAN;
-    for (size_t i = 0; i < own->listed; i++) {
-        size_t b = own->list[i];
-        double radius = (double)bins->radius[b] + BIN_EDGE, outer = make->reach + radius;
-        own->beyond[b] = outer >= M_PI ? -2 : (float)cos(outer);
-        outer = make->spray.outer - radius;
-        double inner = make->spray.inner > 0 ? make->spray.inner + radius : -1;
-        bool holds = cone && outer > 0 && outer > inner;
-        own->within[b][0] = !holds ? 2 : make->spray.outer >= M_PI ? -2 : (float)cos(outer);
-        own->within[b][1] = inner < 0 ? 2 : (float)cos(inner);
-    }
-}
-
-/* The pattern of a pose, its edges moved outwards. */
-typedef struct {
-    bool fan;
-    float x[3], y[3], z[3];
-    float inner, outer, width, thickness;
-} region;
-
-static void narrow(sp_vec3 v, float out[3])
-{
-    out[0] = (float)v.x;
-    out[1] = (float)v.y;
-    out[2] = (float)v.z;
-}
-
-static region region_of(const sp_pose_prices *prices, const sp_make *make, sp_pose pose)
+/* The pose's price, rounded upwards. */
+static double price_of(const sp_pose_prices *prices, const scratch *own, const sp_view *view, sp_pose pose,
+                       sp_region *region)
 {
     const sp_search *search = prices->search;
     sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
     sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
     sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, up);
-    region r = {.fan = make->spray.kind == SP_PATTERN_FLAT_FAN,
-                .inner = make->spray.inner > 0 ? (float)(cos(make->spray.inner) + EDGE) : 2,
-                .outer = (float)(cos(make->spray.outer) - EDGE),
-                .width = (float)(cos(make->spray.half_width) - EDGE),
-                .thickness = (float)(sin(make->spray.half_thickness) + EDGE)};
-    narrow(frame.x, r.x);
-    narrow(frame.y, r.y);
-    narrow(frame.z, r.z);
-    return r;
-}
-
-static inline float dot(const float a[3], float x, float y, float z)
-{
-    return a[0] * x + a[1] * y + a[2] * z;
-}
-
-static inline bool holds(const region *r, const sp_view *view, uint32_t i)
-{
-    float z = dot(r->z, view->x[i], view->y[i], view->z[i]);
-    if (!r->fan)
-        return z >= r->outer && z <= r->inner;
-    if (fabsf(dot(r->y, view->x[i], view->y[i], view->z[i])) > r->thickness)
-        return false;
-    float x = dot(r->x, view->x[i], view->y[i], view->z[i]);
-    return z >= r->width * sqrtf(x * x + z * z) - (float)EDGE;
-}
-
-/* Whether a bin, `z` its centre's cosine to the axis, has no direction in the pattern. */
-static inline bool missed(const sp_bins *bins, const scratch *own, const region *r, uint32_t b, float z)
-{
-    if (z < own->beyond[b])
-        return true;
-    /* sin(a + b) <= sin a + b */
-    return r->fan &&
-           fabsf(dot(r->y, bins->x[b], bins->y[b], bins->z[b])) > r->thickness + bins->radius[b] + (float)BIN_EDGE;
-}
-
-/* The pose's price, or less than `least` where it cannot come to that. */
-static double price_of(const sp_pose_prices *prices, const scratch *own, const sp_view *view, const region *r,
-                       double least)
-{
-    const sp_bins *bins = &prices->search->visibility->bins;
-    uint32_t split[SP_BINS];
-    size_t splits = 0;
-    double whole = 0, most = 0;
-    for (size_t k = 0; k < own->listed; k++) {
-        uint32_t b = own->list[k];
-        float z = dot(r->z, bins->x[b], bins->y[b], bins->z[b]);
-        if (missed(bins, own, r, b, z))
-            continue;
-        if (z >= own->within[b][0] && z <= own->within[b][1]) {
-            whole += own->total[b];
-        } else {
-            most += own->total[b];
-            split[splits++] = b;
-        }
-    }
-    if ((whole + most) * UPWARDS <= least)
-        return 0;
-    for (size_t k = 0; k < splits; k++) {
-        uint32_t b = split[k];
-        for (uint32_t i = view->start[b]; i < view->start[b + 1]; i++)
-            whole += holds(r, view, i) ? (double)own->worth[i] : 0;
-    }
-    return whole * UPWARDS;
+    const sp_weight weight = {own->worth, own->total};
+    double price;
+    sp_region_turn(region, &frame);
+    search->sweeps->sum(&search->visibility->bins, &search->culls[pose.make], region, view, &weight, 1, &price);
+    return price * UPWARDS;
 }
 
 /* What a site's pose of a make must be worth to matter: more than is on offer, or than is needed. */
@@ -274,11 +179,13 @@ static double least_of(const sp_pose_prices *prices, size_t port, size_t tier, c
 }
 
 /* The best pose of every make at a site, of those that matter. */
-static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, const float *u, const double *needed,
+static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, const sp_prices *u, const double *needed,
                        const sp_offers *offers)
 {
     const sp_candidates *candidates = prices->search->candidates;
     uint32_t mount = prices->search->sites->items[site].mount;
+    sp_vec3 up = sp_evaluator_setup(prices->search->coarse)->up;
+    sp_frame frame = sp_nozzle_frame(prices->search->sites->items[site].axis, 0, up);
     for (uint32_t k = 0; k < candidates->make_count; k++) {
         const sp_make *make = &candidates->makes[k];
         best *found = &prices->bests[site * candidates->make_count + k];
@@ -290,12 +197,11 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
         if (!axes || !view->start || !isfinite(least) || prices->search->port_taken[mount])
             continue;
         prepare_worth(prices, own, at, make, u);
-        prepare_bins(prices, own, make);
+        sp_region region = sp_region_create(&make->spray, &frame);
         for (uint32_t a = 0; a < axes; a++)
             for (uint32_t r = 0; r < make->roll_count; r++) {
                 sp_pose pose = {site, k, a, r};
-                region pattern = region_of(prices, make, pose);
-                double price = price_of(prices, own, view, &pattern, fmax(found->price, least));
+                double price = price_of(prices, own, view, pose, &region);
                 if (price > fmax(found->price, least))
                     *found = (best){pose, price};
             }
@@ -388,7 +294,7 @@ static bool hand_out(const sp_pose_prices *prices, const double *needed, sp_rows
     return done;
 }
 
-static bool price_poses(void *user, const float *u, const double *needed, sp_offers *offers, sp_rows *rows,
+static bool price_poses(void *user, const sp_prices *u, const double *needed, sp_offers *offers, sp_rows *rows,
                         sp_error *error)
 {
     sp_pose_prices *prices = user;

@@ -41,7 +41,7 @@ static bool hand_out(const sp_stored *stored, entry *entries, size_t count, sp_r
     return done;
 }
 
-static bool price_stored(void *user, const float *u, const double *needed, sp_offers *offers, sp_rows *rows,
+static bool price_stored(void *user, const sp_prices *u, const double *needed, sp_offers *offers, sp_rows *rows,
                          sp_error *error)
 {
     const sp_stored *stored = user;

@@ -174,9 +174,9 @@ static void threads_do_not_matter(void **state)
         sp_bound bound;
         assert_true(sp_bound_create(&in.cover, &pricer, &bound, &error));
         assert_true(sp_bound_lower(&bound, 70, 3, &error));
-        price[i] = bound.price;
+        price[i] = bound.price.plain;
         by_water[i] = bound.by_water;
-        bound.price = NULL;
+        bound.price.plain = NULL;
         bound.by_water = NULL;
         sp_bound_free(&bound);
         instance_free(&in);

@@ -97,6 +97,7 @@ static inline void instance_create(instance *i, size_t candidates, size_t edge, 
                           .nozzles = nozzles,
                           .water = water,
                           .repeats = !single,
+                          .whole = single,
                           .threads = 1};
 }
 

@@ -1,0 +1,30 @@
+/* Stronger shares where liquid adds up: functions g of a candidate's share of what a texel needs for which the g of any
+ * nozzles that together suffice still come to 1. The share itself, min(1, f), is one; others see that few nozzles
+ * cannot make much of many small shares, or that two of 0.9 count no more than two of 0.5. */
+#ifndef OPTIMIZER_LIFT_H
+#define OPTIMIZER_LIFT_H
+
+#include <stddef.h>
+
+#define SP_LIFT_KINDS 24
+#define SP_LIFT_LEVELS 512
+
+/* value[kind][level]: g of shares up to level / SP_LIFT_LEVELS, none below the one before it. */
+typedef struct {
+    size_t nozzles; /* valid for layouts of at most so many */
+    size_t kinds;
+    float value[SP_LIFT_KINDS][SP_LIFT_LEVELS + 1];
+} sp_lifts;
+
+/* Functions for layouts of at most `nozzles`; all hold for fewer as well. */
+void sp_lifts_create(size_t nozzles, sp_lifts *lifts);
+
+/* g of a share in [0, 1], rounded upwards. */
+static inline float sp_lift(const sp_lifts *lifts, size_t kind, float share)
+{
+    float scaled = share * SP_LIFT_LEVELS;
+    size_t level = (size_t)scaled;
+    return lifts->value[kind][level + ((float)level < scaled)];
+}
+
+#endif
