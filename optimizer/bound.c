@@ -6,18 +6,15 @@
 
 #define ITERATIONS 200    /* of a solve, at most */
 #define TOLERANCE 5e-4    /* at which a solve ends, as a share of the bound */
-#define ROUNDS_LIFTED 3   /* at least, so that the lifts have settled */
-#define CLOSED 3e-4       /* all against the few: nearer than that, another round is not worth it */
 #define ROWS_MOST 800     /* of the few */
 #define CHOICE_LEAST 1e-6 /* a row that the linear program takes less of than this may go */
 
 bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *bound, sp_error *error)
 {
-    *bound = (sp_bound){.cover = cover, .pricer = pricer, .best = INFINITY};
+    *bound = (sp_bound){.cover = cover, .pricer = pricer, .iterations = ITERATIONS, .tolerance = TOLERANCE};
     if (!sp_dual_create(cover, &bound->dual, error) ||
         !sp_offers_create(cover->tier_count, cover->weight, cover->port_count, cover->nozzles, cover->repeats,
-                          &bound->offers, error) ||
-        !sp_prices_create(cover, &bound->price, error)) {
+                          &bound->offers, error)) {
         sp_bound_free(bound);
         return false;
     }
@@ -51,7 +48,6 @@ void sp_bound_free(sp_bound *bound)
     free(bound->by_water);
     free(bound->by_nozzles);
     free(bound->needed);
-    sp_prices_free(&bound->price);
     free(bound->table);
     *bound = (sp_bound){0};
 }
@@ -77,10 +73,10 @@ static void find_needed(sp_bound *bound, size_t water)
                                : most - bound->table[cover->nozzles * (water + 1) - 1 - cover->weight[k]];
 }
 
-/* Prices all candidates on top of the few and lowers every bound that these prices lower; *proved is the one at
+/* Prices all candidates on top of the few and lowers every bound that these prices lower;
  * `water`.
  */
-static bool prove(sp_bound *bound, size_t water, double *proved, sp_error *error)
+static bool prove(sp_bound *bound, size_t water, sp_error *error)
 {
     const sp_cover *cover = bound->cover;
     size_t row = cover->water + 1;
@@ -94,7 +90,7 @@ static bool prove(sp_bound *bound, size_t water, double *proved, sp_error *error
         bound->by_water[w] = fmin(bound->by_water[w], rest + bound->table[cover->nozzles * row + w]);
     for (size_t n = 0; n <= nozzles; n++)
         bound->by_nozzles[n] = fmin(bound->by_nozzles[n], rest + bound->table[n * row + cover->water]);
-    *proved = rest + bound->table[cover->nozzles * row + water];
+    bound->proved = rest + bound->table[cover->nozzles * row + water];
     return true;
 }
 
@@ -119,35 +115,25 @@ static bool thin_out(sp_bound *bound, sp_error *error)
     return true;
 }
 
-bool sp_bound_lower(sp_bound *bound, size_t water, size_t rounds, sp_error *error)
+bool sp_bound_lower(sp_bound *bound, size_t water, sp_error *error)
 {
     const sp_cover *cover = bound->cover;
-    sp_dual_task task = {.nozzles = cover->nozzles, .water = water, .iterations = ITERATIONS, .tolerance = TOLERANCE};
-    bound->best = INFINITY;
     size_t fit = water / bound->lightest;
     sp_lifts_create(fit < 1 ? 1 : fit < cover->nozzles ? fit : cover->nozzles, &bound->lifts);
-    task.lifts = bound->lifting ? &bound->lifts : NULL;
-    for (size_t round = 0; round < rounds; round++) {
-        double proved;
-        if (!thin_out(bound, error) || !sp_dual_solve(&bound->dual, &bound->rows, &task, error))
-            return false;
-        find_needed(bound, water);
-        if (!prove(bound, water, &proved, error))
-            return false;
-        if (proved < bound->best) {
-            bound->best = proved;
-            sp_prices_copy(cover, &bound->dual.price, &bound->price);
-        }
-        bool closed = proved <= bound->dual.bound * (1 + CLOSED);
-        if (closed && (cover->whole || round >= ROUNDS_LIFTED))
-            break;
-        if (!cover->whole) {
-            task.lifts = &bound->lifts;
-            bound->lifting = true;
-            if (!sp_dual_lift(&bound->dual, &bound->rows, &bound->lifts, error))
-                return false;
-        }
-    }
+    sp_dual_task task = {.nozzles = cover->nozzles,
+                         .water = water,
+                         .iterations = bound->iterations,
+                         .tolerance = bound->tolerance,
+                         .lifts = bound->lifting ? &bound->lifts : NULL};
+    if (bound->lifting && !sp_dual_lift(&bound->dual, &bound->rows, &bound->lifts, error))
+        return false;
+    if (!thin_out(bound, error) || !sp_dual_solve(&bound->dual, &bound->rows, &task, error))
+        return false;
+    find_needed(bound, water);
+    if (!prove(bound, water, error))
+        return false;
+    bound->closed = (bound->lifting || cover->whole) && bound->proved <= bound->dual.bound * (1 + bound->tolerance);
+    bound->lifting = !cover->whole;
     return true;
 }
 

@@ -25,17 +25,19 @@ typedef struct {
     double *table, *needed;
     sp_offers offers;
     uint32_t lightest; /* of the tiers */
-    double best;       /* the lowest at the last task's number and water */
-    sp_prices price;   /* that show it; until the next task */
+    double proved;     /* the bound at the last water by the last prices alone */
+    bool closed;       /* which is as low as these lifts go: all candidates bring no more than the few */
+    size_t iterations; /* of a solve, at most; may be set */
+    double tolerance;  /* at which a solve ends, as a share of the bound; may be set */
     sp_lifts lifts;    /* of the last task */
     bool lifting;      /* they have come into use */
 } sp_bound;
 
 bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *bound, sp_error *error);
 void sp_bound_free(sp_bound *bound);
-/* Lowers the bounds at and about `water` (units): solves and proves up to `rounds` times, fewer where that closes what
- * lies between the few and all. */
-bool sp_bound_lower(sp_bound *bound, size_t water, size_t rounds, sp_error *error);
+/* Lowers the bounds at and about `water` (units): solves on the few, then proves on all. Meant to be repeated: what all
+ * have that the few lack joins them, and texels take up new lifts. */
+bool sp_bound_lower(sp_bound *bound, size_t water, sp_error *error);
 /* The least water with which the bound does not rule out that `area` (m²) is covered; SIZE_MAX where it always does. */
 size_t sp_bound_water(const sp_bound *bound, double area);
 size_t sp_bound_nozzles(const sp_bound *bound, double area);

@@ -5,12 +5,18 @@
 
 #include <stdlib.h>
 
-#define ROUNDS_FIRST 5  /* of pricing all poses, at the proposal's water */
-#define ROUNDS_WATER 1  /* at a water that may be too little for the proposal's coverage */
-#define TRIALS_WATER 3  /* such waters */
-#define ROUNDS_FRONT 1  /* at a point of the front */
-#define POINTS_MOST 6   /* of the front, that get rounds of their own */
-#define OPEN_LEAST 0.01 /* gap of a point of the front that is worth rounds of its own */
+#define ROUNDS_FIRST 5    /* of pricing all poses, at the proposal's water */
+#define ROUNDS_WATER 1    /* at a water that may be too little for the proposal's coverage */
+#define TRIALS_WATER 3    /* such waters */
+#define ROUNDS_FRONT 1    /* at a point of the front */
+#define POINTS_MOST 6     /* of the front, that get rounds of their own */
+#define ROUNDS_LIFTED 3   /* at least, so that the lifts have settled */
+#define ROUNDS_PROVING 10 /* with --prove, at the proposal's water, and trials of water */
+#define ROUNDS_WATER_PROVING 4
+#define ITERATIONS_PROVING 1000
+#define TOLERANCE_PROVING 2e-5
+#define YIELD_LEAST 2e-4 /* of all bounds, that makes it worth while to go on */
+#define OPEN_LEAST 0.01  /* gap of a point of the front that is worth rounds of its own */
 
 typedef struct {
     const sp_search *search;
@@ -181,15 +187,34 @@ static size_t budget_of(const certifying *c, double flow)
     return budget < c->cover.water ? budget : c->cover.water;
 }
 
+/* True while there is time; that it ends here leaves the proposal as good as it is. */
+static bool goes_on(certifying *c, double done)
+{
+    double limit = c->watch->run.time_limit;
+    return (limit <= 0 || sp_watch_elapsed(c->watch) < limit) && sp_watch_goes_on(c->watch, "certificate", done);
+}
+
+/* Lowers the bound at this water. `done`: how far the certificate is. */
+static bool lower(certifying *c, size_t water, size_t rounds, double done, sp_error *error)
+{
+    for (size_t round = 0; round < rounds && goes_on(c, done); round++) {
+        if (!sp_bound_lower(&c->bound, water, error))
+            return false;
+        if (c->bound.closed && round >= ROUNDS_LIFTED)
+            break;
+    }
+    return true;
+}
+
 /* The least water for what the proposal covers: bounds are lowered where they first allow it, until they do not yield.
  */
-static bool lower_water(certifying *c, double area, sp_error *error)
+static bool lower_water(certifying *c, double area, size_t trials, size_t rounds, sp_error *error)
 {
-    for (int trial = 0; trial < TRIALS_WATER; trial++) {
+    for (size_t trial = 0; trial < trials; trial++) {
         size_t water = sp_bound_water(&c->bound, area);
-        if (!water || water > c->cover.water || !sp_watch_goes_on(c->watch, "certificate", 0.3 + 0.05 * trial))
+        if (!water || water > c->cover.water)
             return true;
-        if (!sp_bound_lower(&c->bound, water, ROUNDS_WATER, error))
+        if (!lower(c, water, rounds, 0.3 + 0.3 * (double)trial / (double)trials, error))
             return false;
         if (sp_bound_water(&c->bound, area) == water)
             return true;
@@ -197,21 +222,52 @@ static bool lower_water(certifying *c, double area, sp_error *error)
     return true;
 }
 
-static bool lower_front(certifying *c, sp_error *error)
+static bool lower_front(certifying *c, size_t stride, size_t rounds, sp_error *error)
 {
-    size_t stride = c->front->count / POINTS_MOST + 1;
     for (size_t i = 0; i < c->front->count; i += stride) {
         const sp_front_entry *entry = &c->front->entries[i];
         size_t water = budget_of(c, entry->point.flow);
-        double bound = c->bound.by_water[water], open = 1 - counted_area(c->search, &entry->design) / bound;
-        if (!water || open < OPEN_LEAST)
-            continue;
-        if (!sp_watch_goes_on(c->watch, "certificate", 0.6 + 0.4 * (double)i / (double)c->front->count))
-            return true;
-        if (!sp_bound_lower(&c->bound, water, ROUNDS_FRONT, error))
+        double open = 1 - counted_area(c->search, &entry->design) / c->bound.by_water[water];
+        if (water && open >= OPEN_LEAST &&
+            !lower(c, water, rounds, 0.6 + 0.4 * (double)i / (double)c->front->count, error))
             return false;
     }
     return true;
+}
+
+/* All that is to be lowered, in one figure. */
+static double bounds_sum(const certifying *c)
+{
+    double sum = 0;
+    for (size_t w = 0; w <= c->cover.water; w++)
+        sum += c->bound.by_water[w];
+    return sum;
+}
+
+/* The whole again, more carefully, until it yields no more. */
+static bool prove(certifying *c, size_t water, double area, sp_error *error)
+{
+    c->bound.iterations = ITERATIONS_PROVING;
+    c->bound.tolerance = TOLERANCE_PROVING;
+    for (double before = INFINITY, now = bounds_sum(c); now < before * (1 - YIELD_LEAST) && goes_on(c, 0.5);) {
+        if (!lower(c, water, ROUNDS_PROVING, 0.5, error) ||
+            !lower_water(c, area, ROUNDS_PROVING, ROUNDS_WATER_PROVING, error) ||
+            !lower_front(c, 1, ROUNDS_WATER_PROVING, error))
+            return false;
+        before = now;
+        now = bounds_sum(c);
+    }
+    return true;
+}
+
+static bool lower_all(certifying *c, sp_error *error)
+{
+    size_t water = budget_of(c, c->front->best.flow);
+    double area = counted_area(c->search, &c->front->best);
+    return sp_bound_lower(&c->bound, water, error) && lower(c, water, ROUNDS_FIRST - 1, 0.1, error) &&
+           lower_water(c, area, TRIALS_WATER, ROUNDS_WATER, error) &&
+           lower_front(c, c->front->count / POINTS_MOST + 1, ROUNDS_FRONT, error) &&
+           (!c->search->options->prove || prove(c, water, area, error));
 }
 
 /* Poses that were priced: those of mounting points that were traced, not in ports that kept nozzles take. */
@@ -266,8 +322,7 @@ bool sp_certify(const sp_search *search, sp_watch *watch, sp_front *front, sp_ce
         return false;
     bool done = true;
     if (set_limits(&c)) {
-        done = prepare(&c, error) && sp_bound_lower(&c.bound, budget_of(&c, front->best.flow), ROUNDS_FIRST, error) &&
-               lower_water(&c, counted_area(search, &front->best), error) && lower_front(&c, error);
+        done = prepare(&c, error) && lower_all(&c, error);
         if (done)
             conclude(&c, front, certificate);
     }

@@ -53,6 +53,7 @@ typedef struct {
     const double *pressures; /* Pa, borrowed */
     double clearance;        /* m */
     double memory;           /* bytes that what the mounting points can reach may take; 0: 1 GB */
+    bool prove; /* goes on lowering the certificate's bounds until the time limit, or for as long as they yield */
     size_t mount_count;
     const sp_mount *mounts; /* borrowed */
     sp_refine refine;

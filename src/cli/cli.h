@@ -15,7 +15,7 @@ enum { EXIT_DONE = 0, EXIT_OTHER = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_SHORT
 typedef struct {
     const char *const *inputs; /* what stands on the command line besides options */
     int input_count;
-    bool json, quiet, version;
+    bool json, quiet, version, prove;
     int threads;
     double time_limit;  /* s, 0: none */
     double memory;      /* bytes, 0: not given */
@@ -46,6 +46,7 @@ enum option_flag {
     OPTION_TIME_LIMIT = 16,
     OPTION_BENCH = 32, /* --rays, --mode, --trajectory */
     OPTION_MEMORY = 64,
+    OPTION_PROVE = 128,
 };
 
 /* options.c: fills options from the arguments after the command's name; false after a message on standard error. */

@@ -7,7 +7,7 @@ static const cli_command commands[] = {
     {"check", "SCENE", "what is in it, what is wrong with it, mesh diagnostics", OPTION_SET, cli_check, 1, 1},
     {"simulate", "SCENE [-o DIR]", "evaluate the scene's own nozzles", OPTION_SET | OPTION_OUTPUT, cli_simulate, 1, 1},
     {"place", "SCENE [-o DIR]", "propose a layout; compares with the scene's own nozzles",
-     OPTION_SET | OPTION_OUTPUT | OPTION_TIME_LIMIT | OPTION_MEMORY, cli_place, 1, 1},
+     OPTION_SET | OPTION_OUTPUT | OPTION_TIME_LIMIT | OPTION_MEMORY | OPTION_PROVE, cli_place, 1, 1},
     {"compare", "A B... [-o DIR]", "scenes or results side by side, one report", OPTION_SET | OPTION_OUTPUT,
      cli_compare, 2, 64},
     {"atlas", "MESH -o OUT.obj [--texel L]", "texture atlas only: mesh with UVs, chart pictures beside it, figures",
@@ -50,6 +50,7 @@ static void print_usage(FILE *to)
             "  --set KEY=VALUE   override a setting, as --set simulate.jets=20000 or --set place.refine=none\n"
             "  --time-limit S    place returns its best so far after S seconds\n"
             "  --memory SIZE     what place may take for all that its candidates can reach, as \"2 GB\"\n"
+            "  --prove           place spends the time limit on closing the gap between proposal and bound\n"
             "  --version, --help\n"
             "\n"
             "exit status: 0 done; 2 wrong usage; 3 bad input; 4 done, but the proposal does not reach the coverage\n"
@@ -69,6 +70,9 @@ static void print_command_usage(FILE *to, const cli_command *command)
         fprintf(
             to,
             "  --memory SIZE              what all that candidates can reach may take, as \"2 GB\" (default 1 GB)\n");
+    if (command->options & OPTION_PROVE)
+        fprintf(to,
+                "  --prove                    spend the time limit on closing the gap between proposal and bound\n");
     if (command->options & OPTION_TEXEL)
         fprintf(to, "  --texel L                  edge length of a texel, as 10mm or 0.01\n");
     if (command->options & OPTION_RAYS)

@@ -21,7 +21,8 @@ enum {
     ACCEL,
     MODE,
     TRAJECTORY,
-    MEMORY
+    MEMORY,
+    PROVE
 };
 
 static const struct option long_options[] = {
@@ -39,6 +40,7 @@ static const struct option long_options[] = {
     {"mode", required_argument, NULL, MODE},
     {"trajectory", required_argument, NULL, TRAJECTORY},
     {"memory", required_argument, NULL, MEMORY},
+    {"prove", no_argument, NULL, PROVE},
     {NULL, 0, NULL, 0},
 };
 
@@ -56,6 +58,8 @@ static unsigned flag_of(int option)
         return OPTION_TEXEL;
     case MEMORY:
         return OPTION_MEMORY;
+    case PROVE:
+        return OPTION_PROVE;
     case RAYS:
         return OPTION_RAYS | OPTION_BENCH;
     case MODE:
@@ -71,10 +75,11 @@ static unsigned flag_of(int option)
 
 static const char *name_of(int option)
 {
-    static const char *const names[] = {
-        [SET - JSON] = "--set",   [TIME_LIMIT - JSON] = "--time-limit", [TEXEL - JSON] = "--texel",
-        [RAYS - JSON] = "--rays", [GRAVITY - JSON] = "--gravity",       [ACCEL - JSON] = "--accel",
-        [MODE - JSON] = "--mode", [TRAJECTORY - JSON] = "--trajectory", [MEMORY - JSON] = "--memory"};
+    static const char *const names[] = {[SET - JSON] = "--set",         [TIME_LIMIT - JSON] = "--time-limit",
+                                        [TEXEL - JSON] = "--texel",     [RAYS - JSON] = "--rays",
+                                        [GRAVITY - JSON] = "--gravity", [ACCEL - JSON] = "--accel",
+                                        [MODE - JSON] = "--mode",       [TRAJECTORY - JSON] = "--trajectory",
+                                        [MEMORY - JSON] = "--memory",   [PROVE - JSON] = "--prove"};
     return option == 'o' ? "-o" : names[option - JSON];
 }
 
@@ -189,6 +194,9 @@ static bool take_option(int option, const char *value, cli_options *options, boo
         return parse_time_limit(value, &options->time_limit);
     case QUIET:
         options->quiet = true;
+        return true;
+    case PROVE:
+        options->prove = true;
         return true;
     case SET:
         return parse_override(value, options);

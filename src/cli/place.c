@@ -70,6 +70,7 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
         sp_place_options how = sp_scene_place_options(opened->scene);
         how.run = cli_run(options);
         how.memory = options->memory;
+        how.prove = options->prove;
         found.proposal = sp_place(opened->evaluator, &how, error);
     }
     int status = found.proposal ? report(options, opened, &found, clock, error) : cli_fail_in(opened, error);

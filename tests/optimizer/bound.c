@@ -74,9 +74,11 @@ static void check_instance(instance *in, size_t start_rows, double *looseness)
                                 in->rows.texel + in->rows.start[c], in->rows.share + in->rows.start[c],
                                 in->rows.start[c + 1] - in->rows.start[c], &error));
     for (size_t w = water; w > water / 4; w -= 4) {
-        assert_true(sp_bound_lower(&bound, w, ROUNDS, &error));
-        assert_true(bound.best >= t.by_water[w]);
-        assert_true(bound.by_water[w] <= bound.best);
+        for (int round = 0; round < ROUNDS; round++) {
+            assert_true(sp_bound_lower(&bound, w, &error));
+            assert_true(bound.proved >= t.by_water[w]);
+            assert_true(bound.by_water[w] <= bound.proved);
+        }
     }
     for (size_t w = 0; w <= water; w++)
         assert_true(bound.by_water[w] >= t.by_water[w]);
@@ -111,7 +113,7 @@ static void never_below_the_optimum(void **state)
         print_message("%s: on average %.1f %% above the optimum\n", single ? "single" : "sum",
                       100 * looseness / INSTANCES);
         /* and worth something: on average not far above it */
-        assert_true(looseness / INSTANCES < (single ? 0.1 : 1.0));
+        assert_true(looseness / INSTANCES < (single ? 0.02 : 0.6));
     }
 }
 
@@ -147,7 +149,8 @@ static void tight_where_nothing_overlaps(void **state)
     sp_pricer pricer = sp_stored_pricer(&stored);
     sp_bound bound;
     assert_true(sp_bound_create(&cover, &pricer, &bound, &error));
-    assert_true(sp_bound_lower(&bound, 14, ROUNDS, &error));
+    for (int round = 0; round < ROUNDS; round++)
+        assert_true(sp_bound_lower(&bound, 14, &error));
     /* the four largest, of 3 + 4 + 3 + 4: 25 + 35 + 45 + 55 */
     assert_true(bound.by_water[14] >= 162);
     assert_true(bound.by_water[14] <= 162 * (1 + 1e-6));
@@ -173,10 +176,11 @@ static void threads_do_not_matter(void **state)
         sp_pricer pricer = sp_stored_pricer(&stored);
         sp_bound bound;
         assert_true(sp_bound_create(&in.cover, &pricer, &bound, &error));
-        assert_true(sp_bound_lower(&bound, 70, 3, &error));
-        price[i] = bound.price.plain;
+        for (int round = 0; round < 3; round++)
+            assert_true(sp_bound_lower(&bound, 70, &error));
+        price[i] = bound.dual.price.plain;
         by_water[i] = bound.by_water;
-        bound.price.plain = NULL;
+        bound.dual.price.plain = NULL;
         bound.by_water = NULL;
         sp_bound_free(&bound);
         instance_free(&in);
