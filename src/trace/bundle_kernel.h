@@ -229,8 +229,8 @@ void SP_KERNEL(sp_bundle_search)(sp_bundle *b)
     }
 }
 
-/* What the test in line.c and weigh.h makes of a bundle's hits, all lanes at once: a compiler sees vectors in these loops, and
- * every operation is the one of line.c, so that the bits are. */
+/* What the test in line.c and weigh.h makes of a bundle's hits, all lanes at once: a compiler sees vectors in these
+ * loops, and every operation is the one of line.c, so that the bits are. */
 typedef struct {
     double velocity[3][SP_BUNDLE];  /* along x, y, z */
     double corner[3][3][SP_BUNDLE]; /* [corner][x, y, z] */

@@ -22,7 +22,10 @@ typedef struct {
     uint8_t low[3][SP_BVH_WIDTH], high[3][SP_BVH_WIDTH];
     uint32_t child[SP_BVH_WIDTH]; /* a node's number, or a block's with SP_BVH_LEAF */
     uint32_t count;               /* children in use */
-    uint32_t unused[5];           /* a node is two lines of the cache */
+    /* The children from far to near, three bits each from the lowest on, for lines that rise along x: [1] where they
+     * fall along y, [2] along z, [3] along both. For lines that fall along x, the other way round. */
+    uint32_t order[4];
+    uint32_t unused; /* a node is two lines of the cache */
 } sp_bvh_node;
 
 /* A leaf. Slots in use come first; the others have corners that are no numbers. */

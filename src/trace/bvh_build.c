@@ -123,12 +123,37 @@ static int make_children(builder *b, const sp_bvh_range *range, int depth, int t
     return count;
 }
 
+/* Children in the order in which a line along a diagonal of space leaves their middles behind, reversed. */
+static uint32_t order_children(const sp_bvh_range *children, int count, int diagonal)
+{
+    float key[SP_BVH_WIDTH];
+    int order[SP_BVH_WIDTH];
+    uint32_t bits = 0;
+    for (int i = 0; i < SP_BVH_WIDTH; i++) {
+        int place = i;
+        key[i] = INFINITY;
+        if (i < count) {
+            const sp_bvh_box *box = &children[i].box;
+            float y = box->low[1] + box->high[1], z = box->low[2] + box->high[2];
+            key[i] = box->low[0] + box->high[0] + (diagonal & 1 ? -y : y) + (diagonal & 2 ? -z : z);
+        }
+        for (; place > 0 && key[order[place - 1]] < key[i]; place--)
+            order[place] = order[place - 1];
+        order[place] = i;
+    }
+    for (int i = 0; i < SP_BVH_WIDTH; i++)
+        bits |= (uint32_t)order[i] << 3 * i;
+    return bits;
+}
+
 /* The children's boxes in steps from the node's corner, rounded outwards. */
 static void quantise(sp_bvh_node *node, const sp_bvh_box *box, const sp_bvh_range *children, int count)
 {
     memset(node, 0, sizeof *node);
     memset(node->low, 255, sizeof node->low);
     node->count = (uint32_t)count;
+    for (int diagonal = 0; diagonal < 4; diagonal++)
+        node->order[diagonal] = order_children(children, count, diagonal);
     for (int axis = 0; axis < 3; axis++) {
         double origin = box->low[axis];
         float step = nextafterf((float)((box->high[axis] - origin) / 255), 1);

@@ -3,11 +3,6 @@
 #include "trace/line_bvh.h"
 #include "trace/wide.h"
 
-typedef struct {
-    uint32_t child;
-    float way; /* where the line enters its box */
-} pending;
-
 /* Which children the line passes, and where it enters each.
  *
  * Nothing that a hit is in is left out. Say the origin is at most 7 and the box at most 1 away from 0 along every axis,
@@ -18,7 +13,7 @@ typedef struct {
  * less than 64 e = SP_BVH_PAD = 2^-18, by which the boxes are wider than what they hold, along every axis, so that a
  * line that hits a triangle enters its boxes before the hit and leaves them after it. An inverse that is cut to 2^60
  * turns the line by 2^-60. Bounds are finite, so that no infinity or NaN arises. */
-static inline uint32_t enter_children(const sp_bvh_node *node, const sp_bvh_line *ray, wide *way)
+static inline void enter_children(const sp_bvh_node *node, const sp_bvh_line *ray, wide *enters, wide *leaves)
 {
     const uint8_t *bytes = (const uint8_t *)node->low;
     wide from = wide_set(ray->first), to = wide_set(ray->last);
@@ -29,13 +24,14 @@ static inline uint32_t enter_children(const sp_bvh_node *node, const sp_bvh_line
         from = wide_greater(from, wide_multiply_add(wide_bytes(bytes + near), step, corner));
         to = wide_lesser(to, wide_multiply_add(wide_bytes(bytes + far), step, corner));
     }
-    *way = from;
-    return wide_at_most(from, to);
+    *enters = from;
+    *leaves = to;
 }
 
 /* What is to be known of a block's triangles: those that may be hit, and those that surely are. */
 typedef struct {
     uint32_t maybe, surely;
+    float low[8], high[8]; /* of those surely hit: where */
 } verdict;
 
 /* The watertight test of line.c in single precision, with a bound on what that may change.
@@ -46,16 +42,15 @@ typedef struct {
  * of at most M then is off by 4 M blur + 2 blur^2, and by rounding of its own 4 e M^2. The weights in double precision,
  * scaled alike, are off by far less, which the difference between 10 and 13 covers: a weight that is below -error here
  * is below zero there. The way to a hit lies between those to the nearest and farthest corner. */
-static inline verdict test_block(const sp_bvh_block *block, const sp_bvh_line *ray)
+static inline void test_block(const sp_bvh_block *block, const sp_bvh_line *ray, verdict *found)
 {
     wide x[3], y[3], z[3], sign = wide_set(ray->sign);
     for (int i = 0; i < 3; i++) {
-        wide away = wide_subtract(wide_load(block->corner[i][ray->z]), wide_set(ray->origin[ray->z]));
+        z[i] = wide_multiply(wide_subtract(wide_load(block->corner[i][ray->z]), wide_set(ray->origin[ray->z])), sign);
         x[i] = wide_subtract(wide_load(block->corner[i][ray->x]), wide_set(ray->origin[ray->x]));
         y[i] = wide_subtract(wide_load(block->corner[i][ray->y]), wide_set(ray->origin[ray->y]));
-        x[i] = wide_subtract_product(x[i], wide_set(ray->shear_x), away);
-        y[i] = wide_subtract_product(y[i], wide_set(ray->shear_y), away);
-        z[i] = wide_multiply(away, sign);
+        x[i] = wide_subtract_product(x[i], wide_set(ray->direction[ray->x]), z[i]);
+        y[i] = wide_subtract_product(y[i], wide_set(ray->direction[ray->y]), z[i]);
     }
     wide u = wide_subtract_product(wide_multiply(x[2], y[1]), y[2], x[1]);
     wide v = wide_subtract_product(wide_multiply(x[0], y[2]), y[0], x[2]);
@@ -69,76 +64,126 @@ static inline verdict test_block(const sp_bvh_block *block, const sp_bvh_line *r
     wide least = wide_lesser(wide_lesser(u, v), w), largest = wide_greater(wide_greater(u, v), w);
     wide minus = wide_subtract(wide_set(0), error);
     uint32_t inside = wide_at_most(minus, least) | wide_at_most(largest, error);
+    found->maybe = found->surely = 0;
     if (!inside)
-        return (verdict){0, 0};
+        return;
     wide nearest = wide_lesser(wide_lesser(z[0], z[1]), z[2]), farthest = wide_greater(wide_greater(z[0], z[1]), z[2]);
     wide pad = wide_set(SP_BVH_PAD);
-    uint32_t maybe = inside & wide_at_most(nearest, wide_add(wide_set(ray->last), pad)) &
-                     wide_at_most(wide_subtract(wide_set(ray->first), pad), farthest);
-    uint32_t surely = maybe & (wide_at_most(error, least) | wide_at_most(largest, minus)) &
-                      wide_at_most(wide_set(ray->surely_first), nearest) &
-                      wide_at_most(farthest, wide_set(ray->surely_last));
-    return (verdict){maybe, surely};
+    found->maybe = inside & wide_at_most(nearest, wide_add(wide_set(ray->last), pad)) &
+                   wide_at_most(wide_subtract(wide_set(ray->first), pad), farthest);
+    if (!found->maybe)
+        return;
+    wide sum = wide_add(wide_add(u, v), w), inverse = wide_divide(wide_set(1), sum);
+    wide way = wide_multiply_add(u, z[0], wide_multiply_add(v, z[1], wide_multiply(w, z[2])));
+    wide spread = wide_multiply(wide_multiply(error, wide_set(16)), wide_greater_amount(nearest, farthest));
+    spread = wide_multiply_add(spread, wide_absolute(inverse), wide_set(blur));
+    way = wide_multiply(way, inverse);
+    found->surely = found->maybe & (wide_at_most(error, least) | wide_at_most(largest, minus)) &
+                    wide_at_most(wide_multiply(error, wide_set(8)), wide_absolute(sum));
+    wide_store(found->low, wide_subtract(way, spread));
+    wide_store(found->high, wide_add(way, spread));
 }
 
-/* Puts what a block decides into the search; true where the search is over. */
-static bool search_block(sp_bvh_flight *flight, const sp_bvh_block *block)
+/* Takes a hit that is sure in single precision, or asks double precision. True where the search is over. */
+static inline bool take(const sp_bvh *bvh, sp_bvh_flight *flight, uint32_t triangle, bool sure, float low, float high)
 {
-    sp_search *search = flight->search;
-    verdict found = test_block(block, &flight->ray);
-    for (uint32_t rest = search->any ? found.surely : 0; rest; rest &= rest - 1) {
-        uint32_t triangle = block->triangle[__builtin_ctz(rest)];
-        if (triangle != search->skip) {
-            search->best.triangle = triangle;
-            return true;
-        }
-    }
-    for (uint32_t rest = found.maybe; rest; rest &= rest - 1) {
-        uint32_t triangle = block->triangle[__builtin_ctz(rest)];
-        sp_corners corners;
-        sp_bvh_corners(flight->bvh, triangle, corners);
-        sp_line_test(flight->line, (const double(*)[3])corners, triangle, search);
-    }
-    if (found.maybe)
-        sp_bvh_line_shorten(&flight->ray, search->limit);
-    return sp_search_done(search);
-}
-
-/* Puts the children onto the stack, the nearest on top. */
-static inline int push_children(const sp_bvh_node *node, uint32_t mask, const float ways[8], pending *stack)
-{
-    int count = 0;
-    for (; mask; mask &= mask - 1) {
-        int i = __builtin_ctz(mask), place = count++;
-        pending item = {node->child[i], ways[i]};
-        for (; place > 0 && stack[place - 1].way < item.way; place--)
-            stack[place] = stack[place - 1];
-        stack[place] = item;
-    }
-    return count;
-}
-
-void SP_KERNEL(sp_bvh_line)(sp_bvh_flight *flight)
-{
-    const sp_bvh *bvh = flight->bvh;
     sp_bvh_line *ray = &flight->ray;
-    pending stack[SP_BVH_STACK];
-    int height = 1;
-    stack[0] = (pending){0, 0};
-    while (height > 0) {
-        pending at = stack[--height];
-        if (at.way > ray->last)
-            continue;
-        if (at.child & SP_BVH_LEAF) {
-            if (search_block(flight, &bvh->blocks[at.child - SP_BVH_LEAF]))
-                return;
-            continue;
+    if (triangle == flight->search.skip || (sure && (low > ray->last || high < ray->first)))
+        return false;
+    if (!sure || low < ray->surely_first || high > ray->surely_last || (high >= flight->low && !flight->search.any)) {
+        sp_bvh_flight_settle(bvh, flight, triangle);
+    } else {
+        flight->triangle = triangle;
+        flight->low = low;
+        ray->last = high;
+        __builtin_prefetch(&bvh->mesh->triangles[triangle]);
+    }
+    return flight->search.any && flight->triangle != SP_NONE;
+}
+
+/* True where the search is over. */
+static inline bool search_block(const sp_bvh *bvh, sp_bvh_flight *flight, const sp_bvh_block *block)
+{
+    verdict found;
+    test_block(block, &flight->ray, &found);
+    for (uint32_t rest = found.maybe; rest; rest &= rest - 1) {
+        int i = __builtin_ctz(rest);
+        if (take(bvh, flight, block->triangle[i], found.surely >> i & 1, found.low[i], found.high[i]))
+            return true;
+    }
+    return false;
+}
+
+static inline void fetch(const sp_bvh *bvh, uint32_t child)
+{
+    if (child & SP_BVH_LEAF) {
+        const char *block = (const char *)&bvh->blocks[child - SP_BVH_LEAF];
+        for (size_t line = 0; line < sizeof(sp_bvh_block); line += 64)
+            __builtin_prefetch(block + line);
+    } else {
+        const char *node = (const char *)&bvh->nodes[child];
+        __builtin_prefetch(node);
+        __builtin_prefetch(node + 64);
+    }
+}
+
+/* The answer is computed from the mesh, whose triangle has been sent for; sends for its corners first. True where that
+ * is needed. */
+static inline bool needs_corners(const sp_bvh *bvh, sp_bvh_flight *flight)
+{
+    if (flight->ending || flight->search.any || flight->triangle == SP_NONE)
+        return false;
+    flight->ending = true;
+    flight->height = 0;
+    for (int i = 0; i < 3; i++)
+        __builtin_prefetch(&bvh->mesh->vertices[bvh->mesh->triangles[flight->triangle][i]]);
+    return true;
+}
+
+/* Visits what is on top of the stack; false where the line is at its end. */
+static inline bool step(const sp_bvh *bvh, sp_bvh_flight *flight)
+{
+    int height = flight->height;
+    float last = flight->ray.last;
+    do
+        if (--height < 0)
+            return needs_corners(bvh, flight);
+    while (flight->way[height] > last);
+    uint32_t child = flight->child[height];
+    if (child & SP_BVH_LEAF) {
+        if (search_block(bvh, flight, &bvh->blocks[child - SP_BVH_LEAF]))
+            return false;
+    } else {
+        const sp_bvh_node *node = &bvh->nodes[child];
+        wide enters, leaves;
+        enter_children(node, &flight->ray, &enters, &leaves);
+        uint32_t diagonal = flight->ray.diagonal;
+        uint64_t order = wide_order(node->order[diagonal >> 1]);
+        if (diagonal & 1)
+            order = __builtin_bswap64(order);
+        height += wide_pack(node->child, enters, leaves, order, flight->child + height, flight->way + height);
+    }
+    flight->height = height;
+    if (height > 0)
+        fetch(bvh, flight->child[height - 1]);
+    return true;
+}
+
+void SP_KERNEL(sp_bvh_lines)(sp_bvh_stream *stream, sp_bvh_flight *flights)
+{
+    sp_bvh_flight *active[SP_BVH_FLIGHTS];
+    int count = 0;
+    while (count < SP_BVH_FLIGHTS && sp_bvh_stream_begin(stream, &flights[count])) {
+        active[count] = &flights[count];
+        count++;
+    }
+    while (count > 0) {
+        for (int i = 0; i < count; i++) {
+            if (step(stream->bvh, active[i]))
+                continue;
+            sp_bvh_stream_end(stream, active[i]);
+            if (!sp_bvh_stream_begin(stream, active[i]))
+                active[i--] = active[--count];
         }
-        const sp_bvh_node *node = &bvh->nodes[at.child];
-        float ways[8];
-        wide way;
-        uint32_t mask = enter_children(node, ray, &way);
-        wide_store(ways, way);
-        height += push_children(node, mask, ways, stack + height);
     }
 }

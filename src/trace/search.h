@@ -4,6 +4,8 @@
 
 #include <sprayplan/trace.h>
 
+#include <float.h>
+
 /* fmin and fmax without their rule for NaN, which costs a call. */
 static inline double sp_lesser(double a, double b)
 {
@@ -27,7 +29,8 @@ typedef struct {
 
 static inline sp_search sp_search_start(const sp_ray *ray, bool any)
 {
-    return (sp_search){ray->t_min, nextafter(ray->t_max, -INFINITY), ray->skip, any, {INFINITY, 0, 0, SP_NONE}};
+    double limit = ray->t_max == INFINITY ? DBL_MAX : nextafter(ray->t_max, -INFINITY);
+    return (sp_search){ray->t_min, limit, ray->skip, any, {INFINITY, 0, 0, SP_NONE}};
 }
 
 /* Of equal times the lowest triangle wins, in whatever order they come. */

@@ -98,9 +98,7 @@ static void search_line(const sp_tracer *tracer, const sp_ray *ray, sp_search *s
     sp_line line;
     if (!sp_line_start(&line, ray))
         return;
-    if (tracer->accelerator == SP_ACCELERATOR_BVH)
-        sp_line_search_bvh(&line, &tracer->bvh, tracer->instructions, search);
-    else if (tracer->accelerator == SP_ACCELERATOR_NONE)
+    if (tracer->accelerator == SP_ACCELERATOR_NONE)
         sp_line_search_all(&line, corners, tracer->mesh->triangle_count, search);
     else
         sp_line_search_tree(&line, corners, &tracer->tree, search);
@@ -123,11 +121,21 @@ static void search_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp
         sp_parabola_search_tree(&parabola, corners, &tracer->tree, search);
 }
 
+static void trace_line(const sp_tracer *tracer, const sp_ray *ray, sp_search *search)
+{
+    bool occluded = false;
+    sp_bvh_trace_lines(&tracer->bvh, tracer->instructions, ray, 1, search->any ? NULL : &search->best, &occluded);
+    if (occluded)
+        search->best.triangle = 0; /* or another */
+}
+
 static sp_hit trace(const sp_tracer *tracer, const sp_ray *ray, const sp_pull *pull, bool any)
 {
     sp_search search = sp_search_start(ray, any);
     if (pull->strength != 0)
         search_parabola(tracer, ray, pull, &search);
+    else if (tracer->accelerator == SP_ACCELERATOR_BVH)
+        trace_line(tracer, ray, &search);
     else
         search_line(tracer, ray, &search);
     return search.best;
@@ -165,24 +173,44 @@ static size_t count_fan(const sp_ray *rays, size_t count)
 }
 
 /* hits or occluded, whichever is not NULL. */
+static void trace_one_by_one(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_pull *pull,
+                             sp_hit *hits, bool *occluded)
+{
+    for (size_t i = 0; i < count; i++) {
+        sp_hit hit = trace(tracer, &rays[i], pull, !hits);
+        if (hits)
+            hits[i] = hit;
+        else
+            occluded[i] = hit.triangle != SP_NONE;
+    }
+}
+
+/* Lines through the bvh: fans together, all others as a stream. */
+static void trace_lines(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_hit *hits, bool *occluded)
+{
+    const sp_bvh *bvh = &tracer->bvh;
+    sp_instructions instructions = tracer->instructions;
+    size_t alone = 0; /* the first not yet traced */
+    for (size_t i = 0, n; i <= count; i += n) {
+        n = i < count ? count_fan(rays + i, count - i) : 1;
+        if (i < count && n < FAN_LEAST)
+            continue;
+        sp_bvh_trace_lines(bvh, instructions, rays + alone, i - alone, hits ? hits + alone : NULL,
+                           hits ? NULL : occluded + alone);
+        alone = i;
+        if (i < count &&
+            sp_fan_trace(bvh, instructions, rays + i, n, hits ? hits + i : NULL, hits ? NULL : occluded + i))
+            alone += n;
+    }
+}
+
 static void trace_chunk(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_pull *pull, sp_hit *hits,
                         bool *occluded)
 {
-    bool fans = tracer->accelerator == SP_ACCELERATOR_BVH && pull->strength == 0;
-    for (size_t i = 0, n; i < count; i += n) {
-        n = fans ? count_fan(rays + i, count - i) : count - i;
-        if (fans && n >= FAN_LEAST &&
-            sp_fan_trace(&tracer->bvh, tracer->instructions, rays + i, n, hits ? hits + i : NULL,
-                         hits ? NULL : occluded + i))
-            continue;
-        for (size_t k = i; k < i + n; k++) {
-            sp_hit hit = trace(tracer, &rays[k], pull, !hits);
-            if (hits)
-                hits[k] = hit;
-            else
-                occluded[k] = hit.triangle != SP_NONE;
-        }
-    }
+    if (tracer->accelerator == SP_ACCELERATOR_BVH && pull->strength == 0)
+        trace_lines(tracer, rays, count, hits, occluded);
+    else
+        trace_one_by_one(tracer, rays, count, pull, hits, occluded);
 }
 
 static void trace_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity, int threads,
