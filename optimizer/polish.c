@@ -5,7 +5,7 @@
 #include <omp.h>
 #include <stdlib.h>
 
-#define ROUGH_PATCHES 5000.0 /* most of the polishing sees no more than these show */
+#define ROUGH_PATCHES 4000.0 /* most of the polishing sees no more than these show */
 #define SIGHTS 24            /* kept for each thread */
 #define STEP_FIRST 0.25      /* of half an unknown's range, of the compass */
 #define STEP_SHARP 0.12
@@ -130,9 +130,9 @@ static bool fit(sp_sights *sights, double budget, sp_design *design, bool *fits,
 static bool anneal(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, sp_design *design,
                    sp_error *error)
 {
-    static const size_t starts[] = {4, 2, 0};
+    static const size_t starts[] = {3, 0};
     for (size_t i = 0; i < sizeof starts / sizeof *starts; i++)
-        if ((trial->kind == SP_TRIAL_POLISH || i == 1 + trial->seed % 2) &&
+        if ((trial->kind == SP_TRIAL_POLISH || i == trial->seed % 2) &&
             !sp_anneal(sights, starts[i], SP_WIDTHS, trial->budget, polishing->watch, design, error))
             return false;
     return true;

@@ -9,7 +9,6 @@
 #define MISSING_MOST 0.03 /* of the target: more, refinement is not expected to make up for */
 #define BATCH 8           /* kicks of one design at a time; fixed, so that the answer does not depend on the threads */
 #define BATCHES 2         /* before less water is given up */
-#define FRONT_ROUNDS 2    /* kicks of every design of the front */
 
 typedef struct {
     const sp_search *search;
@@ -235,10 +234,7 @@ static bool refine_all(sp_refining *refining)
     bool saves = front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
     if (saves && !(save_water(refining) && save_flow(refining)))
         return false;
-    for (int round = 0; round < FRONT_ROUNDS; round++)
-        if (!kick_front(refining))
-            return false;
-    return sharpen_best(refining);
+    return kick_front(refining) && sharpen_best(refining);
 }
 
 bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error)

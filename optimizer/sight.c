@@ -151,12 +151,8 @@ static bool holds(const sp_spray *spray, double inner, double outer, const sp_fr
     return sp_spray_intensity(spray, sp_v(sp_dot(d, frame->x), sp_dot(d, frame->y), z)) > 0;
 }
 
-bool sp_sights_field(sp_sights *sights, sp_placed *placed, float *field, sp_error *error)
+void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_placed *placed, float *field)
 {
-    const sp_sight *sight = sp_sights_look(sights, placed, error);
-    if (!sight)
-        return false;
-    const sp_search *search = sights->search;
     const sp_setup *setup = sp_evaluator_setup(search->coarse);
     const sp_nozzle *nozzle = &placed->nozzle;
     sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
@@ -174,5 +170,12 @@ bool sp_sights_field(sp_sights *sights, sp_placed *placed, float *field, sp_erro
         if (transfer > 0 && holds(&spray, inner, outer, &frame, flight.direction))
             field[seen->patch] += search->threshold > 0 ? (float)(strength * transfer) : INFINITY;
     }
-    return true;
+}
+
+bool sp_sights_field(sp_sights *sights, const sp_placed *placed, float *field, sp_error *error)
+{
+    const sp_sight *sight = sp_sights_look(sights, placed, error);
+    if (sight)
+        sp_sight_field(sights->search, sight, placed, field);
+    return sight;
 }
