@@ -7,7 +7,6 @@
 
 #define PLACE_LEAST 0.05 /* of half the range: each move of a place is traced */
 #define SWEEPS_MOST 4    /* at one size of step */
-#define LOSS_MOST 1e-3   /* of the area, that looking from the new place may make up for */
 #define GAIN_LEAST 1e-6  /* of the area, for a step to count */
 
 /* The nozzle in hand, and the design without it. */
@@ -21,18 +20,6 @@ typedef struct {
     float *trial; /* [patch_count] */
     sp_error *error;
 } sp_needle;
-
-/* Whether a trial in another place may be better, going by what can be seen from here: most are worse by far. */
-static bool is_hopeful(sp_needle *needle, const sp_placed *trial, bool *hopeful)
-{
-    const sp_sight *here = sp_sights_look(needle->sights, &needle->placed, needle->error);
-    if (!here)
-        return false;
-    sp_sight_field(needle->search, here, trial, needle->trial);
-    double gain = sp_field_gain(needle->search, needle->design->wet, needle->trial);
-    *hopeful = gain >= needle->gain - LOSS_MOST * sp_evaluator_patches(needle->search->coarse)->total_area;
-    return true;
-}
 
 /* Tries one value of one unknown and keeps it where more is covered. */
 static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
@@ -50,11 +37,6 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
         return true;
     bool elsewhere = sp_distance(trial.nozzle.position, needle->placed.nozzle.position) > 0;
     if (freedom.kind[k] == SP_UNKNOWN_PLACE && !elsewhere)
-        return true;
-    bool hopeful = true;
-    if (elsewhere && !is_hopeful(needle, &trial, &hopeful))
-        return false;
-    if (!hopeful)
         return true;
     if (!sp_sights_field(needle->sights, &trial, needle->trial, needle->error))
         return false;

@@ -3,7 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NEAR 0.2 /* of a texel */
+#define NEAR 0.2  /* of a texel */
+#define SPARE 0.2 /* rad beyond what the nozzle can reach from its place, for when it moves */
 
 bool sp_sights_reserve(sp_sights *sights, size_t capacity, sp_error *error)
 {
@@ -47,7 +48,7 @@ static double needed(const sp_search *search, const sp_placed *placed)
     sp_angle_range(options, placed->nozzle.type, &low, &high);
     sp_spray spray = sp_spray_create(placed->nozzle.type, fmax(high, sp_nozzle_angle(&placed->nozzle)));
     double turn = fmin(options->refine.axis, 2 * options->mounts[placed->site.mount].tilt);
-    return fmin(M_PI, sp_spray_reach(&spray) + turn + 1e-6);
+    return fmin(M_PI, sp_spray_reach(&spray) + turn + SPARE);
 }
 
 static bool equal(sp_vec3 a, sp_vec3 b)

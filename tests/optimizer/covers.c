@@ -5,6 +5,13 @@
 #define PRESSURE 2e5
 #define SLACK 1.02
 
+/* Of each kind, the first so many are tried. */
+#ifdef SPRAYPLAN_SANITIZE
+#define TRIED 1
+#else
+#define TRIED 4
+#endif
+
 typedef struct {
     sp_mesh *mesh;
     sp_surface surface;
@@ -137,9 +144,9 @@ static void caps_on_the_sphere(void **state)
         double degrees;
         size_t number;
     } known[] = {{70.5288, 4}, {54.7356, 6}, {37.3774, 12}};
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+    for (size_t i = 0; i < sizeof known / sizeof *known && i < TRIED; i++) {
         scene s = {.mount = {.kind = SP_MOUNT_BOX, .axis = sp_v(0, 0, -1), .tilt = M_PI}};
-        size_t count = scene_place_shape(&s, sphere, 6, SLACK * known[i].degrees * DEGREE, 0.07);
+        size_t count = scene_place_shape(&s, sphere, 6, SLACK * known[i].degrees * DEGREE, 0.09);
         if (count != known[i].number)
             fail_msg("caps of %g deg: %zu, expected %zu", known[i].degrees, count, known[i].number);
     }
@@ -147,7 +154,7 @@ static void caps_on_the_sphere(void **state)
 
 static void discs_over(shape shape, double half, const double *radii, const size_t *numbers, size_t known, double texel)
 {
-    for (size_t i = 0; i < known; i++) {
+    for (size_t i = 0; i < known && i < TRIED; i++) {
         scene s = {.mount = {.kind = SP_MOUNT_BOX,
                              .axis = sp_v(0, 0, -1),
                              .spacing = 0.25 * half,
@@ -165,7 +172,7 @@ static void discs_over_the_disc(void **state)
     (void)state;
     static const double radii[] = {0.707107, 0.609383, 0.555906, 0.5};
     static const size_t numbers[] = {4, 5, 6, 7};
-    discs_over(disc, 1, radii, numbers, 4, 0.04);
+    discs_over(disc, 1, radii, numbers, 4, 0.05);
 }
 
 /* Of the unit square: Tarnai and Gáspár 1995. */
@@ -174,7 +181,7 @@ static void discs_over_the_square(void **state)
     (void)state;
     static const double radii[] = {0.353554, 0.326161, 0.274292};
     static const size_t numbers[] = {4, 5, 7};
-    discs_over(square, 0.5, radii, numbers, 3, 0.02);
+    discs_over(square, 0.5, radii, numbers, 3, 0.025);
 }
 
 int main(void)
