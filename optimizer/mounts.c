@@ -137,10 +137,14 @@ static bool surface_samples(const sp_evaluator *evaluator, const sp_mount *mount
                             sp_error *error)
 {
     const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
-    double per_area = SAMPLES_PER_SITE / (mount->spacing * mount->spacing), total = 0;
+    double total = 0;
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         if (on_mount(mesh, mount, t))
             total += sp_triangle_area(mesh, t);
+    if (!(total > 0))
+        return true;
+    /* a part smaller than a square of the spacing has its choice of points all the same */
+    double per_area = SAMPLES_PER_SITE / fmin(mount->spacing * mount->spacing, total);
     if (!(mount->spacing > 0) || total * per_area > (double)SITES_MOST * SAMPLES_PER_SITE)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "mount: a spacing of %g m on %g m² of surface, more than %d mounting points", mount->spacing,

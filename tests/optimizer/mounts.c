@@ -1,8 +1,8 @@
 /* Mounting points: how many, where, inside and clear. */
 #include "room.h"
 
+#include "candidates.h"
 #include "distance.h"
-#include "mounts.h"
 
 /* A room of 2 m with a closed block of 0.4 m in its middle. */
 static void open_block_room(room *r)
@@ -139,6 +139,227 @@ static void surfaces_are_covered_evenly(void **state)
     room_close(&r);
 }
 
+static double next_random(uint64_t *state)
+{
+    *state ^= *state >> 12;
+    *state ^= *state << 25;
+    *state ^= *state >> 27;
+    return (double)((*state * 0x2545f4914f6cdd1du) >> 11) * 0x1p-53;
+}
+
+static sp_vec3 random_point(uint64_t *random, double edge, double top)
+{
+    double x = next_random(random), y = next_random(random), z = next_random(random);
+    return sp_v(edge * (2 * x - 1), edge * (2 * y - 1), top * z);
+}
+
+/* How far a point is from the block's surface; negative inside. */
+static double from_block(sp_vec3 p)
+{
+    double x = fabs(p.x) - 0.2, y = fabs(p.y) - 0.2, z = fabs(p.z - 1) - 0.2;
+    double outside = sqrt(pow(fmax(x, 0), 2) + pow(fmax(y, 0), 2) + pow(fmax(z, 0), 2));
+    return outside + fmin(0, fmax(x, fmax(y, z)));
+}
+
+/* How far a point is inside the room's walls, the lid left out where it is the mount's own; negative outside. */
+static double from_walls(sp_vec3 p, bool without_lid)
+{
+    double side = fmin(1 - fabs(p.x), 1 - fabs(p.y));
+    return fmin(side, fmin(p.z, without_lid && p.z < 2 ? INFINITY : 2 - p.z));
+}
+
+static bool belongs(sp_vec3 p, double clearance, bool without_lid)
+{
+    double walls = from_walls(p, without_lid), block = from_block(p);
+    return walls > 0 && block > 0 && walls >= clearance && block >= clearance;
+}
+
+/* Points so near a limit that round-off or the lines of sight decide are not judged. */
+static bool undecided(sp_vec3 p, double clearance, bool without_lid)
+{
+    double walls = from_walls(p, without_lid), block = from_block(p);
+    return fabs(walls) < 1e-6 || fabs(block) < 1e-6 || fabs(walls - clearance) < 1e-6 || fabs(block - clearance) < 1e-6;
+}
+
+static bool holds_point(const sp_sites *sites, sp_vec3 p)
+{
+    for (size_t i = 0; i < sites->count; i++)
+        if (sp_distance(sites->items[i].position, p) < 1e-9)
+            return true;
+    return false;
+}
+
+/* Random lines and boxes that stick out of the room and into the block: what stays is what geometry says, all of it and
+ * nothing else. */
+static void random_lines_and_boxes_keep_what_is_inside_and_clear(void **state)
+{
+    (void)state;
+    room r;
+    open_block_room(&r);
+    uint64_t random = 3;
+    size_t in = 0, out = 0;
+    for (int trial = 0; trial < 60; trial++) {
+        sp_vec3 a = random_point(&random, 1.2, 2.2), b = random_point(&random, 1.2, 2.2);
+        double clearance = trial % 3 ? 0.15 * next_random(&random) : 0;
+        sp_mount mount = {.kind = trial % 2 ? SP_MOUNT_LINE : SP_MOUNT_BOX, .axis = sp_v(0, 0, -1), .spacing = 0.3};
+        bool line = mount.kind == SP_MOUNT_LINE;
+        mount.from = line ? a : sp_v(fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z));
+        mount.to = line ? b : sp_v(fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z));
+        sp_vec3 edge = sp_sub(mount.to, mount.from);
+        size_t nx = 1 + (size_t)ceil((line ? sp_length(edge) : edge.x) / 0.3),
+               ny = line ? 1 : 1 + (size_t)ceil(edge.y / 0.3), nz = line ? 1 : 1 + (size_t)ceil(edge.z / 0.3),
+               expected = 0;
+        sp_place_options options = room_options();
+        options.mounts = &mount;
+        options.mount_count = 1;
+        options.clearance = clearance;
+        sp_sites sites = {0};
+        sp_error error = {0};
+        bool any = sp_sites_create(r.evaluator, &options, &sites, &error);
+        bool doubtful = false;
+        for (size_t i = 0; i < nx * ny * nz; i++) {
+            double u = (double)(i % nx) / (double)(nx - 1), v = ny > 1 ? (double)(i / nx % ny) / (double)(ny - 1) : u,
+                   w = nz > 1 ? (double)(i / nx / ny) / (double)(nz - 1) : u;
+            sp_vec3 p = sp_v(mount.from.x + u * edge.x, mount.from.y + v * edge.y, mount.from.z + w * edge.z);
+            bool here = belongs(p, clearance, false);
+            if (undecided(p, clearance, false)) {
+                doubtful = true;
+                continue;
+            }
+            assert_true(holds_point(&sites, p) == here);
+            expected += here;
+            in += here;
+            out += !here;
+        }
+        assert_true(doubtful || sites.count == expected);
+        assert_true(any == (sites.count > 0));
+        sp_sites_free(&sites);
+    }
+    assert_true(in > 200 && out > 200);
+    room_close(&r);
+}
+
+/* Lances through the lid at random places and slants: up to the first wall that is not the lid's, and clear of all
+ * others. */
+static void random_lances_stop_before_what_is_in_their_way(void **state)
+{
+    (void)state;
+    room r;
+    open_block_room(&r);
+    uint64_t random = 5;
+    size_t in = 0, out = 0;
+    for (int trial = 0; trial < 60; trial++) {
+        sp_vec3 at = random_point(&random, 0.9, 0);
+        sp_mount mount = {.kind = SP_MOUNT_PORT,
+                          .position = sp_v(at.x, at.y, 2),
+                          .depth_from = 0.05,
+                          .depth_to = 2.2,
+                          .depth_spacing = 0.05};
+        mount.axis = sp_unit(sp_v(0.6 * (next_random(&random) - 0.5), 0.6 * (next_random(&random) - 0.5), -1));
+        double clearance = 0.1 * next_random(&random);
+        sp_place_options options = room_options();
+        options.mounts = &mount;
+        options.mount_count = 1;
+        options.clearance = clearance;
+        sp_sites sites = {0};
+        sp_error error = {0};
+        sp_sites_create(r.evaluator, &options, &sites, &error);
+        bool blocked = false;
+        for (size_t i = 0; i <= 43; i++) {
+            double depth = 0.05 + 2.15 * (double)i / 43;
+            sp_vec3 p = sp_along(mount.position, depth, mount.axis);
+            for (double t = 0; t <= depth; t += 1e-3) {
+                sp_vec3 on = sp_along(mount.position, t, mount.axis);
+                blocked |= t > 0.01 && (from_block(on) < -1e-3 || from_walls(on, true) < -1e-3);
+            }
+            bool here = !blocked && belongs(p, clearance, true);
+            if (undecided(p, clearance, true) || fabs(from_block(p)) < 5e-3 || fabs(from_walls(p, true)) < 5e-3)
+                continue;
+            assert_true(holds_point(&sites, p) == here);
+            in += here;
+            out += !here;
+        }
+        sp_sites_free(&sites);
+    }
+    assert_true(in > 200 && out > 200);
+    room_close(&r);
+}
+
+/* A part smaller than a square of the spacing still has a place for a nozzle. */
+static void small_parts_have_a_point(void **state)
+{
+    (void)state;
+    room r;
+    open_block_room(&r);
+    sp_mount top = {.kind = SP_MOUNT_SURFACE, .geometry = 0, .part = 3, .spacing = 5, .standoff = 0.05};
+    sp_sites sites = sites_of(&r, &top, 0);
+    assert_int_equal(sites.count, 1);
+    assert_true(fabs(sites.items[0].position.z - 1.25) < 1e-12 && sites.items[0].axis.z > 0.999);
+    sp_sites_free(&sites);
+    room_close(&r);
+}
+
+/* Axes stay within the tilt, reach its rim, and leave no direction within it far from all of them. */
+static void axes_fill_the_tilt(void **state)
+{
+    (void)state;
+    room r;
+    open_block_room(&r);
+    const double tilts[] = {0, 20 * DEGREE, 90 * DEGREE, M_PI};
+    sp_nozzle_type cone = room_cone("cone", 60 * DEGREE, 10), fan = room_cone("fan", 60 * DEGREE, 10),
+                   ball = room_cone("ball", 360 * DEGREE, 10);
+    fan.pattern = SP_PATTERN_FLAT_FAN;
+    fan.thickness = 8 * DEGREE;
+    const sp_nozzle_type *types[] = {&cone, &fan, &ball};
+    double pressure = 2e5;
+    uint64_t random = 9;
+    for (size_t t = 0; t < sizeof tilts / sizeof *tilts; t++) {
+        sp_mount mount = {.kind = SP_MOUNT_BOX,
+                          .axis = sp_unit(sp_v(0.3, -0.5, -0.8)),
+                          .tilt = tilts[t],
+                          .from = sp_v(0.5, 0.5, 1),
+                          .to = sp_v(0.5, 0.5, 1)};
+        sp_place_options options = room_options();
+        options.types = types;
+        options.type_count = 3;
+        options.pressures = &pressure;
+        options.pressure_count = 1;
+        options.mounts = &mount;
+        options.mount_count = 1;
+        sp_sites sites = sites_of(&r, &mount, 0);
+        sp_candidates candidates;
+        sp_error error = {0};
+        assert_true(sp_candidates_create(r.evaluator, &options, &sites, &candidates, &error));
+        assert_int_equal(sp_candidates_axes(&candidates, 0, 2)->count, 1); /* a ball is the same whatever its axis */
+        for (uint32_t make = 0; make < 2; make++) {
+            size_t count = sp_candidates_axes(&candidates, 0, make)->count;
+            double farthest = 0;
+            for (uint32_t a = 0; a < count; a++) {
+                sp_nozzle nozzle = sp_pose_nozzle(&candidates, &sites, (sp_pose){0, make, a, 0}, sp_v(0, 0, 1));
+                double lean = acos(fmin(1, fmax(-1, sp_dot(nozzle.axis, mount.axis))));
+                assert_true(lean <= tilts[t] + 1e-7);
+                assert_true(fabs(sp_length(nozzle.axis) - 1) < 1e-12);
+                farthest = fmax(farthest, lean);
+            }
+            assert_true(fabs(farthest - tilts[t]) < 1e-7);
+            for (int k = 0; k < 200; k++) {
+                sp_vec3 d = sp_unit(sp_sub(random_point(&random, 1, 2), sp_v(0, 0, 1)));
+                double nearest = M_PI;
+                if (sp_dot(d, mount.axis) < cos(tilts[t]))
+                    continue;
+                for (uint32_t a = 0; a < count; a++) {
+                    sp_nozzle nozzle = sp_pose_nozzle(&candidates, &sites, (sp_pose){0, make, a, 0}, sp_v(0, 0, 1));
+                    nearest = fmin(nearest, acos(fmin(1, fmax(-1, sp_dot(nozzle.axis, d)))));
+                }
+                assert_true(nearest < 10 * DEGREE);
+            }
+        }
+        sp_candidates_free(&candidates);
+        sp_sites_free(&sites);
+    }
+    room_close(&r);
+}
+
 static void nothing_left_is_an_error(void **state)
 {
     (void)state;
@@ -181,8 +402,14 @@ static void distance_to_a_triangle(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lances_go_down_from_their_port), cmocka_unit_test(lines_and_boxes_include_their_ends),
-        cmocka_unit_test(surfaces_are_covered_evenly),    cmocka_unit_test(nothing_left_is_an_error),
+        cmocka_unit_test(lances_go_down_from_their_port),
+        cmocka_unit_test(lines_and_boxes_include_their_ends),
+        cmocka_unit_test(surfaces_are_covered_evenly),
+        cmocka_unit_test(random_lines_and_boxes_keep_what_is_inside_and_clear),
+        cmocka_unit_test(random_lances_stop_before_what_is_in_their_way),
+        cmocka_unit_test(small_parts_have_a_point),
+        cmocka_unit_test(axes_fill_the_tilt),
+        cmocka_unit_test(nothing_left_is_an_error),
         cmocka_unit_test(distance_to_a_triangle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
