@@ -4,7 +4,8 @@
 
 static bool sweeper_create(const sp_search *search, sp_sweeper *sweeper, sp_error *error)
 {
-    size_t room = (search->visibility->largest + SP_LANES) / SP_LANES * SP_LANES;
+    /* whole vectors, and one that begins at the last arrival */
+    size_t room = (search->visibility->largest + 2 * SP_LANES) / SP_LANES * SP_LANES;
     *sweeper = (sp_sweeper){.block = malloc(4 * room * sizeof *sweeper->block)};
     if (!sweeper->block)
         return sp_fail_memory(error);
