@@ -85,6 +85,13 @@ typedef struct {
  * with an extent of page_edge texels that happens only to single triangles. charts and mesh are only read. */
 sp_atlas *sp_atlas_create(const sp_mesh *mesh, const sp_charts *charts, const sp_atlas_options *options,
                           sp_error *error);
+/* The atlas that an OBJ file already holds as texture coordinates, `mesh` being what sp_mesh_load made of that file. The
+ * coordinates are in units of a page's edge, the pages named by usemtl page_0, ...; they are kept
+ * as they are. `texel` (m) 0: the file's own where sp_atlas_obj wrote it, else one of 2^20 of the surface. Fails with
+ * SP_ERROR_INPUT, at the face's line, for what breaks what every atlas keeps: corners without coordinates or off the
+ * page, triangles that are turned over, overlaps, lengths (more than 5 % of the area strained by more than 5 %), charts
+ * without a pixel between them. */
+sp_atlas *sp_atlas_reuse(const sp_mesh *mesh, const char *path, double texel, sp_error *error);
 void sp_atlas_destroy(sp_atlas *atlas);
 
 /* The texel that holds the point (1-u-v, u, v) of a triangle; always one that the triangle has a part in. */

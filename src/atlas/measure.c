@@ -30,7 +30,7 @@ static int by_strain(const void *a, const void *b)
 }
 
 /* max(σ1 - 1, 1 - σ2) of the map from the surface to the page, in true length. */
-static double strain_of(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle)
+double sp_strain_of(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle)
 {
     const uint32_t *corner = mesh->triangles[triangle];
     sp_vec3 b = sp_sub(mesh->vertices[corner[1]], mesh->vertices[corner[0]]);
@@ -57,7 +57,7 @@ static bool measure_strain(const sp_atlas *atlas, const sp_mesh *mesh, sp_atlas_
         return false;
     exact_sum area = {0}, mean = {0};
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        all[t] = (strained){strain_of(atlas, mesh, t), sp_triangle_area(mesh, t)};
+        all[t] = (strained){sp_strain_of(atlas, mesh, t), sp_triangle_area(mesh, t)};
         add(&area, all[t].area);
         add(&mean, all[t].strain * all[t].area);
         figures->strain_max = fmax(figures->strain_max, all[t].strain);

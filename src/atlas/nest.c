@@ -11,6 +11,14 @@
 #include <string.h>
 
 #define TURNS 4
+#define FIRST_GUESS 0.8 /* of the page taken */
+#define GROWTH 1.06     /* of the edge, while it is too small */
+#define HALVINGS 6
+#define ORDERS 12       /* tried to make the page smaller still */
+#define SHRINKING 0.996 /* of the edge, at each success of an order */
+#define TOLERANCE 0.6   /* of the sizes, when they are ordered anew */
+/* What trying further orders may take, in pieces times their rows: not more time than all else. */
+#define MOST_WORK 100000
 
 /* A shape in one of its turns: the pixels it takes, those it must find free, and the order in which to ask. */
 typedef struct {
@@ -243,27 +251,27 @@ static bool place_all(const piece *pieces, const uint32_t *order, size_t count, 
     return memory;
 }
 
-static uint32_t *packing_order(const sp_shape *shapes, size_t count)
+/* Largest first. After the first of the orders that are tried, sizes are taken with a tolerance. */
+static bool order_pieces(const sp_shape *shapes, size_t count, uint64_t *seed, uint64_t *keys, uint32_t *order)
 {
-    uint32_t *order = malloc((count + 1) * sizeof *order);
-    uint64_t *keys = malloc((count + 1) * sizeof *keys);
-    for (size_t i = 0; keys && i < count; i++)
-        keys[i] = ~(uint64_t)shapes[i].area;
-    bool done = order && keys && sp_order_by_key(keys, count, order);
-    free(keys);
-    if (done)
-        return order;
-    free(order);
-    return NULL;
+    for (size_t i = 0; i < count; i++) {
+        double size = (double)shapes[i].area;
+        if (*seed) { /* xorshift64*: Vigna, "An experimental exploration of Marsaglia's xorshift generators" (2016) */
+            *seed ^= *seed >> 12;
+            *seed ^= *seed << 25;
+            *seed ^= *seed >> 27;
+            size *= 1 + TOLERANCE * ((double)((*seed * 0x2545F4914F6CDD1Dull) >> 11) * 0x1p-53 - 0.5);
+        }
+        keys[i] = ~(uint64_t)(16 * size);
+    }
+    return count == 0 || sp_order_by_key(keys, count, order);
 }
-
-#define FIRST_GUESS 0.8 /* of the page taken */
-#define TRIES 6
 
 typedef struct {
     const piece *pieces;
-    const uint32_t *order;
     size_t count;
+    uint32_t *order; /* [count] */
+    uint64_t *keys;  /* [count] */
     sp_spot *trial, *best;
     uint32_t best_edge;
     size_t best_pages;
@@ -304,29 +312,23 @@ static bool search_edge(search *s, const sp_shape *shapes, uint32_t limit)
 {
     double area;
     uint32_t least = least_edge(shapes, s->count, &area);
-    bool fits = false;
     size_t pages = (size_t)fmax(1, ceil(area / ((double)limit * limit)));
     double bound = fmax(least, ceil(sqrt(area / (double)pages)));
     double guess = fmin(fmax(bound, sqrt(area / FIRST_GUESS / (double)pages)), limit);
-    double low = bound - 1, high = limit;
-    if (!try_edge(s, (uint32_t)guess, pages, &fits))
-        return false;
-    if (!fits && guess < limit) {
-        low = guess;
-        guess = fmin(limit, guess * 1.1);
+    double low = bound - 1, high;
+    for (bool fits = false; !fits;) {
         if (!try_edge(s, (uint32_t)guess, pages, &fits))
             return false;
-    }
-    if (!fits) {
+        if (fits)
+            break;
         low = guess;
-        if (!try_edge(s, limit, guess < limit ? pages : SIZE_MAX - 1, &fits) ||
-            (!fits && !try_edge(s, limit, SIZE_MAX - 1, &fits)))
-            return false;
-        pages = s->best_pages;
+        pages += guess == limit;
+        guess = fmin(limit, ceil(guess * GROWTH));
     }
     high = s->best_edge;
-    for (int i = 0; i < TRIES && high - low > 1 + high / 256; i++) {
+    for (int i = 0; i < HALVINGS && high - low > 1 + high / 256; i++) {
         double middle = floor(i == 0 && low < high * 0.98 ? high * 0.98 : 0.5 * (low + high));
+        bool fits;
         if (!try_edge(s, (uint32_t)middle, pages, &fits))
             return false;
         if (fits)
@@ -337,13 +339,41 @@ static bool search_edge(search *s, const sp_shape *shapes, uint32_t limit)
     return true;
 }
 
+/* Tries other orders on ever smaller pages. */
+static bool search_order(search *s, const sp_shape *shapes)
+{
+    uint64_t seed = 0x9E3779B97F4A7C15ull;
+    double work = 0, area;
+    uint32_t least = least_edge(shapes, s->count, &area);
+    for (size_t i = 0; i < s->count; i++)
+        work += shapes[i].height;
+    int orders = (int)fmin(ORDERS, MOST_WORK / fmax(1, work));
+    for (int n = 0; s->count > 1 && n < orders; n++) {
+        if (!order_pieces(shapes, s->count, &seed, s->keys, s->order))
+            return false;
+        for (bool fits = true; fits;) {
+            uint32_t edge = (uint32_t)(s->best_edge * SHRINKING);
+            fits = edge >= least;
+            if (fits && !try_edge(s, edge, s->best_pages, &fits))
+                return false;
+        }
+    }
+    return true;
+}
+
 bool sp_nest(const sp_shape *shapes, size_t count, uint32_t limit, sp_spot *spots, uint32_t *page_edge,
              size_t *page_count, sp_error *error)
 {
-    search s = {.pieces = cut_pieces(shapes, count), .order = packing_order(shapes, count), .count = count};
+    piece *pieces = cut_pieces(shapes, count);
+    uint64_t no_seed = 0;
+    search s = {.pieces = pieces, .count = count};
+    s.order = malloc((count + 1) * sizeof *s.order);
+    s.keys = malloc((count + 1) * sizeof *s.keys);
     s.trial = malloc((count + 1) * sizeof *s.trial);
     s.best = malloc((count + 1) * sizeof *s.best);
-    bool done = s.pieces && s.order && s.trial && s.best && search_edge(&s, shapes, limit);
+    bool done = pieces && s.order && s.keys && s.trial && s.best &&
+                order_pieces(shapes, count, &no_seed, s.keys, s.order) && search_edge(&s, shapes, limit) &&
+                search_order(&s, shapes);
     if (done) {
         memcpy(spots, s.best, count * sizeof *spots);
         *page_edge = s.best_edge;
@@ -351,8 +381,9 @@ bool sp_nest(const sp_shape *shapes, size_t count, uint32_t limit, sp_spot *spot
     } else {
         sp_fail_memory(error);
     }
-    free_pieces((piece *)s.pieces, count);
-    free((uint32_t *)s.order);
+    free_pieces(pieces, count);
+    free(s.order);
+    free(s.keys);
     free(s.trial);
     free(s.best);
     return done;

@@ -1,4 +1,6 @@
 /* The mesh and its place on the pages as OBJ text. */
+#include "atlas/reuse.h"
+
 #include <sprayplan/atlas.h>
 
 #include <stdarg.h>
@@ -135,6 +137,7 @@ char *sp_atlas_obj(const sp_atlas *atlas, const sp_mesh *mesh, sp_error *error)
     text out = {0};
     bool done = find_places(&p, atlas, mesh);
     if (done) {
+        append(&out, SP_ATLAS_MARK "%u %.17g\n", atlas->page_edge, atlas->texel);
         write_points(&out, &p, mesh, atlas->page_edge);
         write_faces(&out, &p, mesh);
         append(&out, "%s", ""); /* terminates an empty text too */

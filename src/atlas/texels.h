@@ -20,6 +20,9 @@ bool sp_atlas_find_seams(sp_atlas *atlas, const sp_mesh *mesh, const sp_half_edg
 /* share.c: counts the texels of more than one connected patch, from all of their fragments. */
 bool sp_atlas_count_shared(const sp_atlas *atlas, const sp_mesh *mesh, size_t *shared, sp_error *error);
 
+/* measure.c: max(σ1-1, 1-σ2) of a triangle's map from the surface to the page, in true length. */
+double sp_strain_of(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle);
+
 /* texel_of.c: the run that holds pixel (x, row); NULL where nothing lies. */
 const sp_texel_run *sp_atlas_run(const sp_atlas *atlas, size_t row, uint32_t x);
 /* texel_of.c: to which texel a triangle belongs in the pixel whose first texel is `pixel`. */

@@ -6,22 +6,44 @@
 
 enum { PAGE_EDGE = 4096 };
 
-bool cli_atlas_build(cli_atlas_work *work, sp_mesh *mesh, double texel, sp_error *error)
+static void begin(cli_atlas_work *work, sp_mesh *mesh)
+{
+    work->mesh = mesh;
+    cli_meter_start();
+    cli_clock_start(&work->clock);
+}
+
+/* The figures are not the atlas's own work. */
+static bool end(cli_atlas_work *work, const char *stage, sp_error *error)
+{
+    cli_clock_stage(&work->clock, stage);
+    work->peak_bytes = cli_meter_peak();
+    return work->atlas && sp_atlas_measure(work->atlas, work->mesh, &work->figures, error);
+}
+
+bool cli_atlas_build(cli_atlas_work *work, sp_mesh *mesh, double texel, sp_packing packing, sp_error *error)
 {
     if (!mesh)
         return false;
-    work->mesh = mesh;
+    begin(work, mesh);
     if (!(texel > 0))
         texel = sqrt(sp_mesh_area(mesh) / (1 << 20));
-    cli_clock_start(&work->clock);
     work->charts = sp_charts_create(mesh, (PAGE_EDGE - 2) * texel, error);
     cli_clock_stage(&work->clock, "charts");
     if (!work->charts)
         return false;
-    work->atlas =
-        sp_atlas_create(mesh, work->charts, &(sp_atlas_options){.texel = texel, .page_edge = PAGE_EDGE}, error);
-    cli_clock_stage(&work->clock, "texels");
-    return work->atlas && sp_atlas_measure(work->atlas, mesh, &work->figures, error);
+    sp_atlas_options options = {.texel = texel, .page_edge = PAGE_EDGE, .packing = packing};
+    work->atlas = sp_atlas_create(mesh, work->charts, &options, error);
+    return end(work, "texels", error);
+}
+
+bool cli_atlas_reuse(cli_atlas_work *work, sp_mesh *mesh, const char *path, double texel, sp_error *error)
+{
+    if (!mesh)
+        return false;
+    begin(work, mesh);
+    work->atlas = sp_atlas_reuse(mesh, path, texel, error);
+    return end(work, "reuse", error);
 }
 
 void cli_atlas_clear(cli_atlas_work *work)
@@ -95,14 +117,16 @@ json_t *cli_atlas_json(const cli_atlas_work *work)
     for (size_t i = 0; i < work->clock.count; i++)
         json_array_append_new(stages, json_pack("{s:s, s:f}", "name", work->clock.stages[i].name, "seconds",
                                                 work->clock.stages[i].seconds));
-    return json_pack("{s:s, s:s, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:o}",
-                     "sprayplan", SP_VERSION, "command", "atlas", "triangles", (json_int_t)f->triangles, "charts",
-                     (json_int_t)f->charts, "charts_le4", (json_int_t)f->charts_le4, "seam_over_sqrt_area",
-                     f->seam_over_sqrt_area, "strain_mean", f->strain_mean, "strain95", f->strain95, "strain_max",
-                     f->strain_max, "utilisation", f->utilisation, "pages", (json_int_t)f->pages, "texels",
-                     (json_int_t)f->texels, "shared_texels", (json_int_t)f->shared_texels, "overlaps",
-                     (json_int_t)f->overlaps, "area_error", f->area_error, "texel_m", work->atlas->texel, "uv_scale_m",
-                     work->atlas->texel * work->atlas->page_edge, "seconds", cli_atlas_seconds(work), "stages", stages);
+    return json_pack(
+        "{s:s, s:s, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:I, s:I, s:I, s:I, s:f, s:f, s:o, s:I, s:f, s:I, s:f}",
+        "sprayplan", SP_VERSION, "command", "atlas", "triangles", (json_int_t)f->triangles, "charts",
+        (json_int_t)f->charts, "charts_le4", (json_int_t)f->charts_le4, "seam_over_sqrt_area", f->seam_over_sqrt_area,
+        "strain_mean", f->strain_mean, "strain95", f->strain95, "strain_max", f->strain_max, "utilisation",
+        f->utilisation, "pages", (json_int_t)f->pages, "texels", (json_int_t)f->texels, "shared_texels",
+        (json_int_t)f->shared_texels, "overlaps", (json_int_t)f->overlaps, "area_error", f->area_error, "seconds",
+        cli_atlas_seconds(work), "stages", stages, "peak_bytes", (json_int_t)work->peak_bytes, "texel_m",
+        work->atlas->texel, "page_texels", (json_int_t)work->atlas->page_edge, "uv_scale_m",
+        work->atlas->texel * work->atlas->page_edge);
 }
 
 static bool print_json(const cli_atlas_work *work)
@@ -124,8 +148,8 @@ void cli_atlas_print(const cli_atlas_work *work)
     printf("texels           %zu, shared %zu, overlaps %zu\n", f->texels, f->shared_texels, f->overlaps);
     printf("seams            %.3g x square root of the area\n", f->seam_over_sqrt_area);
     printf("strain           mean %.3g, 95th percentile %.3g, max %.3g\n", f->strain_mean, f->strain95, f->strain_max);
-    printf("utilisation      %.3f\narea error       %.3g\nseconds          %.3f\n", f->utilisation, f->area_error,
-           cli_atlas_seconds(work));
+    printf("utilisation      %.3f\narea error       %.3g\nseconds          %.3f\npeak memory      %.1f MB\n",
+           f->utilisation, f->area_error, cli_atlas_seconds(work), 1e-6 * (double)work->peak_bytes);
 }
 
 int cli_atlas(const cli_options *options)
@@ -137,7 +161,8 @@ int cli_atlas(const cli_options *options)
         return EXIT_USAGE;
     }
     sp_mesh *mesh = sp_mesh_load(options->inputs[0], 1, &error);
-    bool good = cli_atlas_build(&work, mesh, options->texel, &error) &&
+    bool good = (options->reuse ? cli_atlas_reuse(&work, mesh, options->inputs[0], options->texel, &error)
+                                : cli_atlas_build(&work, mesh, options->texel, options->packing, &error)) &&
                 (!options->output || write_files(&work, options, &error));
     if (good && options->json)
         good = print_json(&work) || sp_fail_memory(&error);

@@ -11,11 +11,14 @@ typedef struct {
     sp_charts *charts;
     sp_atlas *atlas;
     sp_atlas_figures figures;
-    cli_clock clock; /* of its stages */
+    cli_clock clock;   /* of its stages */
+    size_t peak_bytes; /* on the heap, beyond the mesh */
 } cli_atlas_work;
 
 /* `texel` in m; 0: √(area/2²⁰). Starts as {0}; to be cleared in any case. */
-bool cli_atlas_build(cli_atlas_work *work, sp_mesh *mesh, double texel, sp_error *error);
+bool cli_atlas_build(cli_atlas_work *work, sp_mesh *mesh, double texel, sp_packing packing, sp_error *error);
+/* The same with the texture coordinates of the mesh's own file. */
+bool cli_atlas_reuse(cli_atlas_work *work, sp_mesh *mesh, const char *path, double texel, sp_error *error);
 void cli_atlas_clear(cli_atlas_work *work);
 /* Wall time of all stages, s. */
 double cli_atlas_seconds(const cli_atlas_work *work);

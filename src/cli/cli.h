@@ -22,7 +22,9 @@ typedef struct {
     const char *output; /* -o, or NULL */
     const char *overrides[MAX_OVERRIDES];
     size_t override_count;
-    double texel;                  /* m, 0: not given */
+    double texel; /* m, 0: not given */
+    sp_packing packing;
+    bool reuse;
     const char *rays;              /* file, or for bench how many; or NULL */
     const char *mode, *trajectory; /* or NULL */
     sp_vec3 gravity;               /* m/s² */
@@ -41,8 +43,8 @@ typedef struct {
 enum option_flag {
     OPTION_OUTPUT = 1,
     OPTION_SET = 2,
-    OPTION_TEXEL = 4,
-    OPTION_RAYS = 8, /* with --gravity and --accel */
+    OPTION_ATLAS = 4, /* --texel, --pack, --reuse */
+    OPTION_RAYS = 8,  /* with --gravity and --accel */
     OPTION_TIME_LIMIT = 16,
     OPTION_BENCH = 32, /* --rays, --mode, --trajectory */
     OPTION_MEMORY = 64,
@@ -65,6 +67,10 @@ typedef struct {
 } cli_clock;
 void cli_clock_start(cli_clock *clock);
 void cli_clock_stage(cli_clock *clock, const char *name);
+
+/* meter.c: bytes held on the heap, by the program's own code and the library's. */
+void cli_meter_start(void);
+size_t cli_meter_peak(void); /* the most since the start, beyond what was held then */
 
 /* main.c: the error on standard error; the exit status that it means. */
 int cli_fail(const sp_error *error);

@@ -11,7 +11,7 @@ static const cli_command commands[] = {
     {"compare", "A B... [-o DIR]", "scenes or results side by side, one report", OPTION_SET | OPTION_OUTPUT,
      cli_compare, 2, 64},
     {"atlas", "MESH -o OUT.obj [--texel L]", "texture atlas only: mesh with UVs, chart pictures beside it, figures",
-     OPTION_OUTPUT | OPTION_TEXEL, cli_atlas, 1, 1},
+     OPTION_OUTPUT | OPTION_ATLAS, cli_atlas, 1, 1},
     {"trace", "MESH --rays FILE", "nearest hits of given lines or parabolas, as CSV", OPTION_RAYS, cli_trace, 1, 1},
     {"bench", "MESH", "build, trace and atlas timings of every accelerator on this mesh", OPTION_BENCH, cli_bench, 1,
      1},
@@ -73,8 +73,10 @@ static void print_command_usage(FILE *to, const cli_command *command)
     if (command->options & OPTION_PROVE)
         fprintf(to,
                 "  --prove                    spend the time limit on closing the gap between proposal and bound\n");
-    if (command->options & OPTION_TEXEL)
-        fprintf(to, "  --texel L                  edge length of a texel, as 10mm or 0.01\n");
+    if (command->options & OPTION_ATLAS)
+        fprintf(to, "  --texel L                  edge length of a texel, as 10mm or 0.01\n"
+                    "  --pack pixels|skyline      charts in each other's hollows (default), or their boxes as in 2008\n"
+                    "  --reuse                    keep the texture coordinates that an OBJ file has from here\n");
     if (command->options & OPTION_RAYS)
         fprintf(to, "  --rays FILE                lines ox,oy,oz,vx,vy,vz in m and m/s; # begins a comment\n"
                     "  --gravity gx,gy,gz         m/s2; makes parabolas\n"

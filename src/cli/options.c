@@ -22,7 +22,9 @@ enum {
     MODE,
     TRAJECTORY,
     MEMORY,
-    PROVE
+    PROVE,
+    PACK,
+    REUSE
 };
 
 static const struct option long_options[] = {
@@ -34,6 +36,8 @@ static const struct option long_options[] = {
     {"version", no_argument, NULL, VERSION},
     {"set", required_argument, NULL, SET},
     {"texel", required_argument, NULL, TEXEL},
+    {"pack", required_argument, NULL, PACK},
+    {"reuse", no_argument, NULL, REUSE},
     {"rays", required_argument, NULL, RAYS},
     {"gravity", required_argument, NULL, GRAVITY},
     {"accel", required_argument, NULL, ACCEL},
@@ -55,7 +59,9 @@ static unsigned flag_of(int option)
     case TIME_LIMIT:
         return OPTION_TIME_LIMIT;
     case TEXEL:
-        return OPTION_TEXEL;
+    case PACK:
+    case REUSE:
+        return OPTION_ATLAS;
     case MEMORY:
         return OPTION_MEMORY;
     case PROVE:
@@ -76,7 +82,8 @@ static unsigned flag_of(int option)
 static const char *name_of(int option)
 {
     static const char *const names[] = {[SET - JSON] = "--set",         [TIME_LIMIT - JSON] = "--time-limit",
-                                        [TEXEL - JSON] = "--texel",     [RAYS - JSON] = "--rays",
+                                        [TEXEL - JSON] = "--texel",     [PACK - JSON] = "--pack",
+                                        [REUSE - JSON] = "--reuse",     [RAYS - JSON] = "--rays",
                                         [GRAVITY - JSON] = "--gravity", [ACCEL - JSON] = "--accel",
                                         [MODE - JSON] = "--mode",       [TRAJECTORY - JSON] = "--trajectory",
                                         [MEMORY - JSON] = "--memory",   [PROVE - JSON] = "--prove"};
@@ -147,6 +154,14 @@ static bool parse_texel(const char *text, double *texel)
     return true;
 }
 
+static bool parse_packing(const char *text, sp_packing *packing)
+{
+    if (strcmp(text, "pixels") && strcmp(text, "skyline"))
+        return wrong("--pack", text, "pixels or skyline");
+    *packing = strcmp(text, "skyline") ? SP_PACKING_PIXELS : SP_PACKING_SKYLINE;
+    return true;
+}
+
 static bool parse_gravity(const char *text, sp_vec3 *gravity)
 {
     const char *rest = text;
@@ -204,6 +219,11 @@ static bool take_option(int option, const char *value, cli_options *options, boo
         return parse_texel(value, &options->texel);
     case MEMORY:
         return parse_memory(value, &options->memory);
+    case PACK:
+        return parse_packing(value, &options->packing);
+    case REUSE:
+        options->reuse = true;
+        return true;
     case RAYS:
         options->rays = value;
         return true;

@@ -1,3 +1,4 @@
+#include "mesh/file.h"
 #include "mesh/soup.h"
 
 #include <errno.h>
@@ -7,8 +8,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* The whole file with a '\0' behind it; also of what has no size beforehand, such as a pipe. */
-static char *read_file(const char *path, size_t *size, sp_error *error)
+char *sp_read_file(const char *path, size_t *size, sp_error *error)
 {
     FILE *file = fopen(path, "rb");
     if (!file) {
@@ -95,7 +95,7 @@ sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error)
     }
     size_t size;
     read_function *read = reader_for(path, error);
-    char *text = read ? read_file(path, &size, error) : NULL;
+    char *text = read ? sp_read_file(path, &size, error) : NULL;
     if (!text)
         return NULL;
     sp_soup soup = {0};

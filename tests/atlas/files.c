@@ -100,7 +100,7 @@ static void parse(char *text, parsed *p)
             p->page[p->f_count++] = page;
         } else if (line[0] == 'g') {
             assert_int_equal(sscanf(line, "g %15s", group), 1);
-        } else {
+        } else if (line[0] != '#') {
             assert_int_equal(sscanf(line, "usemtl page_%u", &page), 1);
         }
     }

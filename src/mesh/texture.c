@@ -1,0 +1,148 @@
+/* The second reading of an OBJ file, after Wavefront's "Advanced Visualizer" manual, appendix B1. */
+#include "mesh/texture.h"
+
+#include "mesh/file.h"
+#include "mesh/scanner.h"
+
+#include <sprayplan/mesh.h>
+
+#include <locale.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    sp_scanner scanner;
+    sp_texture *texture;
+    double (*coordinates)[2];
+    size_t coordinate_count, coordinate_room, triangle_room;
+    uint32_t page;
+    sp_error *error;
+} reader;
+
+static bool add_coordinate(reader *r)
+{
+    if (r->coordinate_count == r->coordinate_room) {
+        size_t room = 2 * r->coordinate_room + 1024;
+        double(*grown)[2] = realloc(r->coordinates, room * sizeof *grown);
+        if (!grown)
+            return sp_fail_memory(r->error);
+        r->coordinates = grown;
+        r->coordinate_room = room;
+    }
+    double *at = r->coordinates[r->coordinate_count++];
+    sp_token token;
+    at[1] = 0;
+    for (int k = 0; k < 2 && sp_scan_token(&r->scanner, &token); k++)
+        if (!sp_token_number(&r->scanner, &token, &at[k], r->error))
+            return false;
+    return true;
+}
+
+/* The coordinates of one corner, v/vt or v/vt/vn; not a number where it has none. */
+static void read_corner(const reader *r, const sp_token *token, double uv[2])
+{
+    const char *slash = memchr(token->text, '/', token->length);
+    long index = slash ? strtol(slash + 1, NULL, 10) : 0;
+    size_t count = r->coordinate_count, at = index < 0 ? count - (size_t)-index : (size_t)index - 1;
+    uv[0] = index ? r->coordinates[at][0] : NAN;
+    uv[1] = index ? r->coordinates[at][1] : NAN;
+}
+
+static bool add_triangle(reader *r, double corner[3][2], int line)
+{
+    sp_texture *t = r->texture;
+    if (t->triangle_count == r->triangle_room) {
+        size_t room = 2 * r->triangle_room + 1024;
+        double(*uv)[3][2] = realloc(t->uv, room * sizeof *uv);
+        t->uv = uv ? uv : t->uv;
+        uint32_t *page = realloc(t->page, room * sizeof *page);
+        t->page = page ? page : t->page;
+        int *lines = realloc(t->line, room * sizeof *lines);
+        t->line = lines ? lines : t->line;
+        if (!uv || !page || !lines)
+            return sp_fail_memory(r->error);
+        r->triangle_room = room;
+    }
+    memcpy(t->uv[t->triangle_count], corner, sizeof *t->uv);
+    t->page[t->triangle_count] = r->page;
+    t->line[t->triangle_count++] = line;
+    return true;
+}
+
+static bool read_face(reader *r, int line)
+{
+    double corner[3][2];
+    sp_token token;
+    for (size_t corners = 0; sp_scan_token(&r->scanner, &token); corners++) {
+        read_corner(r, &token, corner[corners < 2 ? corners : 2]);
+        if (corners < 2)
+            continue;
+        if (!add_triangle(r, corner, line))
+            return false;
+        memcpy(corner[1], corner[2], sizeof corner[1]);
+    }
+    return true;
+}
+
+static bool read_material(reader *r)
+{
+    sp_token token;
+    if (!sp_scan_token(&r->scanner, &token))
+        return sp_scanner_ended(&r->scanner, "a page as page_0", r->error);
+    char name[16] = "";
+    memcpy(name, token.text, token.length < sizeof name ? token.length : 0);
+    char *end = name;
+    unsigned long page =
+        strncmp(name, "page_", 5) == 0 && name[5] >= '0' && name[5] <= '9' ? strtoul(name + 5, &end, 10) : 0;
+    if (end == name || *end || page >= 1000000)
+        return sp_token_unexpected(&r->scanner, &token, "a page as page_0", r->error);
+    r->page = (uint32_t)page;
+    return true;
+}
+
+static bool read_all(reader *r)
+{
+    sp_token keyword;
+    bool good = true;
+    while (good && sp_scan_any_token(&r->scanner, &keyword)) {
+        if (sp_token_is(&r->scanner, &keyword, "vt"))
+            good = add_coordinate(r);
+        else if (sp_token_is(&r->scanner, &keyword, "f") || sp_token_is(&r->scanner, &keyword, "fo"))
+            good = read_face(r, keyword.line);
+        else if (sp_token_is(&r->scanner, &keyword, "usemtl"))
+            good = read_material(r);
+        if (good && !sp_scan_next_line(&r->scanner))
+            break;
+    }
+    return good;
+}
+
+bool sp_texture_read(const char *path, sp_texture *texture, sp_error *error)
+{
+    size_t size;
+    *texture = (sp_texture){.text = sp_read_file(path, &size, error)};
+    if (!texture->text)
+        return false;
+    locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    bool good = c != (locale_t)0 || sp_fail_memory(error);
+    if (good) {
+        locale_t before = uselocale(c);
+        reader r = {.scanner = sp_scanner_open(path, texture->text, size, true), .texture = texture, .error = error};
+        good = read_all(&r);
+        free(r.coordinates);
+        uselocale(before);
+        freelocale(c);
+    }
+    if (!good)
+        sp_texture_free(texture);
+    return good;
+}
+
+void sp_texture_free(sp_texture *texture)
+{
+    free(texture->uv);
+    free(texture->page);
+    free(texture->line);
+    free(texture->text);
+    *texture = (sp_texture){0};
+}

@@ -1,0 +1,23 @@
+/* What an OBJ file says beyond its surface: texture coordinates and materials. */
+#ifndef SPRAYPLAN_MESH_TEXTURE_H
+#define SPRAYPLAN_MESH_TEXTURE_H
+
+#include <sprayplan/error.h>
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct {
+    size_t triangle_count; /* polygons as fans, in the file's order */
+    double (*uv)[3][2];    /* [triangle_count], NAN at a corner without */
+    uint32_t *page;        /* [triangle_count], N of the last `usemtl page_N`, 0 before any */
+    int *line;             /* [triangle_count], of the face */
+    char *text;            /* the file, terminated */
+} sp_texture;
+
+/* Reads a file that sp_mesh_load reads without complaint. Fails for materials that are not page_N. */
+bool sp_texture_read(const char *path, sp_texture *texture, sp_error *error);
+/* Accepts what was never read, if it is all zeros. */
+void sp_texture_free(sp_texture *texture);
+
+#endif
