@@ -80,8 +80,8 @@ static bool prove(sp_bound *bound, size_t water, sp_error *error)
 {
     const sp_cover *cover = bound->cover;
     size_t row = cover->water + 1;
-    if (!bound->pricer->price(bound->pricer->user, &bound->dual.price, bound->needed, &bound->offers, &bound->rows,
-                              error))
+    if (!bound->pricer->price(bound->pricer->user, &bound->dual.price, bound->needed, true, &bound->offers,
+                              &bound->rows, error))
         return false;
     sp_knapsack(&bound->offers, cover->nozzles, cover->water, bound->table);
     double rest = (cover->base + sp_cover_rest(cover, &bound->dual.price)) * (1 + 1e-12);
@@ -115,11 +115,31 @@ static bool thin_out(sp_bound *bound, sp_error *error)
     return true;
 }
 
-bool sp_bound_lower(sp_bound *bound, size_t water, sp_error *error)
+bool sp_bound_lower_single(sp_bound *bound, sp_error *error)
+{
+    const sp_cover *cover = bound->cover;
+    sp_prices *price = &bound->dual.price;
+    sp_lifts_create(1, &bound->lifts);
+    price->lifts = cover->whole ? NULL : &bound->lifts;
+    for (size_t t = 0; t < cover->texel_count; t++) {
+        /* all that counts is whether one nozzle brings all */
+        price->plain[t] = cover->whole ? cover->area[t] : 0;
+        price->lifted[t] = cover->whole ? 0 : cover->area[t];
+        price->kind[t] = SP_LIFT_ALL_OR_NOTHING;
+    }
+    for (size_t k = 0; k < cover->tier_count; k++)
+        bound->needed[k] = INFINITY;
+    sp_offers_clear(&bound->offers);
+    offer_rows(bound);
+    return prove(bound, bound->lightest < cover->water ? bound->lightest : cover->water, error);
+}
+
+/* Solves on the few, and finds what a candidate must be worth to join them. */
+static bool solve(sp_bound *bound, size_t water, sp_error *error)
 {
     const sp_cover *cover = bound->cover;
     size_t fit = water / bound->lightest;
-    sp_lifts_create(fit < 1 ? 1 : fit < cover->nozzles ? fit : cover->nozzles, &bound->lifts);
+    sp_lifts_create(fit < cover->nozzles ? fit : cover->nozzles, &bound->lifts);
     sp_dual_task task = {.nozzles = cover->nozzles,
                          .water = water,
                          .iterations = bound->iterations,
@@ -130,10 +150,32 @@ bool sp_bound_lower(sp_bound *bound, size_t water, sp_error *error)
     if (!thin_out(bound, error) || !sp_dual_solve(&bound->dual, &bound->rows, &task, error))
         return false;
     find_needed(bound, water);
-    if (!prove(bound, water, error))
+    return true;
+}
+
+bool sp_bound_lower(sp_bound *bound, size_t water, sp_error *error)
+{
+    const sp_cover *cover = bound->cover;
+    if (water < bound->lightest) {
+        bound->proved = bound->by_water[water];
+        bound->closed = true;
+        return true;
+    }
+    if (!solve(bound, water, error) || !prove(bound, water, error))
         return false;
     bound->closed = (bound->lifting || cover->whole) && bound->proved <= bound->dual.bound * (1 + bound->tolerance);
     bound->lifting = !cover->whole;
+    return true;
+}
+
+bool sp_bound_explore(sp_bound *bound, size_t water, sp_error *error)
+{
+    if (water < bound->lightest)
+        return true;
+    if (!solve(bound, water, error) || !bound->pricer->price(bound->pricer->user, &bound->dual.price, bound->needed,
+                                                             false, &bound->offers, &bound->rows, error))
+        return false;
+    bound->lifting = !bound->cover->whole;
     return true;
 }
 

@@ -9,8 +9,9 @@
 typedef struct {
     void *user;
     /* Adds every candidate's total price at texel prices u to `offers`, or something no lower. Appends to `rows` some
-     * of those worth more than needed[tier] that are not among them yet (by key); none where `rows` is NULL. */
-    bool (*price)(void *user, const sp_prices *u, const double *needed, sp_offers *offers, sp_rows *rows,
+     * of those worth more than needed[tier] that are not among them yet (by key). Without `all` it may look at some
+     * only, and offer nothing. */
+    bool (*price)(void *user, const sp_prices *u, const double *needed, bool all, sp_offers *offers, sp_rows *rows,
                   sp_error *error);
 } sp_pricer;
 
@@ -38,6 +39,10 @@ void sp_bound_free(sp_bound *bound);
 /* Lowers the bounds at and about `water` (units): solves on the few, then proves on all. Meant to be repeated: what all
  * have that the few lack joins them, and texels take up new lifts. */
 bool sp_bound_lower(sp_bound *bound, size_t water, sp_error *error);
+/* The same without a proof: only looks for candidates and lifts, where pricing all takes long. */
+bool sp_bound_explore(sp_bound *bound, size_t water, sp_error *error);
+/* Lowers the bounds where no more than one nozzle fits, to what the best one covers. Goes before all else. */
+bool sp_bound_lower_single(sp_bound *bound, sp_error *error);
 /* The least water with which the bound does not rule out that `area` (m²) is covered; SIZE_MAX where it always does. */
 size_t sp_bound_water(const sp_bound *bound, double area);
 size_t sp_bound_nozzles(const sp_bound *bound, double area);

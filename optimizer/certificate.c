@@ -5,13 +5,15 @@
 
 #include <stdlib.h>
 
-#define ROUNDS_FIRST 5    /* of pricing all poses, at the proposal's water */
-#define ROUNDS_WATER 1    /* at a water that may be too little for the proposal's coverage */
-#define TRIALS_WATER 3    /* such waters */
-#define ROUNDS_FRONT 1    /* at a point of the front */
-#define POINTS_MOST 6     /* of the front, that get rounds of their own */
-#define ROUNDS_LIFTED 3   /* at least, so that the lifts have settled */
-#define ROUNDS_PROVING 10 /* with --prove, at the proposal's water, and trials of water */
+#define NOZZLES_MOST 256   /* of a layout */
+#define ROUNDS_EXPLORING 4 /* of looking at some of the poses first */
+#define ROUNDS_FIRST 2     /* of pricing all poses, at the proposal's water */
+#define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
+#define TRIALS_WATER 3     /* such waters */
+#define ROUNDS_FRONT 1     /* at a point of the front */
+#define POINTS_MOST 5      /* of the front, that get rounds of their own */
+#define ROUNDS_LIFTED 3    /* at least, so that the lifts have settled */
+#define ROUNDS_PROVING 10  /* with --prove, at the proposal's water, and trials of water */
 #define ROUNDS_WATER_PROVING 4
 #define ITERATIONS_PROVING 1000
 #define TOLERANCE_PROVING 2e-5
@@ -88,7 +90,8 @@ static uint32_t tier_for(certifying *c, double flow)
     return tier;
 }
 
-/* Water of the layouts, in units, and number; false where nothing can be placed. */
+/* Water of the layouts, in units, and number; false where nothing can be placed, or too many nozzles at a time for the
+ * knapsack's table. */
 static bool set_limits(certifying *c)
 {
     const sp_search *search = c->search;
@@ -101,6 +104,8 @@ static bool set_limits(certifying *c)
     c->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
     if (limit && limit - search->kept_count < c->cover.nozzles)
         c->cover.nozzles = limit - search->kept_count;
+    if (c->cover.nozzles > NOZZLES_MOST)
+        return false;
     c->units = sp_water_units_create(c->flows, makes, least, c->cover.nozzles, most);
     c->cover.water = sp_water_budget(&c->units, most);
     return true;
@@ -222,17 +227,38 @@ static bool lower_water(certifying *c, double area, size_t trials, size_t rounds
     return true;
 }
 
-static bool lower_front(certifying *c, size_t stride, size_t rounds, sp_error *error)
+/* The point of the front with the widest gap that has not had its turn; front->count where none is left open. */
+static size_t widest(const certifying *c, const bool *done)
 {
-    for (size_t i = 0; i < c->front->count; i += stride) {
+    size_t found = c->front->count;
+    double most = OPEN_LEAST;
+    for (size_t i = 0; i < c->front->count; i++) {
         const sp_front_entry *entry = &c->front->entries[i];
         size_t water = budget_of(c, entry->point.flow);
         double open = 1 - counted_area(c->search, &entry->design) / c->bound.by_water[water];
-        if (water && open >= OPEN_LEAST &&
-            !lower(c, water, rounds, 0.6 + 0.4 * (double)i / (double)c->front->count, error))
-            return false;
+        if (!done[i] && water && open > most) {
+            found = i;
+            most = open;
+        }
     }
-    return true;
+    return found;
+}
+
+static bool lower_front(certifying *c, size_t points, size_t rounds, sp_error *error)
+{
+    bool *done = calloc(c->front->count + 1, sizeof *done), good = true;
+    if (!done)
+        return sp_fail_memory(error);
+    for (size_t turn = 0; good && turn < points; turn++) {
+        size_t i = widest(c, done);
+        if (i == c->front->count)
+            break;
+        done[i] = true;
+        good = lower(c, budget_of(c, c->front->entries[i].point.flow), rounds,
+                     0.6 + 0.4 * (double)turn / (double)points, error);
+    }
+    free(done);
+    return good;
 }
 
 /* All that is to be lowered, in one figure. */
@@ -252,7 +278,7 @@ static bool prove(certifying *c, size_t water, double area, sp_error *error)
     for (double before = INFINITY, now = bounds_sum(c); now < before * (1 - YIELD_LEAST) && goes_on(c, 0.5);) {
         if (!lower(c, water, ROUNDS_PROVING, 0.5, error) ||
             !lower_water(c, area, ROUNDS_PROVING, ROUNDS_WATER_PROVING, error) ||
-            !lower_front(c, 1, ROUNDS_WATER_PROVING, error))
+            !lower_front(c, c->front->count, ROUNDS_WATER_PROVING, error))
             return false;
         before = now;
         now = bounds_sum(c);
@@ -264,9 +290,12 @@ static bool lower_all(certifying *c, sp_error *error)
 {
     size_t water = budget_of(c, c->front->best.flow);
     double area = counted_area(c->search, &c->front->best);
-    return sp_bound_lower(&c->bound, water, error) && lower(c, water, ROUNDS_FIRST - 1, 0.1, error) &&
-           lower_water(c, area, TRIALS_WATER, ROUNDS_WATER, error) &&
-           lower_front(c, c->front->count / POINTS_MOST + 1, ROUNDS_FRONT, error) &&
+    for (size_t round = 0; round < ROUNDS_EXPLORING; round++)
+        if (!sp_bound_explore(&c->bound, water, error))
+            return false;
+    return sp_bound_lower(&c->bound, water, error) && sp_bound_lower_single(&c->bound, error) &&
+           lower(c, water, ROUNDS_FIRST - 1, 0.1, error) && lower_water(c, area, TRIALS_WATER, ROUNDS_WATER, error) &&
+           lower_front(c, POINTS_MOST, ROUNDS_FRONT, error) &&
            (!c->search->options->prove || prove(c, water, area, error));
 }
 

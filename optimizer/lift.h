@@ -8,6 +8,7 @@
 
 #define SP_LIFT_KINDS 24
 #define SP_LIFT_LEVELS 512
+#define SP_LIFT_ALL_OR_NOTHING 4 /* the kind that, where one nozzle is all there is, sees nothing but whole shares */
 
 /* value[kind][level]: g of shares up to level / SP_LIFT_LEVELS, none below the one before it. */
 typedef struct {

@@ -8,6 +8,7 @@
 
 #define UPWARDS (1 + 1e-4) /* more than a sweep's sum may lie off, see sweep.h */
 #define ROWS_AT_A_TIME 300
+#define STRIDE 7 /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
 
 /* The pose of highest price of a site and make. */
 typedef struct {
@@ -178,9 +179,10 @@ static double least_of(const sp_pose_prices *prices, size_t port, size_t tier, c
     return prices->cover->weight[tier] > prices->cover->water ? INFINITY : fmin(offered, needed[tier]);
 }
 
-/* The best pose of every make at a site, of those that matter. */
+/* The best pose of every make at a site, of those that matter, and of these of every `stride`th, another one at the
+ * next site. */
 static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, const sp_prices *u, const double *needed,
-                       const sp_offers *offers)
+                       size_t stride, const sp_offers *offers)
 {
     const sp_candidates *candidates = prices->search->candidates;
     uint32_t mount = prices->search->sites->items[site].mount;
@@ -201,6 +203,8 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
         for (uint32_t a = 0; a < axes; a++)
             for (uint32_t r = 0; r < make->roll_count; r++) {
                 sp_pose pose = {site, k, a, r};
+                if ((site + a * make->roll_count + r) % stride)
+                    continue;
                 double price = price_of(prices, own, view, pose, &region);
                 if (price > fmax(found->price, least))
                     *found = (best){pose, price};
@@ -294,15 +298,15 @@ static bool hand_out(const sp_pose_prices *prices, const double *needed, sp_rows
     return done;
 }
 
-static bool price_poses(void *user, const sp_prices *u, const double *needed, sp_offers *offers, sp_rows *rows,
-                        sp_error *error)
+static bool price_poses(void *user, const sp_prices *u, const double *needed, bool all, sp_offers *offers,
+                        sp_rows *rows, sp_error *error)
 {
     sp_pose_prices *prices = user;
     const sp_search *search = prices->search;
     size_t makes = search->candidates->make_count, sites = search->sites->count;
 #pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
-        price_site(prices, &prices->scratches[omp_get_thread_num()], (uint32_t)i, u, needed, offers);
+        price_site(prices, &prices->scratches[omp_get_thread_num()], (uint32_t)i, u, needed, all ? 1 : STRIDE, offers);
     for (size_t i = 0; i < sites * makes; i++)
         if (prices->bests[i].price > 0)
             sp_offers_add(offers, prices->ports[search->sites->items[i / makes].mount], prices->tier_of[i % makes],

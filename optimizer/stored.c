@@ -41,9 +41,10 @@ static bool hand_out(const sp_stored *stored, entry *entries, size_t count, sp_r
     return done;
 }
 
-static bool price_stored(void *user, const sp_prices *u, const double *needed, sp_offers *offers, sp_rows *rows,
-                         sp_error *error)
+static bool price_stored(void *user, const sp_prices *u, const double *needed, bool all_wanted, sp_offers *offers,
+                         sp_rows *rows, sp_error *error)
 {
+    (void)all_wanted; /* to price them all takes no time worth saving */
     const sp_stored *stored = user;
     const sp_rows *all = stored->rows;
     double *price = malloc((all->count + 1) * sizeof *price);

@@ -73,6 +73,10 @@ static void check_instance(instance *in, size_t start_rows, double *looseness)
         assert_true(sp_rows_add(&bound.rows, in->rows.key[c], in->rows.port[c], in->rows.tier[c],
                                 in->rows.texel + in->rows.start[c], in->rows.share + in->rows.start[c],
                                 in->rows.start[c + 1] - in->rows.start[c], &error));
+    assert_true(sp_bound_lower_single(&bound, &error));
+    assert_true(bound.by_nozzles[1] >= t.by_nozzles[1]);
+    /* a level of the lifts is all that it may lie above */
+    assert_true(bound.by_nozzles[1] <= t.by_nozzles[1] + 0.02);
     for (size_t w = water; w > water / 4; w -= 4) {
         for (int round = 0; round < ROUNDS; round++) {
             assert_true(sp_bound_lower(&bound, w, &error));
