@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ITERATIONS 200    /* of a solve, at most */
+#define ITERATIONS 150    /* of a solve, at most */
 #define TOLERANCE 5e-4    /* at which a solve ends, as a share of the bound */
-#define ROWS_MOST 800     /* of the few */
+#define ROWS_MOST 600     /* of the few */
 #define CHOICE_LEAST 1e-6 /* a row that the linear program takes less of than this may go */
 
 bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *bound, sp_error *error)
@@ -34,9 +34,9 @@ bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *b
     for (size_t t = 0; t < cover->texel_count; t++)
         whole += (double)cover->area[t];
     for (size_t w = 0; w <= cover->water; w++)
-        bound->by_water[w] = whole * (1 + 1e-11);
+        bound->by_water[w] = (w < bound->lightest ? cover->base : whole) * (1 + 1e-11);
     for (size_t n = 0; n <= cover->nozzles; n++)
-        bound->by_nozzles[n] = whole * (1 + 1e-11);
+        bound->by_nozzles[n] = (n ? whole : cover->base) * (1 + 1e-11);
     return true;
 }
 

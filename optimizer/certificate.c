@@ -9,9 +9,9 @@
 #define ROUNDS_EXPLORING 4 /* of looking at some of the poses first */
 #define ROUNDS_FIRST 2     /* of pricing all poses, at the proposal's water */
 #define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
-#define TRIALS_WATER 3     /* such waters */
+#define TRIALS_WATER 5     /* such waters */
 #define ROUNDS_FRONT 1     /* at a point of the front */
-#define POINTS_MOST 5      /* of the front, that get rounds of their own */
+#define POINTS_MOST 4      /* of the front, that get rounds of their own */
 #define ROUNDS_LIFTED 3    /* at least, so that the lifts have settled */
 #define ROUNDS_PROVING 10  /* with --prove, at the proposal's water, and trials of water */
 #define ROUNDS_WATER_PROVING 4

@@ -465,7 +465,8 @@ bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task,
             area += (double)dual->cover->area[t];
         dual->weight = fmax(WEIGHT_FIRST * area / (double)(dual->texels ? dual->texels : 1), 1e-30);
     }
-    memcpy(s.x_start, dual->x, rows->count * sizeof *dual->x);
+    if (rows->count)
+        memcpy(s.x_start, dual->x, rows->count * sizeof *dual->x);
     for (size_t t = 0; t < dual->texels; t++) {
         s.u_start[t] = (double)dual->u.plain[t];
         s.u_start[dual->texels + t] = (double)dual->u.lifted[t];
