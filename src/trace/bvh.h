@@ -8,6 +8,8 @@
 
 #include "trace/search.h"
 
+#include <string.h>
+
 enum {
     SP_BVH_WIDTH = 8,
     SP_BVH_STACK = 288, /* what a walk depth first ever has pending: 7 a level and the root */
@@ -65,6 +67,19 @@ static inline void sp_bvh_child_box(const sp_bvh *bvh, const sp_bvh_node *node, 
         low[axis] = bvh->centre[axis] + (origin + node->low[axis][child] * step) / bvh->scale;
         high[axis] = bvh->centre[axis] + (origin + node->high[axis][child] * step) / bvh->scale;
     }
+}
+
+/* The power of two above a positive number, and its inverse. */
+static inline double sp_bvh_power_above(double a, double *inverse)
+{
+    uint64_t bits;
+    double power;
+    memcpy(&bits, &a, sizeof bits);
+    bits = (bits & 0x7FF0000000000000u) + 0x0010000000000000u;
+    memcpy(&power, &bits, sizeof power);
+    bits = 0x7FE0000000000000u - bits;
+    memcpy(inverse, &bits, sizeof bits);
+    return power;
 }
 
 #endif

@@ -1,40 +1,25 @@
 /* Rays of one origin: put in the order of their directions, then traced in bundles of neighbours. */
 #include "trace/bundle.h"
+#include "trace/direction_order.h"
 #include "trace/line.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-/* The sphere as six sides of a cube of 2^20 cells each. */
-enum { CELL_BITS = 10, DIGIT = 12, DIGITS = 2, VALUES = 1 << DIGIT };
 
 /* Origins farther away are left to single lines, which begin near the mesh. */
 #define NEAR_ENOUGH 7.0
 #define LONGEST 16.0
 
 typedef struct {
-    uint32_t key, line;
-} entry;
-
-typedef struct {
     const sp_bvh *bvh;
     const sp_ray *rays;
     size_t count;
-    sp_fan_line *lines; /* [count], as the rays */
-    entry *order[2];    /* [count] */
-    sp_hit *hits;       /* [count], or NULL */
-    float origin[3];    /* in the hierarchy's space */
+    sp_fan_line *lines;           /* [count], as the rays */
+    sp_direction_entry *order[2]; /* [count] */
+    sp_hit *hits;                 /* [count], or NULL */
+    float origin[3];              /* in the hierarchy's space */
     float blur;
 } fan;
-
-/* The bits of a number below 2^16, each with a zero before it. */
-static inline uint32_t spread_bits(uint32_t x)
-{
-    x = (x | x << 8) & 0x00FF00FF;
-    x = (x | x << 4) & 0x0F0F0F0F;
-    x = (x | x << 2) & 0x33333333;
-    return (x | x << 1) & 0x55555555;
-}
 
 static inline float clamp_depth(double depth)
 {
@@ -61,52 +46,20 @@ static inline bool see_line(const fan *f, const sp_ray *ray, sp_fan_line *line, 
     line->last = clamp_depth(ray->t_max * rate);
     line->skip = ray->skip;
     line->side = (uint32_t)(2 * z + (velocity[z] < 0));
-    const float half = 1 << (CELL_BITS - 1), most = (1 << CELL_BITS) - 1;
-    float i = (line->u + 1) * half, j = (line->v + 1) * half;
-    *key = line->side << 2 * CELL_BITS | spread_bits((uint32_t)(i < most ? i : most)) |
-           spread_bits((uint32_t)(j < most ? j : most)) << 1;
+    *key = sp_direction_key(line->side, line->u, line->v);
     return true;
 }
 
-/* Sorts order[0] by key; order[1] is room. */
-static void sort(fan *f)
-{
-    uint32_t starts[DIGITS][VALUES] = {{0}};
-    for (size_t i = 0; i < f->count; i++)
-        for (int digit = 0; digit < DIGITS; digit++)
-            starts[digit][f->order[0][i].key >> digit * DIGIT & (VALUES - 1)]++;
-    for (int digit = 0; digit < DIGITS; digit++) {
-        uint32_t sum = 0;
-        for (int value = 0; value < VALUES; value++) {
-            uint32_t here = starts[digit][value];
-            starts[digit][value] = sum;
-            sum += here;
-        }
-        for (size_t i = 0; i < f->count; i++) {
-            entry e = f->order[0][i];
-            f->order[1][starts[digit][e.key >> digit * DIGIT & (VALUES - 1)]++] = e;
-        }
-        entry *swap = f->order[0];
-        f->order[0] = f->order[1];
-        f->order[1] = swap;
-    }
-}
-
-/* Reads the rays, and sorts them unless most already are next to their neighbours. */
+/* Reads the rays, and sorts them. */
 static bool read_rays(fan *f)
 {
-    size_t steps_back = 0;
-    uint32_t before = 0;
     for (size_t i = 0; i < f->count; i++) {
         uint32_t key;
         if (!see_line(f, &f->rays[i], &f->lines[i], &key))
             return false;
-        f->order[0][i] = (entry){key, (uint32_t)i};
-        steps_back += key < before;
-        before = key;
+        f->order[0][i] = (sp_direction_entry){key, (uint32_t)i};
     }
-    if (steps_back > f->count / 16)
-        sort(f);
+    sp_direction_sort(f->order, f->count);
     return true;
 }
 
@@ -115,7 +68,7 @@ static inline void fetch(const fan *f, size_t from)
 {
     size_t end = f->count - from < SP_BUNDLE ? f->count : from + SP_BUNDLE;
     for (size_t i = from; from < f->count && i < end; i++) {
-        uint32_t number = f->order[0][i].line;
+        uint32_t number = f->order[0][i].ray;
         __builtin_prefetch(&f->lines[number]);
         if (f->hits)
             __builtin_prefetch(&f->hits[number], 1);
@@ -126,11 +79,11 @@ static inline void fetch(const fan *f, size_t from)
 static size_t fill_bundle(const fan *f, size_t from, sp_bundle *b)
 {
     float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    uint32_t side = f->lines[f->order[0][from].line].side;
+    uint32_t side = f->lines[f->order[0][from].ray].side;
     int count = 0;
     fetch(f, from + SP_BUNDLE);
     for (; count < SP_BUNDLE && from + (size_t)count < f->count; count++) {
-        uint32_t number = f->order[0][from + (size_t)count].line;
+        uint32_t number = f->order[0][from + (size_t)count].ray;
         const sp_fan_line *line = &f->lines[number];
         if (line->side != side)
             break;

@@ -1,7 +1,5 @@
 #include "trace/parabola_bvh.h"
 
-#include <string.h>
-
 /* Coordinates in the hierarchy's space up to which the fast walk goes: some more than the boxes with their padding. */
 #define LIMIT (1 + 0x1p-6)
 /* What positions may be summed from, in that space: 2^18 SP_PARABOLA_ROUNDING is 4 units of single precision at 1. */
@@ -129,19 +127,6 @@ sp_bvh_fitness sp_bvh_jet_prepare(sp_bvh_jet *jet, double *from, double *to)
     return *from <= *to ? SP_BVH_READY : SP_BVH_NOWHERE;
 }
 
-/* The power of two above a positive number, and its inverse. */
-static inline double power_above(double a, double *inverse)
-{
-    uint64_t bits;
-    double power;
-    memcpy(&bits, &a, sizeof bits);
-    bits = (bits & 0x7FF0000000000000u) + 0x0010000000000000u;
-    memcpy(&power, &bits, sizeof power);
-    bits = 0x7FE0000000000000u - bits;
-    memcpy(inverse, &bits, sizeof bits);
-    return power;
-}
-
 /* Fills what of the arc is about the axis at this place in its order, `slope` being the chord's. */
 static inline void set_axis(sp_bvh_arc *arc, int i, double slope, double inverse, double last)
 {
@@ -197,7 +182,7 @@ sp_bvh_fitness sp_bvh_arc_prepare(sp_bvh_jet *jet, double from, double to)
           (to - from) * fastest <= 4.2 && fastest > 1e-100 && fastest < 1e100))
         return SP_BVH_FAR;
     arc->start = from;
-    arc->rate = power_above(fastest, &span);
+    arc->rate = sp_bvh_power_above(fastest, &span);
     double last = (to - from) * arc->rate;
     order_axes(jet->pull, arc);
     arc->sag = 0;

@@ -1,6 +1,7 @@
 #include "trace/bundle.h"
 #include "trace/line_bvh.h"
 #include "trace/parabola_bvh.h"
+#include "trace/volley.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -204,13 +205,32 @@ static void trace_lines(const sp_tracer *tracer, const sp_ray *rays, size_t coun
     }
 }
 
+/* Parabolas through the bvh: those of one origin in volleys, all others one by one. */
+static void trace_parabolas(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_pull *pull,
+                            sp_hit *hits, bool *occluded)
+{
+    bool *done = calloc(count, sizeof *done); /* without memory none is */
+    for (size_t i = 0, n; done && i < count; i += n) {
+        n = count_fan(rays + i, count - i);
+        if (n >= FAN_LEAST)
+            sp_volleys_trace(&tracer->bvh, tracer->instructions, rays + i, n, pull, hits ? hits + i : NULL,
+                             hits ? NULL : occluded + i, done + i);
+    }
+    for (size_t i = 0; i < count; i++)
+        if (!done || !done[i])
+            trace_one_by_one(tracer, rays + i, 1, pull, hits ? hits + i : NULL, hits ? NULL : occluded + i);
+    free(done);
+}
+
 static void trace_chunk(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_pull *pull, sp_hit *hits,
                         bool *occluded)
 {
-    if (tracer->accelerator == SP_ACCELERATOR_BVH && pull->strength == 0)
+    if (tracer->accelerator != SP_ACCELERATOR_BVH)
+        trace_one_by_one(tracer, rays, count, pull, hits, occluded);
+    else if (pull->strength == 0)
         trace_lines(tracer, rays, count, hits, occluded);
     else
-        trace_one_by_one(tracer, rays, count, pull, hits, occluded);
+        trace_parabolas(tracer, rays, count, pull, hits, occluded);
 }
 
 static void trace_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity, int threads,
