@@ -122,7 +122,7 @@ static void vertical_flights(void **state)
     sp_mesh_destroy(mesh);
 }
 
-enum { SHAPES = 6, INSIDE = 64 };
+enum { SHAPES = 6, INSIDE = 64, BATCH = 256 };
 
 /* A closed mesh, its normals outwards, and points inside it. */
 typedef struct {
@@ -167,9 +167,8 @@ static void find_inside(closed *shape, random_source *source)
 /* Whether a ray from inside, aimed to be at its target after one second, is not stopped there or before, or comes
  * through a wall from outside: a flight that brushes an edge of a wall that bulges inwards may go on inside, but leaves
  * in the end. */
-static bool slips(const closed *shape, const sp_ray *ray, sp_vec3 gravity)
+static bool slips(const closed *shape, const sp_ray *ray, sp_vec3 gravity, sp_hit hit)
 {
-    sp_hit hit = sp_trace_nearest(shape->tracer, ray, gravity);
     if (hit.triangle == SP_NONE)
         return true;
     sp_vec3 velocity = sp_ray_velocity(ray, gravity, hit.t);
@@ -177,20 +176,41 @@ static bool slips(const closed *shape, const sp_ray *ray, sp_vec3 gravity)
     return fabs(hit.t - 1) > 1e-6 && outwards < -1e-6 * sp_length(velocity);
 }
 
+/* Rays of one origin, together or one by one. */
+static void trace_batch(const closed *shape, const sp_ray rays[BATCH], sp_vec3 gravity, bool together,
+                        sp_hit hits[BATCH], bool occluded[BATCH])
+{
+    if (together) {
+        sp_trace_nearest_many(shape->tracer, rays, BATCH, gravity, 1, hits);
+        sp_trace_occluded_many(shape->tracer, rays, BATCH, gravity, 1, occluded);
+    }
+    for (int i = 0; i < BATCH && !together; i++) {
+        hits[i] = sp_trace_nearest(shape->tracer, &rays[i], gravity);
+        occluded[i] = i % 4 || sp_trace_occluded(shape->tracer, &rays[i], gravity);
+    }
+}
+
 static size_t count_misses(const closed *shape, size_t shots, bool curved, random_source *source)
 {
     static const sp_vec3 along[] = {{0, 0, -1}, {0, 0, -1}, {0, -1, 0}, {0.6, -0.48, 0.64}};
     static const double pulls[] = {1, 0.1, 10, 1e-3, 100};
     size_t misses = 0;
-    for (size_t i = 0; i < shots; i++) {
-        sp_vec3 gravity = curved ? sp_scale(along[i % 4], shape->size * pulls[i % 5]) : sp_v(0, 0, 0);
+    for (size_t batch = 0; batch * BATCH < shots; batch++) {
+        sp_ray rays[BATCH];
+        sp_hit hits[BATCH];
+        bool occluded[BATCH];
+        sp_vec3 gravity = curved ? sp_scale(along[batch % 4], shape->size * pulls[batch % 5]) : sp_v(0, 0, 0);
         sp_vec3 origin = shape->inside[(size_t)draw(source, 0, INSIDE)];
-        sp_ray ray = aim(origin, draw_target(source, shape->mesh), gravity);
-        if (!slips(shape, &ray, gravity) && (i % 4 || sp_trace_occluded(shape->tracer, &ray, gravity)))
-            continue;
-        if (misses++ < 10)
-            printf("missed: (%a %a %a) (%a %a %a) pull (%a %a %a)\n", origin.x, origin.y, origin.z, ray.velocity.x,
-                   ray.velocity.y, ray.velocity.z, gravity.x, gravity.y, gravity.z);
+        for (int i = 0; i < BATCH; i++)
+            rays[i] = aim(origin, draw_target(source, shape->mesh), gravity);
+        trace_batch(shape, rays, gravity, batch % 3 > 0, hits, occluded);
+        for (int i = 0; i < BATCH; i++) {
+            if (!slips(shape, &rays[i], gravity, hits[i]) && occluded[i])
+                continue;
+            if (misses++ < 10)
+                printf("missed: (%a %a %a) (%a %a %a) pull (%a %a %a)\n", origin.x, origin.y, origin.z,
+                       rays[i].velocity.x, rays[i].velocity.y, rays[i].velocity.z, gravity.x, gravity.y, gravity.z);
+        }
     }
     return misses;
 }
