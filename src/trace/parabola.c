@@ -13,6 +13,12 @@
  *   - With both ends above it is crossed twice or not at all; if that is rounded the wrong way the flight was touching.
  *   - A corner exactly in the plane is taken to be on either side in turn, so that edges in the plane belong to all
  *     their triangles, and a flight within a wall's plane still meets the floor that ends there.
+ * What could leak, and why it does not: a root rejected because rounding puts it just outside the triangle at the one
+ * and the other side of an edge (no root is ever tested against an edge: the signs at the ends have decided before it
+ * is computed); a coefficient rounded until a root is no longer real (one sign change needs no discriminant); a corner
+ * that its triangles see in different places (products are taken of single corners, never of a triangle's differences);
+ * a box or a filter that leaves out what is hit (they are widened by proven bounds, and tests/trace/parabola_bounds.c
+ * holds them against this test).
  * Towards the vertical the plane's direction and the times at which points are passed become mere rounding, but depths
  * do not: the time is then found from the depth. When the flight is within 2^-42 of its reach of one vertical line, it
  * is taken to be on it, and the decision is the line's. */

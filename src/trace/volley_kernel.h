@@ -56,7 +56,7 @@ static volley_slabs slabs_of(const sp_volley *v)
 
 /* Which children some jet may be in, and between which ways.
  *
- * The highest that any is at a way is parabola of the fastest, the lowest that of the slowest. Between two ways the
+ * The highest that any is at a way is the parabola of the fastest, the lowest that of the slowest. Between two ways the
  * former is highest where it turns, or at the end next to that, the latter lowest at either end. Rounding as in
  * parabola_kernel.h, with S = 8: 4 e S for the polynomials and less than 8 e R otherwise, less than the boxes' pad. */
 static inline uint32_t meet_children(const sp_bvh_node *node, const sp_volley *v, const volley_slabs *s, wide *first,
