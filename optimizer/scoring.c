@@ -141,7 +141,7 @@ void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
     }
 }
 
-void sp_field_reach(const sp_search *search, const sp_nozzle *nozzle, const sp_reach *reach, float *field)
+static void field_reach(const sp_search *search, const sp_nozzle *nozzle, const sp_reach *reach, float *field)
 {
     const sp_setup *setup = sp_evaluator_setup(search->coarse);
     sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
@@ -167,7 +167,7 @@ bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, float *fi
                                                  fmin(M_PI, sp_spray_reach(&spray) + 1e-6), error);
     if (!reach)
         return false;
-    sp_field_reach(search, nozzle, reach, field);
+    field_reach(search, nozzle, reach, field);
     sp_reach_destroy(reach);
     return true;
 }

@@ -51,8 +51,6 @@ sp_region sp_sweeper_region(const sp_sweeper *sweeper, uint32_t axis, uint32_t r
 /* [patch_count], flux over threshold of a candidate pose; of any nozzle, traced anew. */
 void sp_field_pose(const sp_search *search, sp_pose pose, float *field);
 bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, float *field, sp_error *error);
-/* The same from what was traced from its position at its speed. */
-void sp_field_reach(const sp_search *search, const sp_nozzle *nozzle, const sp_reach *reach, float *field);
 /* What a field adds to a design. */
 double sp_field_gain(const sp_search *search, const float *wet, const float *field);
 
