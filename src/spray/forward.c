@@ -6,7 +6,8 @@
 #include <string.h>
 
 #define BATCH 65536 /* jets in flight at once */
-#define SHARES 4    /* patches that one jet's liquid goes to at most */
+#define CORNERS 4   /* pixels whose centres are around a point */
+#define SHARES 8    /* patches that one jet's liquid goes to at most: those, and as many across a seam */
 /* Texels that a jet flies before anything stops it: on which side of the wall it stands in a nozzle is, is round-off.
  */
 #define MOUTH 1e-7
@@ -33,43 +34,69 @@ typedef struct {
     int threads;
 } jet_flight;
 
-/* Shares an impact among the patches of its chart whose texels' centres are nearest, the nearer the more (the study's
- * weighted average, 3.3.1), and in proportion to their area: an even flux stays even at the rim of a chart. */
+/* Adds a share in proportion to the patch's area; false where that texel has no patch on the side that was hit. */
+static bool add_share(const sp_evaluator *evaluator, uint32_t texel, bool back, double weight, jet_impact *impact)
+{
+    uint32_t patch = evaluator->texel_patch[texel][evaluator->setup.cavity != SP_CAVITY_NONE && back];
+    if (patch == SP_NONE || impact->shares == SHARES)
+        return false;
+    impact->patch[impact->shares] = patch;
+    impact->share[impact->shares++] = weight * evaluator->patches.area[patch];
+    return true;
+}
+
+/* What lies beyond the chart goes to the texels across the seams of the texel that was hit, by the lengths along which
+ * they touch it. */
+static void share_across(const sp_evaluator *evaluator, uint32_t own, bool back, double weight, jet_impact *impact)
+{
+    size_t count;
+    const sp_seam *seams = sp_atlas_seams(evaluator->atlas, own, &count);
+    double length = 0;
+    count = count < SHARES - CORNERS ? count : SHARES - CORNERS;
+    for (size_t i = 0; i < count; i++)
+        length += seams[i].length;
+    for (size_t i = 0; i < count; i++)
+        add_share(evaluator, seams[i].other, back, weight * seams[i].length / length, impact);
+}
+
+/* Shares an impact among the patches whose texels' centres are nearest, the nearer the more (the study's weighted
+ * average, 3.3.1), and in proportion to their area: an even flux stays even at the rim of a chart. */
 static void share_linearly(const sp_evaluator *evaluator, const sp_hit *hit, bool back, jet_impact *impact)
 {
     const sp_atlas *atlas = evaluator->atlas;
     const double(*uv)[2] = (const double(*)[2])atlas->uv[hit->triangle];
-    uint32_t chart = atlas->chart[hit->triangle], page = atlas->chart_page[chart], only = impact->patch[0];
-    double w = 1 - hit->u - hit->v, place[2], corner[2];
+    uint32_t only = impact->patch[0], own = sp_atlas_texel(atlas, hit->triangle, hit->u, hit->v);
+    sp_texel_place home = sp_atlas_place(atlas, own);
+    double w = 1 - hit->u - hit->v, place[2], corner[2], beyond = 0, sum = 0;
     for (int axis = 0; axis < 2; axis++) {
         place[axis] = w * uv[0][axis] + hit->u * uv[1][axis] + hit->v * uv[2][axis] - 0.5;
         corner[axis] = floor(place[axis]);
     }
-    double sum = 0;
-    int shares = 0;
-    for (int i = 0; i < SHARES; i++) {
+    impact->shares = 0;
+    for (int i = 0; i < CORNERS; i++) {
         double x = corner[0] + i % 2, y = corner[1] + i / 2;
-        uint32_t texel = x < 0 || y < 0 ? SP_NONE : sp_atlas_pixel(atlas, page, (uint32_t)x, (uint32_t)y);
-        if (texel == SP_NONE || sp_atlas_place(atlas, texel).chart != chart)
-            continue;
-        uint32_t patch = evaluator->texel_patch[texel][evaluator->setup.cavity != SP_CAVITY_NONE && back];
-        if (patch == SP_NONE)
-            continue;
-        double weight = (1 - fabs(place[0] - x)) * (1 - fabs(place[1] - y)) * evaluator->patches.area[patch];
+        double weight = (1 - fabs(place[0] - x)) * (1 - fabs(place[1] - y));
+        uint32_t texel = x < 0 || y < 0 ? SP_NONE : sp_atlas_pixel(atlas, home.page, (uint32_t)x, (uint32_t)y);
+        if (texel != SP_NONE && x == home.x && y == home.y)
+            texel = own; /* of several patches in that pixel */
         if (!(weight > 0))
             continue;
-        impact->patch[shares] = patch;
-        impact->share[shares++] = weight;
-        sum += weight;
+        if (texel == SP_NONE || sp_atlas_place(atlas, texel).chart != home.chart)
+            beyond += weight;
+        else
+            add_share(evaluator, texel, back, weight, impact);
     }
-    if (shares == 0) {
+    if (beyond > 0)
+        share_across(evaluator, own, back, beyond, impact);
+    for (int i = 0; i < impact->shares; i++)
+        sum += impact->share[i];
+    if (!(sum > 0)) {
         impact->patch[0] = only;
         impact->share[0] = sum = 1;
-        shares = 1;
+        impact->shares = 1;
     }
-    for (int i = 0; i < shares; i++)
+    for (int i = 0; i < impact->shares; i++)
         impact->share[i] /= sum;
-    impact->shares = shares;
 }
 
 /* A parabola that leaves a triangle may come back to it, which its `skip` hides: of the two meetings with the
