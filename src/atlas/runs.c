@@ -137,7 +137,8 @@ bool sp_runs_find(sp_runs *runs, const sp_sheets *sheets, uint32_t number, sp_be
     }
     for (size_t i = 0; i < 3 * sheet->triangle_count; i++)
         runs->seen[3 * sheet->triangle[i / 3] + i % 3] = 0;
-    qsort(runs->items, good ? runs->count : 0, sizeof *runs->items, by_neighbour);
+    if (good && runs->count > 1) /* none at all have no array either, which qsort must not be given */
+        qsort(runs->items, runs->count, sizeof *runs->items, by_neighbour);
     size_t kept = 0;
     for (size_t i = 0; good && i < runs->count; i++)
         if (i == 0 || runs->items[i].other != runs->items[kept - 1].other)
