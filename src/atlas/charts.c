@@ -42,13 +42,13 @@ static bool make_sheet(making *m, uint32_t seed)
     if (verdict != SP_SHEET_UNFIT)
         return verdict == SP_SHEET_FITS;
     sheet = m->sheets.items[number];
-    sp_split(&sheet, m->region, (uint32_t)m->regions, (uint32_t)m->regions + 1);
+    bool good = sp_split(&m->sheets, &sheet, m->region, (uint32_t)m->regions);
     m->regions += 2;
     for (size_t i = 0; i < sheet.triangle_count; i++)
         m->sheets.owner[sheet.triangle[i]] = SP_NONE;
     sp_sheet_free(&sheet);
     m->sheets.count--;
-    return true;
+    return good;
 }
 
 /* Every triangle comes into a sheet: those of a halved one come by again until theirs is made. */

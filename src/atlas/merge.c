@@ -11,12 +11,12 @@
 #include <stdlib.h>
 
 /* The gap over the smaller sheet's size weighs this much against the share of its boundary that is not in the run. */
-#define GAP_WEIGHT 4.0
+#define GAP_WEIGHT 8.0
 #define WIDEST_GAP 0.12      /* over the smaller sheet's size */
 #define DEVELOPABLE_GAP 1e-4 /* over the length of the run */
-#define LEAST_SHARE 0.2      /* of the smaller sheet's boundary that the run must be */
-#define MOST_WASTE 1.5       /* box around the union over those around the two */
-#define PATCH_SHARE 0.05     /* of the area of developable surface, that a sheet may have which joins it with strain */
+#define LEAST_SHARE 0.15     /* of the smaller sheet's boundary that the run must be */
+#define MOST_WASTE 1.497 /* box around the union over those around the two; no ratio that boxes are likely to have */
+#define PATCH_SHARE 0.05 /* of the area of developable surface, that a sheet may have which joins it with strain */
 
 typedef struct {
     sp_run run;

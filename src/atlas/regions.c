@@ -9,8 +9,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define WIDEST 0.3 /* 1 - cosine of the angle between a region's mean normal and a triangle's, in the first pass */
-#define PASSES 2   /* of growing together */
+#define WIDEST 0.3  /* 1 - cosine of the angle between a region's mean normal and a triangle's, in the first pass */
+#define PASSES 2    /* of growing together */
+#define SMOOTHING 3 /* passes of straightening borders */
 #define STRAIGHTNESS 0.1 /* cost of a border that a triangle only lengthens, in the same measure */
 
 typedef struct {
@@ -37,10 +38,10 @@ static sp_vec3 centre_of(const growth *g, uint32_t t)
     return sp_scale(sp_add(sp_add(at[c[0]], at[c[1]]), at[c[2]]), 1.0 / 3);
 }
 
-static double edge_length(const growth *g, uint32_t half_edge)
+static double edge_length(const sp_mesh *mesh, uint32_t half_edge)
 {
-    const uint32_t *c = g->mesh->triangles[half_edge / 3];
-    return sp_distance(g->mesh->vertices[c[half_edge % 3]], g->mesh->vertices[c[(half_edge % 3 + 1) % 3]]);
+    const uint32_t *c = mesh->triangles[half_edge / 3];
+    return sp_distance(mesh->vertices[c[half_edge % 3]], mesh->vertices[c[(half_edge % 3 + 1) % 3]]);
 }
 
 /* On a grid of 2^-20, a little off so that costs such as 0 or 1/2 do not fall on the edge of its cells. */
@@ -63,7 +64,7 @@ static uint64_t cost_across(const growth *g, uint32_t half_edge)
     double inner = 0, all = 0;
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t twin = g->twin[3 * triangle + k];
-        double length = edge_length(g, 3 * triangle + k);
+        double length = edge_length(g->mesh, 3 * triangle + k);
         all += length;
         inner += twin != SP_NONE && g->region[twin / 3] == r ? length : 0;
     }
@@ -162,6 +163,42 @@ static bool grow_together(growth *g)
     return true;
 }
 
+/* The region on two sides of a triangle that is not its own, or its own. */
+static uint32_t region_around(const uint32_t *twin, const uint32_t *region, uint32_t t)
+{
+    uint32_t sides[3];
+    for (uint32_t k = 0; k < 3; k++)
+        sides[k] = twin[3 * t + k] == SP_NONE ? SP_NONE : region[twin[3 * t + k] / 3];
+    for (int k = 0; k < 3; k++)
+        if (sides[k] != SP_NONE && sides[k] != region[t] && sides[k] == sides[(k + 1) % 3])
+            return sides[k];
+    return region[t];
+}
+
+/* The length of a triangle's border with region `r`. */
+static double border_with(const sp_mesh *mesh, const uint32_t *twin, const uint32_t *region, uint32_t t, uint32_t r)
+{
+    double length = 0;
+    for (uint32_t h = 3 * t; h < 3 * t + 3; h++)
+        if (twin[h] != SP_NONE && region[twin[h] / 3] == r)
+            length += edge_length(mesh, h);
+    return length;
+}
+
+void sp_regions_straighten(const sp_mesh *mesh, const uint32_t *twin, const uint32_t *list, size_t count,
+                           uint32_t first, uint32_t *region)
+{
+    for (int pass = 0; pass < SMOOTHING; pass++)
+        for (size_t i = 0; i < count; i++) {
+            uint32_t t = list ? list[i] : (uint32_t)i, other = region_around(twin, region, t);
+            if (other == region[t] || other < first)
+                continue;
+            double own = border_with(mesh, twin, region, t, region[t]);
+            if (border_with(mesh, twin, region, t, other) > own * (1 + 1e-6))
+                region[t] = other;
+        }
+}
+
 bool sp_regions_grow(const sp_mesh *mesh, const uint32_t *twin, uint32_t *region, size_t *count, sp_error *error)
 {
     growth g = {.mesh = mesh, .twin = twin, .region = region};
@@ -178,6 +215,8 @@ bool sp_regions_grow(const sp_mesh *mesh, const uint32_t *twin, uint32_t *region
         find_seeds(&g);
         good = grow_together(&g);
     }
+    if (good)
+        sp_regions_straighten(mesh, twin, NULL, mesh->triangle_count, 0, region);
     *count = g.count;
     free(g.normal);
     free(g.proxies);

@@ -18,14 +18,6 @@ void sp_runs_destroy(sp_runs *runs)
     *runs = (sp_runs){0};
 }
 
-double sp_edge_length(const sp_sheets *sheets, uint32_t half_edge)
-{
-    const double *shape = sheets->shape[half_edge / 3];
-    if (half_edge % 3 == 0)
-        return shape[0];
-    return half_edge % 3 == 1 ? hypot(shape[1] - shape[0], shape[2]) : hypot(shape[1], shape[2]);
-}
-
 /* The sheet across a boundary half-edge, SP_NONE where there is none or it is the same. */
 static uint32_t neighbour(const sp_sheets *sheets, uint32_t half_edge)
 {

@@ -29,7 +29,4 @@ void sp_runs_destroy(sp_runs *runs);
  * bent by at most `most`. False when memory runs out. */
 bool sp_runs_find(sp_runs *runs, const sp_sheets *sheets, uint32_t number, sp_bend most);
 
-/* The length of a half-edge, m. */
-double sp_edge_length(const sp_sheets *sheets, uint32_t half_edge);
-
 #endif

@@ -96,6 +96,14 @@ void sp_sheets_destroy(sp_sheets *sheets)
     *sheets = (sp_sheets){0};
 }
 
+double sp_edge_length(const sp_sheets *sheets, uint32_t half_edge)
+{
+    const double *shape = sheets->shape[half_edge / 3];
+    if (half_edge % 3 == 0)
+        return shape[0];
+    return half_edge % 3 == 1 ? hypot(shape[1] - shape[0], shape[2]) : hypot(shape[1], shape[2]);
+}
+
 bool sp_sheet_allocate(sp_sheet *sheet, size_t triangle_count, size_t vertex_count)
 {
     *sheet = (sp_sheet){.triangle_count = triangle_count, .vertex_count = vertex_count};

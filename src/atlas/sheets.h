@@ -36,6 +36,9 @@ bool sp_sheets_create(sp_sheets *sheets, const sp_mesh *mesh, const uint32_t *tw
 /* Accepts what was never created, if it is all zeros. */
 void sp_sheets_destroy(sp_sheets *sheets);
 
+/* The length of a half-edge, m. */
+double sp_edge_length(const sp_sheets *sheets, uint32_t half_edge);
+
 /* Room for a sheet, its arrays uninitialised; false when memory runs out. */
 bool sp_sheet_allocate(sp_sheet *sheet, size_t triangle_count, size_t vertex_count);
 void sp_sheet_free(sp_sheet *sheet);

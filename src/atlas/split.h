@@ -4,8 +4,8 @@
 
 #include "atlas/sheets.h"
 
-/* Puts the triangles of a sheet on either side of its middle, as it lies, into regions `below` and `above`: neither is
- * empty. The sheet has at least two. `region` [triangle_count of the mesh]. */
-void sp_split(const sp_sheet *sheet, uint32_t *region, uint32_t below, uint32_t above);
+/* Puts the triangles of a sheet of at least two into regions `below` and `below` + 1, neither of them empty, with a
+ * short border between them. `region` [triangle_count of the mesh]. False when memory runs out. */
+bool sp_split(const sp_sheets *sheets, const sp_sheet *sheet, uint32_t *region, uint32_t below);
 
 #endif
