@@ -42,9 +42,9 @@ const sp_mesh *sp_tracer_mesh(const sp_tracer *tracer);
 /* Bytes held besides the mesh. */
 size_t sp_tracer_bytes(const sp_tracer *tracer);
 
-/* One ray. `gravity` (m/s²) zero means a line. Triangles are hit from both sides, and edges belong to every triangle
- * that has them, so that nothing slips between two. All accelerators give the same answer to the last bit. Safe to call
- * from many threads. */
+/* One ray. `gravity` (m/s²) zero means a line. Triangles are hit from both sides. What meets an edge or a corner hits at
+ * least one of the triangles there, lines all of them, so that nothing slips between two. All accelerators give the same
+ * answer to the last bit. Safe to call from many threads. */
 sp_hit sp_trace_nearest(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity);
 /* True where anything but `skip` is hit within (t_min, t_max). */
 bool sp_trace_occluded(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity);
