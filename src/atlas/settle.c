@@ -69,7 +69,8 @@ sp_verdict sp_settle(sp_sheets *sheets, uint32_t number, double extent, sp_relax
     if (exact && !close_cuts(sheets, sheet, number))
         return SP_SHEET_MEMORY;
     if (!exact) {
-        int inner = 6 + (int)(sqrt((double)sheet->vertex_count) / 4);
+        /* More for wider sheets, but not without end: what is left waits for the next round. */
+        int inner = 6 + (int)fmin(sqrt((double)sheet->vertex_count) / 4, 10);
         for (int batch = 0; batch < BATCHES; batch++) {
             if (!sp_relax(relaxer, sheets, sheet, ROUNDS, inner))
                 return SP_SHEET_MEMORY;
