@@ -52,9 +52,17 @@ void sp_bundle_answer_portable(const sp_bundle *bundle, sp_hit *hits);
 void sp_bundle_answer_avx2(const sp_bundle *bundle, sp_hit *hits);
 void sp_bundle_answer_avx512(const sp_bundle *bundle, sp_hit *hits);
 
+/* Room for the rays of a fan, kept from one to the next. Begins as zeros. */
+typedef struct {
+    sp_fan_line *lines;
+    void *order;
+    size_t count;
+} sp_fan_room;
+void sp_fan_room_clear(sp_fan_room *room);
+
 /* Traces rays of one origin, none of which may begin before time 0: `hits`, or where that is NULL `occluded`, get an
  * answer for each. False where single precision or memory do not suffice; nothing is written then. */
-bool sp_fan_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count, sp_hit *hits,
-                  bool *occluded);
+bool sp_fan_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count, sp_fan_room *room,
+                  sp_hit *hits, bool *occluded);
 
 #endif

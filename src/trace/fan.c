@@ -165,8 +165,30 @@ static bool place_origin(fan *f)
     return true;
 }
 
-bool sp_fan_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count, sp_hit *hits,
-                  bool *occluded)
+void sp_fan_room_clear(sp_fan_room *room)
+{
+    free(room->lines);
+    free(room->order);
+    *room = (sp_fan_room){0};
+}
+
+static bool make_room(sp_fan_room *room, size_t count)
+{
+    if (count <= room->count)
+        return true;
+    sp_fan_room_clear(room);
+    if (count > SIZE_MAX / (2 * sizeof(sp_fan_line)))
+        return false;
+    room->lines = aligned_alloc(alignof(sp_fan_line), count * sizeof *room->lines);
+    room->order = malloc(2 * count * sizeof(entry));
+    if (!room->lines || !room->order)
+        return false;
+    room->count = count;
+    return true;
+}
+
+bool sp_fan_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count, sp_fan_room *room,
+                  sp_hit *hits, bool *occluded)
 {
     static void (*const searches[])(sp_bundle *) = {sp_bundle_search_portable, sp_bundle_search_avx2,
                                                     sp_bundle_search_avx512};
@@ -175,12 +197,15 @@ bool sp_fan_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray 
     fan f = {.bvh = bvh, .rays = rays, .count = count, .hits = hits};
     if (bvh->node_count == 0 || count == 0 || !place_origin(&f))
         return false;
-    f.lines = aligned_alloc(alignof(sp_fan_line), count * sizeof *f.lines);
-    f.order[0] = malloc(count * sizeof *f.order[0]);
-    f.order[1] = malloc(count * sizeof *f.order[1]);
-    bool good = f.lines && f.order[0] && f.order[1] && read_rays(&f);
+    if (!make_room(room, count))
+        return false;
+    f.lines = room->lines;
+    f.order[0] = room->order;
+    f.order[1] = f.order[0] + count;
+    if (!read_rays(&f))
+        return false;
     sp_bundle bundle = {.bvh = bvh, .rays = rays, .lines = f.lines, .blur = f.blur, .any = !hits};
-    for (size_t i = 0; good && i < count;) {
+    for (size_t i = 0; i < count;) {
         i += fill_bundle(&f, i, &bundle);
         searches[instructions](&bundle);
         if (hits)
@@ -188,8 +213,5 @@ bool sp_fan_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray 
         for (int k = 0; !hits && k < bundle.count; k++)
             occluded[bundle.ray[k]] = bundle.triangle[k] != SP_NONE;
     }
-    free(f.lines);
-    free(f.order[0]);
-    free(f.order[1]);
-    return good;
+    return true;
 }

@@ -187,7 +187,8 @@ static void trace_one_by_one(const sp_tracer *tracer, const sp_ray *rays, size_t
 }
 
 /* Lines through the bvh: fans together, all others as a stream. */
-static void trace_lines(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_hit *hits, bool *occluded)
+static void trace_lines(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_fan_room *room, sp_hit *hits,
+                        bool *occluded)
 {
     const sp_bvh *bvh = &tracer->bvh;
     sp_instructions instructions = tracer->instructions;
@@ -200,7 +201,7 @@ static void trace_lines(const sp_tracer *tracer, const sp_ray *rays, size_t coun
                            hits ? NULL : occluded + alone);
         alone = i;
         if (i < count &&
-            sp_fan_trace(bvh, instructions, rays + i, n, hits ? hits + i : NULL, hits ? NULL : occluded + i))
+            sp_fan_trace(bvh, instructions, rays + i, n, room, hits ? hits + i : NULL, hits ? NULL : occluded + i))
             alone += n;
     }
 }
@@ -222,13 +223,13 @@ static void trace_parabolas(const sp_tracer *tracer, const sp_ray *rays, size_t 
     free(done);
 }
 
-static void trace_chunk(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_pull *pull, sp_hit *hits,
-                        bool *occluded)
+static void trace_chunk(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_pull *pull,
+                        sp_fan_room *room, sp_hit *hits, bool *occluded)
 {
     if (tracer->accelerator != SP_ACCELERATOR_BVH)
         trace_one_by_one(tracer, rays, count, pull, hits, occluded);
     else if (pull->strength == 0)
-        trace_lines(tracer, rays, count, hits, occluded);
+        trace_lines(tracer, rays, count, room, hits, occluded);
     else
         trace_parabolas(tracer, rays, count, pull, hits, occluded);
 }
@@ -239,10 +240,16 @@ static void trace_many(const sp_tracer *tracer, const sp_ray *rays, size_t count
     sp_pull pull = sp_pull_of(gravity);
     threads = thread_count(threads);
     size_t size = chunk_size(count, threads), chunks = (count + size - 1) / size;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-    for (size_t c = 0; c < chunks; c++) {
-        size_t first = c * size, n = count - first < size ? count - first : size;
-        trace_chunk(tracer, rays + first, n, &pull, hits ? hits + first : NULL, hits ? NULL : occluded + first);
+#pragma omp parallel num_threads(threads)
+    {
+        sp_fan_room room = {0};
+#pragma omp for schedule(dynamic, 1)
+        for (size_t c = 0; c < chunks; c++) {
+            size_t first = c * size, n = count - first < size ? count - first : size;
+            trace_chunk(tracer, rays + first, n, &pull, &room, hits ? hits + first : NULL,
+                        hits ? NULL : occluded + first);
+        }
+        sp_fan_room_clear(&room);
     }
 }
 
