@@ -180,7 +180,7 @@ static bool make_room(sp_fan_room *room, size_t count)
     if (count > SIZE_MAX / (2 * sizeof(sp_fan_line)))
         return false;
     room->lines = aligned_alloc(alignof(sp_fan_line), count * sizeof *room->lines);
-    room->order = malloc(2 * count * sizeof(entry));
+    room->order = malloc(2 * count * sizeof(sp_direction_entry));
     if (!room->lines || !room->order)
         return false;
     room->count = count;
