@@ -155,7 +155,7 @@ bool sp_trace_occluded(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravi
 }
 
 /* Rays that one thread takes at a time: so many that sorting them brings neighbours together. */
-enum { CHUNK = 1 << 16, CHUNK_LEAST = 1 << 10, FAN_LEAST = 64 };
+enum { CHUNK = 1 << 16, CHUNK_LEAST = 1 << 10, FAN_LEAST = 64, FAN_SPARSE = 16 };
 
 static size_t chunk_size(size_t count, int threads)
 {
@@ -186,7 +186,8 @@ static void trace_one_by_one(const sp_tracer *tracer, const sp_ray *rays, size_t
     }
 }
 
-/* Lines through the bvh: fans together, all others as a stream. */
+/* Lines through the bvh: fans together, all others as a stream. With more than FAN_SPARSE triangles to a ray,
+ * neighbours in a fan meet different ones, and each is faster by itself. */
 static void trace_lines(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_fan_room *room, sp_hit *hits,
                         bool *occluded)
 {
@@ -195,7 +196,7 @@ static void trace_lines(const sp_tracer *tracer, const sp_ray *rays, size_t coun
     size_t alone = 0; /* the first not yet traced */
     for (size_t i = 0, n; i <= count; i += n) {
         n = i < count ? count_fan(rays + i, count - i) : 1;
-        if (i < count && n < FAN_LEAST)
+        if (i < count && (n < FAN_LEAST || n < tracer->mesh->triangle_count / FAN_SPARSE))
             continue;
         sp_bvh_trace_lines(bvh, instructions, rays + alone, i - alone, hits ? hits + alone : NULL,
                            hits ? NULL : occluded + alone);
