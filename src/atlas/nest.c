@@ -133,8 +133,8 @@ static bool add_page(pages *p)
     return fresh->bits && fresh->longest;
 }
 
-/* Where the first run asked fits in row y. */
-static size_t open_stretches(const pages *p, const page *on, const sp_shape_run *run, uint32_t y)
+/* Where the first run asked of a shape fits in row y, the whole shape being on the page. */
+static size_t open_stretches(const pages *p, const page *on, const sp_shape_run *run, uint32_t width, uint32_t y)
 {
     const uint64_t *row = on->bits + (y + run->y) * p->row_words;
     size_t count = 0;
@@ -142,8 +142,10 @@ static size_t open_stretches(const pages *p, const page *on, const sp_shape_run 
         end = sp_bits_find(row, x, p->edge, true);
         if (end - x < run->length || end - run->length < run->x)
             continue;
-        uint32_t first = (uint32_t)(x < run->x ? 0 : x - run->x);
-        p->here[count++] = (stretch){first, (uint32_t)(end - run->length - run->x)};
+        uint32_t first = (uint32_t)(x < run->x ? 0 : x - run->x), last = (uint32_t)(end - run->length - run->x);
+        if (first > p->edge - width)
+            break;
+        p->here[count++] = (stretch){first, last < p->edge - width ? last : p->edge - width};
     }
     return count;
 }
@@ -177,7 +179,7 @@ static bool fit_row(pages *p, const page *on, const pose *piece, uint32_t y, uin
     for (uint32_t i = 0; i < runs && i < ROWS_ASKED_BY_LENGTH; i++)
         if (on->longest[y + asked[i].y] < asked[i].length)
             return false;
-    size_t count = open_stretches(p, on, &asked[0], y);
+    size_t count = open_stretches(p, on, &asked[0], piece->grown.width, y);
     for (uint32_t i = 1; count && i < runs; i++) {
         count = narrow_stretches(p, on, &asked[i], y, count);
         stretch *swap = p->here;
@@ -187,7 +189,7 @@ static bool fit_row(pages *p, const page *on, const pose *piece, uint32_t y, uin
     if (!count)
         return false;
     *x = p->here[0].first;
-    return p->here[0].first + piece->grown.width <= p->edge;
+    return true;
 }
 
 /* The pose whose top ends up lowest, and its place. */

@@ -3,11 +3,7 @@
 
 #include "visibility.h"
 
-#ifdef SPRAYPLAN_SANITIZE
-#define TEXEL 0.08
-#else
 #define TEXEL 0.04
-#endif
 
 #define FLOW (20 * LITRES_PER_MINUTE)
 #define HEIGHT 2.0 /* m of the nozzle above the floor */
