@@ -1,20 +1,12 @@
 /* A bundle through the hierarchy. Included once by each file that is compiled for a set of instructions, with
  * SP_KERNEL(name) naming its functions. */
 #include "trace/bundle.h"
-#include "trace/wide.h"
+#include "trace/seen.h"
 
 typedef struct {
     uint32_t child;
     float depth;
 } bundle_pending;
-
-/* The bounds of eight boxes along one axis, seen from the origin. */
-static inline void see_bounds(const sp_bvh_node *node, int axis, float origin, wide *low, wide *high)
-{
-    wide corner = wide_set(node->origin[axis] - origin), step = wide_set(node->step[axis]);
-    *low = wide_multiply_add(wide_bytes(node->low[axis]), step, corner);
-    *high = wide_multiply_add(wide_bytes(node->high[axis]), step, corner);
-}
 
 /* Boxes whose span low..high has something in common with the bundle's, whose slopes are centre ± half. */
 static inline uint32_t meet_slopes(wide low, wide high, wide near, wide far, float centre, float half)

@@ -1,12 +1,7 @@
 /* One piece of a parabola through the hierarchy. Included once by each file that is compiled for a set of instructions,
  * with SP_KERNEL(name) naming its functions. */
 #include "trace/parabola_bvh.h"
-#include "trace/wide.h"
-
-typedef struct {
-    uint32_t child, unused;
-    float from, to; /* ways at which the flight may be in its box */
-} pending;
+#include "trace/pending.h"
 
 /* Which children the flight passes, and the ways between which it may be in each.
  *
@@ -168,30 +163,13 @@ static bool search_block(sp_bvh_jet *jet, const sp_bvh_block *block, float from,
     return sp_search_done(search);
 }
 
-/* Puts the children onto the stack, the nearest on top. */
-static inline int push_children(const sp_bvh_node *node, uint32_t mask, wide from, wide to, pending *stack)
-{
-    float first[8], last[8];
-    int count = 0;
-    wide_store(first, from);
-    wide_store(last, to);
-    for (; mask; mask &= mask - 1) {
-        int i = __builtin_ctz(mask), place = count++;
-        pending item = {node->child[i], 0, first[i], last[i]};
-        for (; place > 0 && stack[place - 1].from < item.from; place--)
-            stack[place] = stack[place - 1];
-        stack[place] = item;
-    }
-    return count;
-}
-
 static inline void walk(sp_bvh_jet *jet, bool aligned)
 {
     const sp_bvh *bvh = jet->bvh;
     const sp_bvh_arc *arc = &jet->arc;
     pending stack[SP_BVH_STACK];
     int height = 1;
-    stack[0] = (pending){0, 0, 0, 0};
+    stack[0] = (pending){0, 0, 0};
     while (height > 0) {
         pending at = stack[--height];
         if (at.from > arc->last)

@@ -1,20 +1,8 @@
 /* A volley through the hierarchy. Included once by each file that is compiled for a set of instructions, with
  * SP_KERNEL(name) naming its functions. */
+#include "trace/pending.h"
+#include "trace/seen.h"
 #include "trace/volley.h"
-#include "trace/wide.h"
-
-typedef struct {
-    uint32_t child, unused;
-    float from, to; /* ways between which some jet may be in its box */
-} volley_pending;
-
-/* The bounds of eight boxes along one axis, seen from the origin. */
-static inline void see_bounds(const sp_bvh_node *node, int axis, float origin, wide *low, wide *high)
-{
-    wide corner = wide_set(node->origin[axis] - origin), step = wide_set(node->step[axis]);
-    *low = wide_multiply_add(wide_bytes(node->low[axis]), step, corner);
-    *high = wide_multiply_add(wide_bytes(node->high[axis]), step, corner);
-}
 
 static inline float inverse_of(float speed, float when_still)
 {
@@ -152,33 +140,10 @@ typedef struct {
     float sag;      /* how far the bend may move a jet, sheared */
 } volley_lines;
 
-/* False where they differ too much to be taken together. */
-static inline bool lines_of(const sp_volley *v, float from, float to, volley_lines *l)
+/* Slopes of the jets from their middle, where all move along l->z; `add` is what the bend adds to each direction. */
+static inline void take_slopes(const sp_volley *v, const float add[3], volley_lines *l)
 {
-    float spare = 0x1p-4f * (to - from) + 16 * SP_BVH_PAD, r = 0.5f * (to - from) + spare, middle = 0.5f * (from + to);
-    float add[3] = {0, 0, 0}, origin[3], fastest[3], reach = 0;
-    add[v->steep] = 2 * v->bend * middle;
-    for (int k = 0; k < 3; k++) {
-        origin[k] = v->origin[k];
-        if (k == v->steep)
-            origin[k] += v->bend * (0.5f * r * r - middle * middle);
-        reach = fabsf(origin[k]) > reach ? fabsf(origin[k]) : reach;
-        fastest[k] = 0.5f * (v->least[k] + v->most[k]) + add[k];
-    }
-    int z = fabsf(fastest[0]) > fabsf(fastest[1]) ? 0 : 1;
-    z = fabsf(fastest[2]) > fabsf(fastest[z]) ? 2 : z;
-    l->z = z;
-    l->x = z == 2 ? 0 : z + 1;
-    l->y = z == 0 ? 2 : z - 1;
-    l->sign = fastest[z] > 0 ? 1 : -1;
-    float half = 0.5f * (v->most[z] - v->least[z]);
-    if (!(half < 0.4f * fabsf(fastest[z])))
-        return false;
-    l->origin[0] = origin[l->x];
-    l->origin[1] = origin[l->y];
-    l->origin[2] = origin[z];
-    l->from = from - spare;
-    l->to = to + spare;
+    int z = l->z;
     wide low_u = wide_set(INFINITY), high_u = wide_set(-INFINITY), low_v = low_u, high_v = high_u;
     for (int i = 0; i < v->count; i += 8) {
         wide inverse = wide_divide(
@@ -211,6 +176,36 @@ static inline bool lines_of(const sp_volley *v, float from, float to, volley_lin
         wide_store(l->u + i, wide_subtract(wide_load(l->u + i), wide_set(l->centre[0])));
         wide_store(l->v + i, wide_subtract(wide_load(l->v + i), wide_set(l->centre[1])));
     }
+}
+
+/* False where they differ too much to be taken together. */
+static inline bool lines_of(const sp_volley *v, float from, float to, volley_lines *l)
+{
+    float spare = 0x1p-4f * (to - from) + 16 * SP_BVH_PAD, r = 0.5f * (to - from) + spare, middle = 0.5f * (from + to);
+    float add[3] = {0, 0, 0}, origin[3], fastest[3], reach = 0;
+    add[v->steep] = 2 * v->bend * middle;
+    for (int k = 0; k < 3; k++) {
+        origin[k] = v->origin[k];
+        if (k == v->steep)
+            origin[k] += v->bend * (0.5f * r * r - middle * middle);
+        reach = fabsf(origin[k]) > reach ? fabsf(origin[k]) : reach;
+        fastest[k] = 0.5f * (v->least[k] + v->most[k]) + add[k];
+    }
+    int z = fabsf(fastest[0]) > fabsf(fastest[1]) ? 0 : 1;
+    z = fabsf(fastest[2]) > fabsf(fastest[z]) ? 2 : z;
+    l->z = z;
+    l->x = z == 2 ? 0 : z + 1;
+    l->y = z == 0 ? 2 : z - 1;
+    l->sign = fastest[z] > 0 ? 1 : -1;
+    float half = 0.5f * (v->most[z] - v->least[z]);
+    if (!(half < 0.4f * fabsf(fastest[z])))
+        return false;
+    l->origin[0] = origin[l->x];
+    l->origin[1] = origin[l->y];
+    l->origin[2] = origin[z];
+    l->from = from - spare;
+    l->to = to + spare;
+    take_slopes(v, add, l);
     /* Slopes are at most 3 here: in units of 2^-24, a corner is off by 10 (1 + reach) as for lines, thrice that for the
      * slopes, and a line by S each for direction, bend and their sum over its way. */
     float slope = 1;
@@ -383,31 +378,15 @@ static void search_volley_block(sp_volley *v, const volley_slabs *s, const sp_bv
         find_farthest(v);
 }
 
-static inline int push_met(const sp_bvh_node *node, uint32_t mask, wide from, wide to, volley_pending *stack)
-{
-    float first[8], last[8];
-    int count = 0;
-    wide_store(first, from);
-    wide_store(last, to);
-    for (; mask; mask &= mask - 1) {
-        int i = __builtin_ctz(mask), place = count++;
-        volley_pending item = {node->child[i], 0, first[i], last[i]};
-        for (; place > 0 && stack[place - 1].from < item.from; place--)
-            stack[place] = stack[place - 1];
-        stack[place] = item;
-    }
-    return count;
-}
-
 void SP_KERNEL(sp_volley_search)(sp_volley *v)
 {
     volley_slabs slabs = slabs_of(v);
-    volley_pending stack[SP_BVH_STACK];
+    pending stack[SP_BVH_STACK];
     int height = 1;
     find_farthest(v);
-    stack[0] = (volley_pending){0, 0, 0, v->farthest};
+    stack[0] = (pending){0, 0, v->farthest};
     while (height > 0) {
-        volley_pending at = stack[--height];
+        pending at = stack[--height];
         if (at.from > v->farthest)
             continue;
         if (at.child & SP_BVH_LEAF) {
@@ -417,6 +396,6 @@ void SP_KERNEL(sp_volley_search)(sp_volley *v)
         const sp_bvh_node *node = &v->bvh->nodes[at.child];
         wide from, to;
         uint32_t mask = meet_children(node, v, &slabs, &from, &to);
-        height += push_met(node, mask, from, to, stack + height);
+        height += push_children(node, mask, from, to, stack + height);
     }
 }

@@ -6,8 +6,8 @@
 /* Another pose rounds otherwise, so that charts are cut otherwise where two ways are equally good; what is left is the
  * error of the texels themselves: at the edges of sprays each is in or out. Of N ~ 1/texel such texels about √N fall
  * one way, each of texel², so that the error goes with texel^1.5. The factors were set from what texels of 23.7 mm
- * showed with several ways to cut the charts, up to 0.1 points (inverse) and 0.25 (forward), not derived. */
-static const double coverage_bounds[] = {0.002, 0.004}; /* in points, as a fraction: inverse, forward; at 23.7 mm */
+ * showed, up to 0.1 points (inverse) and 0.22 (forward), not derived. */
+static const double coverage_bounds[] = {0.001, 0.0025}; /* in points, as a fraction: inverse, forward; at 23.7 mm */
 static const double liquid_at_fine = 0.006, mean_at_fine = 0.002;
 
 static double coarseness(void)
