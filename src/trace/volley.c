@@ -31,24 +31,9 @@ typedef struct {
     double rate, span; /* power of two, and its inverse */
 } sheaf;
 
-sp_hit sp_volley_ask(const sp_volley *v, int lane, uint32_t triangle, uint32_t other)
-{
-    const sp_ray *ray = &v->rays[v->ray[lane]];
-    sp_search search = sp_search_start(ray, false);
-    sp_parabola parabola;
-    uint32_t candidates[2] = {triangle, other};
-    bool good = sp_parabola_start(&parabola, ray, v->pull, v->bvh->low, v->bvh->high);
-    for (int i = 0; good && i < 2 && candidates[i] != SP_NONE; i++) {
-        sp_corners corners;
-        sp_bvh_corners(v->bvh, candidates[i], corners);
-        sp_parabola_test(&parabola, (const double(*)[3])corners, candidates[i], &search);
-    }
-    return search.best;
-}
-
 void sp_volley_settle(sp_volley *v, int lane, uint32_t triangle)
 {
-    sp_hit hit = sp_volley_ask(v, lane, triangle, v->triangle[lane]);
+    sp_hit hit = sp_parabola_ask(v->bvh, v->pull, &v->rays[v->ray[lane]], triangle, v->triangle[lane]);
     if (hit.triangle == SP_NONE)
         return;
     float way = (float)(hit.t * v->rate);
@@ -175,17 +160,26 @@ static size_t fill(const sheaf *s, size_t from, sp_volley *v)
     return (size_t)count;
 }
 
-static void answer(const sp_volley *v, sp_hit *hits, bool *occluded, bool *done)
+/* The answers: `hits`, or where that is NULL `occluded`. */
+static void answer(const sp_volley *v, sp_instructions instructions, sp_hit *hits, bool *occluded, bool *done)
 {
+    static void (*const kernels[])(const sp_parabola_pairs *, sp_hit *) = {
+        sp_parabola_hits_portable, sp_parabola_hits_avx2, sp_parabola_hits_avx512};
+    sp_parabola_pairs pairs = {.bvh = v->bvh, .pull = v->pull, .rays = v->rays};
     for (int i = 0; i < v->count; i++) {
         uint32_t ray = v->ray[i], triangle = v->triangle[i];
         done[ray] = true;
-        if (!hits)
+        if (!hits) {
             occluded[ray] = triangle != SP_NONE;
-        else
-            hits[ray] =
-                triangle == SP_NONE ? (sp_hit){INFINITY, 0, 0, SP_NONE} : sp_volley_ask(v, i, triangle, SP_NONE);
+        } else if (triangle == SP_NONE) {
+            hits[ray] = (sp_hit){INFINITY, 0, 0, SP_NONE};
+        } else {
+            pairs.ray[pairs.count] = ray;
+            pairs.triangle[pairs.count++] = triangle;
+        }
     }
+    if (pairs.count)
+        kernels[instructions](&pairs, hits);
 }
 
 void sp_volleys_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count,
@@ -212,7 +206,7 @@ void sp_volleys_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_
         if (volley.count < LEAST)
             continue;
         searches[instructions](&volley);
-        answer(&volley, hits, occluded, done);
+        answer(&volley, instructions, hits, occluded, done);
     }
     free(s.jets);
     free(s.order[0]);

@@ -4,9 +4,9 @@
 
 #include "trace/bvh.h"
 #include "trace/instructions.h"
-#include "trace/parabola.h"
+#include "trace/parabola_hits.h"
 
-enum { SP_VOLLEY = 32 };
+enum { SP_VOLLEY = SP_PARABOLA_HITS };
 
 /* In the hierarchy's space jet i is at origin + direction[i] way + bend way² (along the steep axis), where the bend is
  * the same for all: they differ by straight lines. No speed along an axis is more than 1 at way 0. Lanes beyond `count`
@@ -29,8 +29,6 @@ typedef struct {
     const sp_pull *pull;
 } sp_volley;
 
-/* What double precision makes of a jet and two triangles, of which the second may be SP_NONE. */
-sp_hit sp_volley_ask(const sp_volley *volley, int lane, uint32_t triangle, uint32_t other);
 /* Decides between a triangle and the best so far. */
 void sp_volley_settle(sp_volley *volley, int lane, uint32_t triangle);
 
