@@ -309,7 +309,7 @@ static size_t count_poses(const certifying *c)
             uint32_t mount = search->sites->items[i].mount;
             const sp_make *make = &search->candidates->makes[k];
             if (!search->port_taken[mount] &&
-                sp_visibility_view(search->visibility, (uint32_t)i, make->speed_class)->start)
+                sp_visibility_known(search->visibility, (uint32_t)i, make->speed_class))
                 count += sp_candidates_axes(search->candidates, mount, k)->count * make->roll_count;
         }
     return count;

@@ -80,8 +80,7 @@ static bool is_last(const sp_search *search, const sp_design *design)
 static bool rounds_create(const sp_search *search, double power, double budget, sp_rounds *rounds, sp_error *error)
 {
     size_t sites = search->sites->count, poses = search->candidates->pose_start[sites];
-    *rounds =
-        (sp_rounds){.search = search, .power = power, .budget = budget, .threads = sp_threads(&search->options->run)};
+    *rounds = (sp_rounds){.search = search, .power = power, .budget = budget, .threads = sp_sweeper_threads(search)};
     rounds->room = malloc((poses ? poses : 1) * sizeof *rounds->room);
     rounds->best = calloc(sites, search->candidates->make_count * sizeof *rounds->best);
     if (!rounds->room || !rounds->best)
@@ -167,8 +166,6 @@ static double round_floor(sp_rounds *rounds, const sp_design *design)
 
 static void scan(sp_rounds *rounds, const sp_design *design)
 {
-    for (int i = 0; i < rounds->threads; i++)
-        sp_sweeper_forget(&rounds->sweepers[i]);
     double least = rounds->started ? round_floor(rounds, design) : 0;
     rounds->started = true;
     size_t sites = rounds->search->sites->count;
@@ -176,6 +173,7 @@ static void scan(sp_rounds *rounds, const sp_design *design)
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
         scan_site(rounds, design, &rounds->sweepers[omp_get_thread_num()], (uint32_t)i, least);
+    sp_sweepers_forget(rounds->sweepers, rounds->threads);
 }
 
 static int compare_merit(const void *a, const void *b)
@@ -246,7 +244,7 @@ bool sp_greedy(const sp_search *search, double power, double target, double budg
 
 bool sp_bench_create(const sp_search *search, const sp_pool *pool, sp_bench *bench, sp_error *error)
 {
-    *bench = (sp_bench){.threads = sp_threads(&search->options->run)};
+    *bench = (sp_bench){.threads = sp_sweeper_threads(search)};
     bench->scores = malloc((pool->count ? pool->count : 1) * sizeof *bench->scores);
     if (!bench->scores)
         return sp_fail_memory(error);
@@ -267,8 +265,6 @@ double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_desig
                     sp_bench *bench, sp_pose *best)
 {
     double *scores = bench->scores;
-    for (int i = 0; i < bench->threads; i++)
-        sp_sweeper_forget(&bench->sweepers[i]);
 #pragma omp parallel for num_threads(bench->threads) schedule(dynamic, 32)
     for (size_t i = 0; i < pool->count; i++) {
         sp_pose pose = pool->items[i];
@@ -277,6 +273,7 @@ double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_desig
         sp_sweeper *sweeper = &bench->sweepers[omp_get_thread_num()];
         scores[i] = allowed ? sp_score_pose(sweeper, search, design->wet, pose).gain : 0;
     }
+    sp_sweepers_forget(bench->sweepers, bench->threads);
     double merit = 0, gain = 0;
     for (size_t i = 0; i < pool->count; i++) {
         double candidate = scores[i] / pow(search->candidates->makes[pool->items[i].make].flow, power);

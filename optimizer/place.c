@@ -124,10 +124,13 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
     bool done = look_around(&placement, error) && set_target(&placement, proposal, error) &&
                 sp_find(&placement.search, &placement.watch, &placement.front, &placement.pool, error) &&
                 write_down(&placement, &proposal->greedy, &proposal->greedy_coverage, error) &&
+                sp_visibility_sound(&placement.visibility, error) &&
                 sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
+                sp_visibility_sound(&placement.visibility, error) &&
                 write_down(&placement, &proposal->layout, &proposal->coverage, error) &&
                 sp_watch_stage(&placement.watch, "refine", error) &&
                 sp_certify(&placement.search, &placement.watch, &placement.front, &proposal->certificate, error) &&
+                sp_visibility_sound(&placement.visibility, error) &&
                 sp_watch_stage(&placement.watch, "certificate", error) && conclude(&placement, proposal, error);
     placement_free(&placement);
     if (done)

@@ -20,7 +20,7 @@ typedef struct {
 typedef struct {
     float *worth; /* [arrivals of a view + SP_LANES], price that it brings to a make */
     float total[SP_BINS];
-    uint8_t *seen; /* [texels] */
+    sp_desk *desk;
 } scratch;
 
 struct sp_pose_prices {
@@ -29,9 +29,7 @@ struct sp_pose_prices {
     const uint32_t *tier_of;
     const float *need;
     const size_t *ports;
-    uint8_t **twice; /* [views], NULL or [arrivals]: whether the view's other arc reaches the texel too */
-    size_t most;     /* arrivals of a view */
-    best *bests;     /* [sites x makes] */
+    best *bests; /* [sites x makes] */
     int threads;
     scratch *scratches; /* [threads] */
     float *field;       /* [texels] */
@@ -39,48 +37,22 @@ struct sp_pose_prices {
     float *shares;
 };
 
-static bool find_twice(sp_pose_prices *prices, size_t at)
-{
-    const sp_view *view = &prices->search->visibility->views[at];
-    uint8_t *seen = prices->scratches[0].seen;
-    if (!view->start)
-        return true;
-    bool any = false;
-    for (uint32_t i = 0; i < view->count; i++)
-        any |= ++seen[view->patch[i]] > 1;
-    if (any && !(prices->twice[at] = malloc(view->count)))
-        return false;
-    for (uint32_t i = 0; any && i < view->count; i++)
-        prices->twice[at][i] = seen[view->patch[i]] > 1;
-    for (uint32_t i = 0; i < view->count; i++)
-        seen[view->patch[i]] = 0;
-    return true;
-}
-
 static bool allocate(sp_pose_prices *prices)
 {
     const sp_search *search = prices->search;
-    size_t views = search->sites->count * search->candidates->speed_count, texels = search->patch_count + 1;
-    for (size_t i = 0; i < views; i++)
-        if (search->visibility->views[i].start && search->visibility->views[i].count > prices->most)
-            prices->most = search->visibility->views[i].count;
-    prices->twice = calloc(views + 1, sizeof *prices->twice);
+    size_t texels = search->patch_count + 1;
     prices->bests = calloc(search->sites->count + 1, search->candidates->make_count * sizeof *prices->bests);
     prices->scratches = calloc((size_t)prices->threads, sizeof *prices->scratches);
     prices->field = malloc(texels * sizeof *prices->field);
     prices->texels = malloc(texels * sizeof *prices->texels);
     prices->shares = malloc(texels * sizeof *prices->shares);
-    if (!prices->twice || !prices->bests || !prices->scratches || !prices->field || !prices->texels || !prices->shares)
+    if (!prices->bests || !prices->scratches || !prices->field || !prices->texels || !prices->shares)
         return false;
     for (int i = 0; i < prices->threads; i++) {
-        prices->scratches[i].worth = calloc(prices->most + SP_LANES, sizeof *prices->scratches[i].worth);
-        prices->scratches[i].seen = calloc(texels, 1);
-        if (!prices->scratches[i].worth || !prices->scratches[i].seen)
+        prices->scratches[i].worth = calloc(search->visibility->largest + SP_LANES, sizeof *prices->scratches[i].worth);
+        if (!prices->scratches[i].worth)
             return false;
     }
-    for (size_t i = 0; i < views; i++)
-        if (!find_twice(prices, i))
-            return false;
     return true;
 }
 
@@ -95,7 +67,7 @@ sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *c
                                .tier_of = tier_of,
                                .need = need,
                                .ports = ports,
-                               .threads = sp_threads(&search->options->run)};
+                               .threads = sp_sweeper_threads(search)};
     if (allocate(prices))
         return prices;
     sp_pose_prices_destroy(prices);
@@ -106,14 +78,8 @@ void sp_pose_prices_destroy(sp_pose_prices *prices)
 {
     if (!prices)
         return;
-    size_t views = prices->search->sites->count * prices->search->candidates->speed_count;
-    for (size_t i = 0; prices->twice && i < views; i++)
-        free(prices->twice[i]);
-    for (int i = 0; prices->scratches && i < prices->threads; i++) {
+    for (int i = 0; prices->scratches && i < prices->threads; i++)
         free(prices->scratches[i].worth);
-        free(prices->scratches[i].seen);
-    }
-    free(prices->twice);
     free(prices->bests);
     free(prices->scratches);
     free(prices->field);
@@ -135,11 +101,9 @@ static inline float share_of(const sp_pose_prices *prices, uint32_t texel, float
 }
 
 /* What each arrival of a view brings to a make, and each bin in all. */
-static void prepare_worth(const sp_pose_prices *prices, scratch *own, size_t at, const sp_make *make,
+static void prepare_worth(const sp_pose_prices *prices, scratch *own, const sp_view *view, const sp_make *make,
                           const sp_prices *u)
 {
-    const sp_view *view = &prices->search->visibility->views[at];
-    const uint8_t *twice = prices->twice[at];
     double threshold = prices->search->threshold;
     float strength = threshold > 0 ? (float)(make->flow / (make->spray.solid_angle * threshold)) : INFINITY;
     for (uint32_t i = 0; i < view->count; i++) {
@@ -147,7 +111,7 @@ static void prepare_worth(const sp_pose_prices *prices, scratch *own, size_t at,
         own->worth[i] = 0;
         if (!(prices->need[t] > 0))
             continue;
-        float share = share_of(prices, t, strength * view->transfer[i], twice && twice[i]);
+        float share = share_of(prices, t, strength * view->transfer[i], view->twice && view->twice[i]);
         own->worth[i] = u->plain[t] * share;
         if (u->lifts && u->lifted[t] > 0)
             own->worth[i] += u->lifted[t] * sp_lift(u->lifts, u->kind[t], share);
@@ -192,13 +156,14 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
         const sp_make *make = &candidates->makes[k];
         best *found = &prices->bests[site * candidates->make_count + k];
         size_t axes = sp_candidates_axes(candidates, mount, k)->count;
-        size_t at = site * candidates->speed_count + make->speed_class;
-        const sp_view *view = &prices->search->visibility->views[at];
         double least = least_of(prices, prices->ports[mount], prices->tier_of[k], needed, offers);
         *found = (best){.price = 0};
-        if (!axes || !view->start || !isfinite(least) || prices->search->port_taken[mount])
+        if (!axes || !isfinite(least) || prices->search->port_taken[mount])
             continue;
-        prepare_worth(prices, own, at, make, u);
+        const sp_view *view = sp_visibility_look(prices->search->visibility, site, make->speed_class, &own->desk);
+        if (!view->start)
+            continue;
+        prepare_worth(prices, own, view, make, u);
         sp_region region = sp_region_create(&make->spray, &frame);
         for (uint32_t a = 0; a < axes; a++)
             for (uint32_t r = 0; r < make->roll_count; r++) {
@@ -307,6 +272,8 @@ static bool price_poses(void *user, const sp_prices *u, const double *needed, bo
 #pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
         price_site(prices, &prices->scratches[omp_get_thread_num()], (uint32_t)i, u, needed, all ? 1 : STRIDE, offers);
+    for (int i = 0; i < prices->threads; i++)
+        sp_visibility_leave(search->visibility, &prices->scratches[i].desk);
     for (size_t i = 0; i < sites * makes; i++)
         if (prices->bests[i].price > 0)
             sp_offers_add(offers, prices->ports[search->sites->items[i / makes].mount], prices->tier_of[i % makes],

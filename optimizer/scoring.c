@@ -31,8 +31,24 @@ sp_sweeper *sp_sweepers_create(const sp_search *search, int count, sp_error *err
     return sweepers;
 }
 
+int sp_sweeper_threads(const sp_search *search)
+{
+    return search->visibility->desk_count;
+}
+
+void sp_sweepers_forget(sp_sweeper *sweepers, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (sweepers[i].search)
+            sp_visibility_leave(sweepers[i].search->visibility, &sweepers[i].desk);
+        sweepers[i].search = NULL;
+    }
+}
+
 void sp_sweepers_destroy(sp_sweeper *sweepers, int count)
 {
+    if (sweepers)
+        sp_sweepers_forget(sweepers, count);
     for (int i = 0; sweepers && i < count; i++)
         free(sweepers[i].block);
     free(sweepers);
@@ -44,20 +60,16 @@ static sp_credit credit_of(const sp_search *search, const sp_make *make)
     return (sp_credit){search->single, search->credit, (float)strength};
 }
 
-void sp_sweeper_forget(sp_sweeper *sweeper)
-{
-    sweeper->search = NULL;
-}
-
 void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const float *wet, uint32_t site, size_t speed)
 {
-    const sp_view *view = sp_visibility_view(search->visibility, site, speed);
-    if (sweeper->search == search && sweeper->view == view)
+    if (sweeper->search == search && sweeper->site == site && sweeper->speed == speed)
         return;
+    const sp_view *view = sp_visibility_look(search->visibility, site, speed, &sweeper->desk);
     sweeper->search = search;
     sweeper->make = SIZE_MAX;
     sweeper->view = view;
     sweeper->site = site;
+    sweeper->speed = speed;
     sweeper->frame = sp_nozzle_frame(search->sites->items[site].axis, 0, sp_evaluator_setup(search->coarse)->up);
     if (!view->start)
         return;
@@ -122,7 +134,8 @@ sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const float
 void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
 {
     const sp_make *make = &search->candidates->makes[pose.make];
-    const sp_view *view = sp_visibility_view(search->visibility, pose.site, make->speed_class);
+    sp_desk *desk = NULL;
+    const sp_view *view = sp_visibility_look(search->visibility, pose.site, make->speed_class, &desk);
     const sp_bins *bins = &search->visibility->bins;
     sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
     sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
@@ -139,6 +152,7 @@ void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
             if (sp_region_holds(&region, view->x[i], view->y[i], view->z[i]))
                 field[view->patch[i]] += strength * view->transfer[i];
     }
+    sp_visibility_leave(search->visibility, &desk);
 }
 
 static void field_reach(const sp_search *search, const sp_nozzle *nozzle, const sp_reach *reach, float *field)

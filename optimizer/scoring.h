@@ -24,17 +24,22 @@ typedef struct {
     float room_total[SP_BINS], gain_total[SP_BINS];
     const sp_search *search; /* what it looks at, NULL: nothing */
     const sp_view *view;
+    sp_desk *desk; /* NULL, or what the view lies on */
     uint32_t site;
+    size_t speed;
     size_t make;      /* SIZE_MAX: none */
     sp_frame frame;   /* the site's */
     sp_region region; /* the make's, about the site's axis */
 } sp_sweeper;
 
+/* Threads that may score at a time: no more than memory has desks for. */
+int sp_sweeper_threads(const sp_search *search);
 /* One for each of `count` threads; NULL on error. */
 sp_sweeper *sp_sweepers_create(const sp_search *search, int count, sp_error *error);
 void sp_sweepers_destroy(sp_sweeper *sweepers, int count);
-/* Says that what is wet, or the search's credit, has changed. */
-void sp_sweeper_forget(sp_sweeper *sweeper);
+/* Says that what is wet, or the search's credit, has changed, and leaves the desk: all sweepers of a loop are to forget
+ * at its end, before anyone else looks. */
+void sp_sweepers_forget(sp_sweeper *sweepers, int count);
 /* Turns to what a site's nozzles at a speed class would add to what is wet. */
 void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const float *wet, uint32_t site, size_t speed);
 /* Then to a make of that speed class. Both do nothing where the sweeper has not turned elsewhere since, nor forgotten.

@@ -60,6 +60,7 @@ sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout 
 typedef struct {
     uint32_t patch;
     bool passes;       /* impact speed and incidence meet the criterion */
+    uint8_t arc;       /* which of sp_flights */
     sp_vec3 direction; /* unit, at the nozzle, world coordinates */
     double transfer;   /* 1/m²: |n·w| / (v T √D) for a parabola, cos(incidence)/r² for a line */
     double speed;      /* at impact, m/s */
@@ -78,6 +79,12 @@ sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, do
 /* The same, of arrivals that pass the criterion's speed and incidence alone: less is traced. */
 sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                                      double half_angle, sp_error *error);
+/* The same of the patches first to end alone, for callers with little memory: it takes no more than SP_REACH_WORK bytes
+ * for each of these patches, the answer included. `known` is NULL, or holds the answer of an earlier call, bit
+ * 2 patch + arc (least bits first) set for every arrival: then the same is told again and nothing is traced. */
+#define SP_REACH_WORK 1024
+sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
+                                  double half_angle, size_t first, size_t end, const uint8_t *known, sp_error *error);
 void sp_reach_destroy(sp_reach *reach);
 
 /* The closed-form flights from `from` to `to` at `speed` under `gravity`: unit directions and flight times, low arc

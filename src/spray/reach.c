@@ -9,16 +9,31 @@
 /* A hair wider than asked, so that round-off never takes a jet of the edge away. */
 sp_aim sp_aim_at(sp_vec3 axis, double half_angle)
 {
-    return (sp_aim){.axis = axis, .least_cosine = half_angle < M_PI ? cos(half_angle) - 1e-12 : -2};
+    return (sp_aim){.axis = axis, .least_cosine = half_angle < M_PI ? cos(half_angle) - 1e-12 : -2, .end = SIZE_MAX};
 }
 
 /* Flights that pass all questions but whether their way is free. */
-typedef struct {
+typedef struct flock {
     size_t count;
-    sp_arrival arrivals[2 * CHUNK];
-    sp_ray rays[2 * CHUNK];
-    bool blocked[2 * CHUNK];
+    sp_arrival *arrivals; /* [2 patches], as what follows */
+    sp_ray *rays;
+    bool *blocked;
 } flock;
+
+static bool flock_create(size_t patches, flock *flock)
+{
+    *flock = (struct flock){.arrivals = malloc(2 * patches * sizeof *flock->arrivals),
+                            .rays = malloc(2 * patches * sizeof *flock->rays),
+                            .blocked = malloc(2 * patches * sizeof *flock->blocked)};
+    return flock->arrivals && flock->rays && flock->blocked;
+}
+
+static void flock_free(flock *flock)
+{
+    free(flock->arrivals);
+    free(flock->rays);
+    free(flock->blocked);
+}
 
 static bool aimed(const sp_aim *aim, const sp_flight *flight)
 {
@@ -35,10 +50,14 @@ static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, f
     int count = sp_flights(source->position, target.point, source->speed, source->evaluator->gravity, flights);
     for (int k = 0; k < count; k++) {
         sp_arrival *arrival = &flock->arrivals[flock->count];
+        size_t bit = 2 * (size_t)patch + (size_t)k;
+        if (aim->known && !(aim->known[bit / 8] >> bit % 8 & 1))
+            continue;
         if (!aimed(aim, &flights[k]) || !sp_arrive(source, &target, &flights[k], arrival) ||
             (aim->passing && !arrival->passes))
             continue;
         arrival->patch = patch;
+        arrival->arc = (uint8_t)k;
         flock->rays[flock->count++] = sp_flight_ray(source, &target, &flights[k]);
     }
 }
@@ -57,11 +76,12 @@ static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uin
     for (uint32_t patch = first; patch < end; patch++)
         if (!aim->emitter || !sp_emitter_is_narrow(aim->emitter, patch))
             gather(source, aim, patch, flock);
-    sp_trace_occluded_many(source->evaluator->tracer, flock->rays, flock->count, source->evaluator->gravity, 1,
-                           flock->blocked);
+    if (!aim->known)
+        sp_trace_occluded_many(source->evaluator->tracer, flock->rays, flock->count, source->evaluator->gravity, 1,
+                               flock->blocked);
     size_t free_ways = 0;
     for (size_t i = 0; i < flock->count; i++)
-        if (!flock->blocked[i])
+        if (aim->known || !flock->blocked[i])
             flock->arrivals[free_ways++] = flock->arrivals[i];
     *harvest = (struct harvest){free_ways, free_ways ? malloc(free_ways * sizeof *harvest->arrivals) : NULL};
     if (harvest->arrivals)
@@ -69,37 +89,51 @@ static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uin
     return harvest->arrivals || !free_ways;
 }
 
-static bool reap_all(const sp_source *source, const sp_aim *aim, harvest *harvests, size_t chunks)
+/* The patches that are asked for: how many, and into how many chunks they fall. */
+typedef struct {
+    size_t first, count, chunks;
+} extent;
+
+static extent extent_of(const sp_source *source, const sp_aim *aim)
 {
-    const sp_evaluator *evaluator = source->evaluator;
-    size_t patches = evaluator->patches.count;
-    int threads = omp_in_parallel() ? 1 : sp_thread_count(evaluator->setup.run.threads);
-    if ((size_t)threads > chunks)
-        threads = chunks ? (int)chunks : 1;
-    flock *flocks = malloc((size_t)threads * sizeof *flocks);
+    size_t patches = source->evaluator->patches.count, end = aim->end < patches ? aim->end : patches;
+    size_t count = aim->first < end ? end - aim->first : 0;
+    return (extent){aim->first, count, (count + CHUNK - 1) / CHUNK};
+}
+
+static bool reap_all(const sp_source *source, const sp_aim *aim, extent extent, harvest *harvests)
+{
+    int threads = omp_in_parallel() ? 1 : sp_thread_count(source->evaluator->setup.run.threads);
+    if ((size_t)threads > extent.chunks)
+        threads = extent.chunks ? (int)extent.chunks : 1;
+    flock *flocks = calloc((size_t)threads, sizeof *flocks);
     bool done = flocks != NULL;
+    for (int i = 0; flocks && i < threads; i++)
+        done = flock_create(extent.count < CHUNK ? extent.count + 1 : CHUNK, &flocks[i]) && done;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads) reduction(&& : done)
-    for (size_t i = 0; i < chunks; i++) {
-        size_t end = (i + 1) * CHUNK < patches ? (i + 1) * CHUNK : patches;
-        done = done &&
-               reap(source, aim, (uint32_t)(i * CHUNK), (uint32_t)end, &flocks[omp_get_thread_num()], &harvests[i]);
+    for (size_t i = 0; i < extent.chunks; i++) {
+        size_t first = i * CHUNK, end = first + CHUNK < extent.count ? first + CHUNK : extent.count;
+        done = done && reap(source, aim, (uint32_t)(extent.first + first), (uint32_t)(extent.first + end),
+                            &flocks[omp_get_thread_num()], &harvests[i]);
     }
+    for (int i = 0; flocks && i < threads; i++)
+        flock_free(&flocks[i]);
     free(flocks);
     return done;
 }
 
 sp_reach *sp_reach_create(const sp_source *source, const sp_aim *aim, sp_error *error)
 {
-    size_t chunks = (source->evaluator->patches.count + CHUNK - 1) / CHUNK;
-    harvest *harvests = calloc(chunks ? chunks : 1, sizeof *harvests);
+    extent extent = extent_of(source, aim);
+    harvest *harvests = calloc(extent.chunks + 1, sizeof *harvests);
     sp_reach *reach = calloc(1, sizeof *reach);
-    bool done = harvests && reach && reap_all(source, aim, harvests, chunks);
-    for (size_t i = 0; done && i < chunks; i++)
+    bool done = harvests && reach && reap_all(source, aim, extent, harvests);
+    for (size_t i = 0; done && i < extent.chunks; i++)
         reach->count += harvests[i].count;
     if (done)
         reach->arrivals = malloc((reach->count ? reach->count : 1) * sizeof *reach->arrivals);
     done = done && reach->arrivals;
-    for (size_t i = 0, at = 0; harvests && i < chunks; i++) {
+    for (size_t i = 0, at = 0; harvests && i < extent.chunks; i++) {
         if (done && harvests[i].count)
             memcpy(&reach->arrivals[at], harvests[i].arrivals, harvests[i].count * sizeof *reach->arrivals);
         at += harvests[i].count;
@@ -126,6 +160,18 @@ sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 posi
     sp_source source = {evaluator, position, speed};
     sp_aim aim = sp_aim_at(axis, half_angle);
     aim.passing = true;
+    return evaluator ? sp_reach_create(&source, &aim, error) : NULL;
+}
+
+sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
+                                  double half_angle, size_t first, size_t end, const uint8_t *known, sp_error *error)
+{
+    sp_source source = {evaluator, position, speed};
+    sp_aim aim = sp_aim_at(axis, half_angle);
+    aim.passing = true;
+    aim.first = first;
+    aim.end = end;
+    aim.known = known;
     return evaluator ? sp_reach_create(&source, &aim, error) : NULL;
 }
 

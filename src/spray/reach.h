@@ -8,6 +8,8 @@ typedef struct {
     sp_vec3 axis; /* unit */
     double least_cosine;
     bool passing;              /* only what meets the criterion's speed and incidence */
+    size_t first, end;         /* of the patches; those there are */
+    const uint8_t *known;      /* NULL, or bit 2 patch + arc: what arrives, so that nothing has to be traced */
     const sp_emitter *emitter; /* NULL, or: only what its spray holds, at patches where that is not narrow */
 } sp_aim;
 

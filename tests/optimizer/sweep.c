@@ -142,7 +142,7 @@ static void views_hold_what_single_rays_find(void **state)
     sp_vec3 gravity = sp_evaluator_gravity(s.room.evaluator);
     double *transfer = calloc(patches->count, sizeof *transfer);
     for (uint32_t site = 0; site < s.sites.count; site++) {
-        const sp_view *view = sp_visibility_view(&s.visibility, site, 1);
+        const sp_view *view = &s.visibility.views[site * 2 + 1];
         size_t expected = 0;
         double sum = 0, found = 0;
         for (size_t p = 0; p < patches->count; p++) {
@@ -239,7 +239,7 @@ static void every_instruction_set_gives_the_same_bits(void **state)
     for (size_t number = 0; number < poses; number += poses / 300) {
         sp_pose pose = pose_of(&s, number);
         const sp_make *make = &s.candidates.makes[pose.make];
-        const sp_view *view = sp_visibility_view(&s.visibility, pose.site, make->speed_class);
+        const sp_view *view = &s.visibility.views[pose.site * 2 + make->speed_class];
         sp_nozzle nozzle = sp_pose_nozzle(&s.candidates, &s.sites, pose, sp_v(0, 0, 1));
         sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, sp_v(0, 0, 1));
         sp_region region = sp_region_create(&make->spray, &frame);
@@ -311,7 +311,7 @@ static void scores_are_what_fields_add(void **state)
         for (size_t p = 0; p < patches; p++)
             wet[p] = 2;
         assert_true(before > 0 && sp_score_pose(sweeper, &s.search, wet, pose).gain == before);
-        sp_sweeper_forget(sweeper);
+        sp_sweepers_forget(sweeper, 1);
         assert_true(sp_score_pose(sweeper, &s.search, wet, pose).gain == 0);
         sp_sweepers_destroy(sweeper, 1);
         free(field);
