@@ -52,8 +52,10 @@ typedef struct {
     size_t pressure_count;
     const double *pressures; /* Pa, borrowed */
     double clearance;        /* m */
-    double memory;           /* bytes that what the mounting points can reach may take; 0: 1 GB */
-    bool prove; /* goes on lowering the certificate's bounds until the time limit, or for as long as they yield */
+    double memory; /* bytes that what the mounting points can reach may take; 0: 1 GB. Less takes longer: what is not
+                    * kept is worked out again. The answer does not depend on it; too little for one mounting point is
+                    * SP_ERROR_INPUT */
+    bool prove;    /* goes on lowering the certificate's bounds until the time limit, or for as long as they yield */
     size_t mount_count;
     const sp_mount *mounts; /* borrowed */
     sp_refine refine;

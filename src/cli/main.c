@@ -49,7 +49,8 @@ static void print_usage(FILE *to)
             "  --quiet           no progress and no summary\n"
             "  --set KEY=VALUE   override a setting, as --set simulate.jets=20000 or --set place.refine=none\n"
             "  --time-limit S    place returns its best so far after S seconds\n"
-            "  --memory SIZE     what place may take for all that its candidates can reach, as \"2 GB\"\n"
+            "  --memory SIZE     what place may take for all that its candidates can reach, as \"2 GB\"; less takes\n"
+            "                    longer, the answer does not depend on it\n"
             "  --prove           place spends the time limit on closing the gap between proposal and bound\n"
             "  --version, --help\n"
             "\n"
@@ -67,9 +68,9 @@ static void print_command_usage(FILE *to, const cli_command *command)
     if (command->options & OPTION_TIME_LIMIT)
         fprintf(to, "  --time-limit S             return the best so far after S seconds\n");
     if (command->options & OPTION_MEMORY)
-        fprintf(
-            to,
-            "  --memory SIZE              what all that candidates can reach may take, as \"2 GB\" (default 1 GB)\n");
+        fprintf(to, "  --memory SIZE              what all that candidates can reach may take, as \"2 GB\" (default 1 "
+                    "GB); less\n"
+                    "                             takes longer, the answer does not depend on it\n");
     if (command->options & OPTION_PROVE)
         fprintf(to,
                 "  --prove                    spend the time limit on closing the gap between proposal and bound\n");

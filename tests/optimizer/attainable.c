@@ -305,19 +305,22 @@ static void views_keep_within_memory(void **state)
     job_run(&j);
     outlook plenty;
     look_around(&j, &plenty);
-    size_t views = plenty.sites.count, before = views;
+    size_t views = plenty.sites.count, kept[3] = {views, views, views};
+    double whole = (double)views * plenty.visibility.sight_bytes, memories[3];
     assert_int_equal(plenty.kept, views);
-    const double memories[] = {1.2e7, 6e6, 4e6, 2.6e6};
-    for (size_t i = 0; i < sizeof memories / sizeof *memories; i++)
+    for (size_t v = 0; v < views; v++)
+        whole += (double)sp_view_bytes(plenty.visibility.views[v].count, false);
+    for (size_t i = 0; i < 3; i++)
         for (int threads = 1; threads <= 2; threads++) {
+            memories[i] = whole * (0.9 - 0.25 * (double)i);
             outlook scarce;
             sp_desk *desk = NULL;
             j.options.memory = memories[i];
             j.options.run.threads = threads;
             look_around(&j, &scarce);
             assert_true(scarce.visibility.bytes <= memories[i]);
-            assert_true(scarce.kept < views && (threads == 2 || scarce.kept < before));
-            before = scarce.kept;
+            assert_true(scarce.kept < kept[threads]);
+            kept[threads] = scarce.kept;
             assert_int_equal(sp_evaluator_patches(scarce.visibility.evaluator)->count,
                              sp_evaluator_patches(plenty.visibility.evaluator)->count);
             for (uint32_t v = 0; v < views; v++) {
