@@ -118,7 +118,7 @@ static bool step(const sp_annealing *annealing, size_t width, sp_design *design)
 /* Takes the copy over where it covers more with no more water. */
 static void keep_better(sp_design *design, sp_design *copy, double budget)
 {
-    bool better = copy->covered > design->covered && copy->flow <= budget * (1 + 1e-9);
+    bool better = copy->covered > design->covered && copy->flow <= budget * (1 + SP_ROUNDING);
     sp_design_free(better ? design : copy);
     if (better)
         *design = *copy;

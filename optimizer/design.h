@@ -4,6 +4,8 @@
 
 #include "sweep.h"
 
+#define SP_ROUNDING 1e-9 /* share of the water by which a sum of flows may lie above what is allowed */
+
 /* Everything that the search's files share. Read-only once made. */
 typedef struct {
     const sp_place_options *options;

@@ -1,5 +1,7 @@
 #include "find.h"
 
+#include "guess.h"
+
 #include <stdlib.h>
 
 #define ROUNDS_MOST 4    /* corrections for what the coarse patches misjudge */
@@ -79,11 +81,33 @@ static bool shrink_best(const sp_finding *finding)
     return done;
 }
 
-/* The best that three starts improve to within a budget: the first of the greedy order, and the pool's greedy by less
- * regard for water. */
-static bool at_budget(const sp_finding *finding, const sp_design *greedy, double budget)
+/* Start number i of a search within a budget: the first of the greedy order, what was found by guessing, and the pool's
+ * greedy by less regard for water. */
+static bool start_from(const sp_finding *finding, const sp_design *greedy, const sp_lineup *guessed, double budget,
+                       size_t i, sp_bench *bench, sp_design *design)
 {
-    static const double powers[] = {1, 0.5, 0};
+    static const double powers[] = {0.5, 0};
+    const sp_search *search = finding->search;
+    if (i == 1)
+        return sp_lineup_design(guessed, design, finding->error);
+    if (i == 0) {
+        if (!sp_design_copy(search, greedy, design, finding->error))
+            return false;
+        while (design->count && design->flow > budget)
+            sp_design_remove(search, design, design->count - 1);
+        return true;
+    }
+    if (!sp_design_create(search, design, finding->error))
+        return false;
+    if (sp_greedy_pool(search, finding->pool, powers[i - 2], INFINITY, budget, bench, design, finding->error))
+        return true;
+    sp_design_free(design);
+    return false;
+}
+
+/* The best that four starts improve to within a budget. */
+static bool at_budget(const sp_finding *finding, const sp_design *greedy, const sp_lineup *guessed, double budget)
+{
     sp_design best;
     sp_bench bench;
     if (!sp_bench_create(finding->search, finding->pool, &bench, finding->error))
@@ -93,17 +117,12 @@ static bool at_budget(const sp_finding *finding, const sp_design *greedy, double
         return false;
     }
     bool done = true;
-    for (int i = 0; done && i < 3 && sp_watch_goes_on(finding->watch, "front", 0); i++) {
+    for (size_t i = 0; done && i < 4 && sp_watch_goes_on(finding->watch, "front", 0); i++) {
         sp_design design;
-        done = i == 0 ? sp_design_copy(finding->search, greedy, &design, finding->error)
-                      : sp_design_create(finding->search, &design, finding->error);
+        done = start_from(finding, greedy, guessed, budget, i, &bench, &design);
         if (!done)
             break;
-        while (design.count && design.flow > budget)
-            sp_design_remove(finding->search, &design, design.count - 1);
-        done = (i == 0 || sp_greedy_pool(finding->search, finding->pool, powers[i], INFINITY, budget, &bench, &design,
-                                         finding->error)) &&
-               sp_improve(finding->search, finding->pool, budget, finding->watch, &design, finding->error);
+        done = sp_improve(finding->search, finding->pool, budget, finding->watch, &design, finding->error);
         bool better = design.covered > best.covered;
         sp_design_free(better ? &best : &design);
         if (better)
@@ -183,11 +202,21 @@ static bool fill_front(const sp_finding *finding, const sp_design *greedy)
 {
     size_t count = 0;
     double *budgets = list_budgets(finding, greedy, &count);
-    bool done = budgets != NULL;
-    if (!done)
-        sp_fail_memory(finding->error);
+    if (!budgets)
+        return sp_fail_memory(finding->error);
+    for (size_t i = 0; i < count; i++)
+        budgets[i] *= 1 + SP_ROUNDING;
+    sp_table table = {0};
+    sp_lineup *guessed = calloc(count + 1, sizeof *guessed);
+    bool done = guessed || sp_fail_memory(finding->error);
+    done = done && sp_table_create(finding->search, finding->pool, &table, finding->error) &&
+           sp_guess(&table, budgets, count, finding->watch, guessed, finding->error);
     for (size_t i = 0; done && i < count && sp_watch_goes_on(finding->watch, "front", (double)i / (double)count); i++)
-        done = at_budget(finding, greedy, budgets[i]);
+        done = at_budget(finding, greedy, &guessed[i], budgets[i]);
+    for (size_t i = 0; guessed && i < count; i++)
+        sp_lineup_free(&guessed[i]);
+    sp_table_free(&table);
+    free(guessed);
     free(budgets);
     return done;
 }
@@ -201,7 +230,7 @@ bool sp_find(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool 
                           .pool = pool,
                           .error = error,
                           .target = most ? INFINITY : front->target,
-                          .budget = search->options->max_water};
+                          .budget = search->options->max_water * (1 + SP_ROUNDING)};
     sp_design design;
     if (!sp_design_create(search, &design, error))
         return false;

@@ -101,7 +101,7 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
         }
     proposal->attainable_area = area_of(placement->fine, proposal->attainable);
     proposal->reached = proposal->target_area > 0 && proposal->coverage->covered_area >= proposal->target_area &&
-                        proposal->coverage->flow <= options->max_water &&
+                        proposal->coverage->flow <= options->max_water * (1 + SP_ROUNDING) &&
                         (!options->max_nozzles || proposal->layout->count <= options->max_nozzles);
     proposal->interrupted = placement->watch.interrupted;
     proposal->positions = placement->sites.count;

@@ -1,6 +1,7 @@
 #include "polish.h"
 
 #include "compass.h"
+#include "exchange.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -12,6 +13,8 @@
 #define STEP_TURN 0.045 /* small enough for places to stay */
 #define STEP_LEAST 0.006
 #define SHARP_START 4   /* width at which the last polish starts */
+#define KEEPS_UP 0.002  /* of what is covered, by which few patches may mislead */
+#define TURNS 4         /* of kicks and new designs, two that are annealed first */
 #define GAIN_LEAST 1e-5 /* of what is covered: less is no improvement */
 #define BEHIND_MOST                                                                                                    \
     0.005 /* of what was covered before a kick: with more to make up for, annealing is the end of it                   \
@@ -42,33 +45,8 @@ void sp_polishing_free(sp_polishing *polishing)
     if (polishing->rough_evaluator)
         sp_search_free(&polishing->rough);
     sp_evaluator_destroy(polishing->rough_evaluator);
-    free(polishing->thrifty_candidates.makes);
+    sp_tuned_free(&polishing->tuned);
     *polishing = (sp_polishing){0};
-}
-
-/* The same search for nozzles that are turned down as far as refinement may. */
-static bool thrifty_create(sp_polishing *polishing, sp_error *error)
-{
-    const sp_search *search = polishing->search;
-    const sp_candidates *candidates = search->candidates;
-    sp_make *makes = malloc(candidates->make_count * sizeof *makes);
-    if (!makes)
-        return sp_fail_memory(error);
-    for (size_t i = 0; i < candidates->make_count; i++) {
-        double low, high;
-        makes[i] = candidates->makes[i];
-        sp_flow_range(search->options, &sp_evaluator_setup(search->coarse)->liquid, makes[i].type, makes[i].pressure,
-                      &low, &high);
-        if (low < makes[i].flow * (1 - 1e-6)) {
-            makes[i].flow = low;
-            polishing->adjustable = true;
-        }
-    }
-    polishing->thrifty_candidates = *candidates;
-    polishing->thrifty_candidates.makes = makes;
-    polishing->thrifty = *search;
-    polishing->thrifty.candidates = &polishing->thrifty_candidates;
-    return true;
 }
 
 bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine, sp_watch *watch,
@@ -77,7 +55,7 @@ bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_
     const sp_patches *patches = sp_evaluator_patches(search->coarse);
     *polishing = (sp_polishing){
         .search = search, .pool = pool, .watch = watch, .rough = *search, .threads = sp_threads(&search->options->run)};
-    bool done = thrifty_create(polishing, error);
+    bool done = sp_tuned_create(search, pool, &polishing->tuned, error);
     if (done && (double)patches->count > 1.5 * ROUGH_PATCHES) {
         polishing->rough_evaluator = sp_evaluator_resample(fine, sqrt(patches->total_area / ROUGH_PATCHES), error);
         done = polishing->rough_evaluator &&
@@ -122,17 +100,18 @@ static bool fit(sp_sights *sights, double budget, sp_design *design, bool *fits,
         if (!sp_design_look(sights, design, error))
             return false;
     }
-    *fits = design->flow <= budget * (1 + 1e-9);
+    *fits = design->flow <= budget * (1 + SP_ROUNDING);
     return true;
 }
 
-/* Anneals from ever wider starts: a narrow one keeps what is there; a wide one forgets it, and may find better. */
+/* Anneals from ever wider starts: a narrow one keeps what is there; a wide one forgets it, and may find better. What is
+ * new is annealed once or not at all, by turns. */
 static bool anneal(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, sp_design *design,
                    sp_error *error)
 {
     static const size_t starts[] = {3, 0};
     for (size_t i = 0; i < sizeof starts / sizeof *starts; i++)
-        if ((trial->kind == SP_TRIAL_POLISH || i == trial->seed % 2) &&
+        if ((trial->kind == SP_TRIAL_POLISH || i == trial->seed % TURNS) &&
             !sp_anneal(sights, starts[i], SP_WIDTHS, trial->budget, polishing->watch, design, error))
             return false;
     return true;
@@ -168,57 +147,32 @@ static bool cover_before(sp_sights *sights, const sp_trial *trial, double *cover
     return done;
 }
 
-/* A nozzle of a make that was turned down says so itself. */
-static void write_flows(const sp_polishing *polishing, sp_design *design)
-{
-    const sp_fluid *liquid = &sp_evaluator_setup(polishing->search->coarse)->liquid;
-    for (size_t i = 0; i < design->count; i++) {
-        sp_placed *placed = &design->items[i];
-        if (fabs(sp_nozzle_flow(&placed->nozzle, liquid) - placed->flow) > 1e-9 * placed->flow)
-            placed->nozzle.flow = placed->flow;
-    }
-}
-
-/* The best of the pool within the trial's budget, all turned down. */
-static bool build_thrifty(const sp_polishing *polishing, const sp_trial *trial, sp_design *design, sp_error *error)
-{
-    const sp_search *search = &polishing->thrifty;
-    sp_bench bench;
-    if (!sp_design_create(search, design, error))
-        return false;
-    bool done = sp_bench_create(search, polishing->pool, &bench, error);
-    if (done) {
-        done = sp_greedy_pool(search, polishing->pool, 0.5, INFINITY, trial->budget, &bench, design, error) &&
-               sp_improve(search, polishing->pool, trial->budget, polishing->watch, design, error);
-        sp_bench_free(&bench);
-    }
-    write_flows(polishing, design);
-    if (!done)
-        sp_design_free(design);
-    return done;
-}
-
 /* What the trial starts from. */
 static bool begin(const sp_polishing *polishing, const sp_trial *trial, sp_design *start, sp_error *error)
 {
-    if (trial->kind == SP_TRIAL_THRIFT)
-        return build_thrifty(polishing, trial, start, error);
-    if (!sp_design_copy(polishing->search, &trial->design, start, error))
+    const sp_tuned *tuned = &polishing->tuned;
+    const sp_design *from = trial->kind == SP_TRIAL_OTHER ? &trial->other : &trial->design;
+    if (!sp_design_copy(polishing->search, from, start, error))
         return false;
-    if (trial->kind == SP_TRIAL_POLISH ||
-        sp_kick(polishing->search, polishing->pool, trial->budget, trial->seed, start, error))
-        return true;
-    sp_design_free(start);
-    return false;
+    bool done = true;
+    if (trial->kind == SP_TRIAL_OTHER)
+        done = sp_improve(&tuned->search, &tuned->pool, trial->budget, polishing->watch, start, error);
+    if (trial->kind == SP_TRIAL_KICK)
+        done = sp_kick(&tuned->search, &tuned->pool, trial->budget, trial->seed, start, error);
+    if (done)
+        sp_tuned_settle(tuned, start);
+    else
+        sp_design_free(start);
+    return done;
 }
 
 /* The refined design on the search's own patches, turned a little more on these, becomes the trial's. */
-static bool take_over(const sp_polishing *polishing, int thread, sp_trial *trial, const sp_design *refined,
-                      sp_error *error)
+static bool take_over(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
 {
     sp_sights *sights = &polishing->sights[thread];
     sp_design design;
-    if (!transfer(sights, refined, &design, error))
+    sp_sights_forget(sights);
+    if (!transfer(sights, &trial->refined, &design, error))
         return false;
     if (!sp_compass(sights, STEP_TURN, STEP_LEAST, trial->budget, polishing->watch, &design, error)) {
         sp_design_free(&design);
@@ -232,34 +186,45 @@ static bool take_over(const sp_polishing *polishing, int thread, sp_trial *trial
 static bool polish(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
 {
     sp_sights *sights = &polishing->rough_sights[thread];
-    sp_design start, refined;
+    sp_design start;
     double before;
     if (!sp_watch_goes_on(polishing->watch, "refine", 0))
         return true;
     /* what was looked at before is another thread's luck */
     sp_sights_forget(sights);
-    sp_sights_forget(&polishing->sights[thread]);
     if (!cover_before(sights, trial, &before, error) || !begin(polishing, trial, &start, error))
         return false;
-    bool done = refine(polishing, sights, trial, before, &start, &refined, error);
+    bool done = refine(polishing, sights, trial, before, &start, &trial->refined, error);
     sp_design_free(&start);
     if (!done)
         return false;
-    trial->covered = refined.covered;
-    trial->better = refined.flow <= trial->budget * (1 + 1e-9) && refined.covered > before * (1 + GAIN_LEAST);
-    if (trial->better)
-        done = take_over(polishing, thread, trial, &refined, error);
-    sp_design_free(&refined);
-    return done;
+    trial->covered = trial->refined.covered;
+    trial->better =
+        trial->refined.flow <= trial->budget * (1 + SP_ROUNDING) && trial->refined.covered > before * (1 + GAIN_LEAST);
+    return true;
 }
 
-bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error)
+/* It got better, and no other trial of the same water much more so: few patches do not tell more. */
+static bool keeps_up(const sp_trial *trials, size_t count, size_t i)
+{
+    for (size_t k = 0; k < count; k++)
+        if (trials[k].better && trials[k].budget == trials[i].budget &&
+            trials[k].covered * (1 - KEEPS_UP) > trials[i].covered)
+            return false;
+    return trials[i].better;
+}
+
+typedef bool (*sp_step)(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error);
+
+/* Takes the step for every trial, or for those that are better. */
+static bool for_each(const sp_polishing *polishing, sp_trial *trials, size_t count, bool better, sp_step step,
+                     sp_error *error)
 {
     sp_error failure = {0};
 #pragma omp parallel for num_threads(polishing->threads) schedule(dynamic, 1)
     for (size_t i = 0; i < count; i++) {
         sp_error mine = {0};
-        if (!polish(polishing, omp_get_thread_num(), &trials[i], &mine)) {
+        if ((!better || trials[i].better) && !step(polishing, omp_get_thread_num(), &trials[i], &mine)) {
 #pragma omp critical(sp_polish_failure)
             failure = mine;
         }
@@ -267,6 +232,23 @@ bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error
     if (failure.kind == SP_OK)
         return true;
     return sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
+}
+
+bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error)
+{
+    bool done = for_each(polishing, trials, count, false, polish, error);
+    bool *keeps = calloc(count ? count : 1, sizeof *keeps);
+    if (!keeps)
+        done = sp_fail_memory(error);
+    for (size_t i = 0; done && i < count; i++)
+        keeps[i] = keeps_up(trials, count, i);
+    for (size_t i = 0; done && i < count; i++)
+        trials[i].better = keeps[i];
+    free(keeps);
+    done = done && for_each(polishing, trials, count, true, take_over, error);
+    for (size_t i = 0; i < count; i++)
+        sp_design_free(&trials[i].refined);
+    return done;
 }
 
 bool sp_sharpen(sp_polishing *polishing, double budget, sp_design *design, sp_error *error)

@@ -1,5 +1,6 @@
 #include "refine.h"
 
+#include "guess.h"
 #include "polish.h"
 
 #include <stdlib.h>
@@ -9,10 +10,12 @@
 #define MISSING_MOST 0.03 /* of the target: more, refinement is not expected to make up for */
 #define BATCH 8           /* kicks of one design at a time; fixed, so that the answer does not depend on the threads */
 #define BATCHES 2         /* before less water is given up */
+#define FRONT_ROUNDS 2    /* of kicks to every design of the front */
+#define BETWEEN 0.05      /* less water than a design of the front, for another */
+#define APART 0.02        /* share by which waters must differ for that */
 
 typedef struct {
     const sp_search *search;
-    const sp_pool *pool;
     sp_watch *watch;
     sp_front *front;
     sp_polishing polishing;
@@ -28,8 +31,10 @@ typedef struct {
 
 static void trials_free(sp_trials *trials)
 {
-    for (size_t i = 0; i < trials->count; i++)
+    for (size_t i = 0; i < trials->count; i++) {
         sp_design_free(&trials->items[i].design);
+        sp_design_free(&trials->items[i].other);
+    }
     free(trials->items);
     *trials = (sp_trials){0};
 }
@@ -54,17 +59,6 @@ static bool try_also(sp_refining *refining, sp_trials *trials, const sp_design *
     return true;
 }
 
-/* Whether trial i got better, and no other of the same water more so. */
-static bool is_candidate(const sp_trials *trials, size_t i)
-{
-    const sp_trial *trial = &trials->items[i];
-    for (size_t k = 0; k < trials->count; k++)
-        if (trials->items[k].better && trials->items[k].budget == trial->budget &&
-            (trials->items[k].covered > trial->covered || (trials->items[k].covered == trial->covered && k < i)))
-            return false;
-    return trial->better;
-}
-
 /* Polishes the trials and lets the front have them. *best, where not NULL, becomes a copy of the one that covers most,
  * if that is more than it does itself. */
 static bool carry_out(sp_refining *refining, sp_trials *trials, sp_design *best)
@@ -73,7 +67,7 @@ static bool carry_out(sp_refining *refining, sp_trials *trials, sp_design *best)
     bool done = sp_polish(&refining->polishing, trials->items, trials->count, refining->error);
     for (size_t i = 0; done && i < trials->count; i++) {
         sp_design *design = &trials->items[i].design;
-        if (!is_candidate(trials, i))
+        if (!trials->items[i].better)
             continue;
         done = sp_front_measure(refining->front, search, design, NULL, refining->error);
         if (done && best && design->covered > best->covered) {
@@ -99,23 +93,64 @@ static bool try_front(sp_refining *refining, sp_trials *trials, sp_trial_kind ki
     return true;
 }
 
-/* Every design of the front, and others that save by being turned down. */
+/* Designs at other flows than the candidates', for the water of every design of the front and for a little less, where
+ * the front has none. */
+static bool try_others(sp_refining *refining, sp_trials *trials)
+{
+    const sp_front *front = refining->front;
+    for (size_t i = 0; i < front->count; i++) {
+        double flow = front->entries[i].point.flow, less = flow * (1 - BETWEEN);
+        if (!sp_front_counts(front, i))
+            continue;
+        if (i && less > front->entries[i - 1].point.flow * (1 + APART) &&
+            !try_also(refining, trials, &front->entries[i - 1].design, less, SP_TRIAL_OTHER))
+            return false;
+        if (!try_also(refining, trials, &front->entries[i].design, flow, SP_TRIAL_OTHER))
+            return false;
+    }
+    return true;
+}
+
+/* Finds the others, each for its trial. */
+static bool find_others(sp_refining *refining, sp_trials *trials)
+{
+    const sp_tuned *tuned = &refining->polishing.tuned;
+    double *budgets = malloc((trials->count + 1) * sizeof *budgets);
+    sp_lineup *lineups = calloc(trials->count + 1, sizeof *lineups);
+    sp_table table = {0};
+    bool done = (budgets && lineups) || sp_fail_memory(refining->error);
+    for (size_t i = 0; done && i < trials->count; i++)
+        budgets[i] = trials->items[i].budget * (1 + SP_ROUNDING);
+    done = done && sp_table_create(&tuned->search, &tuned->pool, &table, refining->error) &&
+           sp_guess(&table, budgets, trials->count, refining->watch, lineups, refining->error);
+    for (size_t i = 0; done && i < trials->count; i++)
+        done = sp_lineup_design(&lineups[i], &trials->items[i].other, refining->error);
+    for (size_t i = 0; lineups && i < trials->count; i++)
+        sp_lineup_free(&lineups[i]);
+    free(budgets);
+    free(lineups);
+    sp_table_free(&table);
+    return done;
+}
+
+/* Every design of the front, and others in their places and between. */
 static bool polish_front(sp_refining *refining)
 {
     sp_trials trials = {0};
-    bool done = try_front(refining, &trials, SP_TRIAL_POLISH);
-    if (refining->polishing.adjustable)
-        done = done && try_front(refining, &trials, SP_TRIAL_THRIFT);
-    done = done && carry_out(refining, &trials, NULL);
+    bool done = try_others(refining, &trials) && find_others(refining, &trials) &&
+                try_front(refining, &trials, SP_TRIAL_POLISH) && carry_out(refining, &trials, NULL);
     trials_free(&trials);
     return done;
 }
 
 static bool kick_front(sp_refining *refining)
 {
-    sp_trials trials = {0};
-    bool done = try_front(refining, &trials, SP_TRIAL_KICK) && carry_out(refining, &trials, NULL);
-    trials_free(&trials);
+    bool done = true;
+    for (size_t round = 0; done && round < FRONT_ROUNDS && sp_watch_goes_on(refining->watch, "refine", 0.9); round++) {
+        sp_trials trials = {0};
+        done = try_front(refining, &trials, SP_TRIAL_KICK) && carry_out(refining, &trials, NULL);
+        trials_free(&trials);
+    }
     return done;
 }
 
@@ -187,11 +222,13 @@ static bool save_share(sp_refining *refining, double share, bool *saved)
     sp_design reduced;
     bool found;
     *saved = false;
-    if (!sp_reduce(refining->search, refining->pool, &front->best, budget, front->target - front->bias, refining->watch,
+    const sp_tuned *tuned = &refining->polishing.tuned;
+    if (!sp_reduce(&tuned->search, &tuned->pool, &front->best, budget, front->target - front->bias, refining->watch,
                    &reduced, &found, refining->error))
         return false;
     if (!found)
         return true;
+    sp_tuned_settle(tuned, &reduced);
     bool done = sp_front_measure(front, refining->search, &reduced, NULL, refining->error) &&
                 insist(refining, &reduced, budget, &before);
     sp_design_free(&reduced);
@@ -242,7 +279,7 @@ bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watc
     const sp_refine *allowed = &search->options->refine;
     if (allowed->position == 0 && allowed->axis == 0 && !allowed->roll && allowed->angle == 0 && allowed->flow == 0)
         return true;
-    sp_refining refining = {.search = search, .pool = pool, .watch = watch, .front = front, .error = error};
+    sp_refining refining = {.search = search, .watch = watch, .front = front, .error = error};
     if (!sp_polishing_create(search, pool, front->fine, watch, &refining.polishing, error))
         return false;
     bool done = refine_all(&refining);
