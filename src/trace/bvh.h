@@ -69,6 +69,20 @@ static inline void sp_bvh_child_box(const sp_bvh *bvh, const sp_bvh_node *node, 
     }
 }
 
+/* Has a node or block brought near. */
+static inline void sp_bvh_fetch(const sp_bvh *bvh, uint32_t child)
+{
+    if (child & SP_BVH_LEAF) {
+        const char *block = (const char *)&bvh->blocks[child - SP_BVH_LEAF];
+        for (size_t line = 0; line < sizeof(sp_bvh_block); line += 64)
+            __builtin_prefetch(block + line);
+    } else {
+        const char *node = (const char *)&bvh->nodes[child];
+        __builtin_prefetch(node);
+        __builtin_prefetch(node + 64);
+    }
+}
+
 /* The power of two above a positive number, and its inverse. */
 static inline double sp_bvh_power_above(double a, double *inverse)
 {

@@ -78,6 +78,10 @@ bool sp_parabola_start(sp_parabola *p, const sp_ray *ray, const sp_pull *pull, c
         p->down[k] = pull->down[k];
         horizontal[k] = p->velocity[k] - p->fall * p->down[k];
     }
+    /* Once more: what rounding left of the fall in it would be seen as way ahead over all of the depth. */
+    double rest = dot(horizontal, p->down);
+    for (int k = 0; k < 3; k++)
+        horizontal[k] -= rest * p->down[k];
     p->across = dot(horizontal, horizontal);
     p->speed = fabs(p->velocity[0]) + fabs(p->velocity[1]) + fabs(p->velocity[2]);
     p->farthest = 0;

@@ -48,18 +48,6 @@ static void walk(const sp_parabola *flight, const sp_bvh *bvh, double from, doub
     }
 }
 
-void sp_bvh_jet_test(sp_bvh_jet *jet, uint32_t triangle)
-{
-    sp_corners corners;
-    if (triangle == jet->search->skip)
-        return;
-    if (!jet->ready) /* its numbers are finite, or it would not be here */
-        sp_parabola_start(&jet->parabola, jet->ray, jet->pull, jet->bvh->low, jet->bvh->high);
-    jet->ready = true;
-    sp_bvh_corners(jet->bvh, triangle, corners);
-    sp_parabola_test(&jet->parabola, (const double(*)[3])corners, triangle, jet->search);
-}
-
 static inline double course_at(const sp_bvh_course *c, double t)
 {
     return c->place + t * (c->speed + 0.5 * t * c->pull);
@@ -100,18 +88,18 @@ static inline bool cut_curved(const sp_bvh_course *c, double *from, double *to)
     return *from <= *to;
 }
 
-sp_bvh_fitness sp_bvh_jet_prepare(sp_bvh_jet *jet, double *from, double *to)
+sp_bvh_fitness sp_bvh_jet_prepare(const sp_bvh *bvh, const sp_pull *pull, sp_bvh_jet *jet, double *from, double *to)
 {
-    const double *centre = jet->bvh->centre, scale = jet->bvh->scale;
+    const double *centre = bvh->centre, scale = bvh->scale;
     double origin[3], velocity[3];
-    sp_to_array(jet->ray->origin, origin);
-    sp_to_array(jet->ray->velocity, velocity);
+    sp_to_array(jet->asked->origin, origin);
+    sp_to_array(jet->asked->velocity, velocity);
     jet->summed = 1;
     jet->speed = 0;
-    jet->strength = jet->pull->strength * scale;
+    jet->strength = pull->strength * scale;
     for (int k = 0; k < 3; k++) {
         sp_bvh_course *c = &jet->course[k];
-        *c = (sp_bvh_course){(origin[k] - centre[k]) * scale, velocity[k] * scale, jet->pull->vector[k] * scale, 0};
+        *c = (sp_bvh_course){(origin[k] - centre[k]) * scale, velocity[k] * scale, pull->vector[k] * scale, 0};
         jet->summed = sp_greater(jet->summed, fabs(c->place));
         jet->speed = sp_greater(jet->speed, fabs(c->speed));
         if (c->pull == 0) {
@@ -166,7 +154,7 @@ static inline float way_of(const sp_bvh_arc *arc, double t, double margin)
     return (float)sp_lesser(sp_greater((t - arc->start) * arc->rate + margin, -64), 64);
 }
 
-sp_bvh_fitness sp_bvh_arc_prepare(sp_bvh_jet *jet, double from, double to)
+sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_bvh_jet *jet, double from, double to)
 {
     sp_bvh_arc *arc = &jet->arc;
     double t_min = from, t_max = to, fastest = 0, span;
@@ -184,8 +172,9 @@ sp_bvh_fitness sp_bvh_arc_prepare(sp_bvh_jet *jet, double from, double to)
     arc->start = from;
     arc->rate = sp_bvh_power_above(fastest, &span);
     double last = (to - from) * arc->rate;
-    order_axes(jet->pull, arc);
+    order_axes(pull, arc);
     arc->sag = 0;
+    uint32_t falls = 0;
     for (int i = 0; i < 3; i++) {
         int k = arc->axis[i];
         const sp_bvh_course *c = &jet->course[k];
@@ -195,7 +184,9 @@ sp_bvh_fitness sp_bvh_arc_prepare(sp_bvh_jet *jet, double from, double to)
         arc->sag = fabsf(arc->bend[k]) > arc->sag ? fabsf(arc->bend[k]) : arc->sag;
         double slope = (c->speed + 0.5 * c->pull * (from + to)) * span;
         set_axis(arc, i, slope, c->pull == 0 ? c->inverse * arc->rate : 1 / slope, last);
+        falls |= (uint32_t) !(slope > 0) << k;
     }
+    arc->diagonal = falls & 1 ? (~falls & 6) | 1 : falls & 6;
     if (!arc->aligned)
         arc->sag *= 2;
     arc->last = (float)(last + 0x1p-20);
@@ -216,46 +207,163 @@ static double next_turn(const sp_bvh_jet *jet, double from, double to)
     return to;
 }
 
-static void search_far(sp_bvh_jet *jet)
+static void search_far(const sp_bvh_jets *jets, sp_bvh_jet *jet)
 {
-    const sp_bvh *bvh = jet->bvh;
+    const sp_bvh *bvh = jets->bvh;
     sp_parabola *p = &jet->parabola;
-    if (!sp_parabola_start(p, jet->ray, jet->pull, bvh->low, bvh->high) || !sp_parabola_limit(p, jet->search))
+    sp_search *search = &jet->search;
+    if (!sp_parabola_start(p, jet->asked, jets->pull, bvh->low, bvh->high) || !sp_parabola_limit(p, search))
         return;
-    double from = jet->search->t_min, last = jet->search->limit;
-    while (from <= sp_lesser(last, jet->search->limit) && !sp_search_done(jet->search)) {
-        double to = sp_parabola_turn(p, from, last);
-        walk(p, bvh, from, sp_lesser(to, jet->search->limit), jet->search);
-        if (to == last)
-            return;
-        from = to;
-    }
-}
-
-void sp_parabola_search_bvh(const sp_bvh *bvh, const sp_ray *ray, const sp_pull *pull, sp_instructions instructions,
-                            sp_search *search)
-{
-    static void (*const kernels[])(sp_bvh_jet *) = {sp_bvh_parabola_portable, sp_bvh_parabola_avx2,
-                                                    sp_bvh_parabola_avx512};
-    sp_bvh_jet jet;
-    if (bvh->node_count == 0)
-        return;
-    jet.bvh = bvh;
-    jet.ray = ray;
-    jet.pull = pull;
-    jet.search = search;
-    jet.ready = false;
     double from = search->t_min, last = search->limit;
-    sp_bvh_fitness fitness = sp_bvh_jet_prepare(&jet, &from, &last);
-    while (fitness != SP_BVH_FAR && from <= sp_lesser(last, search->limit) && !sp_search_done(search)) {
-        double to = next_turn(&jet, from, last);
-        fitness = sp_bvh_arc_prepare(&jet, from, sp_lesser(to, search->limit));
-        if (fitness == SP_BVH_READY)
-            kernels[instructions](&jet);
-        if (!(to < last))
+    while (from <= sp_lesser(last, search->limit) && !sp_search_done(search)) {
+        double to = sp_parabola_turn(p, from, last);
+        walk(p, bvh, from, sp_lesser(to, search->limit), search);
+        if (to == last)
             break;
         from = to;
     }
+    jet->triangle = search->best.triangle;
+}
+
+static void ask(const sp_bvh_jets *jets, sp_bvh_jet *jet, uint32_t triangle)
+{
+    sp_corners corners;
+    if (!jet->parabola_ready) /* its numbers are finite, or it would not be here */
+        sp_parabola_start(&jet->parabola, jet->asked, jets->pull, jets->bvh->low, jets->bvh->high);
+    jet->parabola_ready = true;
+    sp_bvh_corners(jets->bvh, triangle, corners);
+    sp_parabola_test(&jet->parabola, (const double(*)[3])corners, triangle, &jet->search);
+}
+
+/* Where the search's limit is along the piece. */
+static inline float limit_way(const sp_bvh_jet *jet)
+{
+    return (float)((jet->search.limit - jet->arc.start) * jet->arc.rate);
+}
+
+void sp_bvh_jet_settle(const sp_bvh_jets *jets, sp_bvh_jet *jet, uint32_t triangle)
+{
+    ask(jets, jet, triangle);
+    if (jet->triangle != SP_NONE)
+        ask(jets, jet, jet->triangle);
+    if (jet->search.best.triangle == SP_NONE)
+        return;
+    float way = limit_way(jet);
+    jet->triangle = jet->search.best.triangle;
+    jet->low = way - SP_BVH_PAD;
+    jet->arc.last = way + SP_BVH_PAD < jet->arc.last ? way + SP_BVH_PAD : jet->arc.last;
+}
+
+/* Makes the first piece from `from` on ready that is in the box; false where there is none before the search's limit.
+ */
+static bool begin_piece(const sp_bvh_jets *jets, sp_bvh_jet *jet, double from)
+{
+    jet->later = true;
+    while (jet->later && from <= sp_lesser(jet->last, jet->search.limit)) {
+        jet->to = next_turn(jet, from, jet->last);
+        jet->later = jet->to < jet->last;
+        sp_bvh_fitness fitness = sp_bvh_arc_prepare(jets->pull, jet, from, sp_lesser(jet->to, jet->search.limit));
+        if (fitness == SP_BVH_FAR) {
+            jet->later = false;
+            search_far(jets, jet);
+        } else if (fitness == SP_BVH_READY) {
+            jet->height = 1;
+            jet->child[0] = 0;
+            jet->from[0] = jet->until[0] = 0;
+            if (jet->triangle != SP_NONE)
+                jet->low = limit_way(jet) - SP_BVH_PAD;
+            return true;
+        }
+        from = jet->to;
+    }
+    return false;
+}
+
+/* False where there is nothing to visit. */
+static bool begin(const sp_bvh_jets *jets, const sp_ray *ray, sp_bvh_jet *jet)
+{
+    jet->search = sp_search_start(ray, !jets->hits);
+    jet->asked = ray;
+    jet->parabola_ready = jet->ending = false;
+    jet->triangle = SP_NONE;
+    jet->low = INFINITY;
+    if (jets->bvh->node_count == 0)
+        return false;
+    double from = jet->search.t_min;
+    jet->last = jet->search.limit;
+    sp_bvh_fitness fitness = sp_bvh_jet_prepare(jets->bvh, jets->pull, jet, &from, &jet->last);
     if (fitness == SP_BVH_FAR)
-        search_far(&jet);
+        search_far(jets, jet);
+    return fitness == SP_BVH_READY && begin_piece(jets, jet, from);
+}
+
+/* Whether double precision has decided about the best. */
+static inline bool is_exact(const sp_bvh_jet *jet)
+{
+    return jet->triangle == jet->search.best.triangle;
+}
+
+bool sp_bvh_jet_go_on(const sp_bvh_jets *jets, sp_bvh_jet *jet)
+{
+    /* What was surely hit was so within the last piece. */
+    if (is_exact(jet) && jet->later && !sp_search_done(&jet->search) && begin_piece(jets, jet, jet->to))
+        return true;
+    if (is_exact(jet) || jet->ending || jet->search.any)
+        return false;
+    jet->ending = true;
+    jet->height = 0;
+    for (int i = 0; i < 3; i++)
+        __builtin_prefetch(&jets->bvh->mesh->vertices[jets->bvh->mesh->triangles[jet->triangle][i]]);
+    return true;
+}
+
+void sp_bvh_jets_end(sp_bvh_jets *jets, sp_bvh_jet *jet)
+{
+    sp_parabola_pairs *pairs = &jets->pairs;
+    if (!jets->hits) {
+        jets->occluded[jet->number] = jet->triangle != SP_NONE;
+    } else if (is_exact(jet)) {
+        jets->hits[jet->number] = jet->search.best;
+    } else {
+        pairs->ray[pairs->count] = jet->number;
+        pairs->triangle[pairs->count++] = jet->triangle;
+        if (pairs->count < SP_PARABOLA_HITS)
+            return;
+        jets->compute(pairs, jets->hits);
+        pairs->count = 0;
+    }
+}
+
+bool sp_bvh_jets_begin(sp_bvh_jets *jets, sp_bvh_jet *jet)
+{
+    while (jets->next < jets->count) {
+        jet->number = jets->order[jets->next++];
+        if (begin(jets, &jets->rays[jet->number], jet))
+            return true;
+        sp_bvh_jets_end(jets, jet);
+    }
+    return false;
+}
+
+static void (*const kernels[])(sp_bvh_jets *, sp_bvh_jet *, int) = {sp_bvh_parabolas_portable, sp_bvh_parabolas_avx2,
+                                                                    sp_bvh_parabolas_avx512};
+static void (*const computes[])(const sp_parabola_pairs *, sp_hit *) = {sp_parabola_hits_portable,
+                                                                        sp_parabola_hits_avx2, sp_parabola_hits_avx512};
+
+void sp_bvh_trace_parabolas(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, const uint32_t *order,
+                            size_t count, const sp_pull *pull, sp_hit *hits, bool *occluded)
+{
+    sp_bvh_jets jets = {.bvh = bvh,
+                        .pull = pull,
+                        .rays = rays,
+                        .order = order,
+                        .count = count,
+                        .hits = hits,
+                        .occluded = occluded,
+                        .compute = computes[instructions],
+                        .pairs = {.bvh = bvh, .pull = pull, .rays = rays}};
+    sp_bvh_jet flights[SP_BVH_JETS];
+    kernels[instructions](&jets, flights, SP_BVH_JETS);
+    if (jets.pairs.count)
+        jets.compute(&jets.pairs, hits);
 }

@@ -4,7 +4,7 @@
 
 #include "trace/bvh.h"
 #include "trace/instructions.h"
-#include "trace/parabola.h"
+#include "trace/parabola_hits.h"
 
 /* A piece of a flight in the hierarchy's space, on which no coordinate turns and none leaves -1.02..1.02 by much:
  * x(way) = origin + direction way + bend way² for 0 <= way <= last, at no time faster than 1 along an axis, and
@@ -17,12 +17,13 @@ typedef struct {
     uint32_t near[3], far[3]; /* where in a node the bounds begin that are passed first and last, bytes */
     float inverse[3];         /* of the chord's slope, at most 2^60 */
     float sooner[3];          /* where a line of that slope begins that is never later at a plane than the flight */
-    float later[3]; /* what to add to its way for one that is never sooner; 0 without gravity along the axis */
-    float sign;     /* of the motion along the steep axis */
-    bool aligned;   /* gravity is along the steep axis alone */
-    float sag;      /* the most that bend is along an axis */
-    float last;     /* hits have no longer way, margin included */
-    float surely_first, surely_last; /* whatever has a way between these is within the time asked for */
+    float later[3];    /* what to add to its way for one that is never sooner; 0 without gravity along the axis */
+    float sign;        /* of the motion along the steep axis */
+    bool aligned;      /* gravity is along the steep axis alone */
+    float sag;         /* the most that bend is along an axis */
+    float last;        /* hits have no longer way, margin included */
+    uint32_t diagonal; /* which of a node's orders, twice, and 1 where it is to be reversed */
+    float surely_first, surely_last; /* whatever has a way between these is within this piece */
     double start, rate;              /* way = (t - start) rate */
 } sp_bvh_arc;
 
@@ -32,29 +33,55 @@ typedef struct {
     double inverse; /* 1 / speed, where there is no pull */
 } sp_bvh_course;
 
+/* One flight on its way through the hierarchy, one piece of it after another: what it still has to visit is on its
+ * stack. */
 typedef struct {
-    const sp_bvh *bvh;
-    const sp_ray *ray;
-    const sp_pull *pull;
-    sp_search *search;
+    sp_bvh_arc arc;
+    const sp_ray *asked;
+    uint32_t number;   /* which ray it is */
+    uint32_t triangle; /* the best so far: as the search says, or surely hit later than way `low` and before arc.last */
+    float low;
+    bool ending;         /* what is needed for the answer has been sent for */
+    bool parabola_ready; /* it is needed only where single precision does not decide */
+    bool later;          /* there is more of the flight after this piece, */
+    double to, last;     /* from when on, and to when, s */
     sp_bvh_course course[3];
     double summed, speed, strength; /* the largest place and speed along an axis; of gravity */
-    sp_bvh_arc arc;
-    bool ready; /* `parabola` is: it is needed only where single precision does not decide */
+    sp_search search;
     sp_parabola parabola;
+    int height;
+    uint32_t child[SP_BVH_STACK + SP_BVH_WIDTH];
+    float from[SP_BVH_STACK + SP_BVH_WIDTH], until[SP_BVH_STACK + SP_BVH_WIDTH]; /* when it may be in its box, ways */
 } sp_bvh_jet;
 
-/* Searches what the flight passes. */
-void sp_parabola_search_bvh(const sp_bvh *bvh, const sp_ray *ray, const sp_pull *pull, sp_instructions instructions,
-                            sp_search *search);
+/* So many flights are on their way at once, each a step at a time. */
+enum { SP_BVH_JETS = 8 };
 
-/* Puts a hit at time t, and what comes after it, out of the search's reach. */
-static inline void sp_bvh_arc_shorten(sp_bvh_arc *arc, double limit)
-{
-    arc->last = (float)sp_lesser(arc->last, (limit - arc->start) * arc->rate + 0x1p-20);
-}
-/* The test in double precision. */
-void sp_bvh_jet_test(sp_bvh_jet *jet, uint32_t triangle);
+/* Rays to be traced, and where their answers go: hits, or occluded where that is NULL. */
+typedef struct {
+    const sp_bvh *bvh;
+    const sp_pull *pull;
+    const sp_ray *rays;
+    const uint32_t *order; /* [count], numbers among the rays */
+    size_t count, next;    /* next: the first not yet begun */
+    sp_hit *hits;
+    bool *occluded;
+    void (*compute)(const sp_parabola_pairs *, sp_hit *);
+    sp_parabola_pairs pairs; /* hits to be computed */
+} sp_bvh_jets;
+
+/* Traces the rays of these numbers, each by itself. */
+void sp_bvh_trace_parabolas(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, const uint32_t *order,
+                            size_t count, const sp_pull *pull, sp_hit *hits, bool *occluded);
+
+/* Lets the next flight begin that has to; false where there is none. */
+bool sp_bvh_jets_begin(sp_bvh_jets *jets, sp_bvh_jet *jet);
+/* Called where nothing of this piece is left to visit. False where the flight is at its end. */
+bool sp_bvh_jet_go_on(const sp_bvh_jets *jets, sp_bvh_jet *jet);
+/* Answers for a flight that is at its end. */
+void sp_bvh_jets_end(sp_bvh_jets *jets, sp_bvh_jet *jet);
+/* Asks double precision about a triangle and the best so far. */
+void sp_bvh_jet_settle(const sp_bvh_jets *jets, sp_bvh_jet *jet, uint32_t triangle);
 
 typedef enum {
     SP_BVH_NOWHERE, /* the flight is nowhere in the box */
@@ -63,13 +90,13 @@ typedef enum {
 } sp_bvh_fitness;
 
 /* Makes the flight ready and cuts from..to (s) to the box along the axes without gravity. */
-sp_bvh_fitness sp_bvh_jet_prepare(sp_bvh_jet *jet, double *from, double *to);
+sp_bvh_fitness sp_bvh_jet_prepare(const sp_bvh *bvh, const sp_pull *pull, sp_bvh_jet *jet, double *from, double *to);
 /* Makes the piece of it from `from` to `to` ready, on which no coordinate turns, and cuts it to the box. */
-sp_bvh_fitness sp_bvh_arc_prepare(sp_bvh_jet *jet, double from, double to);
+sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_bvh_jet *jet, double from, double to);
 
-/* The kernel, one for each set of instructions. */
-void sp_bvh_parabola_portable(sp_bvh_jet *jet);
-void sp_bvh_parabola_avx2(sp_bvh_jet *jet);
-void sp_bvh_parabola_avx512(sp_bvh_jet *jet);
+/* The kernel, one for each set of instructions: all rays, flights being room for so many at once. */
+void sp_bvh_parabolas_portable(sp_bvh_jets *jets, sp_bvh_jet *flights, int most);
+void sp_bvh_parabolas_avx2(sp_bvh_jets *jets, sp_bvh_jet *flights, int most);
+void sp_bvh_parabolas_avx512(sp_bvh_jets *jets, sp_bvh_jet *flights, int most);
 
 #endif

@@ -50,6 +50,10 @@ static inline void look_at_corners(const sp_parabola_pairs *pairs, hit_lanes *h,
         double v0 = h->velocity[0][i], v1 = h->velocity[1][i], v2 = h->velocity[2][i];
         double fall = v0 * d0 + v1 * d1 + v2 * d2;
         double h0 = v0 - fall * d0, h1 = v1 - fall * d1, h2 = v2 - fall * d2;
+        double left = h0 * d0 + h1 * d1 + h2 * d2;
+        h0 -= left * d0;
+        h1 -= left * d1;
+        h2 -= left * d2;
         double across = h0 * h0 + h1 * h1 + h2 * h2, speed = fabs(v0) + fabs(v1) + fabs(v2);
         double farthest = sp_greater(fabs(low0 - o0), fabs(high0 - o0));
         farthest = sp_greater(farthest, sp_greater(fabs(low1 - o1), fabs(high1 - o1)));
@@ -143,9 +147,17 @@ static inline void cross_lanes(const sp_parabola_pairs *pairs, hit_lanes *h, int
     }
 }
 
+/* For fewer than this, one at a time is sooner. */
+enum { TOGETHER = 4 };
+
 void SP_KERNEL(sp_parabola_hits)(const sp_parabola_pairs *pairs, sp_hit *hits)
 {
     hit_lanes h;
+    for (int i = 0; i < pairs->count && pairs->count < TOGETHER; i++)
+        hits[pairs->ray[i]] =
+            sp_parabola_ask(pairs->bvh, pairs->pull, &pairs->rays[pairs->ray[i]], pairs->triangle[i], SP_NONE);
+    if (pairs->count < TOGETHER)
+        return;
     int lanes = (pairs->count + 7) / 8 * 8;
     gather(pairs, &h, lanes);
     look_at_corners(pairs, &h, lanes);

@@ -1,7 +1,10 @@
 /* One piece of a parabola through the hierarchy. Included once by each file that is compiled for a set of instructions,
  * with SP_KERNEL(name) naming its functions. */
 #include "trace/parabola_bvh.h"
-#include "trace/pending.h"
+#include "trace/wide.h"
+
+/* The places of children in a node. */
+static const float places[8] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 /* Which children the flight passes, and the ways between which it may be in each.
  *
@@ -21,23 +24,21 @@
  * less than 8 e: sp_bvh_arc_prepare sees to that. All together are less than 64 e = SP_BVH_PAD, by which the boxes are
  * wider than what they hold, so that the flight is in them from before the hit until after it. An inverse that is cut
  * to 2^60 turns the chord by 2^-60. */
-static inline uint32_t enter_children(const sp_bvh_node *node, const sp_bvh_arc *arc, bool aligned, wide *first,
-                                      wide *last)
+static inline void enter_children(const sp_bvh_node *node, const sp_bvh_arc *arc, bool aligned, wide *first, wide *last)
 {
     const uint8_t *bytes = (const uint8_t *)node->low;
-    wide from = wide_set(0), to = wide_set(arc->last);
+    wide from = wide_set(0), to = wide_set(arc->last), nowhere = wide_set(INFINITY);
     for (int i = 1; i < 3; i++) {
         int axis = arc->axis[i];
-        wide inverse = wide_set(arc->inverse[i]), step = wide_multiply(wide_set(node->step[axis]), inverse);
-        wide corner = wide_multiply(wide_subtract(wide_set(node->origin[axis]), wide_set(arc->sooner[i])), inverse);
-        wide beyond = aligned ? corner : wide_add(corner, wide_set(arc->later[i]));
+        float slow = (node->origin[axis] - arc->sooner[i]) * arc->inverse[i];
+        wide step = wide_set(node->step[axis] * arc->inverse[i]), corner = wide_set(slow);
+        wide beyond = aligned ? corner : wide_set(slow + arc->later[i]);
         from = wide_greater(from, wide_multiply_add(wide_bytes(bytes + arc->near[i]), step, corner));
         to = wide_lesser(to, wide_multiply_add(wide_bytes(bytes + arc->far[i]), step, beyond));
     }
     int steep = arc->axis[0];
-    wide sign = wide_set(arc->sign), inverse = wide_set(arc->inverse[0]);
-    wide corner = wide_multiply(wide_subtract(wide_set(node->origin[steep]), wide_set(arc->origin[steep])), sign);
-    wide step = wide_multiply(wide_set(node->step[steep]), sign);
+    wide inverse = wide_set(arc->inverse[0]), step = wide_set(node->step[steep] * arc->sign);
+    wide corner = wide_set((node->origin[steep] - arc->origin[steep]) * arc->sign);
     wide enter = wide_multiply_add(wide_bytes(bytes + arc->near[0]), step, corner);
     wide leave = wide_multiply_add(wide_bytes(bytes + arc->far[0]), step, corner);
     from = wide_greater(from, wide_multiply_add(enter, inverse, wide_set(arc->sooner[0])));
@@ -45,11 +46,13 @@ static inline uint32_t enter_children(const sp_bvh_node *node, const sp_bvh_arc 
     wide bend = wide_set(arc->bend[steep] * arc->sign), direction = wide_set(arc->direction[steep] * arc->sign);
     wide before = wide_multiply(wide_multiply_add(bend, from, direction), from);
     wide after = wide_multiply(wide_multiply_add(bend, to, direction), to);
+    from = wide_where_at_most(before, leave, from, nowhere);
+    from = wide_where_at_most(enter, after, from, nowhere);
+    /* What is not in use is inside out, which the room between the lines may turn back. */
+    if (!aligned)
+        from = wide_where_at_most(wide_load(places), wide_set((float)node->count - 1), from, nowhere);
     *first = from;
     *last = to;
-    /* What is not in use is inside out, which the room between the lines may turn back. */
-    return wide_at_most(from, to) & wide_at_most(before, leave) & wide_at_most(enter, after) &
-           ((1u << node->count) - 1);
 }
 
 /* The flight where it passes a block: a line parallel to it in the middle of the span, from which it is never farther
@@ -58,7 +61,9 @@ typedef struct {
     int x, y, z; /* axes, z the one of the largest component of direction */
     float origin[3], shear_x, shear_y, sign;
     float blur;
-    float first, last, surely_first, surely_last; /* along z, from the origin */
+    float first, last;               /* along z, from the origin: between these it may be hit */
+    float middle, per_depth;         /* way = middle + depth along z per_depth */
+    float surely_first, surely_last; /* ways between which the flight is no farther from the chord */
 } chord;
 
 /* With r half the span, the flight is away from its tangent in the middle by bend (way - middle)², so that halfway to
@@ -79,7 +84,9 @@ static inline chord chord_of(const sp_bvh_arc *arc, float from, float to)
     c.z = fabsf(direction[2]) > fabsf(direction[c.z]) ? 2 : c.z;
     c.x = c.z == 2 ? 0 : c.z + 1;
     c.y = c.z == 0 ? 2 : c.z - 1;
-    float inverse = 1 / direction[c.z], speed = fabsf(direction[c.z]);
+    float speed = fabsf(direction[c.z]), inverse = 1 / direction[c.z];
+    if (!(speed > 0x1p-40f)) /* as it turns, upright: it is hardly anywhere else */
+        inverse = 0;
     c.shear_x = direction[c.x] * inverse;
     c.shear_y = direction[c.y] * inverse;
     c.sign = direction[c.z] > 0 ? 1 : -1;
@@ -87,16 +94,17 @@ static inline chord chord_of(const sp_bvh_arc *arc, float from, float to)
     float slack = c.blur + 4 * SP_BVH_PAD;
     c.first = -r * speed - slack;
     c.last = (arc->last - middle) * speed + slack;
-    float soonest = from - spare > arc->surely_first ? from - spare : arc->surely_first;
-    float latest = to + spare < arc->surely_last ? to + spare : arc->surely_last;
-    c.surely_first = (soonest - middle) * speed + slack;
-    c.surely_last = (latest - middle) * speed - slack;
+    c.middle = middle;
+    c.per_depth = fabsf(inverse);
+    c.surely_first = speed > 0x1p-40f ? from - spare : INFINITY;
+    c.surely_last = to + spare;
     return c;
 }
 
 /* What is to be known of a block's triangles: those that may be hit, and those that surely are. */
 typedef struct {
     uint32_t maybe, surely;
+    float low[8], high[8]; /* of those surely hit: ways */
 } verdict;
 
 /* As for lines, against the chord: a triangle that the flight meets is within `blur` of the chord where that passes, so
@@ -104,7 +112,7 @@ typedef struct {
  * way between one at which the flight is still before the triangle and one at which it is beyond: the chord meets the
  * triangle at the corners' mean by weight, and within `blur` of it the triangle is nearer or farther by no more than 3
  * errors' share of its extent. */
-static inline verdict test_block(const sp_bvh_block *block, const chord *c, bool any)
+static inline void test_block(const sp_bvh_block *block, const chord *c, verdict *found)
 {
     wide x[3], y[3], z[3], sign = wide_set(c->sign);
     for (int i = 0; i < 3; i++) {
@@ -126,70 +134,109 @@ static inline verdict test_block(const sp_bvh_block *block, const chord *c, bool
     wide least = wide_lesser(wide_lesser(u, v), w), largest = wide_greater(wide_greater(u, v), w);
     wide minus = wide_subtract(wide_set(0), error);
     uint32_t inside = wide_at_most(minus, least) | wide_at_most(largest, error);
+    found->maybe = found->surely = 0;
     if (!inside)
-        return (verdict){0, 0};
+        return;
     wide nearest = wide_lesser(wide_lesser(z[0], z[1]), z[2]), farthest = wide_greater(wide_greater(z[0], z[1]), z[2]);
-    uint32_t maybe = inside & wide_at_most(nearest, wide_set(c->last)) & wide_at_most(wide_set(c->first), farthest);
-    uint32_t surely = maybe & (wide_at_most(error, least) | wide_at_most(largest, minus));
-    if (any && surely) {
-        wide sum = wide_add(wide_add(u, v), w);
-        wide met = wide_multiply_add(u, z[0], wide_multiply_add(v, z[1], wide_multiply(w, z[2])));
-        wide unsure = wide_multiply(wide_set(4), wide_multiply(error, wide_subtract(farthest, nearest)));
-        wide square = wide_multiply(sum, sum), place = wide_multiply(met, sum);
-        unsure = wide_multiply(unsure, wide_absolute(sum));
-        surely &= wide_at_most(wide_multiply_add(square, wide_set(c->surely_first), unsure), place) &
-                  wide_at_most(wide_add(place, unsure), wide_multiply(square, wide_set(c->surely_last)));
-    }
-    return (verdict){maybe, surely};
+    found->maybe = inside & wide_at_most(nearest, wide_set(c->last)) & wide_at_most(wide_set(c->first), farthest);
+    if (!found->maybe)
+        return;
+    wide sum = wide_add(wide_add(u, v), w), inverse = wide_divide(wide_set(1), sum);
+    wide met = wide_multiply_add(u, z[0], wide_multiply_add(v, z[1], wide_multiply(w, z[2])));
+    wide unsure = wide_multiply(wide_set(4), wide_multiply(error, wide_subtract(farthest, nearest)));
+    unsure = wide_multiply_add(unsure, wide_absolute(inverse), wide_set(c->blur + 2 * SP_BVH_PAD));
+    met = wide_multiply(met, inverse);
+    wide per_depth = wide_set(c->per_depth), middle = wide_set(c->middle);
+    wide low = wide_multiply_add(wide_subtract(met, unsure), per_depth, middle);
+    wide high = wide_multiply_add(wide_add(met, unsure), per_depth, middle);
+    found->surely = found->maybe & (wide_at_most(error, least) | wide_at_most(largest, minus)) &
+                    wide_at_most(wide_multiply(error, wide_set(8)), wide_absolute(sum)) &
+                    wide_at_most(wide_set(c->surely_first), low) & wide_at_most(high, wide_set(c->surely_last));
+    wide_store(found->low, low);
+    wide_store(found->high, high);
 }
 
-/* Puts what a block decides into the search; true where the search is over. */
-static bool search_block(sp_bvh_jet *jet, const sp_bvh_block *block, float from, float to)
+/* Takes a hit that is sure in single precision, or asks double precision. True where the search is over. */
+static inline bool take(const sp_bvh_jets *jets, sp_bvh_jet *jet, uint32_t triangle, bool sure, float low, float high)
 {
-    sp_search *search = jet->search;
-    chord c = chord_of(&jet->arc, from, to);
-    verdict found = test_block(block, &c, search->any);
-    for (uint32_t rest = search->any ? found.surely : 0; rest; rest &= rest - 1) {
-        uint32_t triangle = block->triangle[__builtin_ctz(rest)];
-        if (triangle != search->skip) {
-            search->best.triangle = triangle;
+    sp_bvh_arc *arc = &jet->arc;
+    if (triangle == jet->search.skip || (sure && low > arc->last))
+        return false;
+    if (!sure || low < arc->surely_first || high > arc->surely_last || (high >= jet->low && !jet->search.any)) {
+        sp_bvh_jet_settle(jets, jet, triangle);
+    } else {
+        jet->triangle = triangle;
+        jet->low = low;
+        arc->last = high;
+        __builtin_prefetch(&jets->bvh->mesh->triangles[triangle]);
+    }
+    return jet->search.any && jet->triangle != SP_NONE;
+}
+
+/* True where the search is over. */
+static inline bool search_block(const sp_bvh_jets *jets, sp_bvh_jet *jet, const sp_bvh_block *block, float from,
+                                float until)
+{
+    chord c = chord_of(&jet->arc, from, until);
+    verdict found;
+    test_block(block, &c, &found);
+    for (uint32_t rest = found.maybe; rest; rest &= rest - 1) {
+        int i = __builtin_ctz(rest);
+        if (take(jets, jet, block->triangle[i], found.surely >> i & 1, found.low[i], found.high[i]))
             return true;
-        }
     }
-    for (uint32_t rest = found.maybe; rest; rest &= rest - 1)
-        sp_bvh_jet_test(jet, block->triangle[__builtin_ctz(rest)]);
-    if (found.maybe)
-        sp_bvh_arc_shorten(&jet->arc, search->limit);
-    return sp_search_done(search);
+    return false;
 }
 
-static inline void walk(sp_bvh_jet *jet, bool aligned)
+/* Visits what is on top of the stack; false where the flight is at its end. */
+static inline bool step(const sp_bvh_jets *jets, sp_bvh_jet *jet)
 {
-    const sp_bvh *bvh = jet->bvh;
+    const sp_bvh *bvh = jets->bvh;
     const sp_bvh_arc *arc = &jet->arc;
-    pending stack[SP_BVH_STACK];
-    int height = 1;
-    stack[0] = (pending){0, 0, 0};
-    while (height > 0) {
-        pending at = stack[--height];
-        if (at.from > arc->last)
-            continue;
-        if (at.child & SP_BVH_LEAF) {
-            if (search_block(jet, &bvh->blocks[at.child - SP_BVH_LEAF], at.from, at.to))
-                return;
-            continue;
-        }
-        const sp_bvh_node *node = &bvh->nodes[at.child];
-        wide from, to;
-        uint32_t mask = enter_children(node, arc, aligned, &from, &to);
-        height += push_children(node, mask, from, to, stack + height);
+    int height = jet->height;
+    float last = arc->last;
+    do
+        if (--height < 0)
+            return sp_bvh_jet_go_on(jets, jet);
+    while (jet->from[height] > last);
+    uint32_t child = jet->child[height];
+    if (child & SP_BVH_LEAF) {
+        if (search_block(jets, jet, &bvh->blocks[child - SP_BVH_LEAF], jet->from[height], jet->until[height]))
+            return false;
+    } else {
+        const sp_bvh_node *node = &bvh->nodes[child];
+        wide from, until;
+        if (arc->aligned)
+            enter_children(node, arc, true, &from, &until);
+        else
+            enter_children(node, arc, false, &from, &until);
+        uint64_t order = wide_order(node->order[arc->diagonal >> 1]);
+        if (arc->diagonal & 1)
+            order = __builtin_bswap64(order);
+        height += wide_pack_spans(node->child, from, until, order, jet->child + height, jet->from + height,
+                                  jet->until + height);
     }
+    jet->height = height;
+    if (height > 0)
+        sp_bvh_fetch(bvh, jet->child[height - 1]);
+    return true;
 }
 
-void SP_KERNEL(sp_bvh_parabola)(sp_bvh_jet *jet)
+void SP_KERNEL(sp_bvh_parabolas)(sp_bvh_jets *jets, sp_bvh_jet *flights, int most)
 {
-    if (jet->arc.aligned)
-        walk(jet, true);
-    else
-        walk(jet, false);
+    sp_bvh_jet *active[SP_BVH_JETS];
+    int count = 0;
+    while (count < most && sp_bvh_jets_begin(jets, &flights[count])) {
+        active[count] = &flights[count];
+        count++;
+    }
+    while (count > 0) {
+        for (int i = 0; i < count; i++) {
+            if (step(jets, active[i]))
+                continue;
+            sp_bvh_jets_end(jets, active[i]);
+            if (!sp_bvh_jets_begin(jets, active[i]))
+                active[i--] = active[--count];
+        }
+    }
 }

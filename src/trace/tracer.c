@@ -109,10 +109,6 @@ static void search_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp
 {
     const sp_corners *corners = (const sp_corners *)tracer->corners;
     sp_parabola parabola;
-    if (tracer->accelerator == SP_ACCELERATOR_BVH) {
-        sp_parabola_search_bvh(&tracer->bvh, ray, pull, tracer->instructions, search);
-        return;
-    }
     if (!sp_parabola_start(&parabola, ray, pull, tracer->tree.low, tracer->tree.high) ||
         !sp_parabola_limit(&parabola, search))
         return;
@@ -130,12 +126,25 @@ static void trace_line(const sp_tracer *tracer, const sp_ray *ray, sp_search *se
         search->best.triangle = 0; /* or another */
 }
 
+static void trace_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp_pull *pull, sp_search *search)
+{
+    const uint32_t only = 0;
+    bool occluded = false;
+    sp_bvh_trace_parabolas(&tracer->bvh, tracer->instructions, ray, &only, 1, pull, search->any ? NULL : &search->best,
+                           &occluded);
+    if (occluded)
+        search->best.triangle = 0; /* or another */
+}
+
 static sp_hit trace(const sp_tracer *tracer, const sp_ray *ray, const sp_pull *pull, bool any)
 {
     sp_search search = sp_search_start(ray, any);
-    if (pull->strength != 0)
+    bool is_bvh = tracer->accelerator == SP_ACCELERATOR_BVH;
+    if (pull->strength != 0 && is_bvh)
+        trace_parabola(tracer, ray, pull, &search);
+    else if (pull->strength != 0)
         search_parabola(tracer, ray, pull, &search);
-    else if (tracer->accelerator == SP_ACCELERATOR_BVH)
+    else if (is_bvh)
         trace_line(tracer, ray, &search);
     else
         search_line(tracer, ray, &search);
@@ -207,21 +216,30 @@ static void trace_lines(const sp_tracer *tracer, const sp_ray *rays, size_t coun
     }
 }
 
-/* Parabolas through the bvh: those of one origin in volleys, all others one by one. */
+/* Parabolas through the bvh: those of one origin in volleys, all others as a stream. */
 static void trace_parabolas(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_pull *pull,
                             sp_hit *hits, bool *occluded)
 {
-    bool *done = calloc(count, sizeof *done); /* without memory none is */
-    for (size_t i = 0, n; done && i < count; i += n) {
-        n = count_fan(rays + i, count - i);
-        if (n >= FAN_LEAST)
-            sp_volleys_trace(&tracer->bvh, tracer->instructions, rays + i, n, pull, hits ? hits + i : NULL,
-                             hits ? NULL : occluded + i, done + i);
+    size_t alone = 0;
+    uint32_t *left = malloc((count + 1) * sizeof *left);
+    if (!left) {
+        trace_one_by_one(tracer, rays, count, pull, hits, occluded);
+        return;
     }
-    for (size_t i = 0; i < count; i++)
-        if (!done || !done[i])
-            trace_one_by_one(tracer, rays + i, 1, pull, hits ? hits + i : NULL, hits ? NULL : occluded + i);
-    free(done);
+    for (size_t i = 0, n; i < count; i += n) {
+        n = count_fan(rays + i, count - i);
+        size_t more = 1;
+        left[alone] = 0;
+        if (n >= FAN_LEAST)
+            more = sp_volleys_trace(&tracer->bvh, tracer->instructions, rays + i, n, pull, hits ? hits + i : NULL,
+                                    hits ? NULL : occluded + i, left + alone);
+        else
+            n = 1;
+        for (size_t end = alone + more; alone < end; alone++)
+            left[alone] += (uint32_t)i;
+    }
+    sp_bvh_trace_parabolas(&tracer->bvh, tracer->instructions, rays, left, alone, pull, hits, occluded);
+    free(left);
 }
 
 static void trace_chunk(const sp_tracer *tracer, const sp_ray *rays, size_t count, const sp_pull *pull,

@@ -86,15 +86,20 @@ static inline bool see_jet(const sheaf *s, const sp_ray *ray, jet *j, uint32_t *
     return true;
 }
 
-static void read_rays(sheaf *s)
+/* Returns how many are left over. */
+static size_t read_rays(sheaf *s, uint32_t *left)
 {
+    size_t others = 0;
     s->taken = 0;
     for (size_t i = 0; i < s->count; i++) {
         uint32_t key;
         if (see_jet(s, &s->rays[i], &s->jets[i], &key))
             s->order[0][s->taken++] = (sp_direction_entry){key, (uint32_t)i};
+        else
+            left[others++] = (uint32_t)i;
     }
     sp_direction_sort(s->order, s->taken);
+    return others;
 }
 
 /* What all have in common; false where volleys are not for them. */
@@ -161,14 +166,13 @@ static size_t fill(const sheaf *s, size_t from, sp_volley *v)
 }
 
 /* The answers: `hits`, or where that is NULL `occluded`. */
-static void answer(const sp_volley *v, sp_instructions instructions, sp_hit *hits, bool *occluded, bool *done)
+static void answer(const sp_volley *v, sp_instructions instructions, sp_hit *hits, bool *occluded)
 {
     static void (*const kernels[])(const sp_parabola_pairs *, sp_hit *) = {
         sp_parabola_hits_portable, sp_parabola_hits_avx2, sp_parabola_hits_avx512};
     sp_parabola_pairs pairs = {.bvh = v->bvh, .pull = v->pull, .rays = v->rays};
     for (int i = 0; i < v->count; i++) {
         uint32_t ray = v->ray[i], triangle = v->triangle[i];
-        done[ray] = true;
         if (!hits) {
             occluded[ray] = triangle != SP_NONE;
         } else if (triangle == SP_NONE) {
@@ -182,33 +186,53 @@ static void answer(const sp_volley *v, sp_instructions instructions, sp_hit *hit
         kernels[instructions](&pairs, hits);
 }
 
-void sp_volleys_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count,
-                      const sp_pull *pull, sp_hit *hits, bool *occluded, bool *done)
+static size_t leave_all(size_t count, uint32_t *left)
+{
+    for (size_t i = 0; i < count; i++)
+        left[i] = (uint32_t)i;
+    return count;
+}
+
+static void search_all(const sheaf *s, sp_instructions instructions, sp_volley *volley, sp_hit *hits, bool *occluded,
+                       uint32_t *left, size_t *others)
 {
     static void (*const searches[])(sp_volley *) = {sp_volley_search_portable, sp_volley_search_avx2,
                                                     sp_volley_search_avx512};
+    for (size_t i = 0; i < s->taken;) {
+        i += fill(s, i, volley);
+        if (volley->count < LEAST) {
+            for (int k = 0; k < volley->count; k++)
+                left[(*others)++] = volley->ray[k];
+            continue;
+        }
+        searches[instructions](volley);
+        answer(volley, instructions, hits, occluded);
+    }
+}
+
+size_t sp_volleys_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count,
+                        const sp_pull *pull, sp_hit *hits, bool *occluded, uint32_t *left)
+{
     sheaf s = {.bvh = bvh, .rays = rays, .count = count};
     if (bvh->node_count == 0 || count == 0 || !begin(&s, pull))
-        return;
+        return leave_all(count, left);
     s.jets = malloc(count * sizeof *s.jets);
     s.order[0] = malloc(count * sizeof *s.order[0]);
     s.order[1] = malloc(count * sizeof *s.order[1]);
-    bool good = s.jets && s.order[0] && s.order[1];
-    if (good)
-        read_rays(&s);
-    sp_volley volley = {.bvh = bvh, .rays = rays, .pull = pull, .rate = s.rate, .any = !hits};
-    volley.steep = s.steep;
-    volley.bend = s.bend;
-    for (int k = 0; k < 3; k++)
-        volley.origin[k] = s.origin[k];
-    for (size_t i = 0; good && i < s.taken;) {
-        i += fill(&s, i, &volley);
-        if (volley.count < LEAST)
-            continue;
-        searches[instructions](&volley);
-        answer(&volley, instructions, hits, occluded, done);
+    size_t others = 0;
+    if (s.jets && s.order[0] && s.order[1]) {
+        others = read_rays(&s, left);
+        sp_volley volley = {.bvh = bvh, .rays = rays, .pull = pull, .rate = s.rate, .any = !hits};
+        volley.steep = s.steep;
+        volley.bend = s.bend;
+        for (int k = 0; k < 3; k++)
+            volley.origin[k] = s.origin[k];
+        search_all(&s, instructions, &volley, hits, occluded, left, &others);
+    } else {
+        others = leave_all(count, left);
     }
     free(s.jets);
     free(s.order[0]);
     free(s.order[1]);
+    return others;
 }

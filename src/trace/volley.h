@@ -37,9 +37,9 @@ void sp_volley_search_portable(sp_volley *volley);
 void sp_volley_search_avx2(sp_volley *volley);
 void sp_volley_search_avx512(sp_volley *volley);
 
-/* Traces rays of one origin: `hits`, or where that is NULL `occluded`, get an answer for each of which done[i] becomes
- * true; the others are left to be traced one by one. */
-void sp_volleys_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count,
-                      const sp_pull *pull, sp_hit *hits, bool *occluded, bool *done);
+/* Traces rays of one origin: `hits`, or where that is NULL `occluded`, get an answer for each but those whose numbers
+ * are put into left[count], in an order in which neighbours are close; returns how many these are. */
+size_t sp_volleys_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count,
+                        const sp_pull *pull, sp_hit *hits, bool *occluded, uint32_t *left);
 
 #endif

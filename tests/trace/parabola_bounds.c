@@ -4,7 +4,7 @@
 #include "trace/parabola_bvh.h"
 
 #define SP_KERNEL(name) name##_tested
-void sp_bvh_parabola_tested(sp_bvh_jet *jet);
+void sp_bvh_parabolas_tested(sp_bvh_jets *jets, sp_bvh_jet *flights, int most);
 #include "trace/parabola_kernel.h"
 
 #ifdef SPRAYPLAN_SANITIZE
@@ -119,9 +119,10 @@ static void check_path(const world *w, const sp_bvh_jet *jet, uint32_t triangle,
     float first_way[8], last_way[8];
     place at = w->block_place[w->block[triangle]];
     for (int level = 0; at.node != SP_NONE; level++, at = w->node_place[at.node]) {
-        uint32_t mask = enter_children(&w->bvh.nodes[at.node], &jet->arc, jet->arc.aligned, &from, &to);
+        enter_children(&w->bvh.nodes[at.node], &jet->arc, jet->arc.aligned, &from, &to);
         wide_store(first_way, from);
         wide_store(last_way, to);
+        uint32_t mask = wide_at_most(from, to);
         if (!(mask >> at.child & 1) || !(first_way[at.child] <= way + slack && last_way[at.child] >= way - slack))
             fail_msg("triangle %u at %.17g (way %.9g of %.9g) is left out %d above its block: %s %.9g..%.9g", triangle,
                      t, way, last, level, mask >> at.child & 1 ? "in" : "out", first_way[at.child], last_way[at.child]);
@@ -129,7 +130,8 @@ static void check_path(const world *w, const sp_bvh_jet *jet, uint32_t triangle,
             continue;
         const sp_bvh_block *block = &w->bvh.blocks[w->block[triangle]];
         chord c = chord_of(&jet->arc, first_way[at.child], last_way[at.child]);
-        verdict found = test_block(block, &c, true);
+        verdict found;
+        test_block(block, &c, &found);
         bool maybe = false;
         for (int slot = 0; slot < SP_BVH_WIDTH; slot++)
             maybe |= block->triangle[slot] == triangle && found.maybe >> slot & 1;
@@ -138,27 +140,34 @@ static void check_path(const world *w, const sp_bvh_jet *jet, uint32_t triangle,
     }
 }
 
-/* That what is taken for sure is hit. */
+/* That what is taken for sure within the piece is hit, and when it says. */
 static void check_sure(const world *w, const sp_bvh_jet *jet, const double times[COUNT], tally *seen)
 {
+    const sp_bvh_arc *arc = &jet->arc;
     for (uint32_t b = 0; b < w->bvh.block_count; b++) {
         const sp_bvh_block *block = &w->bvh.blocks[b];
         place at = w->block_place[b];
         float first_way[8], last_way[8];
         wide from, to;
-        uint32_t mask = enter_children(&w->bvh.nodes[at.node], &jet->arc, jet->arc.aligned, &from, &to);
+        enter_children(&w->bvh.nodes[at.node], &jet->arc, jet->arc.aligned, &from, &to);
         wide_store(first_way, from);
         wide_store(last_way, to);
-        if (!(mask >> at.child & 1))
+        if (!(wide_at_most(from, to) >> at.child & 1))
             continue;
         chord c = chord_of(&jet->arc, first_way[at.child], last_way[at.child]);
-        verdict found = test_block(block, &c, true);
+        verdict found;
+        test_block(block, &c, &found);
         for (int slot = 0; slot < SP_BVH_WIDTH; slot++) {
-            if (!(found.surely >> slot & 1))
+            float low = found.low[slot], high = found.high[slot];
+            if (!(found.surely >> slot & 1) || low < arc->surely_first || high > arc->surely_last)
                 continue;
             seen->sure++;
-            if (!(times[block->triangle[slot]] < INFINITY))
+            double t = times[block->triangle[slot]], way = (t - arc->start) * arc->rate;
+            if (!(t < INFINITY))
                 fail_msg("triangle %u is not hit", block->triangle[slot]);
+            /* an earlier piece may have hit it before */
+            if (way > 0 && !(way >= low && way <= high))
+                fail_msg("triangle %u is hit at way %.9g, not %.9g..%.9g", block->triangle[slot], way, low, high);
         }
     }
 }
@@ -167,7 +176,8 @@ static void check_flight(const world *w, const sp_ray *ray, sp_vec3 gravity, tal
 {
     sp_pull pull = sp_pull_of(gravity);
     sp_search search = sp_search_start(ray, false);
-    sp_bvh_jet jet = {.bvh = &w->bvh, .ray = ray, .pull = &pull, .search = &search};
+    static sp_bvh_jet jet;
+    jet.asked = ray;
     double from = search.t_min, last = search.limit, times[COUNT];
     sp_parabola parabola;
     assert_true(sp_parabola_start(&parabola, ray, &pull, w->bvh.low, w->bvh.high));
@@ -178,12 +188,12 @@ static void check_flight(const world *w, const sp_ray *ray, sp_vec3 gravity, tal
         sp_parabola_test(&parabola, (const double(*)[3])corners, t, &alone);
         times[t] = alone.best.t;
     }
-    sp_bvh_fitness fitness = sp_bvh_jet_prepare(&jet, &from, &last);
+    sp_bvh_fitness fitness = sp_bvh_jet_prepare(&w->bvh, &pull, &jet, &from, &last);
     for (uint32_t t = 0; t < w->mesh->triangle_count && fitness != SP_BVH_FAR; t++)
         assert_true(times[t] == INFINITY || (fitness == SP_BVH_READY && times[t] >= from && times[t] <= last));
     while (fitness != SP_BVH_FAR && from <= last) {
         double to = sp_parabola_turn(&parabola, from, last);
-        fitness = sp_bvh_arc_prepare(&jet, from, to);
+        fitness = sp_bvh_arc_prepare(&pull, &jet, from, to);
         seen->pieces++;
         for (uint32_t t = 0; t < w->mesh->triangle_count && fitness != SP_BVH_FAR; t++) {
             if (!(times[t] >= from && times[t] <= to))
