@@ -64,5 +64,9 @@ void sp_fan_room_clear(sp_fan_room *room);
  * answer for each. False where single precision or memory do not suffice; nothing is written then. */
 bool sp_fan_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count, sp_fan_room *room,
                   sp_hit *hits, bool *occluded);
+/* The same for rays that are far apart, of any kind: each by itself, but neighbours one after another. False where
+ * memory does not suffice; nothing is written then. */
+bool sp_fan_stream(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count, sp_fan_room *room,
+                   sp_hit *hits, bool *occluded);
 
 #endif

@@ -2,6 +2,7 @@
 #include "trace/bundle.h"
 #include "trace/direction_order.h"
 #include "trace/line.h"
+#include "trace/line_bvh.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -48,6 +49,20 @@ static inline bool see_line(const fan *f, const sp_ray *ray, sp_fan_line *line, 
     line->side = (uint32_t)(2 * z + (velocity[z] < 0));
     *key = sp_direction_key(line->side, line->u, line->v);
     return true;
+}
+
+/* A place in the order of directions, whatever the ray. */
+static inline uint32_t key_of(const sp_ray *ray)
+{
+    double velocity[3];
+    sp_to_array(ray->velocity, velocity);
+    int z = 0;
+    for (int axis = 1; axis < 3; axis++)
+        if (fabs(velocity[axis]) > fabs(velocity[z]))
+            z = axis;
+    double inverse = 1 / fabs(velocity[z]);
+    float u = (float)(velocity[(z + 1) % 3] * inverse), v = (float)(velocity[(z + 2) % 3] * inverse);
+    return u >= -1 && v >= -1 ? sp_direction_key((uint32_t)(2 * z) + (velocity[z] < 0), u, v) : 0;
 }
 
 /* Reads the rays, and sorts them. */
@@ -213,5 +228,18 @@ bool sp_fan_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray 
         for (int k = 0; !hits && k < bundle.count; k++)
             occluded[bundle.ray[k]] = bundle.triangle[k] != SP_NONE;
     }
+    return true;
+}
+
+bool sp_fan_stream(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count, sp_fan_room *room,
+                   sp_hit *hits, bool *occluded)
+{
+    if (!make_room(room, count))
+        return false;
+    sp_direction_entry *order[2] = {room->order, (sp_direction_entry *)room->order + count};
+    for (size_t i = 0; i < count; i++)
+        order[0][i] = (sp_direction_entry){key_of(&rays[i]), (uint32_t)i};
+    sp_direction_sort(order, count);
+    sp_bvh_trace_lines(bvh, instructions, rays, order[0], count, hits, occluded);
     return true;
 }

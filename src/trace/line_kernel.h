@@ -1,6 +1,7 @@
-/* One line through the hierarchy. Included once by each file that is compiled for a set of instructions, with
+/* Lines through the hierarchy. Included once by each file that is compiled for a set of instructions, with
  * SP_KERNEL(name) naming its functions. */
-#include "trace/line_bvh.h"
+#include "trace/answer.h"
+#include "trace/line_prepare.h"
 #include "trace/wide.h"
 
 /* Which children the line passes, and where it enters each.
@@ -20,19 +21,13 @@ static inline void enter_children(const sp_bvh_node *node, const sp_bvh_line *ra
     for (int axis = 0; axis < 3; axis++) {
         wide corner = wide_set((node->origin[axis] - ray->origin[axis]) * ray->inverse[axis]);
         wide step = wide_set(node->step[axis] * ray->inverse[axis]);
-        uint32_t near = ray->near[axis], far = near < 24 ? near + 24 : near - 24;
+        uint32_t near = ray->near[axis], far = (uint32_t)(24 + 16 * axis) - near;
         from = wide_greater(from, wide_multiply_add(wide_bytes(bytes + near), step, corner));
         to = wide_lesser(to, wide_multiply_add(wide_bytes(bytes + far), step, corner));
     }
     *enters = from;
     *leaves = to;
 }
-
-/* What is to be known of a block's triangles: those that may be hit, and those that surely are. */
-typedef struct {
-    uint32_t maybe, surely;
-    float low[8], high[8]; /* of those surely hit: where */
-} verdict;
 
 /* The watertight test of line.c in single precision, with a bound on what that may change.
  *
@@ -42,7 +37,7 @@ typedef struct {
  * of at most M then is off by 4 M blur + 2 blur^2, and by rounding of its own 4 e M^2. The weights in double precision,
  * scaled alike, are off by far less, which the difference between 10 and 13 covers: a weight that is below -error here
  * is below zero there. The way to a hit lies between those to the nearest and farthest corner. */
-static inline void test_block(const sp_bvh_block *block, const sp_bvh_line *ray, verdict *found)
+static inline void test_block(const sp_bvh_block *block, const sp_bvh_line *ray, sp_bvh_verdict *found)
 {
     wide x[3], y[3], z[3], sign = wide_set(ray->sign);
     for (int i = 0; i < 3; i++) {
@@ -84,106 +79,183 @@ static inline void test_block(const sp_bvh_block *block, const sp_bvh_line *ray,
     wide_store(found->high, wide_add(way, spread));
 }
 
-/* Takes a hit that is sure in single precision, or asks double precision. True where the search is over. */
-static inline bool take(const sp_bvh *bvh, sp_bvh_flight *flight, uint32_t triangle, bool sure, float low, float high)
+/* What comes next for a line, as the two highest bits of what is on its stack say. */
+enum {
+    TO_NODE,
+    TO_HIT, /* to decide about what a block has found; on no stack */
+    TO_BLOCK,
+    TO_END, /* at the bottom of each stack */
+    WAITING,
+    FLIGHTS = 16
+};
+#define END 0xC0000000u
+#define KIND_SHIFT 30
+
+/* Lines wait in sets, one for each kind of what comes next, and whatever waits in one is dealt with in a row. So there
+ * is hardly a branch that depends on what a line meets, which no processor could foresee, and one line's arithmetic
+ * goes on while another's waits for memory. */
+typedef struct {
+    uint32_t nodes, hits, blocks, ends; /* bit i: flight i */
+} waiting;
+
+typedef struct {
+    sp_bvh_stream *stream;
+    const sp_bvh *bvh;
+    /* Where what comes next is, and its bytes: looked up, as a branch would be guesswork. */
+    const char *base[WAITING];
+    size_t size[WAITING];
+    ready_lines ready;
+    answers answers;
+    sp_bvh_flight flights[FLIGHTS];
+} work;
+
+/* Sends for what is on top of the stack, which comes next. */
+static inline void go_on(work *w, waiting *waiting, uint32_t number)
+{
+    sp_bvh_flight *flight = &w->flights[number];
+    uint32_t child = flight->child[--flight->height], kind = child >> KIND_SHIFT, place = child & ~END;
+    const char *line = w->base[kind] + (size_t)place * w->size[kind];
+    flight->current = place;
+    __builtin_prefetch(line);
+    __builtin_prefetch(line + 64);
+    waiting->nodes |= (uint32_t)(kind == TO_NODE) << number;
+    waiting->blocks |= (uint32_t)(kind == TO_BLOCK) << number;
+    waiting->ends |= (uint32_t)(kind == TO_END) << number;
+}
+
+static inline void visit_node(work *w, waiting *waiting, uint32_t number)
+{
+    sp_bvh_flight *flight = &w->flights[number];
+    const sp_bvh_node *node = &w->bvh->nodes[flight->current];
+    int height = flight->height;
+    wide enters, leaves;
+    enter_children(node, &flight->ray, &enters, &leaves);
+    uint32_t diagonal = flight->ray.diagonal;
+    uint64_t order = wide_order(node->order[diagonal >> 1]), back = __builtin_bswap64(order);
+    order = diagonal & 1 ? back : order;
+    flight->height =
+        height + wide_pack(node->child, enters, leaves, order, flight->child + height, flight->way + height);
+    go_on(w, waiting, number);
+}
+
+static inline void visit_block(work *w, waiting *waiting, uint32_t number)
+{
+    sp_bvh_flight *flight = &w->flights[number];
+    test_block(&w->bvh->blocks[flight->current], &flight->ray, &flight->found);
+    if (flight->found.maybe)
+        waiting->hits |= 1u << number;
+    else
+        go_on(w, waiting, number);
+}
+
+/* Takes from the stack what the line enters too late. */
+static inline void cull(sp_bvh_flight *flight)
+{
+    int kept = 0;
+    wide last = wide_set(flight->ray.last);
+    wide_store(flight->way + flight->height, wide_set(INFINITY));
+    for (int i = 0; i < flight->height; i += SP_BVH_WIDTH)
+        kept += wide_pack(flight->child + i, wide_load(flight->way + i), last, 0x0706050403020100u,
+                          flight->child + kept, flight->way + kept);
+    flight->height = kept;
+}
+
+/* Takes a hit that is sure in single precision, or asks double precision. */
+static inline void take(work *w, sp_bvh_flight *flight, uint32_t triangle, bool sure, float low, float high)
 {
     sp_bvh_line *ray = &flight->ray;
-    if (triangle == flight->search.skip || (sure && (low > ray->last || high < ray->first)))
-        return false;
-    if (!sure || low < ray->surely_first || high > ray->surely_last || (high >= flight->low && !flight->search.any)) {
-        sp_bvh_flight_settle(bvh, flight, triangle);
+    bool any = !w->stream->hits;
+    if (triangle == ray->skip || (sure && (low > ray->last || high < ray->first)))
+        return;
+    if (!sure || low < ray->surely_first || high > ray->surely_last || (high >= flight->low && !any)) {
+        sp_bvh_flight_settle(w->stream, flight, triangle);
     } else {
         flight->triangle = triangle;
         flight->low = low;
         ray->last = high;
-        __builtin_prefetch(&bvh->mesh->triangles[triangle]);
-    }
-    return flight->search.any && flight->triangle != SP_NONE;
-}
-
-/* True where the search is over. */
-static inline bool search_block(const sp_bvh *bvh, sp_bvh_flight *flight, const sp_bvh_block *block)
-{
-    verdict found;
-    test_block(block, &flight->ray, &found);
-    for (uint32_t rest = found.maybe; rest; rest &= rest - 1) {
-        int i = __builtin_ctz(rest);
-        if (take(bvh, flight, block->triangle[i], found.surely >> i & 1, found.low[i], found.high[i]))
-            return true;
-    }
-    return false;
-}
-
-static inline void fetch(const sp_bvh *bvh, uint32_t child)
-{
-    if (child & SP_BVH_LEAF) {
-        const char *block = (const char *)&bvh->blocks[child - SP_BVH_LEAF];
-        for (size_t line = 0; line < sizeof(sp_bvh_block); line += 64)
-            __builtin_prefetch(block + line);
-    } else {
-        const char *node = (const char *)&bvh->nodes[child];
-        __builtin_prefetch(node);
-        __builtin_prefetch(node + 64);
+        __builtin_prefetch(&w->bvh->mesh->triangles[triangle]);
     }
 }
 
-/* The answer is computed from the mesh, whose triangle has been sent for; sends for its corners first. True where that
- * is needed. */
-static inline bool needs_corners(const sp_bvh *bvh, sp_bvh_flight *flight)
+static inline void decide(work *w, waiting *waiting, uint32_t number)
 {
-    if (flight->ending || flight->search.any || flight->triangle == SP_NONE)
-        return false;
-    flight->ending = true;
-    flight->height = 0;
-    for (int i = 0; i < 3; i++)
-        __builtin_prefetch(&bvh->mesh->vertices[bvh->mesh->triangles[flight->triangle][i]]);
-    return true;
-}
-
-/* Visits what is on top of the stack; false where the line is at its end. */
-static inline bool step(const sp_bvh *bvh, sp_bvh_flight *flight)
-{
-    int height = flight->height;
+    sp_bvh_flight *flight = &w->flights[number];
+    const sp_bvh_verdict *found = &flight->found;
+    const sp_bvh_block *block = &w->bvh->blocks[flight->current];
     float last = flight->ray.last;
-    do
-        if (--height < 0)
-            return needs_corners(bvh, flight);
-    while (flight->way[height] > last);
-    uint32_t child = flight->child[height];
-    if (child & SP_BVH_LEAF) {
-        if (search_block(bvh, flight, &bvh->blocks[child - SP_BVH_LEAF]))
-            return false;
-    } else {
-        const sp_bvh_node *node = &bvh->nodes[child];
-        wide enters, leaves;
-        enter_children(node, &flight->ray, &enters, &leaves);
-        uint32_t diagonal = flight->ray.diagonal;
-        uint64_t order = wide_order(node->order[diagonal >> 1]);
-        if (diagonal & 1)
-            order = __builtin_bswap64(order);
-        height += wide_pack(node->child, enters, leaves, order, flight->child + height, flight->way + height);
+    for (uint32_t rest = found->maybe; rest; rest &= rest - 1) {
+        int i = __builtin_ctz(rest);
+        take(w, flight, block->triangle[i], found->surely >> i & 1, found->low[i], found->high[i]);
     }
-    flight->height = height;
-    if (height > 0)
-        fetch(bvh, flight->child[height - 1]);
-    return true;
+    if (!w->stream->hits && flight->triangle != SP_NONE)
+        flight->height = 1;
+    else if (flight->ray.last != last)
+        cull(flight);
+    go_on(w, waiting, number);
 }
 
-void SP_KERNEL(sp_bvh_lines)(sp_bvh_stream *stream, sp_bvh_flight *flights)
+/* Lets the next line begin, if there is one. */
+static inline void begin(work *w, waiting *waiting, uint32_t number)
 {
-    sp_bvh_flight *active[SP_BVH_FLIGHTS];
-    int count = 0;
-    while (count < SP_BVH_FLIGHTS && sp_bvh_stream_begin(stream, &flights[count])) {
-        active[count] = &flights[count];
-        count++;
+    sp_bvh_flight *flight = &w->flights[number];
+    while (w->ready.next == w->ready.count) {
+        if (w->stream->next == w->stream->count)
+            return;
+        make_ready(w->stream, &w->ready);
     }
-    while (count > 0) {
-        for (int i = 0; i < count; i++) {
-            if (step(stream->bvh, active[i]))
-                continue;
-            sp_bvh_stream_end(stream, active[i]);
-            if (!sp_bvh_stream_begin(stream, active[i]))
-                active[i--] = active[--count];
+    flight->ray = w->ready.lines[w->ready.next++];
+    flight->triangle = SP_NONE;
+    flight->low = INFINITY;
+    flight->in_doubt = false;
+    flight->child[0] = END;
+    flight->way[0] = -INFINITY;
+    flight->current = 0;
+    flight->height = 1;
+    waiting->nodes |= 1u << number;
+}
+
+static inline void end(work *w, uint32_t number)
+{
+    const sp_bvh_flight *flight = &w->flights[number];
+    sp_bvh_stream *stream = w->stream;
+    uint32_t ray = flight->ray.number;
+    if (!stream->hits)
+        stream->occluded[ray] = flight->triangle != SP_NONE;
+    else if (flight->triangle == SP_NONE)
+        stream->hits[ray] = (sp_hit){INFINITY, 0, 0, SP_NONE};
+    else
+        add_answer(&w->answers, ray, flight->triangle, flight->ray.z);
+}
+
+void SP_KERNEL(sp_bvh_lines)(sp_bvh_stream *stream)
+{
+    work w;
+    w.stream = stream;
+    w.bvh = stream->bvh;
+    w.base[TO_NODE] = w.base[TO_HIT] = w.base[TO_END] = (const char *)w.bvh->nodes;
+    w.base[TO_BLOCK] = (const char *)w.bvh->blocks;
+    w.size[TO_NODE] = w.size[TO_HIT] = w.size[TO_END] = sizeof *w.bvh->nodes;
+    w.size[TO_BLOCK] = sizeof *w.bvh->blocks;
+    w.ready.count = w.ready.next = 0;
+    start_answers(&w.answers, stream->bvh, stream->rays, stream->hits);
+    waiting waiting = {0, 0, 0, 0};
+    for (uint32_t i = 0; i < FLIGHTS; i++)
+        begin(&w, &waiting, i);
+    while (waiting.nodes | waiting.blocks) {
+        uint32_t blocks = waiting.blocks, rest = waiting.nodes;
+        waiting.nodes = 0;
+        for (; rest; rest &= rest - 1)
+            visit_node(&w, &waiting, (uint32_t)__builtin_ctz(rest));
+        waiting.blocks &= ~blocks;
+        for (rest = blocks; rest; rest &= rest - 1)
+            visit_block(&w, &waiting, (uint32_t)__builtin_ctz(rest));
+        for (rest = waiting.hits; rest; rest &= rest - 1)
+            decide(&w, &waiting, (uint32_t)__builtin_ctz(rest));
+        for (rest = waiting.ends; rest; rest &= rest - 1) {
+            end(&w, (uint32_t)__builtin_ctz(rest));
+            begin(&w, &waiting, (uint32_t)__builtin_ctz(rest));
         }
+        waiting.hits = waiting.ends = 0;
     }
+    give_answers(&w.answers);
 }

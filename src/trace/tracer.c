@@ -121,7 +121,7 @@ static void search_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp
 static void trace_line(const sp_tracer *tracer, const sp_ray *ray, sp_search *search)
 {
     bool occluded = false;
-    sp_bvh_trace_lines(&tracer->bvh, tracer->instructions, ray, 1, search->any ? NULL : &search->best, &occluded);
+    sp_bvh_trace_lines(&tracer->bvh, tracer->instructions, ray, NULL, 1, search->any ? NULL : &search->best, &occluded);
     if (occluded)
         search->best.triangle = 0; /* or another */
 }
@@ -205,13 +205,14 @@ static void trace_lines(const sp_tracer *tracer, const sp_ray *rays, size_t coun
     size_t alone = 0; /* the first not yet traced */
     for (size_t i = 0, n; i <= count; i += n) {
         n = i < count ? count_fan(rays + i, count - i) : 1;
-        if (i < count && (n < FAN_LEAST || n < tracer->mesh->triangle_count / FAN_SPARSE))
+        if (i < count && n < FAN_LEAST)
             continue;
-        sp_bvh_trace_lines(bvh, instructions, rays + alone, i - alone, hits ? hits + alone : NULL,
+        bool sparse = n < tracer->mesh->triangle_count / FAN_SPARSE;
+        sp_bvh_trace_lines(bvh, instructions, rays + alone, NULL, i - alone, hits ? hits + alone : NULL,
                            hits ? NULL : occluded + alone);
         alone = i;
-        if (i < count &&
-            sp_fan_trace(bvh, instructions, rays + i, n, room, hits ? hits + i : NULL, hits ? NULL : occluded + i))
+        if (i < count && (sparse ? sp_fan_stream : sp_fan_trace)(bvh, instructions, rays + i, n, room,
+                                                                 hits ? hits + i : NULL, hits ? NULL : occluded + i))
             alone += n;
     }
 }
