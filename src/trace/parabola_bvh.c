@@ -1,9 +1,6 @@
 #include "trace/parabola_bvh.h"
 
-/* Coordinates in the hierarchy's space up to which the fast walk goes: some more than the boxes with their padding. */
-#define LIMIT (1 + 0x1p-6)
-/* What positions may be summed from, in that space: 2^18 SP_PARABOLA_ROUNDING is 4 units of single precision at 1. */
-#define SUMMED 0x1p18
+enum { LEAST_TOGETHER = 4 }; /* fewer flights are prepared one by one */
 
 /* A walk in double precision, for whatever the fast one does not take. */
 typedef struct {
@@ -53,12 +50,12 @@ static inline double course_at(const sp_bvh_course *c, double t)
     return c->place + t * (c->speed + 0.5 * t * c->pull);
 }
 
-/* Cuts the span to when a coordinate without gravity is within ±LIMIT. */
+/* Cuts the span to when a coordinate without gravity is within ±SP_BVH_LIMIT. */
 static inline void cut_straight(const sp_bvh_course *c, double *from, double *to)
 {
     double way = c->speed < 0 ? -c->place : c->place, inverse = fabs(c->inverse);
     /* Where the speed is 0 these are infinite, or no numbers, which change nothing. */
-    double leave = (LIMIT - way) * inverse, enter = (-LIMIT - way) * inverse;
+    double leave = (SP_BVH_LIMIT - way) * inverse, enter = (-SP_BVH_LIMIT - way) * inverse;
     *to = sp_lesser(leave, *to);
     *from = sp_greater(enter, *from);
 }
@@ -79,12 +76,12 @@ static inline bool cut_curved(const sp_bvh_course *c, double *from, double *to)
     /* in the middle: at its ends it may be turning */
     double middle = *to < INFINITY ? c->speed + 0.5 * c->pull * (*from + *to) : c->pull, sign = middle < 0 ? -1 : 1;
     double first = sign * course_at(c, *from);
-    if (!(first <= LIMIT))
+    if (!(first <= SP_BVH_LIMIT))
         return false;
-    if (first < -LIMIT)
-        *from = sp_greater(*from, time_of(c, -sign * LIMIT - c->place, sign));
-    if (!(sign * course_at(c, *to) <= LIMIT))
-        *to = sp_lesser(*to, time_of(c, sign * LIMIT - c->place, sign));
+    if (first < -SP_BVH_LIMIT)
+        *from = sp_greater(*from, time_of(c, -sign * SP_BVH_LIMIT - c->place, sign));
+    if (!(sign * course_at(c, *to) <= SP_BVH_LIMIT))
+        *to = sp_lesser(*to, time_of(c, sign * SP_BVH_LIMIT - c->place, sign));
     return *from <= *to;
 }
 
@@ -110,9 +107,16 @@ sp_bvh_fitness sp_bvh_jet_prepare(const sp_bvh *bvh, const sp_pull *pull, sp_bvh
     if (!isfinite(jet->speed + jet->strength + origin[0] + origin[1] + origin[2] + velocity[0] + velocity[1] +
                   velocity[2]))
         return SP_BVH_NOWHERE;
-    if (!(jet->summed <= SUMMED))
+    if (!(jet->summed <= SP_BVH_SUMMED))
         return SP_BVH_FAR;
     return *from <= *to ? SP_BVH_READY : SP_BVH_NOWHERE;
+}
+
+/* Where in a node the bounds begin that are passed first and last. */
+static inline void set_passage(sp_bvh_arc *arc, int i, bool falls)
+{
+    arc->near[i] = (uint32_t)(8 * arc->axis[i] + (falls ? 24 : 0));
+    arc->far[i] = (uint32_t)(8 * arc->axis[i] + (falls ? 0 : 24));
 }
 
 /* Fills what of the arc is about the axis at this place in its order, `slope` being the chord's. */
@@ -124,8 +128,7 @@ static inline void set_axis(sp_bvh_arc *arc, int i, double slope, double inverse
     /* Halfway the flight is away from the chord by this: all on one side. */
     double off = -0.25 * arc->bend[axis] * last * last, ahead = rises ? off : -off;
     double most = sp_greater(ahead, 0), least = sp_lesser(ahead, 0);
-    arc->near[i] = (uint32_t)(8 * axis + (rises ? 0 : 24));
-    arc->far[i] = (uint32_t)(8 * axis + (rises ? 24 : 0));
+    set_passage(arc, i, !rises);
     if (i == 0) { /* along the motion, from the origin */
         arc->sign = rises ? 1 : -1;
         arc->inverse[0] = (float)way;
@@ -138,20 +141,26 @@ static inline void set_axis(sp_bvh_arc *arc, int i, double slope, double inverse
     }
 }
 
-/* The axes in order, gravity's largest component first. */
-static inline void order_axes(const sp_pull *pull, sp_bvh_arc *arc)
+/* The axes in order, gravity's largest component first. True where gravity is along that alone. */
+static inline bool order_axes(const sp_pull *pull, int axis[3])
 {
     int steep = fabs(pull->down[0]) > fabs(pull->down[1]) ? 0 : 1;
     steep = fabs(pull->down[2]) > fabs(pull->down[steep]) ? 2 : steep;
-    arc->axis[0] = steep;
-    arc->axis[1] = steep == 2 ? 0 : steep + 1;
-    arc->axis[2] = steep == 0 ? 2 : steep - 1;
-    arc->aligned = pull->vector[arc->axis[1]] == 0 && pull->vector[arc->axis[2]] == 0;
+    axis[0] = steep;
+    axis[1] = steep == 2 ? 0 : steep + 1;
+    axis[2] = steep == 0 ? 2 : steep - 1;
+    return pull->vector[axis[1]] == 0 && pull->vector[axis[2]] == 0;
 }
 
 static inline float way_of(const sp_bvh_arc *arc, double t, double margin)
 {
     return (float)sp_lesser(sp_greater((t - arc->start) * arc->rate + margin, -64), 64);
+}
+
+/* What sp_bvh_arc.diagonal is, falls having bit k where the flight falls along axis k. */
+static inline uint32_t diagonal_of(uint32_t falls)
+{
+    return falls & 1 ? (~falls & 6) | 1 : falls & 6;
 }
 
 sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_bvh_jet *jet, double from, double to)
@@ -166,13 +175,13 @@ sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_bvh_jet *jet, double f
         const sp_bvh_course *c = &jet->course[k];
         fastest = sp_greater(fastest, sp_greater(fabs(c->speed + from * c->pull), fabs(c->speed + to * c->pull)));
     }
-    if (!(2 * (jet->summed + latest * (jet->speed + 0.5 * latest * jet->strength)) <= SUMMED &&
+    if (!(2 * (jet->summed + latest * (jet->speed + 0.5 * latest * jet->strength)) <= SP_BVH_SUMMED &&
           (to - from) * fastest <= 4.2 && fastest > 1e-100 && fastest < 1e100))
         return SP_BVH_FAR;
     arc->start = from;
     arc->rate = sp_bvh_power_above(fastest, &span);
     double last = (to - from) * arc->rate;
-    order_axes(pull, arc);
+    arc->aligned = order_axes(pull, arc->axis);
     arc->sag = 0;
     uint32_t falls = 0;
     for (int i = 0; i < 3; i++) {
@@ -186,7 +195,7 @@ sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_bvh_jet *jet, double f
         set_axis(arc, i, slope, c->pull == 0 ? c->inverse * arc->rate : 1 / slope, last);
         falls |= (uint32_t) !(slope > 0) << k;
     }
-    arc->diagonal = falls & 1 ? (~falls & 6) | 1 : falls & 6;
+    arc->diagonal = diagonal_of(falls);
     if (!arc->aligned)
         arc->sag *= 2;
     arc->last = (float)(last + 0x1p-20);
@@ -254,10 +263,22 @@ void sp_bvh_jet_settle(const sp_bvh_jets *jets, sp_bvh_jet *jet, uint32_t triang
     jet->arc.last = way + SP_BVH_PAD < jet->arc.last ? way + SP_BVH_PAD : jet->arc.last;
 }
 
+static inline void visit_root(sp_bvh_jet *jet)
+{
+    jet->height = 1;
+    jet->child[0] = 0;
+    jet->from[0] = jet->until[0] = 0;
+}
+
 /* Makes the first piece from `from` on ready that is in the box; false where there is none before the search's limit.
  */
 static bool begin_piece(const sp_bvh_jets *jets, sp_bvh_jet *jet, double from)
 {
+    if (!jet->course_ready) {
+        double first = from, last = jet->last;
+        sp_bvh_jet_prepare(jets->bvh, jets->pull, jet, &first, &last);
+        jet->course_ready = true;
+    }
     jet->later = true;
     while (jet->later && from <= sp_lesser(jet->last, jet->search.limit)) {
         jet->to = next_turn(jet, from, jet->last);
@@ -267,9 +288,7 @@ static bool begin_piece(const sp_bvh_jets *jets, sp_bvh_jet *jet, double from)
             jet->later = false;
             search_far(jets, jet);
         } else if (fitness == SP_BVH_READY) {
-            jet->height = 1;
-            jet->child[0] = 0;
-            jet->from[0] = jet->until[0] = 0;
+            visit_root(jet);
             if (jet->triangle != SP_NONE)
                 jet->low = limit_way(jet) - SP_BVH_PAD;
             return true;
@@ -279,22 +298,82 @@ static bool begin_piece(const sp_bvh_jets *jets, sp_bvh_jet *jet, double from)
     return false;
 }
 
-/* False where there is nothing to visit. */
-static bool begin(const sp_bvh_jets *jets, const sp_ray *ray, sp_bvh_jet *jet)
+static void set_out(const sp_bvh_jets *jets, uint32_t number, sp_bvh_jet *jet)
 {
-    jet->search = sp_search_start(ray, !jets->hits);
-    jet->asked = ray;
-    jet->parabola_ready = jet->ending = false;
+    jet->asked = &jets->rays[number];
+    jet->number = number;
+    jet->search = sp_search_start(jet->asked, !jets->hits);
+    jet->parabola_ready = jet->course_ready = jet->ending = false;
     jet->triangle = SP_NONE;
     jet->low = INFINITY;
+}
+
+/* False where there is nothing to visit. */
+static bool begin(const sp_bvh_jets *jets, uint32_t number, sp_bvh_jet *jet)
+{
+    set_out(jets, number, jet);
     if (jets->bvh->node_count == 0)
         return false;
     double from = jet->search.t_min;
     jet->last = jet->search.limit;
+    jet->course_ready = true;
     sp_bvh_fitness fitness = sp_bvh_jet_prepare(jets->bvh, jets->pull, jet, &from, &jet->last);
     if (fitness == SP_BVH_FAR)
         search_far(jets, jet);
     return fitness == SP_BVH_READY && begin_piece(jets, jet, from);
+}
+
+void sp_bvh_start_take(const sp_bvh_jets *jets, int i, sp_bvh_arc *arc)
+{
+    const sp_bvh_starts *s = &jets->starts;
+    uint32_t falls = 0;
+    for (int k = 0; k < 3; k++) {
+        int axis = arc->axis[k] = jets->axis[k];
+        arc->origin[axis] = s->origin[k][i];
+        arc->direction[axis] = s->direction[k][i];
+        arc->bend[axis] = k ? 0 : s->bend[i];
+        arc->inverse[k] = s->inverse[k][i];
+        arc->sooner[k] = k ? s->origin[k][i] : s->sooner[i];
+        arc->later[k] = k ? 0 : s->behind[i];
+        set_passage(arc, k, s->falls[k][i]);
+        falls |= (uint32_t)s->falls[k][i] << axis;
+    }
+    arc->sign = s->falls[0][i] ? -1 : 1;
+    arc->aligned = true;
+    arc->sag = fabsf(s->bend[i]);
+    arc->last = s->last[i];
+    arc->diagonal = diagonal_of(falls);
+    arc->surely_first = s->surely_first[i];
+    arc->surely_last = s->surely_last[i];
+    arc->start = s->start[i];
+    arc->rate = s->rate[i];
+}
+
+/* Likewise, for the next of those that are prepared. */
+static bool begin_prepared(sp_bvh_jets *jets, sp_bvh_jet *jet)
+{
+    sp_bvh_starts *s = &jets->starts;
+    int i = s->next++;
+    if (s->fits[i] == SP_BVH_FAR)
+        return begin(jets, s->ray[i], jet);
+    set_out(jets, s->ray[i], jet);
+    if (s->fits[i] == SP_BVH_NOWHERE)
+        return false;
+    sp_bvh_start_take(jets, i, &jet->arc);
+    jet->later = s->later[i];
+    jet->to = s->to[i];
+    jet->last = s->end[i];
+    visit_root(jet);
+    return true;
+}
+
+static void prepare_starts(sp_bvh_jets *jets)
+{
+    sp_bvh_starts *s = &jets->starts;
+    for (s->count = 0; s->count < SP_BVH_STARTS && jets->next < jets->count; s->count++)
+        s->ray[s->count] = jets->order[jets->next++];
+    s->next = 0;
+    jets->prepare(jets, s);
 }
 
 /* Whether double precision has decided about the best. */
@@ -336,15 +415,24 @@ void sp_bvh_jets_end(sp_bvh_jets *jets, sp_bvh_jet *jet)
 
 bool sp_bvh_jets_begin(sp_bvh_jets *jets, sp_bvh_jet *jet)
 {
-    while (jets->next < jets->count) {
-        jet->number = jets->order[jets->next++];
-        if (begin(jets, &jets->rays[jet->number], jet))
+    const sp_bvh_starts *s = &jets->starts;
+    for (;;) {
+        if (s->next == s->count && jets->aligned && jets->count - jets->next >= LEAST_TOGETHER)
+            prepare_starts(jets);
+        if (s->next < s->count) {
+            if (begin_prepared(jets, jet))
+                return true;
+        } else if (jets->next == jets->count) {
+            return false;
+        } else if (begin(jets, jets->order[jets->next++], jet)) {
             return true;
+        }
         sp_bvh_jets_end(jets, jet);
     }
-    return false;
 }
 
+static void (*const prepares[])(const sp_bvh_jets *, sp_bvh_starts *) = {
+    sp_bvh_prepare_starts_portable, sp_bvh_prepare_starts_avx2, sp_bvh_prepare_starts_avx512};
 static void (*const kernels[])(sp_bvh_jets *, sp_bvh_jet *, int) = {sp_bvh_parabolas_portable, sp_bvh_parabolas_avx2,
                                                                     sp_bvh_parabolas_avx512};
 static void (*const computes[])(const sp_parabola_pairs *, sp_hit *) = {sp_parabola_hits_portable,
@@ -353,15 +441,19 @@ static void (*const computes[])(const sp_parabola_pairs *, sp_hit *) = {sp_parab
 void sp_bvh_trace_parabolas(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, const uint32_t *order,
                             size_t count, const sp_pull *pull, sp_hit *hits, bool *occluded)
 {
-    sp_bvh_jets jets = {.bvh = bvh,
-                        .pull = pull,
-                        .rays = rays,
-                        .order = order,
-                        .count = count,
-                        .hits = hits,
-                        .occluded = occluded,
-                        .compute = computes[instructions],
-                        .pairs = {.bvh = bvh, .pull = pull, .rays = rays}};
+    sp_bvh_jets jets;
+    jets.bvh = jets.pairs.bvh = bvh;
+    jets.pull = jets.pairs.pull = pull;
+    jets.rays = jets.pairs.rays = rays;
+    jets.order = order;
+    jets.count = count;
+    jets.next = 0;
+    jets.hits = hits;
+    jets.occluded = occluded;
+    jets.prepare = prepares[instructions];
+    jets.compute = computes[instructions];
+    jets.aligned = bvh->node_count > 0 && order_axes(pull, jets.axis);
+    jets.starts.count = jets.starts.next = jets.pairs.count = 0;
     sp_bvh_jet flights[SP_BVH_JETS];
     kernels[instructions](&jets, flights, SP_BVH_JETS);
     if (jets.pairs.count)

@@ -6,6 +6,11 @@
 #include "trace/instructions.h"
 #include "trace/parabola_hits.h"
 
+/* Coordinates in the hierarchy's space up to which the fast walk goes: some more than the boxes with their padding. */
+#define SP_BVH_LIMIT (1 + 0x1p-6)
+/* What positions may be summed from, in that space: 2^18 SP_PARABOLA_ROUNDING is 4 units of single precision at 1. */
+#define SP_BVH_SUMMED 0x1p18
+
 /* A piece of a flight in the hierarchy's space, on which no coordinate turns and none leaves -1.02..1.02 by much:
  * x(way) = origin + direction way + bend way² for 0 <= way <= last, at no time faster than 1 along an axis, and
  * speed last is at most 4.2, speed being what it is at its fastest. In that span every coordinate is between its chord
@@ -43,6 +48,7 @@ typedef struct {
     float low;
     bool ending;         /* what is needed for the answer has been sent for */
     bool parabola_ready; /* it is needed only where single precision does not decide */
+    bool course_ready;   /* it is needed only for later pieces */
     bool later;          /* there is more of the flight after this piece, */
     double to, last;     /* from when on, and to when, s */
     sp_bvh_course course[3];
@@ -54,21 +60,43 @@ typedef struct {
     float from[SP_BVH_STACK + SP_BVH_WIDTH], until[SP_BVH_STACK + SP_BVH_WIDTH]; /* when it may be in its box, ways */
 } sp_bvh_jet;
 
+/* The pieces with which flights begin, made ready many at a time, where gravity is along an axis: what
+ * sp_bvh_jet_prepare and sp_bvh_arc_prepare make of them, to the last bit. By axis: steep one, and the others as in
+ * sp_bvh_arc. */
+enum { SP_BVH_STARTS = 16 };
+typedef struct {
+    uint32_t ray[SP_BVH_STARTS]; /* its number among the rays */
+    int count, next;             /* next: the first that is not yet on its way */
+    int64_t fits[SP_BVH_STARTS]; /* sp_bvh_fitness; SP_BVH_FAR for all that is not usual */
+    int64_t later[SP_BVH_STARTS];
+    double to[SP_BVH_STARTS], end[SP_BVH_STARTS]; /* sp_bvh_jet.to and .last */
+    double start[SP_BVH_STARTS], rate[SP_BVH_STARTS];
+    float origin[3][SP_BVH_STARTS], direction[3][SP_BVH_STARTS], inverse[3][SP_BVH_STARTS];
+    float bend[SP_BVH_STARTS], sooner[SP_BVH_STARTS], behind[SP_BVH_STARTS]; /* behind: sp_bvh_arc.later */
+    float last[SP_BVH_STARTS], surely_first[SP_BVH_STARTS], surely_last[SP_BVH_STARTS];
+    int64_t falls[3][SP_BVH_STARTS];
+} sp_bvh_starts;
+
 /* So many flights are on their way at once, each a step at a time. */
 enum { SP_BVH_JETS = 8 };
 
 /* Rays to be traced, and where their answers go: hits, or occluded where that is NULL. */
-typedef struct {
+typedef struct sp_bvh_jets sp_bvh_jets;
+struct sp_bvh_jets {
     const sp_bvh *bvh;
     const sp_pull *pull;
     const sp_ray *rays;
     const uint32_t *order; /* [count], numbers among the rays */
-    size_t count, next;    /* next: the first not yet begun */
+    size_t count, next;    /* next: the first not yet begun nor among the starts */
     sp_hit *hits;
     bool *occluded;
+    int axis[3]; /* as in sp_bvh_arc */
+    bool aligned;
+    sp_bvh_starts starts;
+    void (*prepare)(const sp_bvh_jets *, sp_bvh_starts *);
     void (*compute)(const sp_parabola_pairs *, sp_hit *);
     sp_parabola_pairs pairs; /* hits to be computed */
-} sp_bvh_jets;
+};
 
 /* Traces the rays of these numbers, each by itself. */
 void sp_bvh_trace_parabolas(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, const uint32_t *order,
@@ -76,6 +104,8 @@ void sp_bvh_trace_parabolas(const sp_bvh *bvh, sp_instructions instructions, con
 
 /* Lets the next flight begin that has to; false where there is none. */
 bool sp_bvh_jets_begin(sp_bvh_jets *jets, sp_bvh_jet *jet);
+/* Makes number i of the starts an arc. */
+void sp_bvh_start_take(const sp_bvh_jets *jets, int i, sp_bvh_arc *arc);
 /* Called where nothing of this piece is left to visit. False where the flight is at its end. */
 bool sp_bvh_jet_go_on(const sp_bvh_jets *jets, sp_bvh_jet *jet);
 /* Answers for a flight that is at its end. */
@@ -94,7 +124,11 @@ sp_bvh_fitness sp_bvh_jet_prepare(const sp_bvh *bvh, const sp_pull *pull, sp_bvh
 /* Makes the piece of it from `from` to `to` ready, on which no coordinate turns, and cuts it to the box. */
 sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_bvh_jet *jet, double from, double to);
 
-/* The kernel, one for each set of instructions: all rays, flights being room for so many at once. */
+/* Fills the starts in, whose rays are noted; one for each set of instructions. */
+void sp_bvh_prepare_starts_portable(const sp_bvh_jets *jets, sp_bvh_starts *starts);
+void sp_bvh_prepare_starts_avx2(const sp_bvh_jets *jets, sp_bvh_starts *starts);
+void sp_bvh_prepare_starts_avx512(const sp_bvh_jets *jets, sp_bvh_starts *starts);
+/* The kernel, likewise: all rays, flights being room for so many at once. */
 void sp_bvh_parabolas_portable(sp_bvh_jets *jets, sp_bvh_jet *flights, int most);
 void sp_bvh_parabolas_avx2(sp_bvh_jets *jets, sp_bvh_jet *flights, int most);
 void sp_bvh_parabolas_avx512(sp_bvh_jets *jets, sp_bvh_jet *flights, int most);

@@ -5,6 +5,7 @@
 #include <sprayplan/trace.h>
 
 #include <float.h>
+#include <string.h>
 
 /* fmin and fmax without their rule for NaN, which costs a call. */
 static inline double sp_lesser(double a, double b)
@@ -27,10 +28,22 @@ typedef struct {
     sp_hit best;
 } sp_search;
 
+/* The last time before t_max. */
+static inline double sp_search_limit(const sp_ray *ray)
+{
+    if (!(ray->t_max > 0))
+        return nextafter(ray->t_max, -INFINITY);
+    uint64_t bits; /* of a positive number, one less for the number before it */
+    double limit;
+    memcpy(&bits, &ray->t_max, sizeof bits);
+    bits--;
+    memcpy(&limit, &bits, sizeof limit);
+    return limit;
+}
+
 static inline sp_search sp_search_start(const sp_ray *ray, bool any)
 {
-    double limit = ray->t_max == INFINITY ? DBL_MAX : nextafter(ray->t_max, -INFINITY);
-    return (sp_search){ray->t_min, limit, ray->skip, any, {INFINITY, 0, 0, SP_NONE}};
+    return (sp_search){ray->t_min, sp_search_limit(ray), ray->skip, any, {INFINITY, 0, 0, SP_NONE}};
 }
 
 /* Of equal times the lowest triangle wins, in whatever order they come. */

@@ -34,7 +34,7 @@ typedef struct {
 
 /* What was looked at, so that no check is empty. */
 typedef struct {
-    size_t pieces, far, hits, sure;
+    size_t pieces, far, hits, sure, starts;
 } tally;
 
 static void note_places(world *w, uint32_t node)
@@ -172,6 +172,57 @@ static void check_sure(const world *w, const sp_bvh_jet *jet, const double times
     }
 }
 
+/* But for the signs of zeros. */
+static bool same_arcs(const sp_bvh_arc *a, const sp_bvh_arc *b)
+{
+    bool same = a->sign == b->sign && a->aligned == b->aligned && a->sag == b->sag && a->last == b->last &&
+                a->diagonal == b->diagonal && a->surely_first == b->surely_first && a->surely_last == b->surely_last &&
+                a->start == b->start && a->rate == b->rate;
+    for (int k = 0; k < 3; k++)
+        same &= a->origin[k] == b->origin[k] && a->direction[k] == b->direction[k] && a->bend[k] == b->bend[k] &&
+                a->axis[k] == b->axis[k] && a->near[k] == b->near[k] && a->far[k] == b->far[k] &&
+                a->inverse[k] == b->inverse[k] && a->sooner[k] == b->sooner[k] && a->later[k] == b->later[k];
+    return same;
+}
+
+/* That flights prepared many at a time begin as those that are prepared alone. */
+static void check_start(const world *w, const sp_ray *ray, const sp_pull *pull, tally *seen)
+{
+    static void (*const prepares[])(const sp_bvh_jets *, sp_bvh_starts *) = {
+        sp_bvh_prepare_starts_portable, sp_bvh_prepare_starts_avx2, sp_bvh_prepare_starts_avx512};
+    static sp_bvh_jet jet;
+    sp_search search = sp_search_start(ray, false);
+    sp_parabola parabola;
+    double from = search.t_min, last = search.limit;
+    jet.asked = ray;
+    sp_bvh_fitness fitness = sp_bvh_jet_prepare(&w->bvh, pull, &jet, &from, &last);
+    if ((pull->vector[0] != 0) + (pull->vector[1] != 0) + (pull->vector[2] != 0) != 1)
+        return;
+    if (fitness != SP_BVH_READY || !sp_parabola_start(&parabola, ray, pull, w->bvh.low, w->bvh.high))
+        return;
+    double to = sp_parabola_turn(&parabola, from, last);
+    fitness = sp_bvh_arc_prepare(pull, &jet, from, to);
+    for (int set = 0; set < SP_INSTRUCTIONS_COUNT; set++) {
+        if (!sp_instructions_available((sp_instructions)set))
+            continue;
+        static sp_bvh_jets jets;
+        sp_bvh_arc arc;
+        jets = (sp_bvh_jets){.bvh = &w->bvh, .pull = pull, .rays = ray, .aligned = true};
+        jets.axis[0] = pull->vector[0] != 0 ? 0 : pull->vector[1] != 0 ? 1 : 2;
+        jets.axis[1] = jets.axis[0] == 2 ? 0 : jets.axis[0] + 1;
+        jets.axis[2] = jets.axis[0] == 0 ? 2 : jets.axis[0] - 1;
+        jets.starts.count = 1;
+        prepares[set](&jets, &jets.starts);
+        assert_true(jets.starts.fits[0] == SP_BVH_FAR || jets.starts.fits[0] == fitness);
+        if (jets.starts.fits[0] != SP_BVH_READY)
+            continue;
+        sp_bvh_start_take(&jets, 0, &arc);
+        assert_true(jets.starts.to[0] == to && jets.starts.end[0] == last && jets.starts.later[0] == (to < last));
+        assert_true(same_arcs(&arc, &jet.arc));
+        seen->starts++;
+    }
+}
+
 static void check_flight(const world *w, const sp_ray *ray, sp_vec3 gravity, tally *seen)
 {
     sp_pull pull = sp_pull_of(gravity);
@@ -223,12 +274,15 @@ static void nothing_hit_is_left_out(void **state)
             sp_vec3 gravity;
             sp_ray ray = draw_flight(&source, &w, &gravity);
             check_flight(&w, &ray, gravity, &seen);
+            sp_pull pull = sp_pull_of(gravity);
+            check_start(&w, &ray, &pull, &seen);
         }
         sp_bvh_clear(&w.bvh);
         sp_mesh_destroy(w.mesh);
     }
-    print_message("%zu pieces, %zu of them far, %zu hits, %zu sure\n", seen.pieces, seen.far, seen.hits, seen.sure);
-    assert_true(seen.hits > 5 * RAYS && seen.sure > RAYS && seen.far < seen.pieces / 20);
+    print_message("%zu pieces, %zu of them far, %zu hits, %zu sure, %zu starts\n", seen.pieces, seen.far, seen.hits,
+                  seen.sure, seen.starts);
+    assert_true(seen.starts > 5 * RAYS && seen.hits > 5 * RAYS && seen.sure > RAYS && seen.far < seen.pieces / 20);
 }
 
 int main(void)
