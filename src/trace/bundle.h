@@ -3,25 +3,19 @@
 #define SPRAYPLAN_TRACE_BUNDLE_H
 
 #include "trace/bvh.h"
+#include "trace/direction_order.h"
 #include "trace/instructions.h"
 
 #include <stdalign.h>
 
 enum { SP_BUNDLE = 32 };
 
-/* What is told about a line, in the hierarchy's space: where it is at depth 1, seen from the origin along its longest
- * axis, between which depths it may be hit. */
+/* A line is where it is at depth 1, seen from the origin along its longest axis. Lanes beyond `count` want nothing.
+ * Depths are along axis z, times `sign`. */
 typedef struct {
-    alignas(64) double velocity[3]; /* of the ray, m/s */
-    float u, v;
-    float first, last;
-    uint32_t skip;
-    uint32_t side; /* longest axis, twice, and 1 where it goes down that axis */
-} sp_fan_line;
-
-/* Lanes beyond `count` want nothing. Depths are along axis z, times `sign`. */
-typedef struct {
-    float u[SP_BUNDLE], v[SP_BUNDLE];         /* from the centre */
+    alignas(64) double velocity[3][SP_BUNDLE]; /* of the rays along x, y, z, m/s */
+    float slope_u[SP_BUNDLE], slope_v[SP_BUNDLE];
+    float u[SP_BUNDLE], v[SP_BUNDLE];         /* the slopes from the centre */
     float first[SP_BUNDLE], last[SP_BUNDLE];  /* the depths that were asked for */
     float low[SP_BUNDLE], high[SP_BUNDLE];    /* the best hit is between these; nothing beyond `high` is wanted */
     uint32_t triangle[SP_BUNDLE];             /* the best so far */
@@ -36,26 +30,38 @@ typedef struct {
     bool any;
     const sp_bvh *bvh;
     const sp_ray *rays;
-    const sp_fan_line *lines; /* as the rays */
 } sp_bundle;
+
+/* Rays of one origin. */
+typedef struct {
+    const sp_bvh *bvh;
+    const sp_ray *rays;
+    size_t count;
+    sp_direction_entry *order[2]; /* [count]; the first is sorted */
+    float origin[3];              /* in the hierarchy's space */
+    float blur;                   /* as a bundle's */
+} sp_fan;
 
 /* What double precision makes of a line and two triangles, of which the second may be SP_NONE. */
 sp_hit sp_bundle_ask(const sp_bundle *bundle, int lane, uint32_t triangle, uint32_t other);
 /* Decides between a triangle and the best so far. */
 void sp_bundle_settle(sp_bundle *bundle, int lane, uint32_t triangle);
 
-/* The kernels, one for each set of instructions: the search, and the hits that it found. */
-void sp_bundle_search_portable(sp_bundle *bundle);
-void sp_bundle_search_avx2(sp_bundle *bundle);
-void sp_bundle_search_avx512(sp_bundle *bundle);
-void sp_bundle_answer_portable(const sp_bundle *bundle, sp_hit *hits);
-void sp_bundle_answer_avx2(const sp_bundle *bundle, sp_hit *hits);
-void sp_bundle_answer_avx512(const sp_bundle *bundle, sp_hit *hits);
+/* The kernels, one for each set of instructions. */
+typedef struct {
+    /* The rays' places in the order of directions; false where some are none that a bundle takes. */
+    bool (*keys)(const sp_bvh *bvh, const sp_ray *rays, size_t count, sp_direction_entry *order);
+    /* Puts the fan's lines from the given one on into a bundle, those of one side; returns how many. */
+    size_t (*fill)(const sp_fan *fan, size_t from, sp_bundle *bundle);
+    void (*search)(sp_bundle *bundle);
+    /* The hits that the search found. */
+    void (*answer)(const sp_bundle *bundle, sp_hit *hits);
+} sp_bundle_kernel;
+extern const sp_bundle_kernel sp_bundle_portable, sp_bundle_avx2, sp_bundle_avx512;
 
 /* Room for the rays of a fan, kept from one to the next. Begins as zeros. */
 typedef struct {
-    sp_fan_line *lines;
-    void *order;
+    sp_direction_entry *order;
     size_t count;
 } sp_fan_room;
 void sp_fan_room_clear(sp_fan_room *room);

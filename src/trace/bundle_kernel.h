@@ -1,11 +1,13 @@
 /* A bundle through the hierarchy. Included once by each file that is compiled for a set of instructions, with
  * SP_KERNEL(name) naming its functions. */
 #include "trace/bundle.h"
+#include "trace/fan_kernel.h"
 #include "trace/seen.h"
 
 typedef struct {
     uint32_t child;
     float depth;
+    uint32_t node, slot; /* whose child it is, for its box */
 } bundle_pending;
 
 /* Boxes whose span low..high has something in common with the bundle's, whose slopes are centre ± half. */
@@ -37,6 +39,34 @@ static inline uint32_t meet_children(const sp_bvh_node *node, const sp_bundle *b
     mask &= meet_slopes(low, high, near, far, b->centre[1], b->half[1]);
     *depth = near;
     return mask & ((1u << node->count) - 1);
+}
+
+/* Which lines may pass a node's child, each by itself, and not beyond what it wants. Rounding is as above. */
+static inline uint32_t meet_lines(const sp_bvh_node *node, uint32_t slot, const sp_bundle *b)
+{
+    float low[3], high[3];
+    const int axes[3] = {b->x, b->y, b->z};
+    for (int k = 0; k < 3; k++) {
+        float corner = node->origin[axes[k]] - b->origin[k], step = node->step[axes[k]];
+        low[k] = corner + step * (float)node->low[axes[k]][slot];
+        high[k] = corner + step * (float)node->high[axes[k]][slot];
+    }
+    float near = b->sign < 0 ? -high[2] : low[2], far = b->sign < 0 ? -low[2] : high[2];
+    near = near > 0 ? near : 0;
+    wide first = wide_set(near), last = wide_set(far);
+    uint32_t mask = 0;
+    for (int group = 0; group < b->count; group += 8) {
+        wide u = wide_load(b->slope_u + group), v = wide_load(b->slope_v + group);
+        wide u0 = wide_multiply(u, first), u1 = wide_multiply(u, last);
+        wide v0 = wide_multiply(v, first), v1 = wide_multiply(v, last);
+        uint32_t meets = wide_at_most(wide_lesser(u0, u1), wide_set(high[0])) &
+                         wide_at_most(wide_set(low[0]), wide_greater(u0, u1)) &
+                         wide_at_most(wide_lesser(v0, v1), wide_set(high[1])) &
+                         wide_at_most(wide_set(low[1]), wide_greater(v0, v1)) &
+                         wide_at_most(first, wide_load(b->high + group));
+        mask |= meets << group;
+    }
+    return mask;
 }
 
 /* What the lines need to know of a block. The weights of a line at (u, v) from the bundle's centre are
@@ -130,32 +160,54 @@ static inline void take(sp_bundle *b, int lane, uint32_t triangle, bool sure, fl
     }
 }
 
-/* Tests the bundle's lines against triangle i of the block; returns whether anything came of it. */
-static inline bool test_triangle(sp_bundle *b, const bundle_block *p, int i, uint32_t triangle)
+/* Where lines meet triangles, one of either at a time: weights and how far they may be off. */
+typedef struct {
+    wide least, largest, sum;
+    uint32_t maybe;
+} meeting;
+
+static inline meeting meet(wide weight[3], wide error, wide nearest, wide farthest)
 {
-    wide error = wide_set(p->error[i]), minus = wide_set(-p->error[i]);
+    meeting m;
+    wide minus = wide_subtract(wide_set(0), error);
+    m.least = wide_lesser(wide_lesser(weight[0], weight[1]), weight[2]);
+    m.largest = wide_greater(wide_greater(weight[0], weight[1]), weight[2]);
+    m.maybe = (wide_at_most(minus, m.least) | wide_at_most(m.largest, error)) & wide_at_most(nearest, farthest);
+    m.sum = wide_add(wide_add(weight[0], weight[1]), weight[2]);
+    return m;
+}
+
+/* Which of these are sure, and between which depths. */
+static inline uint32_t decide(const meeting *m, wide error, wide volume, wide depth_error, float blur, float low[8],
+                              float high[8])
+{
+    wide inverse = wide_divide(wide_set(1), m->sum), depth = wide_multiply(volume, inverse);
+    wide off = wide_multiply_add(wide_absolute(inverse), depth_error, wide_set(blur));
+    wide_store(low, wide_subtract(depth, off));
+    wide_store(high, wide_add(depth, off));
+    return (wide_at_most(error, m->least) | wide_at_most(m->largest, wide_subtract(wide_set(0), error))) &
+           wide_at_most(wide_multiply(wide_set(8), error), wide_absolute(m->sum));
+}
+
+/* Tests those of the bundle's lines against triangle i of the block; returns whether anything came of it. */
+static inline bool test_triangle(sp_bundle *b, const bundle_block *p, uint32_t lines, int i, uint32_t triangle)
+{
+    wide error = wide_set(p->error[i]);
     bool taken = false;
     for (int group = 0; group < b->count; group += 8) {
+        if (!(lines >> group & 255))
+            continue;
         wide u = wide_load(b->u + group), v = wide_load(b->v + group), weight[3];
         for (int k = 0; k < 3; k++)
             weight[k] = wide_multiply_add(u, wide_set(p->by_u[k][i]),
                                           wide_multiply_add(v, wide_set(p->by_v[k][i]), wide_set(p->constant[k][i])));
-        wide least = wide_lesser(wide_lesser(weight[0], weight[1]), weight[2]);
-        wide largest = wide_greater(wide_greater(weight[0], weight[1]), weight[2]);
-        uint32_t maybe = (wide_at_most(minus, least) | wide_at_most(largest, error)) &
-                         wide_at_most(wide_set(p->nearest[i]), wide_load(b->high + group));
-        if (!maybe)
+        meeting m = meet(weight, error, wide_set(p->nearest[i]), wide_load(b->high + group));
+        if (!m.maybe)
             continue;
-        wide sum = wide_add(wide_add(weight[0], weight[1]), weight[2]), inverse = wide_divide(wide_set(1), sum);
-        wide depth = wide_multiply(wide_set(p->volume[i]), inverse);
-        wide blur = wide_multiply_add(wide_absolute(inverse), wide_set(p->depth_error[i]), wide_set(b->blur));
-        uint32_t sure = (wide_at_most(error, least) | wide_at_most(largest, minus)) &
-                        wide_at_most(wide_set(8 * p->error[i]), wide_absolute(sum));
         float low[8], high[8];
-        wide_store(low, wide_subtract(depth, blur));
-        wide_store(high, wide_add(depth, blur));
-        for (; maybe; maybe &= maybe - 1) {
-            int lane = __builtin_ctz(maybe);
+        uint32_t sure = decide(&m, error, wide_set(p->volume[i]), wide_set(p->depth_error[i]), b->blur, low, high);
+        for (uint32_t rest = m.maybe; rest; rest &= rest - 1) {
+            int lane = __builtin_ctz(rest);
             bool is_sure = sure >> lane & 1;
             take(b, group + lane, triangle, is_sure, is_sure ? low[lane] : p->nearest[i], high[lane]);
         }
@@ -164,32 +216,83 @@ static inline bool test_triangle(sp_bundle *b, const bundle_block *p, int i, uin
     return taken;
 }
 
-static void find_farthest(sp_bundle *b)
+/* Tests one line against those triangles of the block; likewise. */
+static inline bool test_line(sp_bundle *b, const bundle_block *p, uint32_t triangles, int lane,
+                             const sp_bvh_block *block)
 {
-    float farthest = -1;
-    for (int i = 0; i < b->count; i++)
-        farthest = b->high[i] > farthest ? b->high[i] : farthest;
+    wide u = wide_set(b->u[lane]), v = wide_set(b->v[lane]), error = wide_load(p->error), weight[3];
+    for (int k = 0; k < 3; k++)
+        weight[k] = wide_multiply_add(u, wide_load(p->by_u[k]),
+                                      wide_multiply_add(v, wide_load(p->by_v[k]), wide_load(p->constant[k])));
+    meeting m = meet(weight, error, wide_load(p->nearest), wide_set(b->high[lane]));
+    m.maybe &= triangles;
+    if (!m.maybe)
+        return false;
+    float low[8], high[8];
+    uint32_t sure = decide(&m, error, wide_load(p->volume), wide_load(p->depth_error), b->blur, low, high);
+    for (uint32_t rest = m.maybe; rest; rest &= rest - 1) {
+        int i = __builtin_ctz(rest);
+        bool is_sure = sure >> i & 1;
+        take(b, lane, block->triangle[i], is_sure, is_sure ? low[i] : p->nearest[i], high[i]);
+    }
+    return true;
+}
+
+static inline void find_farthest(sp_bundle *b)
+{
+    float lane[8], farthest = -1;
+    wide most = wide_load(b->high);
+    for (int group = 8; group < b->count; group += 8)
+        most = wide_greater(most, wide_load(b->high + group));
+    wide_store(lane, most);
+    for (int i = 0; i < 8; i++)
+        farthest = lane[i] > farthest ? lane[i] : farthest;
     b->farthest = farthest;
 }
 
-static void search_bundle_block(sp_bundle *b, const sp_bvh_block *block)
+/* Lines by triangles, or triangles by lines, whichever is less. */
+static inline void search_bundle_block(sp_bundle *b, const sp_bvh_block *block, uint32_t lines)
 {
     bundle_block p;
     bool taken = false;
-    for (uint32_t rest = prepare_block(block, b, &p); rest; rest &= rest - 1) {
-        int i = __builtin_ctz(rest);
-        taken |= test_triangle(b, &p, i, block->triangle[i]);
+    uint32_t triangles = prepare_block(block, b, &p);
+    if (!triangles)
+        return;
+    if (__builtin_popcount(lines) <= (b->count + 7) / 8 * __builtin_popcount(triangles)) {
+        for (uint32_t rest = lines; rest; rest &= rest - 1)
+            taken |= test_line(b, &p, triangles, __builtin_ctz(rest), block);
+    } else {
+        for (uint32_t rest = triangles; rest; rest &= rest - 1) {
+            int i = __builtin_ctz(rest);
+            taken |= test_triangle(b, &p, lines, i, block->triangle[i]);
+        }
     }
     if (taken)
         find_farthest(b);
 }
 
-static inline int push_met(const sp_bvh_node *node, uint32_t mask, const float depths[8], bundle_pending *stack)
+static inline void fetch(const sp_bvh *bvh, uint32_t child)
 {
+    if (child & SP_BVH_LEAF) {
+        const char *block = (const char *)&bvh->blocks[child - SP_BVH_LEAF];
+        for (size_t line = 0; line < sizeof(sp_bvh_block); line += 64)
+            __builtin_prefetch(block + line);
+    } else {
+        const char *node = (const char *)&bvh->nodes[child];
+        __builtin_prefetch(node);
+        __builtin_prefetch(node + 64);
+    }
+}
+
+static inline int push_met(const sp_bvh *bvh, uint32_t parent, uint32_t mask, const float depths[8],
+                           bundle_pending *stack)
+{
+    const sp_bvh_node *node = &bvh->nodes[parent];
     int count = 0;
     for (; mask; mask &= mask - 1) {
         int i = __builtin_ctz(mask), place = count++;
-        bundle_pending item = {node->child[i], depths[i]};
+        bundle_pending item = {node->child[i], depths[i], parent, (uint32_t)i};
+        fetch(bvh, item.child);
         for (; place > 0 && stack[place - 1].depth < item.depth; place--)
             stack[place] = stack[place - 1];
         stack[place] = item;
@@ -197,19 +300,21 @@ static inline int push_met(const sp_bvh_node *node, uint32_t mask, const float d
     return count;
 }
 
-void SP_KERNEL(sp_bundle_search)(sp_bundle *b)
+static void search(sp_bundle *b)
 {
     const sp_bvh *bvh = b->bvh;
     bundle_pending stack[SP_BVH_STACK];
     int height = 1;
-    stack[0] = (bundle_pending){0, 0};
+    stack[0] = (bundle_pending){0, 0, 0, 0};
     find_farthest(b);
     while (height > 0) {
         bundle_pending at = stack[--height];
         if (at.depth > b->farthest)
             continue;
         if (at.child & SP_BVH_LEAF) {
-            search_bundle_block(b, &bvh->blocks[at.child - SP_BVH_LEAF]);
+            uint32_t lines = meet_lines(&bvh->nodes[at.node], at.slot, b);
+            if (lines)
+                search_bundle_block(b, &bvh->blocks[at.child - SP_BVH_LEAF], lines);
             continue;
         }
         const sp_bvh_node *node = &bvh->nodes[at.child];
@@ -217,7 +322,7 @@ void SP_KERNEL(sp_bundle_search)(sp_bundle *b)
         wide depth;
         uint32_t mask = meet_children(node, b, &depth);
         wide_store(depths, depth);
-        height += push_met(node, mask, depths, stack + height);
+        height += push_met(bvh, at.child, mask, depths, stack + height);
     }
 }
 
@@ -239,12 +344,11 @@ static void gather_hits(const sp_bundle *b, bundle_hits *h)
         if (b->triangle[i] == SP_NONE)
             continue;
         int at = h->count++, axis[3] = {b->x, b->y, b->z};
-        const double *velocity = b->lines[b->ray[i]].velocity;
         sp_corners corners;
         sp_bvh_corners(b->bvh, b->triangle[i], corners);
         h->lane[at] = i;
         for (int k = 0; k < 3; k++) {
-            h->velocity[k][at] = velocity[axis[k]];
+            h->velocity[k][at] = b->velocity[k][i];
             for (int corner = 0; corner < 3; corner++)
                 h->corner[corner][k][at] = corners[corner][axis[k]];
         }
@@ -283,14 +387,15 @@ static void compute_hits(const sp_bundle *b, bundle_hits *h)
     }
 }
 
-void SP_KERNEL(sp_bundle_answer)(const sp_bundle *b, sp_hit *hits)
+static void answer(const sp_bundle *b, sp_hit *hits)
 {
     bundle_hits h;
     for (int i = 0; i < b->count; i++)
         if (b->triangle[i] == SP_NONE)
             hits[b->ray[i]] = (sp_hit){INFINITY, 0, 0, SP_NONE};
     gather_hits(b, &h);
-    compute_hits(b, &h);
+    if (h.count > 0)
+        compute_hits(b, &h);
     for (int i = 0; i < h.count; i++) {
         int lane = h.lane[i];
         if (h.plain[i])
@@ -299,3 +404,5 @@ void SP_KERNEL(sp_bundle_answer)(const sp_bundle *b, sp_hit *hits)
             hits[b->ray[lane]] = sp_bundle_ask(b, lane, b->triangle[lane], SP_NONE);
     }
 }
+
+const sp_bundle_kernel SP_KERNEL(sp_bundle) = {fan_keys, fill_bundle, search, answer};

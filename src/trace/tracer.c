@@ -164,11 +164,11 @@ bool sp_trace_occluded(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravi
 }
 
 /* Rays that one thread takes at a time: so many that sorting them brings neighbours together. */
-enum { CHUNK = 1 << 16, CHUNK_LEAST = 1 << 10, FAN_LEAST = 64, FAN_SPARSE = 16 };
+enum { CHUNK = 1 << 18, CHUNK_LEAST = 1 << 10, FAN_LEAST = 64, FAN_SPARSE = 6 };
 
 static size_t chunk_size(size_t count, int threads)
 {
-    size_t share = threads > 1 ? count / (4 * (size_t)threads) + 1 : count;
+    size_t share = threads > 1 ? count / (2 * (size_t)threads) + 1 : count;
     return share < CHUNK_LEAST ? CHUNK_LEAST : share > CHUNK ? CHUNK : share;
 }
 
