@@ -1,5 +1,7 @@
 #include "cover.h"
 
+#include "grow.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,36 +12,22 @@ static bool make_room(sp_rows *rows, size_t more)
 {
     if (rows->count == rows->capacity) {
         size_t capacity = rows->capacity ? 2 * rows->capacity : 256;
-        size_t *start = realloc(rows->start, (capacity + 1) * sizeof *start);
-        if (start)
-            rows->start = start;
-        size_t *port = realloc(rows->port, capacity * sizeof *port);
-        if (port)
-            rows->port = port;
-        uint32_t *tier = realloc(rows->tier, capacity * sizeof *tier);
-        if (tier)
-            rows->tier = tier;
-        uint64_t *key = realloc(rows->key, capacity * sizeof *key);
-        if (key)
-            rows->key = key;
-        if (!start || !port || !tier || !key)
+        if (!sp_reallocate(&rows->start, capacity + 1, sizeof *rows->start) ||
+            !sp_reallocate(&rows->port, capacity, sizeof *rows->port) ||
+            !sp_reallocate(&rows->tier, capacity, sizeof *rows->tier) ||
+            !sp_reallocate(&rows->key, capacity, sizeof *rows->key))
             return false;
         rows->capacity = capacity;
     }
-    if (more > rows->room - rows->used) {
-        if (more > SIZE_MAX / 4 / sizeof(float) - rows->used)
-            return false;
-        size_t room = 2 * (rows->used + more);
-        uint32_t *texel = realloc(rows->texel, room * sizeof *texel);
-        if (texel)
-            rows->texel = texel;
-        float *share = realloc(rows->share, room * sizeof *share);
-        if (share)
-            rows->share = share;
-        if (!texel || !share)
-            return false;
-        rows->room = room;
-    }
+    if (more <= rows->room - rows->used)
+        return true;
+    if (more > SIZE_MAX / 4 - rows->used)
+        return false;
+    size_t room = 2 * (rows->used + more);
+    if (!sp_reallocate(&rows->texel, room, sizeof *rows->texel) ||
+        !sp_reallocate(&rows->share, room, sizeof *rows->share))
+        return false;
+    rows->room = room;
     return true;
 }
 

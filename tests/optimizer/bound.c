@@ -1,5 +1,6 @@
 /* Bounds against every layout there is, on instances small enough to try them all. */
 #include "instance.h"
+#include "every_layout.h"
 
 #include "bound.h"
 
@@ -10,61 +11,13 @@
 #define INSTANCES 40
 #endif
 
-/* The most that layouts cover: by water and by number, [water + 1] and [nozzles + 1]. */
-typedef struct {
-    const instance *in;
-    double *by_water, *by_nozzles;
-    float *sum;
-    size_t chosen[8];
-} trial;
-
-static double covered(const trial *t, size_t count)
-{
-    const sp_rows *rows = &t->in->rows;
-    double area = t->in->cover.base;
-    for (size_t p = 0; p < t->in->cover.texel_count; p++)
-        t->sum[p] = 0;
-    for (size_t i = 0; i < count; i++)
-        for (size_t k = rows->start[t->chosen[i]]; k < rows->start[t->chosen[i] + 1]; k++)
-            t->sum[rows->texel[k]] += rows->share[k];
-    for (size_t p = 0; p < t->in->cover.texel_count; p++)
-        area += t->sum[p] >= 1 ? (double)t->in->area[p] : 0;
-    return area;
-}
-
-static void try_all(trial *t, size_t count, size_t first, size_t water)
-{
-    const sp_cover *cover = &t->in->cover;
-    const sp_rows *rows = &t->in->rows;
-    double area = covered(t, count);
-    for (size_t w = water; w <= cover->water; w++)
-        t->by_water[w] = fmax(t->by_water[w], area);
-    for (size_t n = count; n <= cover->nozzles; n++)
-        t->by_nozzles[n] = fmax(t->by_nozzles[n], area);
-    if (count == cover->nozzles)
-        return;
-    for (size_t c = first; c < rows->count; c++) {
-        bool taken = false;
-        for (size_t i = 0; i < count; i++)
-            taken |= rows->port[c] != SP_NO_PORT && rows->port[t->chosen[i]] == rows->port[c];
-        size_t more = water + cover->weight[rows->tier[c]];
-        if (taken || more > cover->water)
-            continue;
-        t->chosen[count] = c;
-        try_all(t, count + 1, cover->repeats ? c : c + 1, more);
-    }
-}
-
 /* The instance's bounds against all its layouts; adds how far the last one lies above. */
 static void check_instance(instance *in, size_t start_rows, double *looseness)
 {
     sp_error error = {0};
     size_t water = in->cover.water, nozzles = in->cover.nozzles;
-    trial t = {.in = in};
-    t.by_water = calloc(water + 1, sizeof *t.by_water);
-    t.by_nozzles = calloc(nozzles + 1, sizeof *t.by_nozzles);
-    t.sum = malloc(in->cover.texel_count * sizeof *t.sum);
-    try_all(&t, 0, 0, 0);
+    every_layout t;
+    every_layout_create(in, &t);
     sp_stored stored = {&in->cover, &in->rows, 4};
     sp_pricer pricer = sp_stored_pricer(&stored);
     sp_bound bound;
@@ -96,9 +49,7 @@ static void check_instance(instance *in, size_t start_rows, double *looseness)
     assert_true(sp_bound_water(&bound, t.by_water[water]) <= least);
     *looseness += bound.by_water[water] / t.by_water[water] - 1;
     sp_bound_free(&bound);
-    free(t.by_water);
-    free(t.by_nozzles);
-    free(t.sum);
+    every_layout_free(&t);
 }
 
 static void never_below_the_optimum(void **state)
