@@ -1,5 +1,6 @@
 #include "certificate.h"
 
+#include "branch.h"
 #include "pose_prices.h"
 #include "water_units.h"
 
@@ -10,15 +11,15 @@
 #define ROUNDS_FIRST 2     /* of pricing all poses, at the proposal's water */
 #define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
 #define TRIALS_WATER 5     /* such waters */
-#define ROUNDS_FRONT 1     /* at a point of the front */
-#define POINTS_MOST 4      /* of the front, that get rounds of their own */
+#define TURNS 16           /* of branch and bound, at points of the front */
+#define TURNS_PROVING 5000 /* with --prove, where no time limit ends them */
+#define TURNS_FREE 10      /* as many turns make a point's gap count half */
 #define ROUNDS_LIFTED 3    /* at least, so that the lifts have settled */
-#define ROUNDS_PROVING 10  /* with --prove, at the proposal's water, and trials of water */
-#define ROUNDS_WATER_PROVING 4
+#define ROUNDS_PROVING 4   /* with --prove, at the proposal's water, and trials of water */
+#define ROUNDS_WATER_PROVING 2
 #define ITERATIONS_PROVING 1000
 #define TOLERANCE_PROVING 2e-5
-#define YIELD_LEAST 2e-4 /* of all bounds, that makes it worth while to go on */
-#define OPEN_LEAST 0.01  /* gap of a point of the front that is worth rounds of its own */
+#define OPEN_LEAST 1e-3 /* gap of a point of the front that is worth a turn */
 
 typedef struct {
     const sp_search *search;
@@ -33,13 +34,26 @@ typedef struct {
     double *flows;      /* [makes], then one for each nozzle of the front */
     size_t own;         /* nozzles of the front */
     sp_pose_prices *prices;
+    sp_rows nozzles; /* of the front */
+    sp_pose_order order;
+    sp_line line;
     sp_pricer pricer;
     sp_bound bound;
+    sp_branching branching;
+    sp_tree *trees; /* [front->count + 1], by points, then the proposal's; those not grown yet are empty */
+    double *found;  /* the same, m² that a layout found with no more water covers */
 } certifying;
 
 static void certifying_free(certifying *c)
 {
+    for (size_t i = 0; c->trees && i <= c->front->count; i++)
+        sp_tree_free(&c->trees[i]);
+    free(c->trees);
+    free(c->found);
+    sp_branching_free(&c->branching);
     sp_bound_free(&c->bound);
+    sp_pose_order_free(&c->order);
+    sp_rows_free(&c->nozzles);
     sp_pose_prices_destroy(c->prices);
     free(c->area);
     free(c->need);
@@ -160,7 +174,7 @@ static bool add_own(certifying *c, sp_error *error)
         for (size_t n = 0; n < design->count; n++) {
             const sp_placed *placed = &design->items[n];
             if (!sp_pose_prices_row(c->prices, placed->field, SP_OWN_KEY, c->ports[placed->site.mount],
-                                    tier_for(c, placed->flow), &c->bound.rows, error))
+                                    tier_for(c, placed->flow), &c->nozzles, error))
                 return false;
         }
     }
@@ -174,8 +188,18 @@ static bool prepare(certifying *c, sp_error *error)
     c->prices = sp_pose_prices_create(c->search, &c->cover, c->tier_of, c->need, c->ports, error);
     if (!c->prices)
         return false;
+    if (!add_own(c, error) ||
+        !sp_pose_order_create(c->search, &c->cover, c->tier_of, c->ports, &c->nozzles, &c->order, error))
+        return false;
+    c->line = sp_pose_line(c->prices, &c->order);
     c->pricer = sp_pose_pricer(c->prices);
-    return sp_bound_create(&c->cover, &c->pricer, &c->bound, error) && add_own(c, error);
+    c->trees = calloc(c->front->count + 1, sizeof *c->trees);
+    c->found = malloc((c->front->count + 1) * sizeof *c->found);
+    if (!c->trees || !c->found)
+        return sp_fail_memory(error);
+    return sp_bound_create(&c->cover, &c->pricer, &c->bound, error) &&
+           sp_rows_append(&c->bound.rows, &c->nozzles, error) &&
+           sp_branching_create(&c->cover, &c->line, &c->branching, error);
 }
 
 static double counted_area(const sp_search *search, const sp_design *design)
@@ -227,63 +251,79 @@ static bool lower_water(certifying *c, double area, size_t trials, size_t rounds
     return true;
 }
 
-/* The point of the front with the widest gap that has not had its turn; front->count where none is left open. */
-static size_t widest(const certifying *c, const bool *done)
+/* The most that a layout found with so much water covers, as counted here. */
+static double found_within(const certifying *c, size_t water)
 {
-    size_t found = c->front->count;
-    double most = OPEN_LEAST;
-    for (size_t i = 0; i < c->front->count; i++) {
-        const sp_front_entry *entry = &c->front->entries[i];
-        size_t water = budget_of(c, entry->point.flow);
-        double open = 1 - counted_area(c->search, &entry->design) / c->bound.by_water[water];
-        if (!done[i] && water && open > most) {
+    double most = c->cover.base;
+    for (size_t i = 0; i <= c->front->count; i++)
+        if (budget_of(c, design_of(c->front, i)->flow) <= water)
+            most = fmax(most, counted_area(c->search, design_of(c->front, i)));
+    return most;
+}
+
+/* Of the front's points and the proposal the one whose turn it is: the wider its gap and the fewer turns it had, the
+ * sooner; front->count + 1 where none is left open. */
+static size_t next_point(const certifying *c)
+{
+    size_t found = c->front->count + 1;
+    double most = 0;
+    for (size_t i = 0; i <= c->front->count; i++) {
+        const sp_tree *tree = &c->trees[i];
+        size_t water = budget_of(c, design_of(c->front, i)->flow);
+        double open = 1 - c->found[i] / c->bound.by_water[water];
+        double score = open / (double)(tree->steps + TURNS_FREE);
+        bool closed = tree->alive && sp_tree_closed(tree);
+        if (water && !closed && open > OPEN_LEAST && score > most) {
             found = i;
-            most = open;
+            most = score;
         }
     }
     return found;
 }
 
-static bool lower_front(certifying *c, size_t points, size_t rounds, sp_error *error)
+/* One step of branch and bound at a point of the front, which lowers all bounds up to its water. */
+static bool grow_tree(certifying *c, size_t i, sp_error *error)
 {
-    bool *done = calloc(c->front->count + 1, sizeof *done), good = true;
-    if (!done)
-        return sp_fail_memory(error);
-    for (size_t turn = 0; good && turn < points; turn++) {
-        size_t i = widest(c, done);
-        if (i == c->front->count)
+    sp_tree *tree = &c->trees[i];
+    size_t water = budget_of(c, design_of(c->front, i)->flow);
+    if (!tree->alive && (!sp_branching_take(&c->branching, &c->bound.rows, error) ||
+                         !sp_tree_create(&c->branching, water, c->bound.by_water[water], c->found[i], tree, error)))
+        return false;
+    if (!sp_tree_step(&c->branching, tree, error))
+        return false;
+    double bound = sp_tree_bound(tree);
+    for (size_t w = 0; w <= water; w++)
+        c->bound.by_water[w] = fmin(c->bound.by_water[w], bound);
+    return true;
+}
+
+/* Branch and bound at the points of the front in turn. */
+static bool lower_front(certifying *c, size_t turns, sp_error *error)
+{
+    for (size_t i = 0; i <= c->front->count; i++)
+        c->found[i] = found_within(c, budget_of(c, design_of(c->front, i)->flow));
+    for (size_t turn = 0; turn < turns; turn++) {
+        size_t i = next_point(c);
+        if (i > c->front->count || !goes_on(c, 0.6 + 0.4 * (double)turn / (double)turns))
             break;
-        done[i] = true;
-        good = lower(c, budget_of(c, c->front->entries[i].point.flow), rounds,
-                     0.6 + 0.4 * (double)turn / (double)points, error);
-    }
-    free(done);
-    return good;
-}
-
-/* All that is to be lowered, in one figure. */
-static double bounds_sum(const certifying *c)
-{
-    double sum = 0;
-    for (size_t w = 0; w <= c->cover.water; w++)
-        sum += c->bound.by_water[w];
-    return sum;
-}
-
-/* The whole again, more carefully, until it yields no more. */
-static bool prove(certifying *c, size_t water, double area, sp_error *error)
-{
-    c->bound.iterations = ITERATIONS_PROVING;
-    c->bound.tolerance = TOLERANCE_PROVING;
-    for (double before = INFINITY, now = bounds_sum(c); now < before * (1 - YIELD_LEAST) && goes_on(c, 0.5);) {
-        if (!lower(c, water, ROUNDS_PROVING, 0.5, error) ||
-            !lower_water(c, area, ROUNDS_PROVING, ROUNDS_WATER_PROVING, error) ||
-            !lower_front(c, c->front->count, ROUNDS_WATER_PROVING, error))
+        if (!grow_tree(c, i, error))
             return false;
-        before = now;
-        now = bounds_sum(c);
     }
     return true;
+}
+
+/* The bounds at the proposal once more, more carefully, then branch and bound. */
+static bool prove(certifying *c, size_t water, double area, sp_error *error)
+{
+    size_t iterations = c->bound.iterations;
+    double tolerance = c->bound.tolerance;
+    c->bound.iterations = ITERATIONS_PROVING;
+    c->bound.tolerance = TOLERANCE_PROVING;
+    bool done = lower(c, water, ROUNDS_PROVING, 0.5, error) &&
+                lower_water(c, area, ROUNDS_PROVING, ROUNDS_WATER_PROVING, error);
+    c->bound.iterations = iterations;
+    c->bound.tolerance = tolerance;
+    return done && lower_front(c, TURNS_PROVING, error);
 }
 
 static bool lower_all(certifying *c, sp_error *error)
@@ -295,8 +335,7 @@ static bool lower_all(certifying *c, sp_error *error)
             return false;
     return sp_bound_lower(&c->bound, water, error) && sp_bound_lower_single(&c->bound, error) &&
            lower(c, water, ROUNDS_FIRST - 1, 0.1, error) && lower_water(c, area, TRIALS_WATER, ROUNDS_WATER, error) &&
-           lower_front(c, POINTS_MOST, ROUNDS_FRONT, error) &&
-           (!c->search->options->prove || prove(c, water, area, error));
+           lower_front(c, TURNS, error) && (!c->search->options->prove || prove(c, water, area, error));
 }
 
 /* Poses that were priced: those of mounting points that were traced, not in ports that kept nozzles take. */

@@ -50,6 +50,15 @@ bool sp_rows_add(sp_rows *rows, uint64_t key, size_t port, uint32_t tier, const 
     return true;
 }
 
+bool sp_rows_append(sp_rows *rows, const sp_rows *more, sp_error *error)
+{
+    bool done = true;
+    for (size_t i = 0; done && i < more->count; i++)
+        done = sp_rows_add(rows, more->key[i], more->port[i], more->tier[i], more->texel + more->start[i],
+                           more->share + more->start[i], more->start[i + 1] - more->start[i], error);
+    return done;
+}
+
 void sp_rows_keep(sp_rows *rows, const bool *marked)
 {
     size_t kept = 0, used = 0;

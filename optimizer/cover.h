@@ -38,6 +38,8 @@ typedef struct {
 /* Appends a row of `count` texels; false when memory runs out. */
 bool sp_rows_add(sp_rows *rows, uint64_t key, size_t port, uint32_t tier, const uint32_t *texels, const float *shares,
                  size_t count, sp_error *error);
+/* Appends all of `more`. */
+bool sp_rows_append(sp_rows *rows, const sp_rows *more, sp_error *error);
 /* Keeps the rows that are marked, in their order. */
 void sp_rows_keep(sp_rows *rows, const bool *marked);
 void sp_rows_free(sp_rows *rows);

@@ -29,7 +29,8 @@ struct sp_pose_prices {
     const uint32_t *tier_of;
     const float *need;
     const size_t *ports;
-    best *bests; /* [sites x makes] */
+    const sp_pose_order *order; /* NULL until a line is asked for */
+    best *bests;                /* [sites x makes] */
     int threads;
     scratch *scratches; /* [threads] */
     float *field;       /* [texels] */
@@ -177,16 +178,6 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
     }
 }
 
-static uint64_t key_of(const sp_pose_prices *prices, sp_pose pose)
-{
-    const sp_candidates *candidates = prices->search->candidates;
-    uint32_t mount = prices->search->sites->items[pose.site].mount;
-    uint64_t key = candidates->pose_start[pose.site];
-    for (uint32_t k = 0; k < pose.make; k++)
-        key += sp_candidates_axes(candidates, mount, k)->count * candidates->makes[k].roll_count;
-    return key + (uint64_t)pose.axis * candidates->makes[pose.make].roll_count + pose.roll;
-}
-
 bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t tier,
                         sp_rows *rows, sp_error *error)
 {
@@ -206,7 +197,7 @@ bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64
 bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *rows, sp_error *error)
 {
     sp_field_pose(prices->search, pose, prices->field);
-    return sp_pose_prices_row(prices, prices->field, key_of(prices, pose),
+    return sp_pose_prices_row(prices, prices->field, sp_pose_order_position(prices->order, pose),
                               prices->ports[prices->search->sites->items[pose.site].mount], prices->tier_of[pose.make],
                               rows, error);
 }
@@ -252,7 +243,7 @@ static bool hand_out(const sp_pose_prices *prices, const double *needed, sp_rows
     }
     for (size_t i = 0, given = 0; done && i < found && given < ROWS_AT_A_TIME; i++) {
         sp_pose pose = prices->bests[entries[i].at].pose;
-        uint64_t key = key_of(prices, pose);
+        uint64_t key = sp_pose_order_position(prices->order, pose);
         if (bsearch(&key, keys, had, sizeof *keys, by_key))
             continue;
         done = sp_pose_prices_add(prices, pose, rows, error);
@@ -279,6 +270,84 @@ static bool price_poses(void *user, const sp_prices *u, const double *needed, bo
             sp_offers_add(offers, prices->ports[search->sites->items[i / makes].mount], prices->tier_of[i % makes],
                           prices->bests[i].price);
     return hand_out(prices, needed, rows, error);
+}
+
+/* The poses of a block that are alive. */
+static void price_block(sp_pose_prices *prices, scratch *own, size_t block, const sp_prices *u, const uint8_t *alive,
+                        float *price)
+{
+    const sp_search *search = prices->search;
+    const sp_pose_block *poses = &prices->order->blocks[block];
+    size_t end = poses[1].start;
+    const sp_make *make = &search->candidates->makes[poses->make];
+    size_t at = poses->site * search->candidates->speed_count + make->speed_class;
+    sp_frame frame = sp_nozzle_frame(search->sites->items[poses->site].axis, 0, sp_evaluator_setup(search->coarse)->up);
+    memset(price + poses->start, 0, (end - poses->start) * sizeof *price);
+    if (!memchr(alive + poses->start, 1, end - poses->start))
+        return;
+    const sp_view *view = sp_visibility_look(search->visibility, poses->site, make->speed_class, &own->desk);
+    if (!view->start)
+        return;
+    prepare_worth(prices, own, view, make, u);
+    sp_region region = sp_region_create(&make->spray, &frame);
+    for (size_t i = poses->start; i < end; i++)
+        if (alive[i])
+            price[i] = nextafterf(
+                (float)price_of(prices, own, view, sp_pose_order_at(prices->order, block, i), &region), INFINITY);
+}
+
+static bool price_line(void *user, const sp_prices *u, const uint8_t *alive, float *price, sp_error *error)
+{
+    (void)error;
+    sp_pose_prices *prices = user;
+    const sp_pose_order *order = prices->order;
+    size_t makes = prices->search->candidates->make_count, sites = prices->search->sites->count;
+#pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
+    for (size_t site = 0; site < sites; site++)
+        for (size_t k = 0; k < makes; k++)
+            if (order->block_of[site * makes + k] != SIZE_MAX)
+                price_block(prices, &prices->scratches[omp_get_thread_num()], order->block_of[site * makes + k], u,
+                            alive, price);
+    for (int i = 0; i < prices->threads; i++)
+        sp_visibility_leave(prices->search->visibility, &prices->scratches[i].desk);
+    for (size_t i = 0; i < order->block_count; i++) {
+        const sp_pose_block *found = &order->blocks[i];
+        for (size_t at = found->start; found->make == SP_NONE && at < found[1].start; at++) {
+            size_t row = order->own_order[found->site + at - found->start];
+            price[at] = alive[at] ? nextafterf((float)sp_rows_price(order->own, row, u), INFINITY) : 0;
+        }
+    }
+    return true;
+}
+
+static bool row_of_line(void *user, size_t position, sp_rows *rows, sp_error *error)
+{
+    const sp_pose_prices *prices = user;
+    const sp_pose_order *order = prices->order;
+    size_t block = sp_pose_order_block(order, position);
+    if (order->blocks[block].make != SP_NONE)
+        return sp_pose_prices_add(prices, sp_pose_order_at(order, block, position), rows, error);
+    const sp_rows *own = order->own;
+    size_t row = order->own_order[order->blocks[block].site + position - order->blocks[block].start];
+    return sp_rows_add(rows, position, own->port[row], own->tier[row], own->texel + own->start[row],
+                       own->share + own->start[row], own->start[row + 1] - own->start[row], error);
+}
+
+static size_t cut_line(void *user, size_t first, size_t end)
+{
+    const sp_pose_prices *prices = user;
+    return sp_pose_order_cut(prices->order, first, end);
+}
+
+sp_line sp_pose_line(sp_pose_prices *prices, const sp_pose_order *order)
+{
+    sp_line line = order->line;
+    line.user = prices;
+    line.cut = cut_line;
+    line.price = price_line;
+    line.row = row_of_line;
+    prices->order = order;
+    return line;
 }
 
 sp_pricer sp_pose_pricer(sp_pose_prices *prices)

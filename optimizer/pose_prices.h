@@ -5,6 +5,7 @@
 
 #include "bound.h"
 #include "design.h"
+#include "pose_order.h"
 
 /* Fields rounded in single precision, and those of some 300 nozzles added up so, lie off by less than this share. */
 #define SP_FIELD_MARGIN 2e-5
@@ -17,6 +18,9 @@ typedef struct sp_pose_prices sp_pose_prices;
 sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of,
                                       const float *need, const size_t *ports, sp_error *error);
 void sp_pose_prices_destroy(sp_pose_prices *prices);
+/* The line of all poses and of order->own, whose arrays stay the order's, which is borrowed. Goes before the pricer:
+ * the keys of rows are positions. */
+sp_line sp_pose_line(sp_pose_prices *prices, const sp_pose_order *order);
 sp_pricer sp_pose_pricer(sp_pose_prices *prices);
 /* Appends a field (flux over threshold) as a row. */
 bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t tier,
