@@ -13,6 +13,7 @@
 #define YIELD_LEAST 2e-3  /* of the bound, by which another solve should lower it */
 #define ROWS_MOST 1200    /* of the few */
 #define ROWS_AT_A_TIME 96 /* that join them */
+#define ROW_WORK 2000     /* a solve takes as long a row as so many candidates' pricing */
 #define BLOCKS 16         /* parts of a slot that each hand out their best */
 #define CHOICE_LEAST 1e-6 /* a row that the linear program takes less of than this may go */
 #define JOIN_LEAST 1e-4   /* by which a row must be worth more than the best of the few */
@@ -155,6 +156,15 @@ static void price_alone(sp_branching *b)
     b->dual.bound = 0;
 }
 
+/* What a step takes, in candidates priced. */
+static double work_of(const sp_branching *b)
+{
+    size_t in = 0;
+    for (size_t c = 0; c < b->rows.count && b->slot_of; c++)
+        in += b->slot_of[c] != SP_SHUT_OUT;
+    return (double)b->alive_before[b->line->count] + ROW_WORK * (double)in;
+}
+
 /* Seeks prices that make the branch's bound low, on the few. */
 static bool seek_prices(sp_branching *b, const sp_tree *tree, const sp_branch *branch, sp_error *error)
 {
@@ -267,6 +277,8 @@ bool sp_tree_step(sp_branching *b, sp_tree *tree, sp_error *error)
         !sp_branching_price(b, tree, &b->dual.price, b->dual.price.lifts ? b->lifts.nozzles : SIZE_MAX, error) ||
         !join(b, branch, &joined, error))
         return false;
+    tree->last_work = work_of(b);
+    tree->work += tree->last_work;
     double reach = fmax(tree->found, b->dual.bound);
     /* the branch may move, or go, when the others are lowered */
     branch->solves = SIZE_MAX;

@@ -53,6 +53,7 @@ typedef struct {
     sp_branch *open;
     uint8_t *alive; /* [positions] */
     size_t steps;
+    double work, last_work; /* that these, the last of these took: as long as so many candidates are priced */
 } sp_tree;
 
 /* Borrows cover and line. */

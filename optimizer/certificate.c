@@ -11,13 +11,13 @@
 #define ROUNDS_FIRST 2     /* of pricing all poses, at the proposal's water */
 #define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
 #define TRIALS_WATER 5     /* such waters */
-#define TURNS 16           /* of branch and bound, at points of the front */
-#define TURNS_PROVING 5000 /* with --prove, where no time limit ends them */
-#define TURNS_FREE 10      /* as many turns make a point's gap count half */
+#define WORK 1e7           /* of branch and bound at the front's points, see sp_tree */
+#define WORK_PROVING 1e10  /* with --prove, where no time limit ends it */
+#define WORK_PAST 0.05     /* what a point has taken counts so much, beside what its next step takes */
 #define ROUNDS_LIFTED 3    /* at least, so that the lifts have settled */
-#define ROUNDS_PROVING 4   /* with --prove, at the proposal's water, and trials of water */
-#define ROUNDS_WATER_PROVING 2
-#define ITERATIONS_PROVING 1000
+#define ROUNDS_PROVING 2   /* with --prove, at the proposal's water, and trials of water */
+#define ROUNDS_WATER_PROVING 1
+#define ITERATIONS_PROVING 500
 #define TOLERANCE_PROVING 2e-5
 #define OPEN_LEAST 1e-3 /* gap of a point of the front that is worth a turn */
 
@@ -261,8 +261,8 @@ static double found_within(const certifying *c, size_t water)
     return most;
 }
 
-/* Of the front's points and the proposal the one whose turn it is: the wider its gap and the fewer turns it had, the
- * sooner; front->count + 1 where none is left open. */
+/* Of the front's points and the proposal the one whose turn it is: the wider its gap and the less work
+ * it takes and took, the sooner; front->count + 1 where none is left open. */
 static size_t next_point(const certifying *c)
 {
     size_t found = c->front->count + 1;
@@ -271,7 +271,8 @@ static size_t next_point(const certifying *c)
         const sp_tree *tree = &c->trees[i];
         size_t water = budget_of(c, design_of(c->front, i)->flow);
         double open = 1 - c->found[i] / c->bound.by_water[water];
-        double score = open / (double)(tree->steps + TURNS_FREE);
+        double next = tree->alive ? tree->last_work : (double)c->line.count;
+        double score = open / (next + WORK_PAST * tree->work);
         bool closed = tree->alive && sp_tree_closed(tree);
         if (water && !closed && open > OPEN_LEAST && score > most) {
             found = i;
@@ -298,16 +299,18 @@ static bool grow_tree(certifying *c, size_t i, sp_error *error)
 }
 
 /* Branch and bound at the points of the front in turn. */
-static bool lower_front(certifying *c, size_t turns, sp_error *error)
+static bool lower_front(certifying *c, double work, sp_error *error)
 {
     for (size_t i = 0; i <= c->front->count; i++)
         c->found[i] = found_within(c, budget_of(c, design_of(c->front, i)->flow));
-    for (size_t turn = 0; turn < turns; turn++) {
+    for (double done = 0; done < work;) {
         size_t i = next_point(c);
-        if (i > c->front->count || !goes_on(c, 0.6 + 0.4 * (double)turn / (double)turns))
+        if (i > c->front->count || !goes_on(c, 0.6 + 0.4 * done / work))
             break;
+        double before = c->trees[i].work;
         if (!grow_tree(c, i, error))
             return false;
+        done += c->trees[i].work - before;
     }
     return true;
 }
@@ -323,7 +326,7 @@ static bool prove(certifying *c, size_t water, double area, sp_error *error)
                 lower_water(c, area, ROUNDS_PROVING, ROUNDS_WATER_PROVING, error);
     c->bound.iterations = iterations;
     c->bound.tolerance = tolerance;
-    return done && lower_front(c, TURNS_PROVING, error);
+    return done && lower_front(c, WORK_PROVING, error);
 }
 
 static bool lower_all(certifying *c, sp_error *error)
@@ -335,7 +338,7 @@ static bool lower_all(certifying *c, sp_error *error)
             return false;
     return sp_bound_lower(&c->bound, water, error) && sp_bound_lower_single(&c->bound, error) &&
            lower(c, water, ROUNDS_FIRST - 1, 0.1, error) && lower_water(c, area, TRIALS_WATER, ROUNDS_WATER, error) &&
-           lower_front(c, TURNS, error) && (!c->search->options->prove || prove(c, water, area, error));
+           lower_front(c, WORK, error) && (!c->search->options->prove || prove(c, water, area, error));
 }
 
 /* Poses that were priced: those of mounting points that were traced, not in ports that kept nozzles take. */
