@@ -11,7 +11,8 @@
 #define ROUNDS_FIRST 2     /* of pricing all poses, at the proposal's water */
 #define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
 #define TRIALS_WATER 5     /* such waters */
-#define WORK 1e7           /* of branch and bound at the front's points, see sp_tree */
+#define WORK_LEAST 1e6     /* of branch and bound at the front's points, see sp_tree */
+#define WORK_EACH 8        /* the same, besides, in pricings of all candidates */
 #define WORK_PROVING 1e10  /* with --prove, where no time limit ends it */
 #define WORK_PAST 0.05     /* what a point has taken counts so much, beside what its next step takes */
 #define ROUNDS_LIFTED 3    /* at least, so that the lifts have settled */
@@ -338,7 +339,8 @@ static bool lower_all(certifying *c, sp_error *error)
             return false;
     return sp_bound_lower(&c->bound, water, error) && sp_bound_lower_single(&c->bound, error) &&
            lower(c, water, ROUNDS_FIRST - 1, 0.1, error) && lower_water(c, area, TRIALS_WATER, ROUNDS_WATER, error) &&
-           lower_front(c, WORK, error) && (!c->search->options->prove || prove(c, water, area, error));
+           lower_front(c, WORK_LEAST + WORK_EACH * (double)c->line.count, error) &&
+           (!c->search->options->prove || prove(c, water, area, error));
 }
 
 /* Poses that were priced: those of mounting points that were traced, not in ports that kept nozzles take. */
@@ -350,8 +352,7 @@ static size_t count_poses(const certifying *c)
         for (size_t k = 0; k < search->candidates->make_count; k++) {
             uint32_t mount = search->sites->items[i].mount;
             const sp_make *make = &search->candidates->makes[k];
-            if (!search->port_taken[mount] &&
-                sp_visibility_known(search->visibility, (uint32_t)i, make->speed_class))
+            if (!search->port_taken[mount] && sp_visibility_known(search->visibility, (uint32_t)i, make->speed_class))
                 count += sp_candidates_axes(search->candidates, mount, k)->count * make->roll_count;
         }
     return count;

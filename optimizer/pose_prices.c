@@ -280,7 +280,6 @@ static void price_block(sp_pose_prices *prices, scratch *own, size_t block, cons
     const sp_pose_block *poses = &prices->order->blocks[block];
     size_t end = poses[1].start;
     const sp_make *make = &search->candidates->makes[poses->make];
-    size_t at = poses->site * search->candidates->speed_count + make->speed_class;
     sp_frame frame = sp_nozzle_frame(search->sites->items[poses->site].axis, 0, sp_evaluator_setup(search->coarse)->up);
     memset(price + poses->start, 0, (end - poses->start) * sizeof *price);
     if (!memchr(alive + poses->start, 1, end - poses->start))
