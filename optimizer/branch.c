@@ -156,13 +156,13 @@ static void price_alone(sp_branching *b)
     b->dual.bound = 0;
 }
 
-/* What a step takes, in candidates priced. */
-static double work_of(const sp_branching *b)
+/* What the rows of the last solve took, in candidates priced. */
+static double work_of_rows(const sp_branching *b)
 {
     size_t in = 0;
     for (size_t c = 0; c < b->rows.count && b->slot_of; c++)
         in += b->slot_of[c] != SP_SHUT_OUT;
-    return (double)b->alive_before[b->line->count] + ROW_WORK * (double)in;
+    return ROW_WORK * (double)in;
 }
 
 /* Seeks prices that make the branch's bound low, on the few. */
@@ -277,13 +277,14 @@ bool sp_tree_step(sp_branching *b, sp_tree *tree, sp_error *error)
         !sp_branching_price(b, tree, &b->dual.price, b->dual.price.lifts ? b->lifts.nozzles : SIZE_MAX, error) ||
         !join(b, branch, &joined, error))
         return false;
-    tree->last_work = work_of(b);
-    tree->work += tree->last_work;
+    double rows = work_of_rows(b);
+    tree->work += rows + (double)b->alive_before[b->line->count];
     double reach = fmax(tree->found, b->dual.bound);
     /* the branch may move, or go, when the others are lowered */
     branch->solves = SIZE_MAX;
     if (!sp_tree_lower(b, tree, error))
         return false;
+    tree->next_work = rows + (double)b->alive_before[b->line->count];
     for (i = 0; i < tree->count && tree->open[i].solves != SIZE_MAX; i++)
         ;
     if (i == tree->count)

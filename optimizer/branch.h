@@ -53,7 +53,8 @@ typedef struct {
     sp_branch *open;
     uint8_t *alive; /* [positions] */
     size_t steps;
-    double work, last_work; /* that these, the last of these took: as long as so many candidates are priced */
+    double work;      /* that these took: as long as so many candidates are priced */
+    double next_work; /* that another is likely to take */
 } sp_tree;
 
 /* Borrows cover and line. */

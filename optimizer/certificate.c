@@ -236,18 +236,18 @@ static bool lower(certifying *c, size_t water, size_t rounds, double done, sp_er
     return true;
 }
 
-/* The least water for what the proposal covers: bounds are lowered where they first allow it, until they do not yield.
- */
+/* The least water for what the proposal covers: bounds are lowered where they first allow it, until two trials in a row
+ * yield nothing. */
 static bool lower_water(certifying *c, double area, size_t trials, size_t rounds, sp_error *error)
 {
-    for (size_t trial = 0; trial < trials; trial++) {
+    size_t in_vain = 0;
+    for (size_t trial = 0; trial < trials && in_vain < 2; trial++) {
         size_t water = sp_bound_water(&c->bound, area);
         if (!water || water > c->cover.water)
             return true;
         if (!lower(c, water, rounds, 0.3 + 0.3 * (double)trial / (double)trials, error))
             return false;
-        if (sp_bound_water(&c->bound, area) == water)
-            return true;
+        in_vain = sp_bound_water(&c->bound, area) == water ? in_vain + 1 : 0;
     }
     return true;
 }
@@ -272,7 +272,7 @@ static size_t next_point(const certifying *c)
         const sp_tree *tree = &c->trees[i];
         size_t water = budget_of(c, design_of(c->front, i)->flow);
         double open = 1 - c->found[i] / c->bound.by_water[water];
-        double next = tree->alive ? tree->last_work : (double)c->line.count;
+        double next = tree->alive ? tree->next_work : (double)c->line.count;
         double score = open / (next + WORK_PAST * tree->work);
         bool closed = tree->alive && sp_tree_closed(tree);
         if (water && !closed && open > OPEN_LEAST && score > most) {
