@@ -70,7 +70,7 @@ bool sp_branching_take(sp_branching *b, const sp_rows *rows, sp_error *error)
 bool sp_tree_create(const sp_branching *b, size_t water, double bound, double found, sp_tree *tree, sp_error *error)
 {
     const sp_line *line = b->line;
-    *tree = (sp_tree){.water = water, .found = found, .shut = -INFINITY};
+    *tree = (sp_tree){.water = water, .found = found, .shut = -INFINITY, .rows_work = ROW_WORK * ROWS_AT_A_TIME};
     tree->alive = malloc(line->count + 1);
     if (!tree->alive || !sp_grow(&tree->open, &tree->capacity, 1, sizeof *tree->open)) {
         sp_tree_free(tree);
@@ -273,18 +273,16 @@ bool sp_tree_step(sp_branching *b, sp_tree *tree, sp_error *error)
     size_t solves = ++branch->solves;
     tree->steps++;
     sp_branching_count_alive(b, tree);
-    if (!seek_prices(b, tree, branch, error) ||
-        !sp_branching_price(b, tree, &b->dual.price, b->dual.price.lifts ? b->lifts.nozzles : SIZE_MAX, error) ||
+    if (!seek_prices(b, tree, branch, error) || !sp_branching_price(b, tree, &b->dual.price, error) ||
         !join(b, branch, &joined, error))
         return false;
-    double rows = work_of_rows(b);
-    tree->work += rows + (double)b->alive_before[b->line->count];
+    tree->rows_work = work_of_rows(b);
+    tree->work += tree->rows_work + (double)b->alive_before[b->line->count];
     double reach = fmax(tree->found, b->dual.bound);
     /* the branch may move, or go, when the others are lowered */
     branch->solves = SIZE_MAX;
     if (!sp_tree_lower(b, tree, error))
         return false;
-    tree->next_work = rows + (double)b->alive_before[b->line->count];
     for (i = 0; i < tree->count && tree->open[i].solves != SIZE_MAX; i++)
         ;
     if (i == tree->count)

@@ -54,6 +54,7 @@ typedef struct {
     uint8_t *alive; /* [positions] */
     size_t steps;
     double work;      /* that these took: as long as so many candidates are priced */
+    double rows_work; /* that the rows of the last took, alone */
     double next_work; /* that another is likely to take */
 } sp_tree;
 
@@ -68,6 +69,9 @@ bool sp_tree_create(const sp_branching *b, size_t water, double bound, double fo
 void sp_tree_free(sp_tree *tree);
 /* One solve and one pricing of what is alive, for the highest branch, which then parts where no more is to be had. */
 bool sp_tree_step(sp_branching *b, sp_tree *tree, sp_error *error);
+/* Lowers all branches, and shuts out candidates, by prices from elsewhere: price[position] is what a candidate is worth
+ * at u, rounded upwards. */
+bool sp_tree_hear(sp_branching *b, sp_tree *tree, const sp_prices *u, const float *price, sp_error *error);
 /* m² that no layout of so much water exceeds. */
 double sp_tree_bound(const sp_tree *tree);
 /* No branch is left that could hold anything better than what was found. */

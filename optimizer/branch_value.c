@@ -30,18 +30,39 @@ static void forget_tables(sp_branching *b)
     }
 }
 
-bool sp_branching_price(sp_branching *b, const sp_tree *tree, const sp_prices *u, size_t valid, sp_error *error)
+/* After the candidates' prices at u are set. */
+static void settle(sp_branching *b, const sp_prices *u)
 {
     const sp_line *line = b->line;
-    if (!line->price(line->user, u, tree->alive, b->price.top + b->price.count, error))
-        return false;
     sp_highest_build(&b->price);
     for (size_t r = 0; r < line->run_count; r++)
         b->run_best[r] = (double)sp_highest_of(&b->price, line->run_start[r], line->run_start[r + 1]);
     forget_tables(b);
     b->rest_area = b->cover->base + sp_cover_rest(b->cover, u);
-    b->valid = valid;
+    b->valid = u->lifts ? u->lifts->nozzles : SIZE_MAX;
+}
+
+bool sp_branching_price(sp_branching *b, const sp_tree *tree, const sp_prices *u, sp_error *error)
+{
+    const sp_line *line = b->line;
+    if (!line->price(line->user, u, tree->alive, b->price.top + b->price.count, error))
+        return false;
+    settle(b, u);
     return true;
+}
+
+bool sp_tree_hear(sp_branching *b, sp_tree *tree, const sp_prices *u, const float *price, sp_error *error)
+{
+    float *own = b->price.top + b->price.count;
+    size_t most = 0;
+    for (size_t i = 0; i < tree->count; i++)
+        most = sp_branch_nozzles(b, &tree->open[i]) > most ? sp_branch_nozzles(b, &tree->open[i]) : most;
+    if (!tree->count || (u->lifts && most > u->lifts->nozzles))
+        return true;
+    for (size_t i = 0; i < b->line->count; i++)
+        own[i] = tree->alive[i] ? price[i] : 0;
+    settle(b, u);
+    return sp_tree_lower(b, tree, error);
 }
 
 /* The knapsack of nozzles of this kind and lighter. A candidate may be in it more than once. */
@@ -127,18 +148,14 @@ void sp_branching_count_alive(sp_branching *b, const sp_tree *tree)
 static void shut_out(sp_branching *b, sp_tree *tree)
 {
     const float *price = b->price.top + b->price.count, *least = b->least.top + b->least.count;
-    bool any = false;
     sp_lowest_spread(&b->least);
     for (size_t i = 0; i < b->line->count; i++)
         /* by more than single precision can mistake */
         if (tree->alive[i] && (double)price[i] < (double)least[i] - 1e-6 * fabs((double)least[i])) {
             tree->alive[i] = 0;
-            any = true;
+            tree->shut = fmax(tree->shut, tree->found);
         }
-    if (any) {
-        tree->shut = fmax(tree->shut, tree->found);
-        sp_branching_count_alive(b, tree);
-    }
+    sp_branching_count_alive(b, tree);
 }
 
 bool sp_tree_lower(sp_branching *b, sp_tree *tree, sp_error *error)
@@ -161,5 +178,6 @@ bool sp_tree_lower(sp_branching *b, sp_tree *tree, sp_error *error)
         i++;
     }
     shut_out(b, tree);
+    tree->next_work = tree->rows_work + (double)b->alive_before[b->line->count];
     return true;
 }

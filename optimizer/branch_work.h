@@ -9,8 +9,8 @@ size_t sp_branch_nozzles(const sp_branching *b, const sp_branch *branch);
 /* Nozzles of this kind and lighter that number and water allow. */
 size_t sp_rest_fits(const sp_branching *b, size_t kind, size_t nozzles, size_t water);
 
-/* Prices all that is alive at u, which holds for layouts of at most `valid` nozzles. */
-bool sp_branching_price(sp_branching *b, const sp_tree *tree, const sp_prices *u, size_t valid, sp_error *error);
+/* Prices all that is alive at u. */
+bool sp_branching_price(sp_branching *b, const sp_tree *tree, const sp_prices *u, sp_error *error);
 /* No layout of the branch covers more, by the last prices; INFINITY where they do not hold for it. */
 bool sp_branch_value(sp_branching *b, const sp_branch *branch, double *value, sp_error *error);
 /* Lowers all open branches by the last prices, closes those that hold nothing better than what was found, and shuts out

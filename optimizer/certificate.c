@@ -10,7 +10,8 @@
 #define ROUNDS_EXPLORING 4 /* of looking at some of the poses first */
 #define ROUNDS_FIRST 2     /* of pricing all poses, at the proposal's water */
 #define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
-#define TRIALS_WATER 5     /* such waters */
+#define TRIALS_WATER 6     /* such waters */
+#define IN_VAIN_MOST 3     /* of these in a row that yield nothing */
 #define WORK_LEAST 1e6     /* of branch and bound at the front's points, see sp_tree */
 #define WORK_EACH 8        /* the same, besides, in pricings of all candidates */
 #define WORK_PROVING 1e10  /* with --prove, where no time limit ends it */
@@ -41,7 +42,7 @@ typedef struct {
     sp_pricer pricer;
     sp_bound bound;
     sp_branching branching;
-    sp_tree *trees; /* [front->count + 1], by points, then the proposal's; those not grown yet are empty */
+    sp_tree *trees; /* [front->count + 1], by points, then the proposal's; empty where it takes no water */
     double *found;  /* the same, m² that a layout found with no more water covers */
 } certifying;
 
@@ -182,27 +183,6 @@ static bool add_own(certifying *c, sp_error *error)
     return true;
 }
 
-static bool prepare(certifying *c, sp_error *error)
-{
-    if (!set_tiers(c, error) || !set_texels(c, error))
-        return false;
-    c->prices = sp_pose_prices_create(c->search, &c->cover, c->tier_of, c->need, c->ports, error);
-    if (!c->prices)
-        return false;
-    if (!add_own(c, error) ||
-        !sp_pose_order_create(c->search, &c->cover, c->tier_of, c->ports, &c->nozzles, &c->order, error))
-        return false;
-    c->line = sp_pose_line(c->prices, &c->order);
-    c->pricer = sp_pose_pricer(c->prices);
-    c->trees = calloc(c->front->count + 1, sizeof *c->trees);
-    c->found = malloc((c->front->count + 1) * sizeof *c->found);
-    if (!c->trees || !c->found)
-        return sp_fail_memory(error);
-    return sp_bound_create(&c->cover, &c->pricer, &c->bound, error) &&
-           sp_rows_append(&c->bound.rows, &c->nozzles, error) &&
-           sp_branching_create(&c->cover, &c->line, &c->branching, error);
-}
-
 static double counted_area(const sp_search *search, const sp_design *design)
 {
     double area = 0;
@@ -217,41 +197,6 @@ static size_t budget_of(const certifying *c, double flow)
     return budget < c->cover.water ? budget : c->cover.water;
 }
 
-/* True while there is time; that it ends here leaves the proposal as good as it is. */
-static bool goes_on(certifying *c, double done)
-{
-    double limit = c->watch->run.time_limit;
-    return (limit <= 0 || sp_watch_elapsed(c->watch) < limit) && sp_watch_goes_on(c->watch, "certificate", done);
-}
-
-/* Lowers the bound at this water. `done`: how far the certificate is. */
-static bool lower(certifying *c, size_t water, size_t rounds, double done, sp_error *error)
-{
-    for (size_t round = 0; round < rounds && goes_on(c, done); round++) {
-        if (!sp_bound_lower(&c->bound, water, error))
-            return false;
-        if (c->bound.closed && round >= ROUNDS_LIFTED)
-            break;
-    }
-    return true;
-}
-
-/* The least water for what the proposal covers: bounds are lowered where they first allow it, until two trials in a row
- * yield nothing. */
-static bool lower_water(certifying *c, double area, size_t trials, size_t rounds, sp_error *error)
-{
-    size_t in_vain = 0;
-    for (size_t trial = 0; trial < trials && in_vain < 2; trial++) {
-        size_t water = sp_bound_water(&c->bound, area);
-        if (!water || water > c->cover.water)
-            return true;
-        if (!lower(c, water, rounds, 0.3 + 0.3 * (double)trial / (double)trials, error))
-            return false;
-        in_vain = sp_bound_water(&c->bound, area) == water ? in_vain + 1 : 0;
-    }
-    return true;
-}
-
 /* The most that a layout found with so much water covers, as counted here. */
 static double found_within(const certifying *c, size_t water)
 {
@@ -260,6 +205,84 @@ static double found_within(const certifying *c, size_t water)
         if (budget_of(c, design_of(c->front, i)->flow) <= water)
             most = fmax(most, counted_area(c->search, design_of(c->front, i)));
     return most;
+}
+
+/* One for every point of the front and the proposal, where water for a nozzle is. */
+static bool plant_trees(certifying *c, sp_error *error)
+{
+    for (size_t i = 0; i <= c->front->count; i++) {
+        size_t water = budget_of(c, design_of(c->front, i)->flow);
+        c->found[i] = found_within(c, water);
+        if (water && !sp_tree_create(&c->branching, water, c->bound.by_water[water], c->found[i], &c->trees[i], error))
+            return false;
+    }
+    return true;
+}
+
+static bool prepare(certifying *c, sp_error *error)
+{
+    if (!set_tiers(c, error) || !set_texels(c, error))
+        return false;
+    c->prices = sp_pose_prices_create(c->search, &c->cover, c->tier_of, c->need, c->ports, error);
+    if (!c->prices)
+        return false;
+    if (!add_own(c, error) ||
+        !sp_pose_order_create(c->search, &c->cover, c->tier_of, c->ports, &c->nozzles, &c->order, error))
+        return false;
+    if (!sp_pose_line(c->prices, &c->order, &c->line, error))
+        return false;
+    c->pricer = sp_pose_pricer(c->prices);
+    c->trees = calloc(c->front->count + 1, sizeof *c->trees);
+    c->found = malloc((c->front->count + 1) * sizeof *c->found);
+    if (!c->trees || !c->found)
+        return sp_fail_memory(error);
+    return sp_bound_create(&c->cover, &c->pricer, &c->bound, error) &&
+           sp_rows_append(&c->bound.rows, &c->nozzles, error) &&
+           sp_branching_create(&c->cover, &c->line, &c->branching, error) && plant_trees(c, error);
+}
+
+/* True while there is time; that it ends here leaves the proposal as good as it is. */
+static bool goes_on(certifying *c, double done)
+{
+    double limit = c->watch->run.time_limit;
+    return (limit <= 0 || sp_watch_elapsed(c->watch) < limit) && sp_watch_goes_on(c->watch, "certificate", done);
+}
+
+/* Tells the trees of the prices that the bound was last proved with. */
+static bool tell_trees(certifying *c, sp_error *error)
+{
+    for (size_t i = 0; i <= c->front->count; i++)
+        if (!sp_tree_hear(&c->branching, &c->trees[i], &c->bound.dual.price, sp_pose_prices_last(c->prices), error))
+            return false;
+    return true;
+}
+
+/* Lowers the bound at this water. `done`: how far the certificate is. */
+static bool lower(certifying *c, size_t water, size_t rounds, double done, sp_error *error)
+{
+    for (size_t round = 0; round < rounds && goes_on(c, done); round++) {
+        if (!sp_bound_lower(&c->bound, water, error) || !tell_trees(c, error))
+            return false;
+        if (c->bound.closed && round >= ROUNDS_LIFTED)
+            break;
+    }
+    return true;
+}
+
+/* The least water for what the proposal covers: bounds are lowered where they first allow it, until some trials in a
+ * row yield nothing. */
+static bool lower_water(certifying *c, double area, size_t trials, size_t rounds, sp_error *error)
+{
+    size_t in_vain = 0;
+    for (size_t trial = 0; trial < trials && in_vain < IN_VAIN_MOST; trial++) {
+        size_t water = sp_bound_water(&c->bound, area);
+        if (!water || water > c->cover.water)
+            return true;
+        if (!lower(c, water, rounds, 0.3 + 0.3 * (double)trial / (double)trials, error))
+            return false;
+        in_vain = sp_bound_water(&c->bound, area) == water ? in_vain + 1 : 0;
+    }
+    return true;
 }
 
 /* Of the front's points and the proposal the one whose turn it is: the wider its gap and the less work
@@ -272,10 +295,8 @@ static size_t next_point(const certifying *c)
         const sp_tree *tree = &c->trees[i];
         size_t water = budget_of(c, design_of(c->front, i)->flow);
         double open = 1 - c->found[i] / c->bound.by_water[water];
-        double next = tree->alive ? tree->next_work : (double)c->line.count;
-        double score = open / (next + WORK_PAST * tree->work);
-        bool closed = tree->alive && sp_tree_closed(tree);
-        if (water && !closed && open > OPEN_LEAST && score > most) {
+        double score = open / (tree->next_work + WORK_PAST * tree->work);
+        if (!sp_tree_closed(tree) && open > OPEN_LEAST && score > most) {
             found = i;
             most = score;
         }
@@ -288,9 +309,6 @@ static bool grow_tree(certifying *c, size_t i, sp_error *error)
 {
     sp_tree *tree = &c->trees[i];
     size_t water = budget_of(c, design_of(c->front, i)->flow);
-    if (!tree->alive && (!sp_branching_take(&c->branching, &c->bound.rows, error) ||
-                         !sp_tree_create(&c->branching, water, c->bound.by_water[water], c->found[i], tree, error)))
-        return false;
     if (!sp_tree_step(&c->branching, tree, error))
         return false;
     double bound = sp_tree_bound(tree);
@@ -302,8 +320,8 @@ static bool grow_tree(certifying *c, size_t i, sp_error *error)
 /* Branch and bound at the points of the front in turn. */
 static bool lower_front(certifying *c, double work, sp_error *error)
 {
-    for (size_t i = 0; i <= c->front->count; i++)
-        c->found[i] = found_within(c, budget_of(c, design_of(c->front, i)->flow));
+    if (!sp_branching_take(&c->branching, &c->bound.rows, error))
+        return false;
     for (double done = 0; done < work;) {
         size_t i = next_point(c);
         if (i > c->front->count || !goes_on(c, 0.6 + 0.4 * done / work))
@@ -337,8 +355,9 @@ static bool lower_all(certifying *c, sp_error *error)
     for (size_t round = 0; round < ROUNDS_EXPLORING; round++)
         if (!sp_bound_explore(&c->bound, water, error))
             return false;
-    return sp_bound_lower(&c->bound, water, error) && sp_bound_lower_single(&c->bound, error) &&
-           lower(c, water, ROUNDS_FIRST - 1, 0.1, error) && lower_water(c, area, TRIALS_WATER, ROUNDS_WATER, error) &&
+    return sp_bound_lower(&c->bound, water, error) && tell_trees(c, error) && sp_bound_lower_single(&c->bound, error) &&
+           tell_trees(c, error) && lower(c, water, ROUNDS_FIRST - 1, 0.1, error) &&
+           lower_water(c, area, TRIALS_WATER, ROUNDS_WATER, error) &&
            lower_front(c, WORK_LEAST + WORK_EACH * (double)c->line.count, error) &&
            (!c->search->options->prove || prove(c, water, area, error));
 }

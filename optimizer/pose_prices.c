@@ -30,6 +30,7 @@ struct sp_pose_prices {
     const float *need;
     const size_t *ports;
     const sp_pose_order *order; /* NULL until a line is asked for */
+    float *last;                /* [order->line.count], see sp_pose_prices_last */
     best *bests;                /* [sites x makes] */
     int threads;
     scratch *scratches; /* [threads] */
@@ -82,6 +83,7 @@ void sp_pose_prices_destroy(sp_pose_prices *prices)
     for (int i = 0; prices->scratches && i < prices->threads; i++)
         free(prices->scratches[i].worth);
     free(prices->bests);
+    free(prices->last);
     free(prices->scratches);
     free(prices->field);
     free(prices->texels);
@@ -172,6 +174,8 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
                 if ((site + a * make->roll_count + r) % stride)
                     continue;
                 double price = price_of(prices, own, view, pose, &region);
+                if (stride == 1)
+                    prices->last[sp_pose_order_position(prices->order, pose)] = nextafterf((float)price, INFINITY);
                 if (price > fmax(found->price, least))
                     *found = (best){pose, price};
             }
@@ -254,12 +258,26 @@ static bool hand_out(const sp_pose_prices *prices, const double *needed, sp_rows
     return done;
 }
 
+/* Found nozzles, those that are alive; alive NULL: all. */
+static void price_found(const sp_pose_order *order, const sp_prices *u, const uint8_t *alive, float *price)
+{
+    for (size_t i = 0; i < order->block_count; i++) {
+        const sp_pose_block *found = &order->blocks[i];
+        for (size_t at = found->start; found->make == SP_NONE && at < found[1].start; at++) {
+            size_t row = order->own_order[found->site + at - found->start];
+            price[at] = !alive || alive[at] ? nextafterf((float)sp_rows_price(order->own, row, u), INFINITY) : 0;
+        }
+    }
+}
+
 static bool price_poses(void *user, const sp_prices *u, const double *needed, bool all, sp_offers *offers,
                         sp_rows *rows, sp_error *error)
 {
     sp_pose_prices *prices = user;
     const sp_search *search = prices->search;
     size_t makes = search->candidates->make_count, sites = search->sites->count;
+    memset(prices->last, 0, prices->order->line.count * sizeof *prices->last);
+    price_found(prices->order, u, NULL, prices->last);
 #pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
         price_site(prices, &prices->scratches[omp_get_thread_num()], (uint32_t)i, u, needed, all ? 1 : STRIDE, offers);
@@ -309,13 +327,7 @@ static bool price_line(void *user, const sp_prices *u, const uint8_t *alive, flo
                             alive, price);
     for (int i = 0; i < prices->threads; i++)
         sp_visibility_leave(prices->search->visibility, &prices->scratches[i].desk);
-    for (size_t i = 0; i < order->block_count; i++) {
-        const sp_pose_block *found = &order->blocks[i];
-        for (size_t at = found->start; found->make == SP_NONE && at < found[1].start; at++) {
-            size_t row = order->own_order[found->site + at - found->start];
-            price[at] = alive[at] ? nextafterf((float)sp_rows_price(order->own, row, u), INFINITY) : 0;
-        }
-    }
+    price_found(order, u, alive, price);
     return true;
 }
 
@@ -338,15 +350,21 @@ static size_t cut_line(void *user, size_t first, size_t end)
     return sp_pose_order_cut(prices->order, first, end);
 }
 
-sp_line sp_pose_line(sp_pose_prices *prices, const sp_pose_order *order)
+bool sp_pose_line(sp_pose_prices *prices, const sp_pose_order *order, sp_line *line, sp_error *error)
 {
-    sp_line line = order->line;
-    line.user = prices;
-    line.cut = cut_line;
-    line.price = price_line;
-    line.row = row_of_line;
+    *line = order->line;
+    line->user = prices;
+    line->cut = cut_line;
+    line->price = price_line;
+    line->row = row_of_line;
     prices->order = order;
-    return line;
+    prices->last = calloc(order->line.count + 1, sizeof *prices->last);
+    return prices->last || sp_fail_memory(error);
+}
+
+const float *sp_pose_prices_last(const sp_pose_prices *prices)
+{
+    return prices->last;
 }
 
 sp_pricer sp_pose_pricer(sp_pose_prices *prices)

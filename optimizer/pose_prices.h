@@ -20,8 +20,10 @@ sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *c
 void sp_pose_prices_destroy(sp_pose_prices *prices);
 /* The line of all poses and of order->own, whose arrays stay the order's, which is borrowed. Goes before the pricer:
  * the keys of rows are positions. */
-sp_line sp_pose_line(sp_pose_prices *prices, const sp_pose_order *order);
+bool sp_pose_line(sp_pose_prices *prices, const sp_pose_order *order, sp_line *line, sp_error *error);
 sp_pricer sp_pose_pricer(sp_pose_prices *prices);
+/* What the pricer found everything to be worth when it last priced all, by position of the line, rounded upwards. */
+const float *sp_pose_prices_last(const sp_pose_prices *prices);
 /* Appends a field (flux over threshold) as a row. */
 bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t tier,
                         sp_rows *rows, sp_error *error);
