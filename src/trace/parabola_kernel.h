@@ -66,19 +66,32 @@ typedef struct {
     float surely_first, surely_last; /* ways between which the flight is no farther from the chord */
 } chord;
 
+/* What rounding may move a sheared corner by, as the flight sees it. With e = 2^-24 and R = 1.02 + reach, the most that
+ * a corner is away from the chord's origin along an axis: a corner is off by e for itself and e R for its difference
+ * from the origin, and so it is along z; the shear, at most 1, by 3 e; the sheared corner's product and sum by e R and
+ * 2 e R: less than 10 e R. The chord's origin is off by e reach for the flight's, by 3 e of way and 6 e of sag way² for
+ * what is added to it, and e reach for the sum; its direction by e for the flight's, 2 e for 2 bend middle and e for
+ * the sum, over way: e (2 reach + 5 way + 14 sag way²) along an axis, as no speed is more than 1, and twice that when
+ * sheared. What double precision is off its flight is less than 8 e. */
+static inline float rounding_of(const sp_bvh_arc *arc, float reach, float way)
+{
+    float line = 2 * reach + 5 * way + 14 * arc->sag * way * way;
+    return 1.1f * 0x1p-24f * (10 * (1.02f + reach) + 2 * line + 8);
+}
+
 /* With r half the span, the flight is away from its tangent in the middle by bend (way - middle)², so that halfway to
  * the farthest it is off by at most bend r²/2 either way along each axis; when sheared, by no more if gravity is along
- * one axis, else by twice that: sag knows. The rounding of the line's origin is that of the polynomial above and
- * another 3 e; that of its direction, e each for direction and bend, 2 e for its sum and as much for the shear, makes
- * 12 e over the box; and of a sheared corner, as for lines, 13 e times 1.04 + the box: 28 + 3 + 12 + 27 = 70. */
+ * one axis, else by twice that: sag knows. */
 static inline chord chord_of(const sp_bvh_arc *arc, float from, float to)
 {
     chord c;
     float spare = 0x1p-4f * (to - from) + 16 * SP_BVH_PAD, r = 0.5f * (to - from) + spare, middle = 0.5f * (from + to);
-    float direction[3], half = 0.5f * r * r;
+    float direction[3], half = 0.5f * r * r, reach = 0;
     for (int k = 0; k < 3; k++) {
         direction[k] = arc->direction[k] + 2 * middle * arc->bend[k];
         c.origin[k] = arc->origin[k] + (arc->direction[k] + arc->bend[k] * middle) * middle + arc->bend[k] * half;
+        reach = fabsf(c.origin[k]) > reach ? fabsf(c.origin[k]) : reach;
+        reach = fabsf(arc->origin[k]) > reach ? fabsf(arc->origin[k]) : reach;
     }
     c.z = fabsf(direction[0]) > fabsf(direction[1]) ? 0 : 1;
     c.z = fabsf(direction[2]) > fabsf(direction[c.z]) ? 2 : c.z;
@@ -90,7 +103,7 @@ static inline chord chord_of(const sp_bvh_arc *arc, float from, float to)
     c.shear_x = direction[c.x] * inverse;
     c.shear_y = direction[c.y] * inverse;
     c.sign = direction[c.z] > 0 ? 1 : -1;
-    c.blur = 70 * 0x1p-24f + 1.001f * half * arc->sag;
+    c.blur = rounding_of(arc, reach, to + spare) + 1.001f * half * arc->sag;
     float slack = c.blur + 4 * SP_BVH_PAD;
     c.first = -r * speed - slack;
     c.last = (arc->last - middle) * speed + slack;

@@ -178,6 +178,20 @@ static inline void take_slopes(const sp_volley *v, const float add[3], volley_li
     }
 }
 
+/* How far rounding may move a sheared corner, as the jets see it. With e = 2^-24 and R = 1.02 + reach, the most that a
+ * corner is away from the lines' origin along an axis: a corner is off by e for itself and e R for its difference from
+ * the origin, along x and, times the slope, along z; shearing adds e R for the product, times the slope, and e R times
+ * 1 + slope for the sum: less than e R (3 + 4 slope). A slope is off by 3 of its e, for the inverse, the product and
+ * what the centre takes, over R. The origin O is off by e reach, what the bend adds to it, bend (r²/2 - middle²), by 5
+ * e of at most 1.5 bend way², their sum by e reach; directions by e for themselves, 2 e for 2 bend middle and e for the
+ * sum, over way: e (2 reach + 2 speed way + 14 bend way²) along an axis, times 1 + slope when sheared. What double
+ * precision is off its flight is less than e. */
+static inline float blur_of(float reach, float slope, float straight, float bent)
+{
+    float lines = 2 * reach + 2 * straight + 14 * bent;
+    return 1.1f * 0x1p-24f * ((1.02f + reach) * (3 + 7 * slope) + (1 + slope) * lines + 2);
+}
+
 /* False where they differ too much to be taken together. */
 static inline bool lines_of(const sp_volley *v, float from, float to, volley_lines *l)
 {
@@ -188,7 +202,8 @@ static inline bool lines_of(const sp_volley *v, float from, float to, volley_lin
         origin[k] = v->origin[k];
         if (k == v->steep)
             origin[k] += v->bend * (0.5f * r * r - middle * middle);
-        reach = fabsf(origin[k]) > reach ? fabsf(origin[k]) : reach;
+        float far = fabsf(origin[k]) > fabsf(v->origin[k]) ? fabsf(origin[k]) : fabsf(v->origin[k]);
+        reach = far > reach ? far : reach;
         fastest[k] = 0.5f * (v->least[k] + v->most[k]) + add[k];
     }
     int z = fabsf(fastest[0]) > fabsf(fastest[1]) ? 0 : 1;
@@ -206,24 +221,30 @@ static inline bool lines_of(const sp_volley *v, float from, float to, volley_lin
     l->from = from - spare;
     l->to = to + spare;
     take_slopes(v, add, l);
-    /* Slopes are at most 3 here: in units of 2^-24, a corner is off by 10 (1 + reach) as for lines, thrice that for the
-     * slopes, and a line by S each for direction, bend and their sum over its way. */
-    float slope = 1;
+    float slope = 1, speed = 0;
     for (int k = 0; k < 2; k++)
         slope = fabsf(l->centre[k]) + l->half[k] > slope ? fabsf(l->centre[k]) + l->half[k] : slope;
-    l->blur = 40 * 0x1p-24f * (2 + reach);
+    for (int k = 0; k < 3; k++) {
+        float most = fabsf(v->least[k]) > fabsf(v->most[k]) ? fabsf(v->least[k]) : fabsf(v->most[k]);
+        speed = most > speed ? most : speed;
+    }
+    l->blur = blur_of(reach, slope, speed * l->to, fabsf(v->bend) * l->to * l->to);
     l->sag = 0.5001f * fabsf(v->bend) * r * r * slope;
     return true;
 }
 
-/* What the jets need to know of a block, as in bundle_kernel.h. */
+/* What the jets need to know of a block, as in bundle_kernel.h. A jet that sees a corner at most m away sees all of
+ * them at most m + across away; a weight then is off by error + 4 (m + across) blur. */
 typedef struct {
-    float constant[3][8], by_u[3][8], by_v[3][8], depth[3][8], error[8], nearest[8], depth_error[8];
+    float constant[3][8], by_u[3][8], by_v[3][8], depth[3][8], x[8], y[8]; /* x, y: of the first corner */
+    float error[8], across[8], range[8], nearest[8];
 } volley_block;
 
-/* As prepare_block in bundle_kernel.h, where the error of rounding is derived. The bend moves all three corners alike,
- * by sag at most, and a weight by no more than that times what the triangle measures across the jets. Where a weight is
- * off by `error`, the mean of the corners' depths by weight is off by at most 4 errors' share of their difference. */
+/* As prepare_block in bundle_kernel.h, where the error of rounding is derived: 16 e M² + 4 m blur + 2 blur², M being
+ * the most that any jet sees of the corners, m what the one does that the weight is of. The bend moves all three
+ * corners alike, by sag at most, and a weight by no more than that times what the triangle measures across the jets.
+ * Where a weight is off by `error`, the mean of the corners' depths by weight is off by at most 4 errors' share of
+ * their difference. */
 static inline uint32_t prepare_volley_block(const sp_bvh_block *block, const volley_lines *l, volley_block *p)
 {
     wide x[3], y[3], z[3], sign = wide_set(l->sign), half_u = wide_set(l->half[0]), half_v = wide_set(l->half[1]);
@@ -256,7 +277,7 @@ static inline uint32_t prepare_volley_block(const sp_bvh_block *block, const vol
                             wide_greater_amount(x[2], y[2]));
     wide depth = wide_greater_amount(nearest, farthest);
     size = wide_multiply_add(wide_set(l->half[0] > l->half[1] ? l->half[0] : l->half[1]), depth, size);
-    wide error = wide_multiply_add(size, wide_multiply_add(size, wide_set(16 * 0x1p-24f), wide_set(4 * l->blur)),
+    wide error = wide_multiply_add(wide_multiply(size, size), wide_set(16 * 0x1p-24f),
                                    wide_set(2 * l->blur * l->blur + 0x1p-120f));
     wide range = wide_subtract(farthest, nearest);
     wide across = wide_multiply(wide_add(half_u, half_v), range);
@@ -279,10 +300,14 @@ static inline uint32_t prepare_volley_block(const sp_bvh_block *block, const vol
         wide_store(p->by_u[i], by_u);
         wide_store(p->by_v[i], by_v);
     }
-    meets &= wide_at_most(wide_subtract(wide_set(0), error), least) | wide_at_most(largest, error);
+    wide_store(p->x, x[0]);
+    wide_store(p->y, y[0]);
     wide_store(p->error, error);
+    wide_store(p->across, across);
+    wide_store(p->range, range);
     wide_store(p->nearest, wide_subtract(nearest, blur));
-    wide_store(p->depth_error, wide_multiply(wide_multiply(error, wide_set(4)), range));
+    error = wide_multiply_add(size, wide_set(4 * l->blur), error);
+    meets &= wide_at_most(wide_subtract(wide_set(0), error), least) | wide_at_most(largest, error);
     return meets;
 }
 
@@ -312,11 +337,15 @@ static inline void take(sp_volley *v, const volley_lines *l, int lane, uint32_t 
 /* Tests the jets against triangle i of the block; returns whether anything came of it. */
 static inline bool test_triangle(sp_volley *v, const volley_lines *l, const volley_block *p, int i, uint32_t triangle)
 {
-    wide error = wide_set(p->error[i]), minus = wide_set(-p->error[i]);
     bool taken = false;
     for (int group = 0; group < v->count; group += 8) {
         wide u = wide_load(l->u + group), w = wide_load(l->v + group), per_depth = wide_load(l->inverse + group),
              weight[3];
+        wide away = wide_greater_amount(wide_subtract_product(wide_set(p->x[i]), u, wide_set(p->depth[0][i])),
+                                        wide_subtract_product(wide_set(p->y[i]), w, wide_set(p->depth[0][i])));
+        wide error = wide_multiply_add(wide_add(away, wide_set(p->across[i])), wide_set(4 * l->blur),
+                                       wide_set(p->error[i])),
+             minus = wide_subtract(wide_set(0), error);
         for (int k = 0; k < 3; k++)
             weight[k] = wide_multiply_add(u, wide_set(p->by_u[k][i]),
                                           wide_multiply_add(w, wide_set(p->by_v[k][i]), wide_set(p->constant[k][i])));
@@ -330,9 +359,10 @@ static inline bool test_triangle(sp_volley *v, const volley_lines *l, const voll
         wide depth = wide_multiply(weight[0], wide_set(p->depth[0][i]));
         depth = wide_multiply_add(weight[1], wide_set(p->depth[1][i]), depth);
         depth = wide_multiply(wide_multiply_add(weight[2], wide_set(p->depth[2][i]), depth), inverse);
-        wide blur = wide_multiply_add(wide_absolute(inverse), wide_set(p->depth_error[i]), wide_set(l->blur + l->sag));
+        wide unsure = wide_multiply(wide_multiply(error, wide_set(4)), wide_set(p->range[i]));
+        wide blur = wide_multiply_add(wide_absolute(inverse), unsure, wide_set(2 * l->blur + l->sag));
         uint32_t sure = (wide_at_most(error, least) | wide_at_most(largest, minus)) &
-                        wide_at_most(wide_set(8 * p->error[i]), wide_absolute(sum));
+                        wide_at_most(wide_multiply(error, wide_set(8)), wide_absolute(sum));
         float low[8], high[8];
         wide_store(low, wide_multiply(wide_subtract(depth, blur), per_depth));
         wide_store(high, wide_multiply(wide_add(depth, blur), per_depth));
