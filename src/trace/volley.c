@@ -10,7 +10,14 @@
 #define FARTHEST 4.0f
 #define LONGEST 64.0f
 
-enum { LEAST = 4 };                 /* fewer are traced one by one */
+enum {
+    LEAST = 4, /* fewer are left over */
+    /* Where a volley meets more triangles to a jet than this, its jets are faster by themselves: so many of the volleys
+     * that follow are left over, too, before one is tried again, and twice as many each time, but for a limit. */
+    SPARSE = 4,
+    REST_LEAST = 15,
+    REST_MOST = 240,
+};
 static const float breadth = 0.25f; /* the most that the directions of a volley differ along an axis */
 
 typedef struct {
@@ -162,6 +169,7 @@ static size_t fill(const sheaf *s, size_t from, sp_volley *v)
         v->high[i] = -1;
     }
     v->count = count;
+    v->met = 0;
     return (size_t)count;
 }
 
@@ -198,15 +206,23 @@ static void search_all(const sheaf *s, sp_instructions instructions, sp_volley *
 {
     static void (*const searches[])(sp_volley *) = {sp_volley_search_portable, sp_volley_search_avx2,
                                                     sp_volley_search_avx512};
+    int rests = 0, rest = REST_LEAST;
     for (size_t i = 0; i < s->taken;) {
         i += fill(s, i, volley);
-        if (volley->count < LEAST) {
+        if (volley->count < LEAST || rests > 0) {
             for (int k = 0; k < volley->count; k++)
                 left[(*others)++] = volley->ray[k];
+            rests -= rests > 0;
             continue;
         }
         searches[instructions](volley);
         answer(volley, instructions, hits, occluded);
+        if (volley->met > SPARSE * volley->count) {
+            rests = rest;
+            rest = rest < REST_MOST ? 2 * rest : rest;
+        } else {
+            rest = REST_LEAST;
+        }
     }
 }
 

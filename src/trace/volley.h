@@ -18,6 +18,7 @@ typedef struct {
     uint32_t triangle[SP_VOLLEY];             /* the best so far */
     uint32_t skip[SP_VOLLEY], ray[SP_VOLLEY]; /* ray: its number among `rays` */
     int count;
+    int met;   /* triangles that some may have met: each counts as often as it was looked at */
     int steep; /* the axis of gravity */
     float origin[3], bend;
     float least[3], most[3]; /* the range of direction */

@@ -395,6 +395,7 @@ static void search_volley_block(sp_volley *v, const volley_slabs *s, const sp_bv
     if (lines_of(v, from, to, &l)) {
         for (uint32_t rest = prepare_volley_block(block, &l, &p); rest; rest &= rest - 1) {
             int i = __builtin_ctz(rest);
+            v->met++;
             taken |= test_triangle(v, &l, &p, i, block->triangle[i]);
         }
     } else {
