@@ -73,9 +73,8 @@ static void find_needed(sp_bound *bound, size_t water)
                                : most - bound->table[cover->nozzles * (water + 1) - 1 - cover->weight[k]];
 }
 
-/* Prices all candidates on top of the few and lowers every bound that these prices lower;
- * `water`.
- */
+/* Prices all candidates on top of the few and lowers every bound that these prices lower; `proved` is the one at
+ * `water`. */
 static bool prove(sp_bound *bound, size_t water, sp_error *error)
 {
     const sp_cover *cover = bound->cover;

@@ -10,12 +10,13 @@
 #define ROUNDS_EXPLORING 4 /* of looking at some of the poses first */
 #define ROUNDS_FIRST 2     /* of pricing all poses, at the proposal's water */
 #define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
-#define TRIALS_WATER 6     /* such waters */
+#define TRIALS_WATER 5     /* such waters */
 #define IN_VAIN_MOST 3     /* of these in a row that yield nothing */
 #define WORK_LEAST 1e6     /* of branch and bound at the front's points, see sp_tree */
-#define WORK_EACH 8        /* the same, besides, in pricings of all candidates */
+#define WORK_EACH 10       /* the same, besides, in pricings of all candidates */
 #define WORK_PROVING 1e10  /* with --prove, where no time limit ends it */
-#define WORK_PAST 0.05     /* what a point has taken counts so much, beside what its next step takes */
+#define WORK_FIRST 1.5     /* of a point, in pricings of all candidates */
+#define WORK_PAST 0.2      /* what a point has taken counts so much, beside what its next step takes */
 #define ROUNDS_LIFTED 3    /* at least, so that the lifts have settled */
 #define ROUNDS_PROVING 2   /* with --prove, at the proposal's water, and trials of water */
 #define ROUNDS_WATER_PROVING 1
@@ -43,6 +44,7 @@ typedef struct {
     sp_bound bound;
     sp_branching branching;
     sp_tree *trees; /* [front->count + 1], by points, then the proposal's; empty where it takes no water */
+    bool *begun;    /* the same, whether it had a turn */
     double *found;  /* the same, m² that a layout found with no more water covers */
 } certifying;
 
@@ -52,6 +54,7 @@ static void certifying_free(certifying *c)
         sp_tree_free(&c->trees[i]);
     free(c->trees);
     free(c->found);
+    free(c->begun);
     sp_branching_free(&c->branching);
     sp_bound_free(&c->bound);
     sp_pose_order_free(&c->order);
@@ -234,7 +237,8 @@ static bool prepare(certifying *c, sp_error *error)
     c->pricer = sp_pose_pricer(c->prices);
     c->trees = calloc(c->front->count + 1, sizeof *c->trees);
     c->found = malloc((c->front->count + 1) * sizeof *c->found);
-    if (!c->trees || !c->found)
+    c->begun = calloc(c->front->count + 1, sizeof *c->begun);
+    if (!c->trees || !c->found || !c->begun)
         return sp_fail_memory(error);
     return sp_bound_create(&c->cover, &c->pricer, &c->bound, error) &&
            sp_rows_append(&c->bound.rows, &c->nozzles, error) &&
@@ -295,7 +299,8 @@ static size_t next_point(const certifying *c)
         const sp_tree *tree = &c->trees[i];
         size_t water = budget_of(c, design_of(c->front, i)->flow);
         double open = 1 - c->found[i] / c->bound.by_water[water];
-        double score = open / (tree->next_work + WORK_PAST * tree->work);
+        double next = c->begun[i] ? tree->next_work : WORK_FIRST * (double)c->line.count;
+        double score = open / (next + WORK_PAST * tree->work);
         if (!sp_tree_closed(tree) && open > OPEN_LEAST && score > most) {
             found = i;
             most = score;
@@ -304,11 +309,18 @@ static size_t next_point(const certifying *c)
     return found;
 }
 
-/* One step of branch and bound at a point of the front, which lowers all bounds up to its water. */
+/* A first turn at a point of the front prices all candidates, which all trees hear of; each further one is a step of
+ * its tree, which lowers all bounds up to its water. */
 static bool grow_tree(certifying *c, size_t i, sp_error *error)
 {
     sp_tree *tree = &c->trees[i];
     size_t water = budget_of(c, design_of(c->front, i)->flow);
+    if (!c->begun[i]) {
+        c->begun[i] = true;
+        tree->work += WORK_FIRST * (double)c->line.count;
+        return sp_bound_lower(&c->bound, water, error) && tell_trees(c, error) &&
+               sp_branching_take(&c->branching, &c->bound.rows, error);
+    }
     if (!sp_tree_step(&c->branching, tree, error))
         return false;
     double bound = sp_tree_bound(tree);
@@ -352,7 +364,7 @@ static bool lower_all(certifying *c, sp_error *error)
 {
     size_t water = budget_of(c, c->front->best.flow);
     double area = counted_area(c->search, &c->front->best);
-    for (size_t round = 0; round < ROUNDS_EXPLORING; round++)
+    for (size_t round = 0; round < ROUNDS_EXPLORING && goes_on(c, 0.02 * (double)round); round++)
         if (!sp_bound_explore(&c->bound, water, error))
             return false;
     return sp_bound_lower(&c->bound, water, error) && tell_trees(c, error) && sp_bound_lower_single(&c->bound, error) &&

@@ -61,88 +61,6 @@ static bool make_room(sp_dual *dual, size_t rows)
     return true;
 }
 
-void sp_hybrid_free(sp_hybrid *h)
-{
-    free(h->tau);
-    free(h->cover);
-    free(h->lifted);
-    sp_prices_free(&h->u_last);
-    sp_prices_free(&h->u_mean);
-    free(h->table);
-    sp_offers_free(&h->offers);
-}
-
-/* All doubles in one block. */
-static bool allocate(sp_hybrid *h, sp_error *error)
-{
-    const sp_cover *cover = h->dual->cover;
-    size_t rows = h->rows->count, texels = cover->texel_count;
-    h->resources = 2 + cover->port_count + h->task->slot_count;
-    if (h->task->water + 1 > SIZE_MAX / sizeof(double) / (h->task->nozzles + 1))
-        return sp_fail_memory(error);
-    h->tau = calloc(6 * rows + 6 * texels + 6 * h->resources + 1, sizeof *h->tau);
-    h->cover = calloc(2 * texels + 1, sizeof *h->cover);
-    h->table = malloc((h->task->nozzles + 1) * (h->task->water + 1) * sizeof *h->table);
-    if (!h->tau || !h->cover || !h->table || !make_room(h->dual, rows))
-        return sp_fail_memory(error);
-    h->price = h->tau + rows;
-    h->price_sum = h->price + rows;
-    h->x_sum = h->price_sum + rows;
-    h->x_bar = h->x_sum + rows;
-    h->x_start = h->x_bar + rows;
-    h->sigma = h->x_start + rows;
-    h->u_sum = h->sigma + 2 * texels;
-    h->u_start = h->u_sum + 2 * texels;
-    h->sigma_resource = h->u_start + 2 * texels;
-    h->load = h->sigma_resource + h->resources;
-    h->use = h->load + h->resources;
-    h->resource_sum = h->use + h->resources;
-    h->dual_resource = h->resource_sum + h->resources;
-    h->slot_best = h->dual_resource + h->resources;
-    return sp_offers_create(cover->tier_count, cover->weight, cover->port_count, h->task->nozzles + 1, cover->repeats,
-                            &h->offers, error) &&
-           sp_prices_create(cover, &h->u_last, error) && sp_prices_create(cover, &h->u_mean, error);
-}
-
-/* The rows' shares as the texels' lifts make them. What they are worth changes with the lifts. */
-static bool lift_rows(sp_hybrid *h, sp_error *error)
-{
-    sp_prices *const all[] = {&h->dual->u, &h->u_last, &h->u_mean};
-    const sp_rows *rows = h->rows;
-    for (size_t i = 0; i < 3; i++) {
-        all[i]->lifts = h->task->lifts;
-        memcpy(all[i]->kind, h->dual->u.kind, h->dual->texels);
-    }
-    if (!h->task->lifts) {
-        memset(h->dual->u.lifted, 0, h->dual->texels * sizeof *h->dual->u.lifted);
-        return true;
-    }
-    h->lifted = malloc((rows->used + 1) * sizeof *h->lifted);
-    if (!h->lifted)
-        return sp_fail_memory(error);
-    for (size_t i = 0; i < rows->used; i++)
-        h->lifted[i] = sp_lift(h->task->lifts, h->dual->u.kind[rows->texel[i]], rows->share[i]);
-    return true;
-}
-
-bool sp_hybrid_create(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_hybrid *h, sp_error *error)
-{
-    *h = (sp_hybrid){.dual = dual, .rows = rows, .task = task, .gap_start = INFINITY};
-    if (!allocate(h, error) || !lift_rows(h, error)) {
-        sp_hybrid_free(h);
-        return false;
-    }
-    if (rows->count)
-        memcpy(h->x_start, dual->x, rows->count * sizeof *dual->x);
-    for (size_t t = 0; t < dual->texels; t++) {
-        h->u_start[t] = (double)dual->u.plain[t];
-        h->u_start[dual->texels + t] = (double)dual->u.lifted[t];
-    }
-    if (!task->slot_count)
-        memcpy(h->dual_resource, dual->dual_resource, h->resources * sizeof *h->dual_resource);
-    return true;
-}
-
 bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_error *error)
 {
     sp_hybrid h;
@@ -152,6 +70,8 @@ bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task,
             area += (double)dual->cover->area[t];
         dual->weight = fmax(WEIGHT_FIRST * area / (double)(dual->texels ? dual->texels : 1), 1e-30);
     }
+    if (!make_room(dual, rows->count))
+        return sp_fail_memory(error);
     if (!sp_hybrid_create(dual, rows, task, &h, error))
         return false;
     dual->bound = INFINITY;

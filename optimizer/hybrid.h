@@ -28,12 +28,18 @@ typedef struct {
     double gap_start;
 } sp_hybrid;
 
+/* dual->x and dual->choice have room for all rows. */
 bool sp_hybrid_create(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_hybrid *h, sp_error *error);
 void sp_hybrid_free(sp_hybrid *h);
 void sp_hybrid_step(sp_hybrid *h);
 /* Looks at where the steps stand and at their average, and notes in the dual what is best; true where bound and linear
  * program are near enough. */
 bool sp_hybrid_look(sp_hybrid *h, size_t iteration);
+
+static inline uint32_t sp_hybrid_slot(const sp_hybrid *h, size_t row)
+{
+    return h->task->slot_of ? h->task->slot_of[row] : SP_NO_SLOT;
+}
 
 /* What one unit of a row takes: of how many resources, which, and how much. */
 typedef struct {

@@ -3,107 +3,6 @@
 #include <math.h>
 #include <omp.h>
 
-static uint32_t slot_of(const sp_hybrid *h, size_t row)
-{
-    return h->task->slot_of ? h->task->slot_of[row] : SP_NO_SLOT;
-}
-
-/* Nozzles that all limits together let in. */
-static double nozzles_of(const sp_hybrid *h)
-{
-    double nozzles = (double)h->task->nozzles;
-    for (size_t i = 0; i < h->task->slot_count; i++)
-        nozzles += (double)h->task->slot_room[i];
-    return nozzles;
-}
-
-sp_takes sp_hybrid_takes(const sp_hybrid *h, size_t row)
-{
-    const sp_cover *cover = h->dual->cover;
-    uint32_t slot = slot_of(h, row);
-    double one = h->scale / nozzles_of(h);
-    if (slot != SP_NO_SLOT)
-        return (sp_takes){1, {2 + cover->port_count + slot}, {one}};
-    sp_takes takes = {2, {0, 1}, {h->scale * cover->weight[h->rows->tier[row]] / (double)h->task->water, one}};
-    if (h->rows->port[row] != SP_NO_PORT) {
-        takes.resource[2] = 2 + h->rows->port[row];
-        takes.amount[2] = one;
-        takes.count = 3;
-    }
-    return takes;
-}
-
-double sp_hybrid_limit(const sp_hybrid *h, size_t resource)
-{
-    size_t ports = h->dual->cover->port_count;
-    double one = h->scale / nozzles_of(h);
-    if (resource == 0)
-        return h->scale;
-    if (resource == 1)
-        return one * (double)h->task->nozzles;
-    return resource < 2 + ports ? one : one * (double)h->task->slot_room[resource - 2 - ports];
-}
-
-static bool can_choose(const sp_hybrid *h, size_t row)
-{
-    uint32_t slot = slot_of(h, row);
-    if (slot == SP_SHUT_OUT || h->rows->start[row + 1] == h->rows->start[row])
-        return false;
-    return slot != SP_NO_SLOT || (h->task->nozzles && h->dual->cover->weight[h->rows->tier[row]] <= h->task->water);
-}
-
-/* Sums of columns, into tau, and of the texels' rows, into sigma. */
-static void add_shares(sp_hybrid *h, double *mean)
-{
-    const sp_rows *rows = h->rows;
-    size_t texels = h->dual->texels, chosen = 0;
-    for (size_t t = 0; t < 2 * texels; t++)
-        h->sigma[t] = 0;
-    *mean = 0;
-    for (size_t c = 0; c < rows->count; c++) {
-        h->tau[c] = 0;
-        if (!can_choose(h, c)) {
-            h->dual->x[c] = 0;
-            continue;
-        }
-        for (size_t i = rows->start[c]; i < rows->start[c + 1]; i++) {
-            h->tau[c] += (double)rows->share[i];
-            h->sigma[rows->texel[i]] += (double)rows->share[i];
-            if (h->lifted) {
-                h->tau[c] += (double)h->lifted[i];
-                h->sigma[texels + rows->texel[i]] += (double)h->lifted[i];
-            }
-        }
-        *mean += h->tau[c];
-        chosen++;
-    }
-    *mean = chosen ? *mean / (double)chosen : 0;
-}
-
-/* Diagonal steps: the inverse sums of rows and columns. */
-static void set_steps(sp_hybrid *h)
-{
-    double mean;
-    add_shares(h, &mean);
-    h->scale = mean > 0 ? 0.5 * mean * nozzles_of(h) : 1;
-    for (size_t r = 0; r < h->resources; r++)
-        h->load[r] = 0;
-    for (size_t c = 0; c < h->rows->count; c++) {
-        if (h->tau[c] <= 0)
-            continue;
-        sp_takes takes = sp_hybrid_takes(h, c);
-        for (size_t k = 0; k < takes.count; k++) {
-            h->load[takes.resource[k]] += takes.amount[k];
-            h->tau[c] += takes.amount[k];
-        }
-        h->tau[c] = 1 / h->tau[c];
-    }
-    for (size_t t = 0; t < 2 * h->dual->texels; t++)
-        h->sigma[t] = h->sigma[t] > 0 ? 1 / h->sigma[t] : 0;
-    for (size_t r = 0; r < h->resources; r++)
-        h->sigma_resource[r] = h->load[r] > 0 ? 1 / h->load[r] : 0;
-}
-
 static size_t lower_bound(const uint32_t *texel, size_t first, size_t end, size_t least)
 {
     while (first < end) {
@@ -197,7 +96,7 @@ static void step_texel(sp_hybrid *h, size_t t)
 
 static double most_of(const sp_hybrid *h, size_t row)
 {
-    uint32_t slot = slot_of(h, row);
+    uint32_t slot = sp_hybrid_slot(h, row);
     if (!h->dual->cover->repeats || (slot == SP_NO_SLOT && h->rows->port[row] != SP_NO_PORT))
         return 1;
     return slot == SP_NO_SLOT ? (double)h->task->nozzles : (double)h->task->slot_room[slot];
@@ -229,8 +128,6 @@ static void step_rows(sp_hybrid *h)
 void sp_hybrid_step(sp_hybrid *h)
 {
     sp_dual *dual = h->dual;
-    if (!(h->scale > 0))
-        set_steps(h);
     find_prices(h);
     step_rows(h);
     sp_hybrid_add_up(h, h->x_bar);

@@ -155,7 +155,7 @@ static bool put_front(json_t *root, const sp_proposal *proposal, double clean_ar
 static bool put_certificate(json_t *root, const sp_certificate *found)
 {
     json_t *certificate = json_object();
-    bool done = put_text(certificate, "method", "lagrangian dual") &&
+    bool done = put_text(certificate, "method", "lagrangian dual, branch and bound") &&
                 put_real(certificate, "coverage", found->counted / found->whole) &&
                 put_real(certificate, "coverage_bound_same_water", found->area_bound / found->whole) &&
                 put_real(certificate, "water_bound_same_coverage_l_min", 6e4 * found->water_bound) &&

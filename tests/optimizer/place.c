@@ -157,6 +157,17 @@ static void nothing_exceeds_the_certificate(void **state)
         assert_true(certificate->area_bound < 1.25 * best_of_two(&j));
         for (size_t i = 0; i < proposal->front_count; i++)
             assert_true(proposal->front[i].bound >= proposal->front[i].counted);
+        /* with branch and bound to its end it still holds, and is no longer above the best there is */
+        j.options.prove = true;
+        sp_proposal *proved = job_place(&j);
+        assert_true(proved->certificate.area_bound <= certificate->area_bound);
+        assert_true(proved->certificate.water_bound >= certificate->water_bound);
+        assert_true(proved->certificate.area_bound + 1e-5 >= best_of_two(&j));
+        assert_true(proved->certificate.area_bound <= best_of_two(&j) * 1.01);
+        for (size_t i = 0; i < proved->front_count; i++)
+            assert_true(proved->front[i].bound >= proved->front[i].counted &&
+                        proved->front[i].bound <= proposal->front[i].bound);
+        sp_proposal_destroy(proved);
         sp_proposal_destroy(proposal);
         room_close(&j.room);
     }

@@ -1,8 +1,10 @@
-/* The gap between bound and a layout found by greedy and exchange, on random instances of a size that matters. With
- * arguments CANDIDATES EDGE ROUNDS it only measures that size. */
+/* The gap between bound and a layout found by greedy, exchange and kicks, on random instances of a size that matters.
+ * With arguments CANDIDATES EDGE ROUNDS KICKS STEPS it only measures that size: rounds of the bound, kicks of the
+ * search, steps of branch and bound. */
 #include "instance.h"
 
 #include "bound.h"
+#include "branch.h"
 
 #include <stdio.h>
 #include <time.h>
@@ -13,10 +15,16 @@
 #ifdef SPRAYPLAN_SANITIZE
 #define CANDIDATES 300
 #define EDGE 50
+#define KICKS 2
 #else
 #define CANDIDATES 2000
 #define EDGE 141
+#define KICKS 20
 #endif
+#define ROUNDS 6
+#define STEPS 4
+#define LOOKED_AT 64 /* candidates of those that a sample of their texels promises most of */
+#define SAMPLE 3000  /* texels of a candidate, about */
 
 typedef struct {
     const instance *in;
@@ -54,41 +62,62 @@ static double covered(const layout *l)
     return area;
 }
 
-/* The candidate of most gain, per water to the given power; `credit` for what is on the way. */
+/* What every stride-th texel of a row, from the first on, adds; `credit` for what is on the way. */
+static double gain_of(const layout *l, size_t row, double credit, size_t stride)
+{
+    const sp_rows *rows = &l->in->rows;
+    double gain = 0;
+    for (size_t i = rows->start[row]; i < rows->start[row + 1]; i += stride) {
+        float had = l->wet[rows->texel[i]], has = had + rows->share[i];
+        if (!is_wet(had))
+            gain += (double)l->in->area[rows->texel[i]] * (is_wet(has) ? 1 : credit * (double)rows->share[i]);
+    }
+    return gain * (double)stride;
+}
+
+/* The candidate of most gain, per water to the given power, of those that a sample promises most of. */
 static size_t best_row(layout *l, double credit, double power, double *most)
 {
     const sp_rows *rows = &l->in->rows;
-
+    size_t stride = rows->used / (rows->count * SAMPLE) + 1, best = 0;
     for (size_t c = 0; c < rows->count; c++) {
-        double gain = 0;
-        for (size_t i = rows->start[c]; i < rows->start[c + 1]; i++) {
-            float had = l->wet[rows->texel[i]], has = had + rows->share[i];
-            if (!is_wet(had))
-                gain += (double)l->in->area[rows->texel[i]] * (is_wet(has) ? 1 : credit * (double)rows->share[i]);
-        }
         bool fits = l->water + l->in->weight[rows->tier[c]] <= WATER;
-        l->gain[c] = fits ? gain / pow(l->in->weight[rows->tier[c]], power) : -1;
+        l->gain[c] = fits ? gain_of(l, c, credit, stride) / pow(l->in->weight[rows->tier[c]], power) : -1;
     }
-    size_t best = 0;
-    for (size_t c = 1; c < rows->count; c++)
-        if (l->gain[c] > l->gain[best])
-            best = c;
-    *most = l->gain[best];
+    *most = -1;
+    for (size_t looked = 0; looked < (stride > 1 ? LOOKED_AT : 1); looked++) {
+        size_t next = 0;
+        for (size_t c = 1; c < rows->count; c++)
+            if (l->gain[c] > l->gain[next])
+                next = c;
+        if (l->gain[next] < 0)
+            break;
+        double gain = gain_of(l, next, credit, 1) / pow(l->in->weight[rows->tier[next]], power);
+        l->gain[next] = -1;
+        if (gain > *most) {
+            *most = gain;
+            best = next;
+        }
+    }
     return best;
 }
 
-/* Greedy, then single exchanges until none helps; the area covered. */
-static double find(layout *l, double power)
+static void fill(layout *l, double credit, double power)
 {
     double most;
-    for (l->count = 0; l->count < NOZZLES; l->count++) {
-        size_t best = best_row(l, 0.2, power, &most);
+    while (l->count < NOZZLES) {
+        size_t best = best_row(l, credit, power, &most);
         if (most <= 0)
             break;
         put(l, best, 1);
-        l->chosen[l->count] = best;
+        l->chosen[l->count++] = best;
     }
-    double area = covered(l);
+}
+
+/* Single exchanges until none helps; the area covered. */
+static double exchange(layout *l)
+{
+    double most, area = covered(l);
     for (bool better = true; better;) {
         better = false;
         for (size_t k = 0; k < l->count; k++) {
@@ -106,64 +135,135 @@ static double find(layout *l, double power)
     return area;
 }
 
-static double best_found(const instance *in)
+/* Takes one to three nozzles out, fills up by some measure of gain, exchanges; stays where that is no worse. */
+static double kick(layout *l, double area, uint64_t *seed)
+{
+    size_t chosen[NOZZLES], count = l->count, drop = 1 + (size_t)(3 * instance_random(seed));
+    double power = instance_random(seed), credit = 0.5 * instance_random(seed);
+    memcpy(chosen, l->chosen, sizeof chosen);
+    for (; drop && l->count; drop--) {
+        size_t k = (size_t)((double)l->count * instance_random(seed));
+        put(l, l->chosen[k], -1);
+        l->chosen[k] = l->chosen[--l->count];
+    }
+    if (instance_random(seed) < 0.5) {
+        size_t any = (size_t)((double)l->in->rows.count * instance_random(seed));
+        if (l->count < NOZZLES && l->water + l->in->weight[l->in->rows.tier[any]] <= WATER) {
+            put(l, any, 1);
+            l->chosen[l->count++] = any;
+        }
+    }
+    fill(l, credit, power);
+    double now = exchange(l);
+    if (now >= area)
+        return now;
+    while (l->count)
+        put(l, l->chosen[--l->count], -1);
+    for (; l->count < count; l->count++)
+        put(l, l->chosen[l->count] = chosen[l->count], 1);
+    return area;
+}
+
+/* `kicks` of them, after the best of three starts. */
+static double best_found(const instance *in, size_t kicks)
 {
     static const double powers[] = {1, 0.5, 0};
-    double best = 0;
-    for (int i = 0; i < 3; i++) {
+    layout best = {0};
+    double area = -1;
+    uint64_t seed = 99;
+    for (int i = 0; i < (kicks ? 3 : 1); i++) {
         layout l = {.in = in};
         l.wet = calloc(in->cover.texel_count, sizeof *l.wet);
         l.gain = malloc(in->rows.count * sizeof *l.gain);
-        best = fmax(best, find(&l, powers[i]));
-        free(l.wet);
-        free(l.gain);
+        fill(&l, 0.2, powers[i]);
+        double now = exchange(&l);
+        layout worse = now > area ? best : l;
+        best = now > area ? l : best;
+        area = fmax(area, now);
+        free(worse.wet);
+        free(worse.gain);
     }
-    return best;
+    for (size_t k = 0; k < kicks; k++)
+        area = kick(&best, area, &seed);
+    free(best.wet);
+    free(best.gain);
+    return area;
 }
 
-static double measure(size_t candidates, size_t edge, bool single, double plenty, size_t rounds)
+/* Goes on with branch and bound. */
+static double branch(const instance *in, double bound, double found, size_t steps)
+{
+    sp_error error = {0};
+    sp_stored_line stored;
+    sp_branching b;
+    sp_tree tree;
+    assert_true(sp_stored_line_create(&in->cover, &in->rows, &stored, &error));
+    assert_true(sp_branching_create(&in->cover, &stored.line, &b, &error));
+    assert_true(sp_tree_create(&b, WATER, bound, found, &tree, &error));
+    while (!sp_tree_closed(&tree) && tree.steps < steps)
+        assert_true(sp_tree_step(&b, &tree, &error));
+    double lower = sp_tree_bound(&tree);
+    sp_tree_free(&tree);
+    sp_branching_free(&b);
+    sp_stored_line_free(&stored);
+    return lower;
+}
+
+typedef struct {
+    size_t candidates, edge, rounds, kicks, steps;
+} effort;
+
+static double measure(effort e, bool single, double plenty)
 {
     instance in;
     sp_error error = {0};
-    instance_create(&in, candidates, edge, single, NOZZLES, WATER, 0, plenty, SEED);
+    instance_create(&in, e.candidates, e.edge, single, NOZZLES, WATER, 0, plenty, SEED);
     in.cover.threads = 2;
-    double start = seconds(), found = best_found(&in), searched = seconds();
+    double start = seconds(), found = best_found(&in, e.kicks), searched = seconds();
     sp_stored stored = {&in.cover, &in.rows, 300};
     sp_pricer pricer = sp_stored_pricer(&stored);
     sp_bound bound;
     assert_true(sp_bound_create(&in.cover, &pricer, &bound, &error));
-    for (size_t round = 0; round < rounds; round++)
+    for (size_t round = 0; round < e.rounds; round++)
         assert_true(sp_bound_lower(&bound, WATER, &error));
-    double area = bound.by_water[WATER], gap = 1 - found / area;
-    print_message(
-        "%zu candidates, %zu texels, %s, plenty %g: found %.4f in %.1f s, bound %.4f in %.1f s, gap %.2f %%\n",
-        candidates, edge * edge, single ? "single" : "sum", plenty, found, searched - start, area, seconds() - searched,
-        100 * gap);
-    assert_true(area >= found);
+    double area = bound.by_water[WATER], bounded = seconds();
+    double proved = e.steps ? branch(&in, area, found, e.steps) : area;
+    print_message("%zu candidates, %zu texels, %s, plenty %g: found %.4f in %.1f s; bound %.4f in %.1f s, gap %.2f %%; "
+                  "by branching %.4f in %.1f s, gap %.2f %%\n",
+                  e.candidates, e.edge * e.edge, single ? "single" : "sum", plenty, found, searched - start, area,
+                  bounded - searched, 100 * (1 - found / area), proved, seconds() - bounded,
+                  100 * (1 - found / proved));
+    assert_true(area >= proved);
+    assert_true(proved >= found);
     sp_bound_free(&bound);
     instance_free(&in);
-    return gap;
+    return 1 - found / proved;
 }
+
+static const effort usual = {CANDIDATES, EDGE, ROUNDS, KICKS, STEPS};
 
 static void one_nozzle_alone(void **state)
 {
     (void)state;
-    assert_true(measure(CANDIDATES, EDGE, true, 1, 6) <= 0.05);
+    assert_true(measure(usual, true, 1) <= 0.05);
 }
 
 static void all_together(void **state)
 {
     (void)state;
-    assert_true(measure(CANDIDATES, EDGE, false, 1, 6) <= 0.15);
+    assert_true(measure(usual, false, 1) <= 0.15);
 }
 
 int main(int count, char **arguments)
 {
-    if (count == 4) {
+    if (count == 6) {
+        effort e;
+        size_t *const values[] = {&e.candidates, &e.edge, &e.rounds, &e.kicks, &e.steps};
+        for (int i = 0; i < 5; i++)
+            *values[i] = strtoul(arguments[i + 1], NULL, 10);
         for (int single = 0; single < 2; single++)
             for (int plenty = 0; plenty < 2; plenty++)
-                measure(strtoul(arguments[1], NULL, 10), strtoul(arguments[2], NULL, 10), single, plenty ? 1 : 0.33,
-                        strtoul(arguments[3], NULL, 10));
+                measure(e, single, plenty ? 1 : 0.33);
         return 0;
     }
     const struct CMUnitTest tests[] = {
