@@ -10,11 +10,12 @@
 #define ROUNDS_EXPLORING 4 /* of looking at some of the poses first */
 #define ROUNDS_FIRST 2     /* of pricing all poses, at the proposal's water */
 #define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
-#define TRIALS_WATER 5     /* such waters */
-#define IN_VAIN_MOST 3     /* of these in a row that yield nothing */
+#define TRIALS_WATER 3     /* such waters */
+#define IN_VAIN_MOST 2     /* of these in a row that yield nothing */
 #define WORK_LEAST 1e6     /* of branch and bound at the front's points, see sp_tree */
 #define WORK_EACH 10       /* the same, besides, in pricings of all candidates */
 #define WORK_PROVING 1e10  /* with --prove, where no time limit ends it */
+#define WATER_LIKE 1.7     /* times more or less water still counts as about as much */
 #define WORK_FIRST 1.5     /* of a point, in pricings of all candidates */
 #define WORK_PAST 0.2      /* what a point has taken counts so much, beside what its next step takes */
 #define ROUNDS_LIFTED 3    /* at least, so that the lifts have settled */
@@ -252,11 +253,14 @@ static bool goes_on(certifying *c, double done)
     return (limit <= 0 || sp_watch_elapsed(c->watch) < limit) && sp_watch_goes_on(c->watch, "certificate", done);
 }
 
-/* Tells the trees of the prices that the bound was last proved with. */
-static bool tell_trees(certifying *c, sp_error *error)
+/* Tells the trees of the prices that the bound was last proved with, those of about as much water: to others they say
+ * little. */
+static bool tell_trees(certifying *c, size_t water, sp_error *error)
 {
     for (size_t i = 0; i <= c->front->count; i++)
-        if (!sp_tree_hear(&c->branching, &c->trees[i], &c->bound.dual.price, sp_pose_prices_last(c->prices), error))
+        if ((double)c->trees[i].water * WATER_LIKE > (double)water &&
+            (double)c->trees[i].water < WATER_LIKE * (double)water &&
+            !sp_tree_hear(&c->branching, &c->trees[i], &c->bound.dual.price, sp_pose_prices_last(c->prices), error))
             return false;
     return true;
 }
@@ -265,7 +269,7 @@ static bool tell_trees(certifying *c, sp_error *error)
 static bool lower(certifying *c, size_t water, size_t rounds, double done, sp_error *error)
 {
     for (size_t round = 0; round < rounds && goes_on(c, done); round++) {
-        if (!sp_bound_lower(&c->bound, water, error) || !tell_trees(c, error))
+        if (!sp_bound_lower(&c->bound, water, error) || !tell_trees(c, water, error))
             return false;
         if (c->bound.closed && round >= ROUNDS_LIFTED)
             break;
@@ -318,7 +322,7 @@ static bool grow_tree(certifying *c, size_t i, sp_error *error)
     if (!c->begun[i]) {
         c->begun[i] = true;
         tree->work += WORK_FIRST * (double)c->line.count;
-        return sp_bound_lower(&c->bound, water, error) && tell_trees(c, error) &&
+        return sp_bound_lower(&c->bound, water, error) && tell_trees(c, water, error) &&
                sp_branching_take(&c->branching, &c->bound.rows, error);
     }
     if (!sp_tree_step(&c->branching, tree, error))
@@ -367,9 +371,9 @@ static bool lower_all(certifying *c, sp_error *error)
     for (size_t round = 0; round < ROUNDS_EXPLORING && goes_on(c, 0.02 * (double)round); round++)
         if (!sp_bound_explore(&c->bound, water, error))
             return false;
-    return sp_bound_lower(&c->bound, water, error) && tell_trees(c, error) && sp_bound_lower_single(&c->bound, error) &&
-           tell_trees(c, error) && lower(c, water, ROUNDS_FIRST - 1, 0.1, error) &&
-           lower_water(c, area, TRIALS_WATER, ROUNDS_WATER, error) &&
+    return sp_bound_lower(&c->bound, water, error) && tell_trees(c, water, error) &&
+           sp_bound_lower_single(&c->bound, error) && tell_trees(c, c->bound.lightest, error) &&
+           lower(c, water, ROUNDS_FIRST - 1, 0.1, error) && lower_water(c, area, TRIALS_WATER, ROUNDS_WATER, error) &&
            lower_front(c, WORK_LEAST + WORK_EACH * (double)c->line.count, error) &&
            (!c->search->options->prove || prove(c, water, area, error));
 }
