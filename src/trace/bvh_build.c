@@ -3,6 +3,7 @@
  * subtrees of at most TASK triangles by one thread each, into arrays of their own that are then put one after
  * another in a fixed order. */
 #include "trace/bvh.h"
+#include "trace/bvh_pages.h"
 #include "trace/bvh_split.h"
 
 #include <omp.h>
@@ -11,6 +12,7 @@
 
 enum {
     TASK = 1 << 16,
+    CHUNK = 1 << 14,    /* triangles that one thread takes at a time before there are ranges */
     DEEP = 24,          /* from this depth on ranges are halved, which takes at most 12 levels more */
     UPPER = 0x40000000, /* marks a child of an upper node that is task number so and so */
 };
@@ -268,8 +270,8 @@ static bool assemble(builder *b, sp_bvh *bvh)
         good = nodes < UPPER && leaves < UPPER;
     }
     if (good) {
-        bvh->nodes = aligned_alloc(64, nodes * sizeof *bvh->nodes);
-        bvh->blocks = aligned_alloc(64, leaves * sizeof *bvh->blocks);
+        bvh->nodes = sp_bvh_allocate(nodes, sizeof *bvh->nodes);
+        bvh->blocks = sp_bvh_allocate(leaves, sizeof *bvh->blocks);
         good = bvh->nodes && bvh->blocks;
     }
     if (good) {
@@ -293,31 +295,52 @@ static bool assemble(builder *b, sp_bvh *bvh)
     return good;
 }
 
-/* Sets the space of the hierarchy. */
-static void enclose(sp_bvh *bvh)
+/* The box around the triangles from the first on, m. */
+static void enclose_chunk(const sp_mesh *mesh, size_t first, size_t end, double low[3], double high[3])
 {
-    const sp_mesh *mesh = bvh->mesh;
-    double half = 0;
     for (int axis = 0; axis < 3; axis++) {
-        bvh->low[axis] = INFINITY;
-        bvh->high[axis] = -INFINITY;
+        low[axis] = INFINITY;
+        high[axis] = -INFINITY;
     }
-    for (size_t t = 0; t < mesh->triangle_count; t++)
+    for (size_t t = first; t < end; t++)
         for (int i = 0; i < 3; i++) {
             double p[3];
             sp_to_array(mesh->vertices[mesh->triangles[t][i]], p);
             for (int axis = 0; axis < 3; axis++) {
-                bvh->low[axis] = sp_lesser(bvh->low[axis], p[axis]);
-                bvh->high[axis] = sp_greater(bvh->high[axis], p[axis]);
+                low[axis] = sp_lesser(low[axis], p[axis]);
+                high[axis] = sp_greater(high[axis], p[axis]);
             }
         }
+}
+
+/* Sets the space of the hierarchy; chunks are united in their order. */
+static bool enclose(sp_bvh *bvh, int threads)
+{
+    const sp_mesh *mesh = bvh->mesh;
+    size_t chunks = (mesh->triangle_count + CHUNK - 1) / CHUNK;
+    double(*boxes)[2][3] = malloc(chunks * sizeof *boxes), half = 0;
+    if (!boxes)
+        return false;
+#pragma omp parallel for num_threads(threads)
+    for (size_t c = 0; c < chunks; c++) {
+        size_t end = mesh->triangle_count - c * CHUNK < CHUNK ? mesh->triangle_count : (c + 1) * CHUNK;
+        enclose_chunk(mesh, c * CHUNK, end, boxes[c][0], boxes[c][1]);
+    }
     for (int axis = 0; axis < 3; axis++) {
+        bvh->low[axis] = INFINITY;
+        bvh->high[axis] = -INFINITY;
+        for (size_t c = 0; c < chunks; c++) {
+            bvh->low[axis] = sp_lesser(bvh->low[axis], boxes[c][0][axis]);
+            bvh->high[axis] = sp_greater(bvh->high[axis], boxes[c][1][axis]);
+        }
         bvh->centre[axis] = 0.5 * bvh->low[axis] + 0.5 * bvh->high[axis];
         half = sp_greater(half, sp_greater(bvh->high[axis] - bvh->centre[axis], bvh->centre[axis] - bvh->low[axis]));
     }
+    free(boxes);
     int exponent;
     frexp(half, &exponent);
     bvh->scale = ldexp(1, exponent < -1000 ? 1000 : -exponent);
+    return true;
 }
 
 static void refer(const sp_bvh *bvh, uint32_t triangle, sp_bvh_reference *reference)
@@ -340,21 +363,41 @@ static void free_part(part *p)
     free(p->leaves);
 }
 
+/* Makes all references, and their range. */
+static bool refer_all(builder *b, const sp_bvh *bvh, sp_bvh_range *all)
+{
+    size_t count = bvh->mesh->triangle_count, chunks = (count + CHUNK - 1) / CHUNK;
+    sp_bvh_range *ranges = malloc(chunks * sizeof *ranges);
+    if (!ranges)
+        return false;
+#pragma omp parallel for num_threads(b->threads)
+    for (size_t c = 0; c < chunks; c++) {
+        size_t first = c * CHUNK, end = count - first < CHUNK ? count : first + CHUNK;
+        ranges[c] = (sp_bvh_range){.first = first, .count = end - first, .buffer = 0};
+        for (size_t t = first; t < end; t++)
+            refer(bvh, (uint32_t)t, &b->buffers[0][t]);
+        sp_bvh_measure(b->buffers[0], &ranges[c]);
+    }
+    *all = ranges[0];
+    all->count = count;
+    for (size_t c = 1; c < chunks; c++) {
+        sp_bvh_box_unite(&all->box, &ranges[c].box);
+        sp_bvh_box_unite(&all->centres, &ranges[c].centres);
+    }
+    free(ranges);
+    return true;
+}
+
 static bool build(builder *b, sp_bvh *bvh)
 {
-    size_t count = bvh->mesh->triangle_count;
+    sp_bvh_range all;
     uint32_t root;
     for (int i = 0; i < 2; i++) {
-        b->buffers[i] = malloc(count * sizeof *b->buffers[i]);
+        b->buffers[i] = sp_bvh_allocate(bvh->mesh->triangle_count, sizeof *b->buffers[i]);
         if (!b->buffers[i])
             return false;
     }
-#pragma omp parallel for num_threads(b->threads)
-    for (size_t t = 0; t < count; t++)
-        refer(bvh, (uint32_t)t, &b->buffers[0][t]);
-    sp_bvh_range all = {.first = 0, .count = count, .buffer = 0};
-    sp_bvh_measure(b->buffers[0], &all);
-    return build_upper(b, &all, 0, &root) && build_tasks(b) && assemble(b, bvh);
+    return refer_all(b, bvh, &all) && build_upper(b, &all, 0, &root) && build_tasks(b) && assemble(b, bvh);
 }
 
 bool sp_bvh_build(const sp_mesh *mesh, int threads, sp_bvh *bvh)
@@ -362,9 +405,8 @@ bool sp_bvh_build(const sp_mesh *mesh, int threads, sp_bvh *bvh)
     *bvh = (sp_bvh){.mesh = mesh, .scale = 1};
     if (mesh->triangle_count == 0)
         return true;
-    enclose(bvh);
     builder b = {.threads = threads};
-    bool good = mesh->triangle_count < SP_NONE && build(&b, bvh);
+    bool good = mesh->triangle_count < SP_NONE && enclose(bvh, threads) && build(&b, bvh);
     free(b.buffers[0]);
     free(b.buffers[1]);
     free_part(&b.upper);

@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 #include <omp.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,32 +29,42 @@ typedef struct {
     sp_bvh_box boxes[2];
 } cut;
 
-static inline float lesser(float a, float b)
-{
-    return a < b ? a : b;
-}
-
-static inline float greater(float a, float b)
-{
-    return a > b ? a : b;
-}
-
 sp_bvh_box sp_bvh_box_empty(void)
 {
     return (sp_bvh_box){{FLT_MAX, FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX, -FLT_MAX}};
 }
 
-static inline void unite(sp_bvh_box *box, const float low[4], const float high[4])
+/* Four numbers at once, in words of the compiler's that any processor has. */
+typedef float four __attribute__((vector_size(16)));
+typedef int32_t four_whole __attribute__((vector_size(16)));
+
+static inline four load(const float from[4])
 {
-    for (int k = 0; k < 4; k++)
-        box->low[k] = lesser(box->low[k], low[k]);
-    for (int k = 0; k < 4; k++)
-        box->high[k] = greater(box->high[k], high[k]);
+    four a;
+    memcpy(&a, from, sizeof a);
+    return a;
+}
+
+static inline void store(float to[4], four a)
+{
+    memcpy(to, &a, sizeof a);
+}
+
+static inline four where(four_whole mask, four one, four other)
+{
+    return (four)((mask & (four_whole)one) | (~mask & (four_whole)other));
+}
+
+static inline void unite(sp_bvh_box *box, four low, four high)
+{
+    four least = load(box->low), most = load(box->high);
+    store(box->low, where(least < low, least, low));
+    store(box->high, where(most > high, most, high));
 }
 
 void sp_bvh_box_unite(sp_bvh_box *box, const sp_bvh_box *other)
 {
-    unite(box, other->low, other->high);
+    unite(box, load(other->low), load(other->high));
 }
 
 float sp_bvh_box_area(const sp_bvh_box *box)
@@ -62,26 +73,24 @@ float sp_bvh_box_area(const sp_bvh_box *box)
     return x * (y + z) + y * z;
 }
 
-/* A reference's box with the idle lanes zero, and twice its centre. */
-static inline void unpack(const sp_bvh_reference *reference, float low[4], float high[4], float centre[4])
+/* A reference's box with the idle lanes zero. */
+static inline void unpack(const sp_bvh_reference *reference, four *low, four *high)
 {
-    for (int k = 0; k < 3; k++) {
-        low[k] = reference->low[k];
-        high[k] = reference->high[k];
-    }
-    low[3] = high[3] = 0;
-    for (int k = 0; k < 4; k++)
-        centre[k] = low[k] + high[k];
+    const four_whole used = {-1, -1, -1, 0};
+    memcpy(low, (const char *)reference + offsetof(sp_bvh_reference, low), sizeof *low);
+    memcpy(high, (const char *)reference + offsetof(sp_bvh_reference, high), sizeof *high);
+    *low = (four)((four_whole)*low & used);
+    *high = (four)((four_whole)*high & used);
 }
 
 void sp_bvh_measure(const sp_bvh_reference *references, sp_bvh_range *range)
 {
     range->box = range->centres = sp_bvh_box_empty();
     for (size_t i = range->first; i < range->first + range->count; i++) {
-        float low[4], high[4], centre[4];
-        unpack(&references[i], low, high, centre);
+        four low, high;
+        unpack(&references[i], &low, &high);
         unite(&range->box, low, high);
-        unite(&range->centres, centre, centre);
+        unite(&range->centres, low + high, low + high);
     }
 }
 
@@ -98,10 +107,11 @@ static binning choose_binning(const sp_bvh_range *range)
     return b;
 }
 
-static inline int bin_of(const binning *b, float centre, int axis)
+static inline four_whole bins_of(const binning *b, four centre)
 {
-    int bin = (int)((centre - b->low[axis]) * b->scale[axis]);
-    return bin < b->bins ? bin : b->bins - 1;
+    four_whole last = {b->bins - 1, b->bins - 1, b->bins - 1, b->bins - 1};
+    four_whole bin = __builtin_convertvector((centre - load(b->low)) * load(b->scale), four_whole), below = bin < last;
+    return (bin & below) | (last & ~below);
 }
 
 static void clear_bins(bin_set *set, int bins)
@@ -116,10 +126,11 @@ static void fill_bins(const sp_bvh_reference *references, size_t count, const bi
 {
     clear_bins(set, b->bins);
     for (size_t i = 0; i < count; i++) {
-        float low[4], high[4], centre[4];
-        unpack(&references[i], low, high, centre);
+        four low, high;
+        unpack(&references[i], &low, &high);
+        four_whole bins = bins_of(b, low + high);
         for (int axis = 0; axis < 3; axis++) {
-            int bin = bin_of(b, centre[axis], axis);
+            int bin = bins[axis];
             set->count[axis][bin]++;
             unite(&set->box[axis][bin], low, high);
         }
@@ -177,14 +188,15 @@ static cut choose_cut(const bin_set *set, const binning *b, size_t count)
 }
 
 /* Copies references to the left or right place, keeping their order; returns the boxes around their centres. */
-static void move(const sp_bvh_reference *from, size_t count, const binning *b, const cut *where,
+static void move(const sp_bvh_reference *from, size_t count, const binning *b, const cut *chosen,
                  sp_bvh_reference *to[2], sp_bvh_box centres[2])
 {
     centres[0] = centres[1] = sp_bvh_box_empty();
     for (size_t i = 0; i < count; i++) {
-        float low[4], high[4], centre[4];
-        unpack(&from[i], low, high, centre);
-        int side = bin_of(b, centre[where->axis], where->axis) >= where->bin;
+        four low, high;
+        unpack(&from[i], &low, &high);
+        four centre = low + high;
+        int side = bins_of(b, centre)[chosen->axis] >= chosen->bin;
         *to[side]++ = from[i];
         unite(&centres[side], centre, centre);
     }
