@@ -2,9 +2,11 @@
  * joined as long as what results can be flattened, too. */
 #include <sprayplan/atlas.h>
 
+#include "atlas/coarsen.h"
 #include "atlas/cut.h"
 #include "atlas/merge.h"
 #include "atlas/orient.h"
+#include "atlas/refine.h"
 #include "atlas/regions.h"
 #include "atlas/settle.h"
 #include "atlas/split.h"
@@ -14,6 +16,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define COARSE 12000 /* triangles of a coarse mesh */
 
 typedef struct {
     sp_sheets sheets;
@@ -106,17 +110,72 @@ static bool write_charts(const making *m, sp_charts *charts)
     return true;
 }
 
-static bool make_charts(making *m, sp_charts *charts, sp_error *error)
+static void destroy(making *m)
 {
-    if (!sp_merge(&m->sheets, m->extent, &m->relaxer, error))
+    sp_cutter_destroy(&m->cutter);
+    sp_relaxer_destroy(&m->relaxer);
+    sp_sheets_destroy(&m->sheets);
+    free(m->region);
+}
+
+/* Room to cut the sheets' mesh into regions, of which there are none yet. */
+static bool prepare(making *m)
+{
+    size_t count = m->sheets.mesh->triangle_count;
+    m->region = malloc((count + 1) * sizeof *m->region);
+    for (size_t t = 0; m->region && t < count; t++)
+        m->region[t] = SP_NONE;
+    return m->region && sp_cutter_create(&m->cutter, m->sheets.mesh);
+}
+
+/* Grows, lays and merges sheets of the whole mesh. */
+static bool make_all(making *m, sp_error *error)
+{
+    if (!prepare(m))
+        return sp_fail_memory(error);
+    if (!sp_regions_grow(m->sheets.mesh, m->sheets.twin, m->region, &m->regions, error))
         return false;
-    bool good = true;
-    for (uint32_t i = 0; good && i < m->sheets.count; i++)
-        good = m->sheets.items[i].triangle_count == 0 || turn(m, i);
-    if (good && write_charts(m, charts))
-        return true;
-    sp_fail_memory(error);
-    return false;
+    if (!make_sheets(m))
+        return sp_fail_memory(error);
+    return sp_merge(&m->sheets, m->extent, &m->relaxer, error);
+}
+
+/* Settles sheets that come from a coarser mesh. Those that do not fit are halved and laid anew. */
+static bool settle_all(making *m)
+{
+    size_t count = m->sheets.count;
+    for (uint32_t i = 0; i < count; i++) {
+        sp_verdict verdict = sp_settle(&m->sheets, i, m->extent, &m->relaxer);
+        if (verdict == SP_SHEET_MEMORY || (verdict == SP_SHEET_UNFIT && !m->region && !prepare(m)))
+            return false;
+        if (verdict == SP_SHEET_FITS)
+            continue;
+        sp_sheet *sheet = &m->sheets.items[i];
+        if (!sp_split(&m->sheets, sheet, m->region, (uint32_t)m->regions))
+            return false;
+        m->regions += 2;
+        for (size_t k = 0; k < sheet->triangle_count; k++)
+            m->sheets.owner[sheet->triangle[k]] = SP_NONE;
+        sp_sheet_free(sheet);
+    }
+    return !m->region || make_sheets(m);
+}
+
+/* Makes the charts on a coarser mesh and carries them over. */
+static bool make_coarsely(making *m, sp_error *error)
+{
+    sp_coarse coarse;
+    if (!sp_coarsen(&m->sheets, COARSE, &coarse))
+        return sp_fail_memory(error);
+    making rough = {.extent = m->extent};
+    bool good = sp_sheets_create(&rough.sheets, &coarse.mesh, coarse.twin, error) && make_all(&rough, error);
+    if (good && !sp_refine(&coarse, &rough.sheets, &m->sheets))
+        good = sp_fail_memory(error);
+    destroy(&rough);
+    sp_coarse_free(&coarse);
+    if (good && !settle_all(m))
+        good = sp_fail_memory(error);
+    return good;
 }
 
 static bool make(sp_charts *charts, const sp_mesh *mesh, const uint32_t *twin, sp_error *error)
@@ -124,20 +183,13 @@ static bool make(sp_charts *charts, const sp_mesh *mesh, const uint32_t *twin, s
     making m = {.extent = charts->extent};
     if (!sp_sheets_create(&m.sheets, mesh, twin, error))
         return false;
-    m.region = malloc((mesh->triangle_count + 1) * sizeof *m.region);
-    bool good = m.region && sp_cutter_create(&m.cutter, mesh);
-    if (!good)
-        sp_fail_memory(error);
-    good = good && sp_regions_grow(mesh, twin, m.region, &m.regions, error);
-    if (good && !make_sheets(&m)) {
-        sp_fail_memory(error);
-        good = false;
-    }
-    sp_cutter_destroy(&m.cutter);
-    free(m.region);
-    good = good && make_charts(&m, charts, error);
-    sp_relaxer_destroy(&m.relaxer);
-    sp_sheets_destroy(&m.sheets);
+    bool good = mesh->triangle_count > COARSE ? make_coarsely(&m, error) : make_all(&m, error);
+    for (uint32_t i = 0; good && i < m.sheets.count; i++)
+        if (m.sheets.items[i].triangle_count > 0 && !turn(&m, i))
+            good = sp_fail_memory(error);
+    if (good && !write_charts(&m, charts))
+        good = sp_fail_memory(error);
+    destroy(&m);
     return good;
 }
 

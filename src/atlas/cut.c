@@ -131,21 +131,43 @@ static void close_loose_ends(const piece *p, size_t count)
 }
 
 /* Gives the corners around one vertex that hang together the number `vertex`. */
-static void number_fan(const piece *p, sp_sheet *sheet, uint32_t first, uint32_t vertex)
+static void number_fan(const uint8_t *glued, const sp_sheets *sheets, sp_sheet *sheet, uint32_t first, uint32_t vertex)
 {
     for (uint32_t h = first;;) { /* anticlockwise */
-        sheet->corner[p->sheets->local[h / 3]][h % 3] = vertex;
+        sheet->corner[sheets->local[h / 3]][h % 3] = vertex;
         uint32_t into = sp_around(sp_around(h));
-        h = p->cutter->glued[into] ? p->sheets->twin[into] : SP_NONE;
+        h = glued[into] ? sheets->twin[into] : SP_NONE;
         if (h == first)
             return;
         if (h == SP_NONE)
             break;
     }
-    for (uint32_t h = first; p->cutter->glued[h];) { /* clockwise */
-        h = sp_around(p->sheets->twin[h]);
-        sheet->corner[p->sheets->local[h / 3]][h % 3] = vertex;
+    for (uint32_t h = first; glued[h];) { /* clockwise */
+        h = sp_around(sheets->twin[h]);
+        sheet->corner[sheets->local[h / 3]][h % 3] = vertex;
     }
+}
+
+bool sp_cut_out(const uint8_t *glued, const sp_sheets *sheets, const uint32_t *list, size_t count, sp_sheet *sheet)
+{
+    if (!sp_sheet_allocate(sheet, count, 3 * count))
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t t = list[i];
+        sheets->local[t] = (uint32_t)i;
+        sheet->triangle[i] = t;
+        sheet->area += 0.5 * sheets->shape[t][0] * sheets->shape[t][2];
+        for (int k = 0; k < 3; k++)
+            sheet->corner[i][k] = SP_NONE;
+    }
+    sheet->vertex_count = 0;
+    for (size_t i = 0; i < 3 * count; i++)
+        if (sheet->corner[i / 3][i % 3] == SP_NONE)
+            number_fan(glued, sheets, sheet, 3 * list[i / 3] + (uint32_t)(i % 3), (uint32_t)sheet->vertex_count++);
+    double(*at)[2] = realloc(sheet->at, (sheet->vertex_count + 1) * sizeof *at);
+    if (at)
+        sheet->at = at;
+    return true;
 }
 
 bool sp_cut_open(sp_cutter *cutter, const sp_sheets *sheets, const uint32_t *region, uint32_t seed, sp_sheet *sheet)
@@ -155,21 +177,5 @@ bool sp_cut_open(sp_cutter *cutter, const sp_sheets *sheets, const uint32_t *reg
     glue_tree(&p, count);
     count_cuts(&p, count);
     close_loose_ends(&p, count);
-    if (!sp_sheet_allocate(sheet, count, 3 * count))
-        return false;
-    for (size_t i = 0; i < count; i++) {
-        uint32_t t = cutter->waiting[i];
-        sheet->triangle[i] = t;
-        sheet->area += 0.5 * sheets->shape[t][0] * sheets->shape[t][2];
-        for (int k = 0; k < 3; k++)
-            sheet->corner[i][k] = SP_NONE;
-    }
-    sheet->vertex_count = 0;
-    for (size_t i = 0; i < 3 * count; i++)
-        if (sheet->corner[i / 3][i % 3] == SP_NONE)
-            number_fan(&p, sheet, 3 * sheet->triangle[i / 3] + (uint32_t)(i % 3), (uint32_t)sheet->vertex_count++);
-    double(*at)[2] = realloc(sheet->at, (sheet->vertex_count + 1) * sizeof *at);
-    if (at)
-        sheet->at = at;
-    return true;
+    return sp_cut_out(cutter->glued, sheets, cutter->waiting, count, sheet);
 }

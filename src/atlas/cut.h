@@ -20,4 +20,8 @@ void sp_cutter_destroy(sp_cutter *cutter);
  * caller owns the sheet. */
 bool sp_cut_open(sp_cutter *cutter, const sp_sheets *sheets, const uint32_t *region, uint32_t seed, sp_sheet *sheet);
 
+/* Makes a sheet without positions of the `count` triangles in `list`, which hang together across the half-edges that
+ * are `glued` [3 triangle_count]; sets their numbers in sheets->local. False when memory runs out. */
+bool sp_cut_out(const uint8_t *glued, const sp_sheets *sheets, const uint32_t *list, size_t count, sp_sheet *sheet);
+
 #endif

@@ -8,7 +8,8 @@
  * would have in stiffness, and iterations would spend themselves on them. */
 #define LEAST_THICKNESS 0.02
 
-#define FLAT_DEFECT 1e-4 /* rad, the most that is none */
+#define EXACT_DEFECT 1e-6 /* rad, round-off */
+#define FLAT_DEFECT 1e-4  /* rad, the most that is none */
 #define SHARP_DEFECT 0.8 /* rad; the corner of a box has π/2 */
 
 static bool measure(sp_sheets *sheets, uint32_t t, sp_error *error)
@@ -50,7 +51,8 @@ static bool find_bends(sp_sheets *sheets)
             sum[mesh->triangles[t][k]] += angle_at(sheets, t, k);
     for (size_t v = 0; v < mesh->vertex_count; v++) {
         double defect = fabs(2 * acos(-1) - sum[v]);
-        sheets->bend[v] = defect <= FLAT_DEFECT    ? SP_BEND_NONE
+        sheets->bend[v] = defect <= EXACT_DEFECT   ? SP_BEND_EXACT
+                          : defect <= FLAT_DEFECT  ? SP_BEND_NONE
                           : defect <= SHARP_DEFECT ? SP_BEND_SMOOTH
                                                    : SP_BEND_SHARP;
     }

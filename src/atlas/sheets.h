@@ -15,8 +15,9 @@ typedef struct {
     double kept;           /* m², of what it has of developable surface, whose lengths are not to be touched */
 } sp_sheet;
 
-/* By the angle defect, 2π less the angles around a vertex inside of the surface. */
-typedef enum { SP_BEND_NONE, SP_BEND_SMOOTH, SP_BEND_SHARP } sp_bend;
+/* By the angle defect, 2π less the angles around a vertex inside of the surface: none but for round-off, none but for
+ * the digits of a file, ... */
+typedef enum { SP_BEND_EXACT, SP_BEND_NONE, SP_BEND_SMOOTH, SP_BEND_SHARP } sp_bend;
 
 typedef struct {
     const sp_mesh *mesh;
