@@ -8,6 +8,7 @@
 #include "atlas/orient.h"
 #include "atlas/refine.h"
 #include "atlas/regions.h"
+#include "atlas/renumber.h"
 #include "atlas/settle.h"
 #include "atlas/split.h"
 #include "atlas/unfold.h"
@@ -17,7 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COARSE 12000 /* triangles of a coarse mesh */
+#define COARSE 12000      /* triangles of a coarse mesh */
+#define COARSE_SHARE 0.04 /* of area that may have much strain there: the fine mesh has some more */
 
 typedef struct {
     sp_sheets sheets;
@@ -89,8 +91,9 @@ static bool turn(making *m, uint32_t number)
     return verdict != SP_SHEET_MEMORY;
 }
 
-/* Numbers the charts in the order of their first triangles. */
-static bool write_charts(const making *m, sp_charts *charts)
+/* Numbers the charts in the order of their first triangles, which `old` gives their own numbers back; NULL where they
+ * have them. */
+static bool write_charts(const making *m, const uint32_t *old, sp_charts *charts)
 {
     uint32_t *number = malloc((m->sheets.count + 1) * sizeof *number);
     if (!number)
@@ -100,11 +103,16 @@ static bool write_charts(const making *m, sp_charts *charts)
     for (size_t t = 0; t < charts->triangle_count; t++) {
         uint32_t owner = m->sheets.owner[t];
         const sp_sheet *sheet = &m->sheets.items[owner];
-        if (number[owner] == SP_NONE)
-            number[owner] = (uint32_t)charts->chart_count++;
-        charts->chart[t] = number[owner];
+        size_t as = old ? old[t] : t;
+        charts->chart[as] = owner;
         for (int i = 0; i < 3; i++)
-            memcpy(charts->flat[t][i], sheet->at[sheet->corner[m->sheets.local[t]][i]], sizeof charts->flat[t][i]);
+            memcpy(charts->flat[as][i], sheet->at[sheet->corner[m->sheets.local[t]][i]], sizeof charts->flat[as][i]);
+    }
+    for (size_t t = 0; t < charts->triangle_count; t++) {
+        uint32_t *owner = &charts->chart[t];
+        if (number[*owner] == SP_NONE)
+            number[*owner] = (uint32_t)charts->chart_count++;
+        *owner = number[*owner];
     }
     free(number);
     return true;
@@ -137,28 +145,38 @@ static bool make_all(making *m, sp_error *error)
         return false;
     if (!make_sheets(m))
         return sp_fail_memory(error);
-    return sp_merge(&m->sheets, m->extent, &m->relaxer, error);
+    return sp_merge(&m->sheets, 0, m->extent, &m->relaxer, error);
 }
 
-/* Settles sheets that come from a coarser mesh. Those that do not fit are halved and laid anew. */
-static bool settle_all(making *m)
+/* Settles a sheet that comes from a coarser mesh, where need be without the cuts that end inside of it: what stood open
+ * there may overlap here. */
+static sp_verdict settle_finely(making *m, uint32_t number)
 {
-    size_t count = m->sheets.count;
-    for (uint32_t i = 0; i < count; i++) {
-        sp_verdict verdict = sp_settle(&m->sheets, i, m->extent, &m->relaxer);
+    sp_verdict verdict = sp_settle(&m->sheets, number, m->extent, &m->relaxer);
+    if (verdict != SP_SHEET_UNFIT)
+        return verdict;
+    bool closed;
+    if (!sp_close_ends(&m->sheets, number, &closed))
+        return SP_SHEET_MEMORY;
+    return closed ? sp_settle(&m->sheets, number, m->extent, &m->relaxer) : verdict;
+}
+
+/* Sheets that do not fit are halved until they do, and joined again where they can. */
+static bool settle_all(making *m, sp_error *error)
+{
+    size_t first_new = m->sheets.count;
+    for (uint32_t i = 0; i < m->sheets.count; i++) {
+        sp_verdict verdict = settle_finely(m, i);
         if (verdict == SP_SHEET_MEMORY || (verdict == SP_SHEET_UNFIT && !m->region && !prepare(m)))
-            return false;
+            return sp_fail_memory(error);
         if (verdict == SP_SHEET_FITS)
             continue;
-        sp_sheet *sheet = &m->sheets.items[i];
-        if (!sp_split(&m->sheets, sheet, m->region, (uint32_t)m->regions))
-            return false;
+        if (!sp_split(&m->sheets, &m->sheets.items[i], m->region, (uint32_t)m->regions) ||
+            !sp_cut_apart(&m->cutter, &m->sheets, i, m->region))
+            return sp_fail_memory(error);
         m->regions += 2;
-        for (size_t k = 0; k < sheet->triangle_count; k++)
-            m->sheets.owner[sheet->triangle[k]] = SP_NONE;
-        sp_sheet_free(sheet);
     }
-    return !m->region || make_sheets(m);
+    return first_new == m->sheets.count || sp_merge(&m->sheets, first_new, m->extent, &m->relaxer, error);
 }
 
 /* Makes the charts on a coarser mesh and carries them over. */
@@ -168,17 +186,17 @@ static bool make_coarsely(making *m, sp_error *error)
     if (!sp_coarsen(&m->sheets, COARSE, &coarse))
         return sp_fail_memory(error);
     making rough = {.extent = m->extent};
-    bool good = sp_sheets_create(&rough.sheets, &coarse.mesh, coarse.twin, error) && make_all(&rough, error);
+    bool good = sp_sheets_create(&rough.sheets, &coarse.mesh, coarse.twin, error);
+    rough.sheets.share = COARSE_SHARE;
+    good = good && make_all(&rough, error);
     if (good && !sp_refine(&coarse, &rough.sheets, &m->sheets))
         good = sp_fail_memory(error);
     destroy(&rough);
     sp_coarse_free(&coarse);
-    if (good && !settle_all(m))
-        good = sp_fail_memory(error);
-    return good;
+    return good && settle_all(m, error);
 }
 
-static bool make(sp_charts *charts, const sp_mesh *mesh, const uint32_t *twin, sp_error *error)
+static bool make(sp_charts *charts, const sp_mesh *mesh, const uint32_t *twin, const uint32_t *old, sp_error *error)
 {
     making m = {.extent = charts->extent};
     if (!sp_sheets_create(&m.sheets, mesh, twin, error))
@@ -187,10 +205,29 @@ static bool make(sp_charts *charts, const sp_mesh *mesh, const uint32_t *twin, s
     for (uint32_t i = 0; good && i < m.sheets.count; i++)
         if (m.sheets.items[i].triangle_count > 0 && !turn(&m, i))
             good = sp_fail_memory(error);
-    if (good && !write_charts(&m, charts))
+    if (good && !write_charts(&m, old, charts))
         good = sp_fail_memory(error);
     destroy(&m);
     return good;
+}
+
+/* Large meshes are put in order first. */
+static bool make_of(sp_charts *charts, const sp_mesh *mesh, sp_error *error)
+{
+    sp_half_edges edges = {0};
+    sp_renumbered ordered = {0};
+    bool done = sp_half_edges_create(mesh, &edges, error), large = mesh->triangle_count > COARSE;
+    if (done && large) {
+        done = sp_renumber(mesh, edges.opposite, &ordered);
+        sp_half_edges_destroy(&edges);
+        if (!done)
+            sp_fail_memory(error);
+    }
+    done = done && (large ? make(charts, &ordered.mesh, ordered.twin, ordered.old, error)
+                          : make(charts, mesh, edges.opposite, NULL, error));
+    sp_renumbered_free(&ordered);
+    sp_half_edges_destroy(&edges);
+    return done;
 }
 
 sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error)
@@ -214,13 +251,10 @@ sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error)
     charts->extent = extent;
     charts->chart = malloc((count + 1) * sizeof *charts->chart);
     charts->flat = malloc((count + 1) * sizeof *charts->flat);
-    sp_half_edges edges = {0};
     bool done = charts->chart && charts->flat;
     if (!done)
         sp_fail_memory(error);
-    done = done && sp_half_edges_create(mesh, &edges, error) && make(charts, mesh, edges.opposite, error);
-    sp_half_edges_destroy(&edges);
-    if (done)
+    if (done && make_of(charts, mesh, error))
         return charts;
     sp_charts_destroy(charts);
     return NULL;

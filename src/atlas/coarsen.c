@@ -12,6 +12,7 @@
 #define MOST_AROUND 14     /* triangles around a vertex */
 #define LENGTH_WEIGHT 0.01 /* of the squared length of the edge that goes, against squared distances from planes */
 #define LEAST_HEIGHT 0.2   /* of a new triangle over its longest edge, unless the old one had less */
+#define LEAST_COSINE 0.87  /* by how much a triangle may turn */
 #define SHARE 0.6          /* of the vertices that may go in a pass */
 #define BUCKET_SHIFT 10    /* of keys, to find which are the cheaper ones */
 #define KEY_SHIFT 11       /* costs are told apart to 2^-12 of themselves: more is round-off where shapes repeat */
@@ -65,7 +66,7 @@ static bool is_sound(sp_vec3 a, sp_vec3 b, sp_vec3 before)
 {
     sp_vec3 normal = sp_cross(a, b), c = sp_sub(b, a);
     double squared = sp_dot(normal, normal), along = sp_dot(normal, before);
-    if (!(along > 0) || along * along < 0.25 * squared * sp_dot(before, before))
+    if (!(along > 0) || along * along < LEAST_COSINE * LEAST_COSINE * squared * sp_dot(before, before))
         return false;
     double longest = sp_most(sp_dot(a, a), sp_most(sp_dot(b, b), sp_dot(c, c)));
     return squared > LEAST_HEIGHT * LEAST_HEIGHT * longest * longest;

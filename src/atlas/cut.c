@@ -3,6 +3,7 @@
 #include "atlas/cut.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 bool sp_cutter_create(sp_cutter *cutter, const sp_mesh *mesh)
 {
@@ -178,4 +179,121 @@ bool sp_cut_open(sp_cutter *cutter, const sp_sheets *sheets, const uint32_t *reg
     count_cuts(&p, count);
     close_loose_ends(&p, count);
     return sp_cut_out(cutter->glued, sheets, cutter->waiting, count, sheet);
+}
+
+/* Lists the triangles without an owner that hang together with `seed` where it is glued, and gives them one. */
+static size_t list_part(const sp_cutter *cutter, const sp_sheets *sheets, uint32_t seed, uint32_t owner)
+{
+    uint32_t *list = cutter->waiting;
+    size_t count = 0;
+    sheets->owner[seed] = owner;
+    list[count++] = seed;
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t h = 3 * list[i]; h < 3 * list[i] + 3; h++) {
+            uint32_t other = cutter->glued[h] ? sheets->twin[h] / 3 : SP_NONE;
+            if (other == SP_NONE || sheets->owner[other] != SP_NONE)
+                continue;
+            sheets->owner[other] = owner;
+            list[count++] = other;
+        }
+    return count;
+}
+
+/* Adds a sheet of the part of `whole` with triangle `seed`. */
+static bool take_part(const sp_cutter *cutter, sp_sheets *sheets, const sp_sheet *whole, uint32_t seed)
+{
+    size_t count = list_part(cutter, sheets, seed, (uint32_t)sheets->count);
+    uint32_t *before = malloc((count + 1) * sizeof *before); /* its triangles' numbers in the whole */
+    sp_sheet part = {0};
+    bool good = before;
+    for (size_t i = 0; good && i < count; i++)
+        before[i] = sheets->local[cutter->waiting[i]];
+    good = good && sp_cut_out(cutter->glued, sheets, cutter->waiting, count, &part);
+    for (size_t i = 0; good && i < count; i++)
+        for (int k = 0; k < 3; k++)
+            memcpy(part.at[part.corner[i][k]], whole->at[whole->corner[before[i]][k]], sizeof *part.at);
+    free(before);
+    if (good && sp_sheets_add(sheets, &part))
+        return true;
+    sp_sheet_free(&part);
+    return false;
+}
+
+bool sp_cut_apart(sp_cutter *cutter, sp_sheets *sheets, uint32_t number, const uint32_t *region)
+{
+    sp_sheet whole = sheets->items[number];
+    for (size_t i = 0; i < 3 * whole.triangle_count; i++) {
+        uint32_t h = 3 * whole.triangle[i / 3] + (uint32_t)(i % 3), across = sp_across(sheets, h);
+        cutter->glued[h] = across != SP_NONE && region[h / 3] == region[across / 3];
+    }
+    for (size_t i = 0; i < whole.triangle_count; i++)
+        sheets->owner[whole.triangle[i]] = SP_NONE;
+    bool good = true;
+    for (size_t i = 0; good && i < whole.triangle_count; i++)
+        if (sheets->owner[whole.triangle[i]] == SP_NONE)
+            good = take_part(cutter, sheets, &whole, whole.triangle[i]);
+    sheets->items[number] = (sp_sheet){0};
+    sp_sheet_free(&whole);
+    return good;
+}
+
+static bool is_sharp(const sp_sheets *sheets, uint32_t half_edge)
+{
+    return sheets->bend[sheets->mesh->triangles[half_edge / 3][half_edge % 3]] == SP_BEND_SHARP;
+}
+
+/* Goes along the boundary through `first` with a stack of its half-edges: one that is the other lip of the last on the
+ * stack closes it. */
+static bool close_along(const sp_sheets *sheets, uint32_t first, uint8_t *seen, uint32_t *stack, uint32_t *link)
+{
+    size_t depth = 0, length = 0;
+    uint32_t h = first;
+    do {
+        length++;
+        h = sp_boundary_next(sheets, h);
+    } while (h != first);
+    bool closed = false;
+    do {
+        seen[3 * (size_t)sheets->local[h / 3] + h % 3] = 1;
+        if (depth > 0 && sheets->twin[stack[depth - 1]] == h && length > 4 && !is_sharp(sheets, h)) {
+            uint32_t a = sp_begin(sheets, stack[--depth]), b = sp_begin(sheets, sp_around(h));
+            sp_link(link, a, b);
+            length -= 2;
+            closed = true;
+        } else {
+            stack[depth++] = h;
+        }
+        h = sp_boundary_next(sheets, h);
+    } while (h != first);
+    for (size_t bottom = 0; bottom + 4 < depth && sheets->twin[stack[depth - 1]] == stack[bottom]; bottom++) {
+        if (is_sharp(sheets, stack[bottom]))
+            break;
+        sp_link(link, sp_begin(sheets, stack[--depth]), sp_begin(sheets, sp_around(stack[bottom])));
+        closed = true;
+    }
+    return closed;
+}
+
+bool sp_close_ends(sp_sheets *sheets, uint32_t number, bool *closed)
+{
+    sp_sheet *sheet = &sheets->items[number];
+    size_t corners = 3 * sheet->triangle_count;
+    uint8_t *seen = calloc(corners + 1, 1);
+    uint32_t *stack = malloc((corners + 1) * sizeof *stack);
+    uint32_t *link = malloc((sheet->vertex_count + 1) * sizeof *link);
+    bool good = seen && stack && link;
+    *closed = false;
+    for (uint32_t v = 0; good && v < sheet->vertex_count; v++)
+        link[v] = v;
+    for (size_t i = 0; good && i < corners; i++) {
+        uint32_t h = 3 * sheet->triangle[i / 3] + (uint32_t)(i % 3);
+        if (!seen[i] && sp_across(sheets, h) == SP_NONE)
+            *closed |= close_along(sheets, h, seen, stack, link);
+    }
+    if (good && *closed)
+        sp_sheet_identify(sheet, link, stack);
+    free(seen);
+    free(stack);
+    free(link);
+    return good;
 }

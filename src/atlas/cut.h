@@ -24,4 +24,12 @@ bool sp_cut_open(sp_cutter *cutter, const sp_sheets *sheets, const uint32_t *reg
  * are `glued` [3 triangle_count]; sets their numbers in sheets->local. False when memory runs out. */
 bool sp_cut_out(const uint8_t *glued, const sp_sheets *sheets, const uint32_t *list, size_t count, sp_sheet *sheet);
 
+/* Adds a sheet for each part of sheet `number` that hangs together inside a region, laid as it was; nothing is left of
+ * that sheet itself. `region` [triangle_count]. False when memory runs out. */
+bool sp_cut_apart(sp_cutter *cutter, sp_sheets *sheets, uint32_t number, const uint32_t *region);
+
+/* Closes the cuts that end inside of sheet `number`, as far as from a vertex that is bent sharply; their lips become
+ * one at the mean of their places; `closed` says whether there were any. False when memory runs out. */
+bool sp_close_ends(sp_sheets *sheets, uint32_t number, bool *closed);
+
 #endif

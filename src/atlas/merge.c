@@ -2,6 +2,7 @@
  * What failed is tried again only when the row of edges between the two has changed. */
 #include "atlas/merge.h"
 
+#include "atlas/cut.h"
 #include "atlas/heap.h"
 #include "atlas/join.h"
 #include "atlas/orient.h"
@@ -27,6 +28,7 @@ typedef struct {
     sp_sheets *sheets;
     double extent;
     sp_relaxer *relaxer;
+    size_t first_new; /* only sheets from here on are joined, to each other and to those before */
     candidate *candidates;
     size_t count, capacity;
     sp_heap heap;
@@ -81,7 +83,7 @@ static bool add_candidate(merging *m, uint32_t sheet, const sp_run *run)
     return sp_heap_push(&m->heap, key_of(score, m->count++));
 }
 
-/* Enters the runs of a sheet with all its neighbours, or with those of higher number. */
+/* Enters the runs of a sheet with all its neighbours, or with those of higher number, of which one must be new. */
 static bool add_candidates(merging *m, uint32_t sheet, bool higher_only)
 {
     bool developable = m->sheets->items[sheet].strain <= SP_DEVELOPABLE_STRAIN;
@@ -90,7 +92,9 @@ static bool add_candidates(merging *m, uint32_t sheet, bool higher_only)
             return false;
         m->perimeter[sheet] = m->runs.perimeter;
         for (size_t i = 0; i < m->runs.count; i++)
-            if (!(higher_only && m->runs.items[i].other < sheet) && !add_candidate(m, sheet, &m->runs.items[i]))
+            if (!(higher_only && m->runs.items[i].other < sheet) &&
+                (sheet >= m->first_new || m->runs.items[i].other >= m->first_new) &&
+                !add_candidate(m, sheet, &m->runs.items[i]))
                 return false;
     }
     return true;
@@ -139,7 +143,11 @@ static sp_verdict try_join(merging *m, uint32_t sheet, const sp_run *run)
     take_over(sheets, &b, sheet, (uint32_t)a.triangle_count);
     sheets->items[sheet] = joined;
     sheets->items[run->other] = (sp_sheet){0};
-    verdict = sp_settle(sheets, sheet, m->extent, m->relaxer);
+    bool closed;
+    if (fmax(a.strain, b.strain) > SP_DEVELOPABLE_STRAIN && !sp_close_ends(sheets, sheet, &closed))
+        verdict = SP_SHEET_MEMORY;
+    else
+        verdict = sp_settle(sheets, sheet, m->extent, m->relaxer);
     if (verdict == SP_SHEET_FITS) {
         sp_sheet_free(&a);
         sp_sheet_free(&b);
@@ -180,15 +188,17 @@ static bool is_current(const merging *m, const candidate *c)
     return m->version[c->sheet] == c->version && m->version[c->run.other] == c->other_version;
 }
 
-bool sp_merge(sp_sheets *sheets, double extent, sp_relaxer *relaxer, sp_error *error)
+bool sp_merge(sp_sheets *sheets, size_t first_new, double extent, sp_relaxer *relaxer, sp_error *error)
 {
-    merging m = {.sheets = sheets, .extent = extent, .relaxer = relaxer};
+    merging m = {.sheets = sheets, .extent = extent, .relaxer = relaxer, .first_new = first_new};
     m.version = calloc(sheets->count + 1, sizeof *m.version);
     m.perimeter = calloc(sheets->count + 1, sizeof *m.perimeter);
     m.box = calloc(sheets->count + 1, sizeof *m.box);
     m.failed = calloc(3 * sheets->mesh->triangle_count + 1, sizeof *m.failed);
     bool good = m.version && m.perimeter && m.box && m.failed && sp_runs_create(&m.runs, sheets->mesh);
     for (uint32_t i = 0; good && i < sheets->count; i++) {
+        if (sheets->items[i].triangle_count == 0)
+            continue;
         good = sp_runs_find(&m.runs, sheets, i, SP_BEND_SMOOTH);
         m.perimeter[i] = m.runs.perimeter;
         sp_least_box box = sp_find_least_box(&sheets->items[i], INFINITY);

@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define MOST_AROUND 12 /* triangles that go over at once */
+#define MOST_MOVES 1   /* of one triangle */
+
 /* Where a coarse triangle has been laid, as a map from space: turned and moved, but not stretched. */
 typedef struct {
     sp_vec3 across, up, from;
@@ -20,6 +23,8 @@ typedef struct {
     uint32_t *anchor; /* [fine triangle_count], the coarse triangle that says where it lies */
     uint8_t *glued;   /* [3 fine triangle_count] */
     uint32_t *queue;  /* [fine triangle_count] */
+    uint8_t *ends;    /* [fine vertex_count], edges at a vertex that are not glued */
+    uint8_t *moved;   /* [fine triangle_count], how often a triangle has changed sheets */
 } carrying;
 
 static laying laying_of(const carrying *c, uint32_t triangle)
@@ -80,28 +85,65 @@ static void glue(const carrying *c)
     }
 }
 
-/* The half-edge of a triangle into whose sheet it could go as it could come off its own, each staying of the same form:
- * two sides are of the border with that sheet, which is whole around the corner between them. SP_NONE where it cannot.
- */
-static uint32_t ear_of(const carrying *c, uint32_t triangle)
+/* Counts how often each vertex is an end of an edge that is not glued; more than there is room for stay at the most. */
+static void count_ends(const carrying *c)
 {
-    for (uint32_t h = 3 * triangle; h < 3 * triangle + 3; h++) {
-        uint32_t next = sp_around(h), last = sp_around(next), a = c->fine->twin[h], b = c->fine->twin[next];
-        if (!c->glued[last] || c->glued[h] || c->glued[next] || a == SP_NONE || b == SP_NONE)
+    const sp_mesh *mesh = c->fine->mesh;
+    memset(c->ends, 0, mesh->vertex_count);
+    for (uint32_t h = 0; h < 3 * mesh->triangle_count; h++) {
+        if (c->glued[h] || (c->fine->twin[h] != SP_NONE && c->fine->twin[h] < h))
             continue;
-        uint32_t other = c->fine->owner[a / 3];
-        if (other == c->fine->owner[triangle] || other != c->fine->owner[b / 3])
-            return SP_NONE;
-        for (uint32_t out = a;;) { /* anticlockwise around the corner */
-            uint32_t into = sp_around(sp_around(out));
-            if (into == b)
-                return h;
-            if (!c->glued[into])
-                return SP_NONE;
-            out = c->fine->twin[into];
+        for (uint32_t end = 0; end < 2; end++) {
+            uint8_t *ends = &c->ends[mesh->triangles[h / 3][(h % 3 + end) % 3]];
+            *ends = *ends < UINT8_MAX ? *ends + 1 : UINT8_MAX;
         }
     }
-    return SP_NONE;
+}
+
+static void add_ends(const carrying *c, uint32_t vertex, int by)
+{
+    if (c->ends[vertex] < UINT8_MAX)
+        c->ends[vertex] = (uint8_t)(c->ends[vertex] + by);
+}
+
+static uint32_t vertex_of(const carrying *c, uint32_t half_edge)
+{
+    return c->fine->mesh->triangles[half_edge / 3][half_edge % 3];
+}
+
+/* Half-edges out of a vertex on a border of two sheets, that bound one of them there: the triangles of that sheet
+ * around the vertex are those of `out`, anticlockwise. */
+typedef struct {
+    uint32_t out[MOST_AROUND];
+    int count;
+} fan;
+
+/* Lists the triangles around the vertex where a half-edge not glued begins, up to the next such edge. */
+static bool list_fan(const carrying *c, uint32_t half_edge, fan *f)
+{
+    f->count = 0;
+    for (uint32_t h = half_edge;; h = c->fine->twin[sp_around(sp_around(h))]) {
+        if (f->count == MOST_AROUND)
+            return false;
+        f->out[f->count++] = h;
+        if (!c->glued[sp_around(sp_around(h))])
+            return c->fine->twin[sp_around(sp_around(h))] != SP_NONE;
+    }
+}
+
+/* Whether the border becomes shorter when it runs around the other end of the fan, and that end is free of borders. */
+static bool is_shorter(const carrying *c, const fan *f)
+{
+    double before =
+        sp_edge_length(c->fine, f->out[0]) + sp_edge_length(c->fine, sp_around(sp_around(f->out[f->count - 1])));
+    double after = 0;
+    for (int i = 0; i < f->count; i++) {
+        after += sp_edge_length(c->fine, sp_around(f->out[i]));
+        if (c->moved[f->out[i] / 3] == MOST_MOVES || !c->glued[sp_around(f->out[i])] ||
+            (i > 0 && c->ends[vertex_of(c, sp_around(f->out[i]))] > 0))
+            return false;
+    }
+    return after < before * (1 - 1e-6);
 }
 
 static void set_glued(const carrying *c, uint32_t half_edge, uint8_t glued)
@@ -109,28 +151,55 @@ static void set_glued(const carrying *c, uint32_t half_edge, uint8_t glued)
     c->glued[half_edge] = c->glued[c->fine->twin[half_edge]] = glued;
 }
 
-/* Ears on borders go over to the other side, and what then is an ear, each triangle once at most. */
+/* Gives the fan to the sheet around it. */
+static void give_away(const carrying *c, const fan *f)
+{
+    uint32_t across = c->fine->twin[f->out[0]] / 3, vertex = vertex_of(c, f->out[0]);
+    for (int i = 0; i < f->count; i++) {
+        uint32_t t = f->out[i] / 3;
+        c->moved[t]++;
+        c->fine->owner[t] = c->fine->owner[across];
+        c->anchor[t] = c->anchor[across];
+        set_glued(c, sp_around(f->out[i]), 0);
+        if (i > 0)
+            add_ends(c, vertex_of(c, sp_around(f->out[i])), 2);
+    }
+    set_glued(c, f->out[0], 1);
+    set_glued(c, sp_around(sp_around(f->out[f->count - 1])), 1);
+    c->ends[vertex] = 0;
+}
+
+/* Moves the border past the vertex where a half-edge of it begins, if that is shorter; the vertices that it then runs
+ * through are listed in `next`, -1 where it stays. */
+static bool push(const carrying *c, uint32_t half_edge, fan *f)
+{
+    uint32_t twin = c->fine->twin[half_edge];
+    if (c->ends[vertex_of(c, half_edge)] != 2 || twin == SP_NONE || !list_fan(c, half_edge, f))
+        return false;
+    uint32_t last = c->fine->twin[sp_around(sp_around(f->out[f->count - 1]))];
+    uint32_t owner = c->fine->owner[half_edge / 3], other = c->fine->owner[twin / 3];
+    if (owner == other || c->fine->owner[last / 3] != other || !is_shorter(c, f))
+        return false;
+    give_away(c, f);
+    return true;
+}
+
+/* Makes borders shorter where they can move past a vertex, and sheets keep their form. */
 static void straighten(const carrying *c)
 {
-    size_t count = 0, all = c->fine->mesh->triangle_count;
-    for (uint32_t t = 0; t < all; t++)
-        if (ear_of(c, t) != SP_NONE)
-            c->queue[count++] = t;
-    uint8_t *moved = (uint8_t *)c->fine->local; /* not in use yet */
-    memset(moved, 0, all);
-    for (size_t i = 0; i < count; i++) {
-        uint32_t t = c->queue[i], ear = moved[t] ? SP_NONE : ear_of(c, t);
-        if (ear == SP_NONE)
-            continue;
-        uint32_t next = sp_around(ear), last = sp_around(next), behind = c->fine->twin[last] / 3;
-        moved[t] = 1;
-        set_glued(c, ear, 1);
-        set_glued(c, next, 1);
-        set_glued(c, last, 0);
-        c->fine->owner[t] = c->fine->owner[c->fine->twin[ear] / 3];
-        c->anchor[t] = c->anchor[c->fine->twin[ear] / 3];
-        if (count < all && !moved[behind] && ear_of(c, behind) != SP_NONE)
-            c->queue[count++] = behind;
+    size_t all = c->fine->mesh->triangle_count, moves = 0;
+    memset(c->moved, 0, all);
+    count_ends(c);
+    int rounds = 1 + (int)(0.5 * sqrt((double)all / (double)c->rough->mesh->triangle_count));
+    for (int round = 0; round < rounds; round++) {
+        size_t before = moves;
+        for (uint32_t h = 0; h < 3 * all; h++) {
+            fan f;
+            if (!c->glued[h] && push(c, h, &f))
+                moves++;
+        }
+        if (moves == before)
+            return;
     }
 }
 
@@ -203,7 +272,9 @@ bool sp_refine(const sp_coarse *coarse, const sp_sheets *rough, sp_sheets *fine)
     c.anchor = malloc((count + 1) * sizeof *c.anchor);
     c.glued = malloc(3 * count + 1);
     c.queue = malloc((count + 1) * sizeof *c.queue);
-    bool good = c.layings && c.anchor && c.glued && c.queue;
+    c.ends = malloc(fine->mesh->vertex_count + 1);
+    c.moved = malloc(count + 1);
+    bool good = c.layings && c.anchor && c.glued && c.queue && c.ends && c.moved;
     if (good) {
         for (uint32_t t = 0; t < rough->mesh->triangle_count; t++)
             c.layings[t] = laying_of(&c, t);
@@ -219,5 +290,7 @@ bool sp_refine(const sp_coarse *coarse, const sp_sheets *rough, sp_sheets *fine)
     free(c.anchor);
     free(c.glued);
     free(c.queue);
+    free(c.ends);
+    free(c.moved);
     return good;
 }

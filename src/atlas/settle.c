@@ -8,8 +8,8 @@
 #define SURFACE_TRIANGLES 16 /* laid without strain, that need no vertex between them to be developable surface */
 #define CLOSED 1e-9          /* lips that lie this near, in parts of the edge, are one edge again */
 
-/* Beyond these shares of area with too much strain after each batch there is no hope. */
-static const double hopeless[BATCHES] = {0.40, 0.20, 0.10, SP_STRAIN_SHARE};
+/* Beyond these shares of area with too much strain after each batch but the last there is no hope. */
+static const double hopeless[BATCHES] = {0.40, 0.20, 0.10, 1};
 
 static bool near(const sp_sheet *sheet, uint32_t v, uint32_t w, double distance)
 {
@@ -77,10 +77,10 @@ sp_verdict sp_settle(sp_sheets *sheets, uint32_t number, double extent, sp_relax
             strain = sp_measure_strain(sheets, sheet);
             if (strain.share > hopeless[batch])
                 return SP_SHEET_UNFIT;
-            if (strain.share <= SP_STRAIN_SHARE && !strain.flipped)
+            if (strain.share <= sheets->share && !strain.flipped)
                 break;
         }
-        if (strain.flipped)
+        if (strain.flipped || strain.share > sheets->share)
             return SP_SHEET_UNFIT;
     }
     sheet->strain = strain.most;
