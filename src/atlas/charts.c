@@ -18,8 +18,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COARSE 12000      /* triangles of a coarse mesh */
-#define COARSE_SHARE 0.04 /* of area that may have much strain there: the fine mesh has some more */
+#define COARSE 12000         /* triangles of a coarse mesh */
+#define COARSE_SHARE 0.04    /* of area that may have much strain there: the fine mesh has some more */
+#define COARSE_CLEARANCE 0.2 /* between borders there */
+#define LARGE 30000          /* triangles that are worth a coarse mesh */
 
 typedef struct {
     sp_sheets sheets;
@@ -188,6 +190,7 @@ static bool make_coarsely(making *m, sp_error *error)
     making rough = {.extent = m->extent};
     bool good = sp_sheets_create(&rough.sheets, &coarse.mesh, coarse.twin, error);
     rough.sheets.share = COARSE_SHARE;
+    rough.sheets.clearance = COARSE_CLEARANCE;
     good = good && make_all(&rough, error);
     if (good && !sp_refine(&coarse, &rough.sheets, &m->sheets))
         good = sp_fail_memory(error);
@@ -201,7 +204,7 @@ static bool make(sp_charts *charts, const sp_mesh *mesh, const uint32_t *twin, c
     making m = {.extent = charts->extent};
     if (!sp_sheets_create(&m.sheets, mesh, twin, error))
         return false;
-    bool good = mesh->triangle_count > COARSE ? make_coarsely(&m, error) : make_all(&m, error);
+    bool good = mesh->triangle_count > LARGE ? make_coarsely(&m, error) : make_all(&m, error);
     for (uint32_t i = 0; good && i < m.sheets.count; i++)
         if (m.sheets.items[i].triangle_count > 0 && !turn(&m, i))
             good = sp_fail_memory(error);
@@ -216,7 +219,7 @@ static bool make_of(sp_charts *charts, const sp_mesh *mesh, sp_error *error)
 {
     sp_half_edges edges = {0};
     sp_renumbered ordered = {0};
-    bool done = sp_half_edges_create(mesh, &edges, error), large = mesh->triangle_count > COARSE;
+    bool done = sp_half_edges_create(mesh, &edges, error), large = mesh->triangle_count > LARGE;
     if (done && large) {
         done = sp_renumber(mesh, edges.opposite, &ordered);
         sp_half_edges_destroy(&edges);

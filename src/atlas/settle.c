@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #define BATCHES 4            /* of flattening, the strain measured after each */
+#define FURTHER 3            /* more batches, where they promise to reach what is asked for */
 #define ROUNDS 2             /* in a batch */
 #define SURFACE_TRIANGLES 16 /* laid without strain, that need no vertex between them to be developable surface */
 #define CLOSED 1e-9          /* lips that lie this near, in parts of the edge, are one edge again */
@@ -57,6 +58,12 @@ static bool is_a_surface(const sp_sheet *sheet)
     return sheet->triangle_count >= SURFACE_TRIANGLES || inner > 0;
 }
 
+/* Whether a few batches more, each a gain like the last, would reach the share. */
+static bool is_near(double before, double now, double share)
+{
+    return now < before && now - FURTHER * (before - now) <= share;
+}
+
 sp_verdict sp_settle(sp_sheets *sheets, uint32_t number, double extent, sp_relaxer *relaxer)
 {
     sp_sheet *sheet = &sheets->items[number];
@@ -71,11 +78,13 @@ sp_verdict sp_settle(sp_sheets *sheets, uint32_t number, double extent, sp_relax
     if (!exact) {
         /* More for wider sheets, but not without end: what is left waits for the next round. */
         int inner = 6 + (int)fmin(sqrt((double)sheet->vertex_count) / 4, 10);
-        for (int batch = 0; batch < BATCHES; batch++) {
+        double before = INFINITY;
+        for (int batch = 0; batch < BATCHES || is_near(before, strain.share, sheets->share); batch++) {
+            before = strain.share;
             if (!sp_relax(relaxer, sheets, sheet, ROUNDS, inner))
                 return SP_SHEET_MEMORY;
             strain = sp_measure_strain(sheets, sheet);
-            if (strain.share > hopeless[batch])
+            if (batch < BATCHES && strain.share > hopeless[batch])
                 return SP_SHEET_UNFIT;
             if (strain.share <= sheets->share && !strain.flipped)
                 break;

@@ -1,3 +1,4 @@
+#include "atlas/crossing.h"
 #include "atlas/judge.h"
 
 #include <math.h>
@@ -10,7 +11,7 @@
 
 #define EXACT_DEFECT 1e-6 /* rad, round-off */
 #define FLAT_DEFECT 1e-4  /* rad, the most that is none */
-#define SHARP_DEFECT 0.8 /* rad; the corner of a box has π/2 */
+#define SHARP_DEFECT 0.8  /* rad; the corner of a box has π/2 */
 
 static bool measure(sp_sheets *sheets, uint32_t t, sp_error *error)
 {
@@ -63,7 +64,7 @@ static bool find_bends(sp_sheets *sheets)
 bool sp_sheets_create(sp_sheets *sheets, const sp_mesh *mesh, const uint32_t *twin, sp_error *error)
 {
     size_t count = mesh->triangle_count + 1;
-    *sheets = (sp_sheets){.mesh = mesh, .twin = twin, .share = SP_STRAIN_SHARE};
+    *sheets = (sp_sheets){.mesh = mesh, .twin = twin, .share = SP_STRAIN_SHARE, .clearance = SP_CLEARANCE};
     sheets->shape = malloc(count * sizeof *sheets->shape);
     sheets->weight = malloc(count * sizeof *sheets->weight);
     sheets->owner = malloc(count * sizeof *sheets->owner);
