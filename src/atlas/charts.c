@@ -2,75 +2,21 @@
  * joined as long as what results can be flattened, too. */
 #include <sprayplan/atlas.h>
 
-#include "atlas/coarsen.h"
-#include "atlas/cut.h"
-#include "atlas/merge.h"
+#include "atlas/judge.h"
+#include "atlas/levels.h"
+#include "atlas/making.h"
 #include "atlas/orient.h"
-#include "atlas/refine.h"
-#include "atlas/regions.h"
 #include "atlas/renumber.h"
-#include "atlas/settle.h"
-#include "atlas/split.h"
-#include "atlas/unfold.h"
 #include "mesh/half_edge.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define COARSE 12000         /* triangles of a coarse mesh */
-#define COARSE_SHARE 0.04    /* of area that may have much strain there: the fine mesh has some more */
-#define COARSE_CLEARANCE 0.2 /* between borders there */
-#define LARGE 30000          /* triangles that are worth a coarse mesh */
-
-typedef struct {
-    sp_sheets sheets;
-    sp_cutter cutter;
-    sp_relaxer relaxer;
-    uint32_t *region; /* [triangle_count] */
-    size_t regions;
-    double extent;
-} making;
-
-/* Makes a sheet of a region's part around `seed`, and settles it; where that fails, it is halved and nothing is left of
- * it but two more regions. */
-static bool make_sheet(making *m, uint32_t seed)
-{
-    sp_sheet sheet;
-    if (!sp_cut_open(&m->cutter, &m->sheets, m->region, seed, &sheet))
-        return false;
-    if (!sp_sheets_add(&m->sheets, &sheet)) {
-        sp_sheet_free(&sheet);
-        return false;
-    }
-    uint32_t number = (uint32_t)m->sheets.count - 1;
-    sp_verdict verdict = SP_SHEET_MEMORY;
-    if (sp_unfold(&m->sheets, number))
-        verdict = sp_settle(&m->sheets, number, m->extent, &m->relaxer);
-    if (verdict != SP_SHEET_UNFIT)
-        return verdict == SP_SHEET_FITS;
-    sheet = m->sheets.items[number];
-    bool good = sp_split(&m->sheets, &sheet, m->region, (uint32_t)m->regions);
-    m->regions += 2;
-    for (size_t i = 0; i < sheet.triangle_count; i++)
-        m->sheets.owner[sheet.triangle[i]] = SP_NONE;
-    sp_sheet_free(&sheet);
-    m->sheets.count--;
-    return good;
-}
-
-/* Every triangle comes into a sheet: those of a halved one come by again until theirs is made. */
-static bool make_sheets(making *m)
-{
-    for (uint32_t t = 0; t < m->sheets.mesh->triangle_count; t++)
-        while (m->sheets.owner[t] == SP_NONE)
-            if (!make_sheet(m, t))
-                return false;
-    return true;
-}
+#define LARGE 30000 /* triangles that are worth a coarse mesh */
 
 /* Turns a sheet to waste little of its page, unless round-off then makes triangles touch. */
-static bool turn(making *m, uint32_t number)
+static bool turn(sp_making *m, uint32_t number)
 {
     sp_sheet *sheet = &m->sheets.items[number];
     sp_least_box box = sp_find_least_box(sheet, m->extent);
@@ -95,7 +41,7 @@ static bool turn(making *m, uint32_t number)
 
 /* Numbers the charts in the order of their first triangles, which `old` gives their own numbers back; NULL where they
  * have them. */
-static bool write_charts(const making *m, const uint32_t *old, sp_charts *charts)
+static bool write_charts(const sp_making *m, const uint32_t *old, sp_charts *charts)
 {
     uint32_t *number = malloc((m->sheets.count + 1) * sizeof *number);
     if (!number)
@@ -120,97 +66,18 @@ static bool write_charts(const making *m, const uint32_t *old, sp_charts *charts
     return true;
 }
 
-static void destroy(making *m)
-{
-    sp_cutter_destroy(&m->cutter);
-    sp_relaxer_destroy(&m->relaxer);
-    sp_sheets_destroy(&m->sheets);
-    free(m->region);
-}
-
-/* Room to cut the sheets' mesh into regions, of which there are none yet. */
-static bool prepare(making *m)
-{
-    size_t count = m->sheets.mesh->triangle_count;
-    m->region = malloc((count + 1) * sizeof *m->region);
-    for (size_t t = 0; m->region && t < count; t++)
-        m->region[t] = SP_NONE;
-    return m->region && sp_cutter_create(&m->cutter, m->sheets.mesh);
-}
-
-/* Grows, lays and merges sheets of the whole mesh. */
-static bool make_all(making *m, sp_error *error)
-{
-    if (!prepare(m))
-        return sp_fail_memory(error);
-    if (!sp_regions_grow(m->sheets.mesh, m->sheets.twin, m->region, &m->regions, error))
-        return false;
-    if (!make_sheets(m))
-        return sp_fail_memory(error);
-    return sp_merge(&m->sheets, 0, m->extent, &m->relaxer, error);
-}
-
-/* Settles a sheet that comes from a coarser mesh, where need be without the cuts that end inside of it: what stood open
- * there may overlap here. */
-static sp_verdict settle_finely(making *m, uint32_t number)
-{
-    sp_verdict verdict = sp_settle(&m->sheets, number, m->extent, &m->relaxer);
-    if (verdict != SP_SHEET_UNFIT)
-        return verdict;
-    bool closed;
-    if (!sp_close_ends(&m->sheets, number, &closed))
-        return SP_SHEET_MEMORY;
-    return closed ? sp_settle(&m->sheets, number, m->extent, &m->relaxer) : verdict;
-}
-
-/* Sheets that do not fit are halved until they do, and joined again where they can. */
-static bool settle_all(making *m, sp_error *error)
-{
-    size_t first_new = m->sheets.count;
-    for (uint32_t i = 0; i < m->sheets.count; i++) {
-        sp_verdict verdict = settle_finely(m, i);
-        if (verdict == SP_SHEET_MEMORY || (verdict == SP_SHEET_UNFIT && !m->region && !prepare(m)))
-            return sp_fail_memory(error);
-        if (verdict == SP_SHEET_FITS)
-            continue;
-        if (!sp_split(&m->sheets, &m->sheets.items[i], m->region, (uint32_t)m->regions) ||
-            !sp_cut_apart(&m->cutter, &m->sheets, i, m->region))
-            return sp_fail_memory(error);
-        m->regions += 2;
-    }
-    return first_new == m->sheets.count || sp_merge(&m->sheets, first_new, m->extent, &m->relaxer, error);
-}
-
-/* Makes the charts on a coarser mesh and carries them over. */
-static bool make_coarsely(making *m, sp_error *error)
-{
-    sp_coarse coarse;
-    if (!sp_coarsen(&m->sheets, COARSE, &coarse))
-        return sp_fail_memory(error);
-    making rough = {.extent = m->extent};
-    bool good = sp_sheets_create(&rough.sheets, &coarse.mesh, coarse.twin, error);
-    rough.sheets.share = COARSE_SHARE;
-    rough.sheets.clearance = COARSE_CLEARANCE;
-    good = good && make_all(&rough, error);
-    if (good && !sp_refine(&coarse, &rough.sheets, &m->sheets))
-        good = sp_fail_memory(error);
-    destroy(&rough);
-    sp_coarse_free(&coarse);
-    return good && settle_all(m, error);
-}
-
 static bool make(sp_charts *charts, const sp_mesh *mesh, const uint32_t *twin, const uint32_t *old, sp_error *error)
 {
-    making m = {.extent = charts->extent};
+    sp_making m = {.extent = charts->extent};
     if (!sp_sheets_create(&m.sheets, mesh, twin, error))
         return false;
-    bool good = mesh->triangle_count > LARGE ? make_coarsely(&m, error) : make_all(&m, error);
+    bool good = mesh->triangle_count > LARGE ? sp_make_coarsely(&m, error) : sp_make_all(&m, error);
     for (uint32_t i = 0; good && i < m.sheets.count; i++)
         if (m.sheets.items[i].triangle_count > 0 && !turn(&m, i))
             good = sp_fail_memory(error);
     if (good && !write_charts(&m, old, charts))
         good = sp_fail_memory(error);
-    destroy(&m);
+    sp_making_destroy(&m);
     return good;
 }
 

@@ -15,11 +15,11 @@ typedef struct {
 } box;
 
 /* Two segments from one point run into each other where they lie on one ray, or nearly. */
-static bool same_ray(const double shared[2], const double a[2], const double b[2], double clearance)
+static bool same_ray(const double shared[2], const double a[2], const double b[2])
 {
     double x = a[0] - shared[0], y = a[1] - shared[1], z = b[0] - shared[0], w = b[1] - shared[1];
     double along = x * z + y * w, across = fabs(x * w - y * z);
-    return along > 0 && across <= clearance * along;
+    return along > 0 && across <= SP_CLEARANCE * along;
 }
 
 static double squared_length(const sp_segment *s)
@@ -44,23 +44,23 @@ static bool cross(const sp_segment *s, const sp_segment *t)
 }
 
 /* Segments that do not cross are nearest at an end of one. */
-static bool touch(const sp_segment *s, const sp_segment *t, double clearance)
+static bool touch(const sp_segment *s, const sp_segment *t)
 {
     int shared = (s->from == t->from) + (s->from == t->to) + (s->to == t->from) + (s->to == t->to);
     if (shared >= 2)
         return true;
     if (s->from == t->from || s->from == t->to)
-        return same_ray(s->p, s->q, s->from == t->from ? t->q : t->p, clearance);
+        return same_ray(s->p, s->q, s->from == t->from ? t->q : t->p);
     if (s->to == t->from || s->to == t->to)
-        return same_ray(s->q, s->p, s->to == t->from ? t->q : t->p, clearance);
-    double near = clearance * clearance * fmin(squared_length(s), squared_length(t));
+        return same_ray(s->q, s->p, s->to == t->from ? t->q : t->p);
+    double near = SP_CLEARANCE * SP_CLEARANCE * fmin(squared_length(s), squared_length(t));
     return squared_distance(s, t->p) <= near || squared_distance(s, t->q) <= near ||
            squared_distance(t, s->p) <= near || squared_distance(t, s->q) <= near || cross(s, t);
 }
 
-static bool apart(const sp_segment *s, const sp_segment *t, double clearance)
+static bool apart(const sp_segment *s, const sp_segment *t)
 {
-    double gap = clearance * (fabs(s->q[0] - s->p[0]) + fabs(s->q[1] - s->p[1]));
+    double gap = SP_CLEARANCE * (fabs(s->q[0] - s->p[0]) + fabs(s->q[1] - s->p[1]));
     for (int k = 0; k < 2; k++)
         if (fmax(s->p[k], s->q[k]) < fmin(t->p[k], t->q[k]) - gap ||
             fmax(t->p[k], t->q[k]) < fmin(s->p[k], s->q[k]) - gap)
@@ -71,20 +71,13 @@ static bool apart(const sp_segment *s, const sp_segment *t, double clearance)
 typedef struct {
     box around;
     double cell[2];
-    double clearance;
     uint32_t columns, rows;
 } grid;
-
-/* How far around a segment its cells are looked for: half of how near another may come, and round-off. */
-static double margin_of(const grid *g, const sp_segment *s, int k)
-{
-    return 1e-5 * g->cell[k] + 0.5 * g->clearance * (fabs(s->q[0] - s->p[0]) + fabs(s->q[1] - s->p[1]));
-}
 
 /* The rows that a segment may touch within one column of the grid, widened against round-off. */
 static bool rows_in_column(const grid *g, const sp_segment *s, uint32_t column, uint32_t rows[2])
 {
-    double left = g->around.low[0] + column * g->cell[0], right = left + g->cell[0], slack = margin_of(g, s, 0);
+    double left = g->around.low[0] + column * g->cell[0], right = left + g->cell[0], slack = 1e-5 * g->cell[0];
     const double *p = s->p[0] <= s->q[0] ? s->p : s->q, *q = p == s->p ? s->q : s->p;
     if (q[0] < left - slack || p[0] > right + slack)
         return false;
@@ -93,9 +86,8 @@ static bool rows_in_column(const grid *g, const sp_segment *s, uint32_t column, 
         low = p[1] + (q[1] - p[1]) * fmin(fmax((left - slack - p[0]) / width, 0), 1);
         high = p[1] + (q[1] - p[1]) * fmin(fmax((right + slack - p[0]) / width, 0), 1);
     }
-    double margin = margin_of(g, s, 1);
-    double first = floor((fmin(low, high) - g->around.low[1] - margin) / g->cell[1]);
-    double last = floor((fmax(low, high) - g->around.low[1] + margin) / g->cell[1]);
+    double first = floor((fmin(low, high) - g->around.low[1]) / g->cell[1] - 1e-5);
+    double last = floor((fmax(low, high) - g->around.low[1]) / g->cell[1] + 1e-5);
     if (last < 0 || first >= g->rows)
         return false;
     rows[0] = (uint32_t)fmax(first, 0);
@@ -105,9 +97,8 @@ static bool rows_in_column(const grid *g, const sp_segment *s, uint32_t column, 
 
 static void columns_of(const grid *g, const sp_segment *s, uint32_t columns[2])
 {
-    double margin = margin_of(g, s, 0);
-    double first = floor((fmin(s->p[0], s->q[0]) - g->around.low[0] - margin) / g->cell[0]);
-    double last = floor((fmax(s->p[0], s->q[0]) - g->around.low[0] + margin) / g->cell[0]);
+    double first = floor((fmin(s->p[0], s->q[0]) - g->around.low[0]) / g->cell[0] - 1e-5);
+    double last = floor((fmax(s->p[0], s->q[0]) - g->around.low[0]) / g->cell[0] + 1e-5);
     columns[0] = (uint32_t)fmin(fmax(first, 0), g->columns - 1.0);
     columns[1] = (uint32_t)fmin(fmax(last, 0), g->columns - 1.0);
 }
@@ -134,9 +125,9 @@ static void spread(const grid *g, const sp_segment *all, const uint32_t *list, s
     }
 }
 
-static grid grid_for(box around, size_t count, double clearance)
+static grid grid_for(box around, size_t count)
 {
-    grid g = {.around = around, .clearance = clearance};
+    grid g = {.around = around};
     double width = around.high[0] - around.low[0], height = around.high[1] - around.low[1];
     double size = fmax(sqrt(width * height / (double)count), fmax(width, height) / fmin((double)count, MOST_CELLS));
     g.columns = size > 0 ? (uint32_t)fmin(fmax(ceil(width / size), 1), MOST_CELLS) : 1;
@@ -146,13 +137,13 @@ static grid grid_for(box around, size_t count, double clearance)
     return g;
 }
 
-static void test_pairs(const sp_segment *all, const uint32_t *list, size_t count, double clearance, sp_crossing *found)
+static void test_pairs(const sp_segment *all, const uint32_t *list, size_t count, sp_crossing *found)
 {
     for (size_t i = 0; i < count && !found->crossing; i++)
         for (size_t j = i + 1; j < count && !found->crossing; j++) {
             found->tests++;
-            if (!apart(&all[list[i]], &all[list[j]], clearance))
-                found->crossing = touch(&all[list[i]], &all[list[j]], clearance);
+            if (!apart(&all[list[i]], &all[list[j]]))
+                found->crossing = touch(&all[list[i]], &all[list[j]]);
         }
 }
 
@@ -177,14 +168,13 @@ static uint32_t *spread_all(const grid *g, const sp_segment *all, const uint32_t
 }
 
 /* Looks through one cell; each grid within it at least halves the pairs to be tested, or is not made. */
-static void search(const sp_segment *all, const uint32_t *list, size_t count, box around, double clearance,
-                   sp_crossing *found)
+static void search(const sp_segment *all, const uint32_t *list, size_t count, box around, sp_crossing *found)
 {
     if (count <= FEW) {
-        test_pairs(all, list, count, clearance, found);
+        test_pairs(all, list, count, found);
         return;
     }
-    grid g = grid_for(around, count, clearance);
+    grid g = grid_for(around, count);
     size_t cells = (size_t)g.columns * g.rows;
     uint32_t *members, *start = spread_all(&g, all, list, count, &members);
     if (!start) {
@@ -195,20 +185,20 @@ static void search(const sp_segment *all, const uint32_t *list, size_t count, bo
     for (size_t i = 0; i < cells; i++)
         pairs += (double)(start[i + 1] - start[i]) * (start[i + 1] - start[i]);
     if (pairs > 0.5 * (double)count * (double)count)
-        test_pairs(all, list, count, clearance, found);
+        test_pairs(all, list, count, found);
     else
         for (size_t i = 0; i < cells && !found->crossing && found->memory; i++) {
             size_t column = i / g.rows, row = i % g.rows;
             double left = around.low[0] + (double)column * g.cell[0], low = around.low[1] + (double)row * g.cell[1];
             box cell = {{left, low}, {left + g.cell[0], low + g.cell[1]}};
             if (start[i + 1] - start[i] > 1)
-                search(all, members + start[i], start[i + 1] - start[i], cell, clearance, found);
+                search(all, members + start[i], start[i + 1] - start[i], cell, found);
         }
     free(start);
     free(members);
 }
 
-sp_crossing sp_segments_cross(const sp_segment *segments, size_t count, double clearance)
+sp_crossing sp_segments_cross(const sp_segment *segments, size_t count)
 {
     sp_crossing found = {.memory = true};
     box around = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
@@ -222,7 +212,7 @@ sp_crossing sp_segments_cross(const sp_segment *segments, size_t count, double c
             around.high[k] = fmax(around.high[k], fmax(segments[i].p[k], segments[i].q[k]));
         }
     }
-    search(segments, list, count, around, clearance, &found);
+    search(segments, list, count, around, &found);
     free(list);
     return found;
 }

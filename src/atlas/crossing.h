@@ -6,8 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The least distance that tells segments from such as touch, in parts of the shorter: so that moving or turning a
- * chart, which rounds, changes no answer where chains lie on each other. */
+/* Segments nearer to each other than this, in parts of the shorter, touch: so that moving or turning a chart, which
+ * rounds, changes no answer where chains lie on each other. */
 #define SP_CLEARANCE 5e-10
 
 /* A boundary edge: its ends' numbers and places. Segments that share a number share that end. */
@@ -22,8 +22,7 @@ typedef struct {
     size_t tests;  /* pairs of segments that were looked at */
 } sp_crossing;
 
-/* Whether segments cross is decided exactly for their coordinates as they stand; they touch where they are nearer to
- * each other than `clearance`, SP_CLEARANCE or more, in parts of the shorter one. Time about linear in `count`. */
-sp_crossing sp_segments_cross(const sp_segment *segments, size_t count, double clearance);
+/* Whether segments cross is decided exactly for their coordinates as they stand. Time about linear in `count`. */
+sp_crossing sp_segments_cross(const sp_segment *segments, size_t count);
 
 #endif

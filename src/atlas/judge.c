@@ -132,8 +132,7 @@ sp_verdict sp_judge_overlap(const sp_sheets *sheets, uint32_t number)
     size_t outlines = segments ? count_outlines(sheet, segments, count) : SIZE_MAX;
     sp_crossing found = {.memory = true};
     if (outlines == 1)
-        found = sp_segments_cross(segments, count,
-                                  sheet->strain > SP_DEVELOPABLE_STRAIN ? sheets->clearance : SP_CLEARANCE);
+        found = sp_segments_cross(segments, count);
     free(segments);
     if (outlines == SIZE_MAX || !found.memory)
         return SP_SHEET_MEMORY;

@@ -143,8 +143,8 @@ static sp_verdict try_join(merging *m, uint32_t sheet, const sp_run *run)
     take_over(sheets, &b, sheet, (uint32_t)a.triangle_count);
     sheets->items[sheet] = joined;
     sheets->items[run->other] = (sp_sheet){0};
-    bool closed;
-    if (fmax(a.strain, b.strain) > SP_DEVELOPABLE_STRAIN && !sp_close_ends(sheets, sheet, &closed))
+    bool closed; /* what is left open here might overlap on the finer mesh */
+    if (sheets->coarse && fmax(a.strain, b.strain) > SP_DEVELOPABLE_STRAIN && !sp_close_ends(sheets, sheet, &closed))
         verdict = SP_SHEET_MEMORY;
     else
         verdict = sp_settle(sheets, sheet, m->extent, m->relaxer);

@@ -1,4 +1,3 @@
-#include "atlas/crossing.h"
 #include "atlas/judge.h"
 
 #include <math.h>
@@ -64,7 +63,7 @@ static bool find_bends(sp_sheets *sheets)
 bool sp_sheets_create(sp_sheets *sheets, const sp_mesh *mesh, const uint32_t *twin, sp_error *error)
 {
     size_t count = mesh->triangle_count + 1;
-    *sheets = (sp_sheets){.mesh = mesh, .twin = twin, .share = SP_STRAIN_SHARE, .clearance = SP_CLEARANCE};
+    *sheets = (sp_sheets){.mesh = mesh, .twin = twin, .share = SP_STRAIN_SHARE};
     sheets->shape = malloc(count * sizeof *sheets->shape);
     sheets->weight = malloc(count * sizeof *sheets->weight);
     sheets->owner = malloc(count * sizeof *sheets->owner);

@@ -27,7 +27,7 @@ typedef struct {
     float (*weight)[3]; /* [triangle_count], of edge k from corner k to the next: cotangent of the angle across */
     uint8_t *bend;      /* [vertex_count], sp_bend: how far the triangles around each vertex are from lying flat */
     double share;       /* of a sheet's area that may have much strain */
-    double clearance;   /* between the borders of a sheet with strain, as in sp_segments_cross */
+    bool coarse;        /* of a mesh that stands for a finer one */
     uint32_t *owner;    /* [triangle_count], the sheet of each triangle, SP_NONE before there is one */
     uint32_t *local;    /* [triangle_count], its number in that sheet */
     sp_sheet *items;    /* [count]; without triangles where a sheet has gone into another */

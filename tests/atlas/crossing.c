@@ -18,7 +18,7 @@ static sp_segment *chain(double (*points)[2], size_t count)
 static sp_crossing test_chain(double (*points)[2], size_t count)
 {
     sp_segment *segments = chain(points, count);
-    sp_crossing found = sp_segments_cross(segments, count, SP_CLEARANCE);
+    sp_crossing found = sp_segments_cross(segments, count);
     assert_true(found.memory);
     free(segments);
     return found;
