@@ -14,8 +14,8 @@
 
 #define COARSE 12000      /* triangles of the coarse mesh */
 #define COARSE_SHARE 0.04 /* of area that may have much strain there: the fine mesh has some more */
-#define REPEATS 3         /* of making what does not fit again */
-#define STRICTER 0.6      /* times the share, in each */
+#define REPEATS 1         /* of making what does not fit again */
+#define STRICTER 0.5      /* times the share, in each */
 
 typedef struct {
     sp_making *fine, *rough;
