@@ -17,6 +17,7 @@
 #define WORK_PROVING 1e10  /* with --prove, where no time limit ends it */
 #define WATER_LIKE 1.7     /* times more or less water still counts as about as much */
 #define WORK_FIRST 1.5     /* of a point, in pricings of all candidates */
+#define ALIVE_FEW 0.5      /* of all candidates: fewer are alive than it takes to price all again */
 #define WORK_PAST 0.2      /* what a point has taken counts so much, beside what its next step takes */
 #define ROUNDS_LIFTED 3    /* at least, so that the lifts have settled */
 #define ROUNDS_PROVING 2   /* with --prove, at the proposal's water, and trials of water */
@@ -45,7 +46,7 @@ typedef struct {
     sp_bound bound;
     sp_branching branching;
     sp_tree *trees; /* [front->count + 1], by points, then the proposal's; empty where it takes no water */
-    bool *begun;    /* the same, whether it had a turn */
+    bool *begun;    /* the same, whether all candidates were priced for it */
     double *found;  /* the same, m² that a layout found with no more water covers */
 } certifying;
 
@@ -293,6 +294,13 @@ static bool lower_water(certifying *c, double area, size_t trials, size_t rounds
     return true;
 }
 
+/* A point whose tree has not yet heard of prices that leave little alive is best begun with a pricing of all. */
+static bool begins_anew(const certifying *c, size_t i)
+{
+    const sp_tree *tree = &c->trees[i];
+    return !c->begun[i] && !(tree->next_work > 0 && tree->next_work < ALIVE_FEW * (double)c->line.count);
+}
+
 /* Of the front's points and the proposal the one whose turn it is: the wider its gap and the less work
  * it takes and took, the sooner; front->count + 1 where none is left open. */
 static size_t next_point(const certifying *c)
@@ -303,7 +311,7 @@ static size_t next_point(const certifying *c)
         const sp_tree *tree = &c->trees[i];
         size_t water = budget_of(c, design_of(c->front, i)->flow);
         double open = 1 - c->found[i] / c->bound.by_water[water];
-        double next = c->begun[i] ? tree->next_work : WORK_FIRST * (double)c->line.count;
+        double next = begins_anew(c, i) ? WORK_FIRST * (double)c->line.count : tree->next_work;
         double score = open / (next + WORK_PAST * tree->work);
         if (!sp_tree_closed(tree) && open > OPEN_LEAST && score > most) {
             found = i;
@@ -319,7 +327,7 @@ static bool grow_tree(certifying *c, size_t i, sp_error *error)
 {
     sp_tree *tree = &c->trees[i];
     size_t water = budget_of(c, design_of(c->front, i)->flow);
-    if (!c->begun[i]) {
+    if (begins_anew(c, i)) {
         c->begun[i] = true;
         tree->work += WORK_FIRST * (double)c->line.count;
         return sp_bound_lower(&c->bound, water, error) && tell_trees(c, water, error) &&
