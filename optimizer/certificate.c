@@ -13,7 +13,7 @@
 #define TRIALS_WATER 3     /* such waters */
 #define IN_VAIN_MOST 2     /* of these in a row that yield nothing */
 #define WORK_LEAST 1e6     /* of branch and bound at the front's points, see sp_tree */
-#define WORK_EACH 10       /* the same, besides, in pricings of all candidates */
+#define WORK_EACH 12       /* the same, besides, in pricings of all candidates */
 #define WORK_PROVING 1e10  /* with --prove, where no time limit ends it */
 #define WATER_LIKE 1.7     /* times more or less water still counts as about as much */
 #define WORK_FIRST 1.5     /* of a point, in pricings of all candidates */
