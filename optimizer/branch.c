@@ -139,6 +139,7 @@ static bool set_slots(sp_branching *b, const sp_tree *tree, const sp_branch *bra
         for (size_t i = 0; i < branch->slot_count; i++)
             if (at >= branch->slots[i].first && at < branch->slots[i].end)
                 b->slot_of[c] = (uint32_t)i;
+        b->solved += b->slot_of[c] != SP_SHUT_OUT;
     }
     return true;
 }
@@ -156,21 +157,13 @@ static void price_alone(sp_branching *b)
     b->dual.bound = 0;
 }
 
-/* What the rows of the last solve took, in candidates priced. */
-static double work_of_rows(const sp_branching *b)
-{
-    size_t in = 0;
-    for (size_t c = 0; c < b->rows.count && b->slot_of; c++)
-        in += b->slot_of[c] != SP_SHUT_OUT;
-    return ROW_WORK * (double)in;
-}
-
 /* Seeks prices that make the branch's bound low, on the few. */
 static bool seek_prices(sp_branching *b, const sp_tree *tree, const sp_branch *branch, sp_error *error)
 {
     size_t nozzles = sp_branch_nozzles(b, branch);
     size_t rest = sp_rest_fits(b, branch->rest, branch->nozzles, branch->water);
     sp_lifts_create(nozzles ? nozzles : 1, &b->lifts);
+    b->solved = 0;
     if (nozzles <= 1) {
         price_alone(b);
         return true;
@@ -276,7 +269,7 @@ bool sp_tree_step(sp_branching *b, sp_tree *tree, sp_error *error)
     if (!seek_prices(b, tree, branch, error) || !sp_branching_price(b, tree, &b->dual.price, error) ||
         !join(b, branch, &joined, error))
         return false;
-    tree->rows_work = work_of_rows(b);
+    tree->rows_work = ROW_WORK * (double)b->solved;
     tree->work += tree->rows_work + (double)b->alive_before[b->line->count];
     double reach = fmax(tree->found, b->dual.bound);
     /* the branch may move, or go, when the others are lowered */

@@ -35,6 +35,7 @@ typedef struct {
     uint8_t *among; /* [positions], whether a candidate is of the few */
     uint32_t *slot_of;
     size_t slot_room; /* of slot_of */
+    size_t solved;    /* rows that the last solve was about */
     sp_dual dual;
     sp_lifts lifts;
     sp_highest price, least; /* of the last prices; least: what a candidate must be worth to stay alive */
