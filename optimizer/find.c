@@ -209,7 +209,7 @@ static bool fill_front(const sp_finding *finding, const sp_design *greedy)
     sp_table table = {0};
     sp_lineup *guessed = calloc(count + 1, sizeof *guessed);
     bool done = guessed || sp_fail_memory(finding->error);
-    done = done && sp_table_create(finding->search, finding->pool, &table, finding->error) &&
+    done = done && sp_table_create(finding->search, finding->pool, NULL, 0, &table, finding->error) &&
            sp_guess(&table, budgets, count, finding->watch, guessed, finding->error);
     for (size_t i = 0; done && i < count && sp_watch_goes_on(finding->watch, "front", (double)i / (double)count); i++)
         done = at_budget(finding, greedy, &guessed[i], budgets[i]);

@@ -7,7 +7,7 @@
 #define FIRST_MOST 300     /* first nozzles that have their turn */
 #define SECOND_MOST 48     /* second ones of each first that proved good */
 #define STARTS 4           /* of each amount of water, that are improved */
-#define PATHS_WORK 3e9     /* terms of sums that all greedy orders may take */
+#define PATHS_WORK 2e9     /* terms of sums that all greedy orders may take */
 #define REGROUP_WORK 1.5e9 /* the same for regrouping at one amount of water */
 
 /* A greedy order: what its first so many nozzles take and cover. */
@@ -146,7 +146,7 @@ static int by_merit(const void *a, const void *b)
  * either weight of water. */
 static bool add_guesses(guessing *g, const sp_lineup *lineup, size_t most, sp_error *error)
 {
-    size_t rows = g->table->pool->count, found = 0;
+    size_t rows = g->table->row_count, found = 0;
     ranked *list = malloc((rows + 1) * sizeof *list);
     if (!list)
         return sp_fail_memory(error);
@@ -171,7 +171,7 @@ static bool add_guesses(guessing *g, const sp_lineup *lineup, size_t most, sp_er
 /* Terms of the sums that a row of `count` nozzles takes to be found greedily. */
 static double work_of(const guessing *g, size_t count)
 {
-    return (double)g->table->start[g->table->pool->count] * (double)(count + 1);
+    return (double)g->table->start[g->table->row_count] * (double)(count + 1);
 }
 
 /* The first nozzles, then second ones to those that made the best beginnings. */
@@ -243,15 +243,29 @@ bool sp_guess(const sp_table *table, const double *budgets, size_t count, sp_wat
     return done;
 }
 
+static bool add_copy(const sp_search *search, const sp_placed *from, sp_design *design, sp_error *error)
+{
+    sp_placed placed = *from;
+    placed.field = malloc((search->patch_count + 1) * sizeof *placed.field);
+    if (!placed.field)
+        return sp_fail_memory(error);
+    memcpy(placed.field, from->field, search->patch_count * sizeof *placed.field);
+    return sp_design_add(search, design, placed, error);
+}
+
 bool sp_lineup_design(const sp_lineup *lineup, sp_design *design, sp_error *error)
 {
-    const sp_search *search = lineup->table->search;
-    if (!sp_design_create(search, design, error))
+    const sp_table *table = lineup->table;
+    if (!sp_design_create(table->search, design, error))
         return false;
-    for (size_t i = 0; i < lineup->count; i++)
-        if (!sp_design_add_pose(search, design, lineup->table->pool->items[lineup->row[i]], error)) {
-            sp_design_free(design);
-            return false;
-        }
-    return true;
+    bool done = true;
+    for (size_t i = 0; done && i < lineup->count; i++) {
+        size_t row = lineup->row[i];
+        done = row < table->pool->count
+                   ? sp_design_add_pose(table->search, design, table->pool->items[row], error)
+                   : add_copy(table->search, table->others[row - table->pool->count], design, error);
+    }
+    if (!done)
+        sp_design_free(design);
+    return done;
 }

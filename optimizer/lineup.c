@@ -9,9 +9,13 @@
 
 bool sp_lineup_create(const sp_table *table, sp_lineup *lineup, sp_error *error)
 {
-    *lineup = (sp_lineup){.table = table, .wet = malloc((table->patch_count + 1) * sizeof *lineup->wet)};
-    if (!lineup->wet)
+    *lineup = (sp_lineup){.table = table,
+                          .wet = malloc((table->patch_count + 1) * sizeof *lineup->wet),
+                          .gain = malloc((table->row_count + 1) * sizeof *lineup->gain)};
+    if (!lineup->wet || !lineup->gain) {
+        sp_lineup_free(lineup);
         return sp_fail_memory(error);
+    }
     sp_lineup_set(lineup, NULL, 0);
     return true;
 }
@@ -19,6 +23,7 @@ bool sp_lineup_create(const sp_table *table, sp_lineup *lineup, sp_error *error)
 void sp_lineup_free(sp_lineup *lineup)
 {
     free(lineup->wet);
+    free(lineup->gain);
     *lineup = (sp_lineup){0};
 }
 
@@ -112,20 +117,37 @@ double sp_lineup_gain(const sp_lineup *lineup, uint32_t row, double budget)
     return fits ? gain_of(lineup, row, lineup->table->search->credit) : 0;
 }
 
-uint32_t sp_lineup_best(const sp_lineup *lineup, double power, float credit, double budget, double *gain)
+/* What every row gains. Patch by patch: most patches are wet already when the last rows are chosen. */
+static void set_gains(sp_lineup *lineup, float credit)
 {
     const sp_table *table = lineup->table;
-    const sp_candidates *candidates = table->search->candidates;
+    bool single = table->search->single;
+    memset(lineup->gain, 0, table->row_count * sizeof *lineup->gain);
+    for (size_t p = 0; p < table->patch_count; p++) {
+        float had = lineup->wet[p], area = table->area[p];
+        if (had >= 1)
+            continue;
+        for (size_t i = table->column_start[p]; i < table->column_start[p + 1]; i++) {
+            float more = table->column_field[i], has = single ? fmaxf(had, more) : had + more;
+            lineup->gain[table->column_row[i]] += (double)(area * ((has >= 1 ? 1 : credit * has) - credit * had));
+        }
+    }
+}
+
+uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double budget, double *gain)
+{
+    const sp_table *table = lineup->table;
     uint32_t best = 0;
     double merit = 0;
     *gain = 0;
     if (!has_number(lineup))
         return 0;
-    for (size_t r = 0; r < table->pool->count; r++) {
-        double flow = candidates->makes[table->pool->items[r].make].flow;
+    set_gains(lineup, credit);
+    for (size_t r = 0; r < table->row_count; r++) {
+        double flow = sp_table_flow(table, r);
         if (lineup->flow + flow > budget || !has_place(lineup, r))
             continue;
-        double own = gain_of(lineup, r, credit), per = power == 0 ? own : own / pow(flow, power);
+        double own = lineup->gain[r], per = power == 0 ? own : own / pow(flow, power);
         if (per > merit) {
             merit = per;
             best = (uint32_t)r;

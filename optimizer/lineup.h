@@ -14,6 +14,7 @@ typedef struct {
     double flow;    /* m³/s, kept nozzles included */
     double covered; /* m² of the sample */
     float *wet;     /* [table->patch_count] */
+    double *gain;   /* [table->row_count], scratch */
 } sp_lineup;
 
 bool sp_lineup_create(const sp_table *table, sp_lineup *lineup, sp_error *error);
@@ -27,7 +28,7 @@ void sp_lineup_remove(sp_lineup *lineup, size_t i);
 double sp_lineup_gain(const sp_lineup *lineup, uint32_t row, double budget);
 /* The row of most gain per water^power that fits within the budget, an uncovered patch being worth `credit` per share
  * of what it needs; *gain in m², 0 for none. */
-uint32_t sp_lineup_best(const sp_lineup *lineup, double power, float credit, double budget, double *gain);
+uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double budget, double *gain);
 
 /* Puts one row, of no more water than the two together, in the place of two: the one that gains most there. False, and
  * nothing changed, where there is none. */

@@ -1,7 +1,6 @@
 #include "polish.h"
 
 #include "compass.h"
-#include "exchange.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -105,7 +104,7 @@ static bool fit(sp_sights *sights, double budget, sp_design *design, bool *fits,
 }
 
 /* Anneals from ever wider starts: a narrow one keeps what is there; a wide one forgets it, and may find better. What is
- * new is annealed once or not at all, by turns. */
+ * new is annealed once or not at all, by turns; compass finds as much where there is little to forget. */
 static bool anneal(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, sp_design *design,
                    sp_error *error)
 {
@@ -154,16 +153,13 @@ static bool begin(const sp_polishing *polishing, const sp_trial *trial, sp_desig
     const sp_design *from = trial->kind == SP_TRIAL_OTHER ? &trial->other : &trial->design;
     if (!sp_design_copy(polishing->search, from, start, error))
         return false;
-    bool done = true;
-    if (trial->kind == SP_TRIAL_OTHER)
-        done = sp_improve(&tuned->search, &tuned->pool, trial->budget, polishing->watch, start, error);
-    if (trial->kind == SP_TRIAL_KICK)
-        done = sp_kick(&tuned->search, &tuned->pool, trial->budget, trial->seed, start, error);
-    if (done)
-        sp_tuned_settle(tuned, start);
-    else
+    if (trial->kind == SP_TRIAL_KICK &&
+        !sp_kick(&tuned->search, &tuned->pool, trial->budget, trial->seed, start, error)) {
         sp_design_free(start);
-    return done;
+        return false;
+    }
+    sp_tuned_settle(tuned, start);
+    return true;
 }
 
 /* The refined design on the search's own patches, turned a little more on these, becomes the trial's. */

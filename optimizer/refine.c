@@ -10,7 +10,6 @@
 #define MISSING_MOST 0.03 /* of the target: more, refinement is not expected to make up for */
 #define BATCH 8           /* kicks of one design at a time; fixed, so that the answer does not depend on the threads */
 #define BATCHES 2         /* before less water is given up */
-#define FRONT_ROUNDS 2    /* of kicks to every design of the front */
 #define BETWEEN 0.05      /* less water than a design of the front, for another */
 #define APART 0.02        /* share by which waters must differ for that */
 
@@ -93,64 +92,118 @@ static bool try_front(sp_refining *refining, sp_trials *trials, sp_trial_kind ki
     return true;
 }
 
-/* Designs at other flows than the candidates', for the water of every design of the front and for a little less, where
- * the front has none. */
-static bool try_others(sp_refining *refining, sp_trials *trials)
+/* A trial of another design for so much water, to be better than what the front has for no more. */
+static bool ask_other(sp_refining *refining, sp_trials *trials, double flow)
 {
     const sp_front *front = refining->front;
+    size_t i = 0;
+    while (i + 1 < front->count && front->entries[i + 1].point.flow <= flow * (1 + SP_ROUNDING))
+        i++;
+    return try_also(refining, trials, &front->entries[i].design, flow, SP_TRIAL_OTHER);
+}
+
+/* Trials of other designs for the water of every design of the front, for a little less, where the front has none, and
+ * for that of the scene's own layout, with which the proposal will be compared. The designs are still to be found. */
+static bool ask_others(sp_refining *refining, sp_trials *trials)
+{
+    const sp_front *front = refining->front;
+    const sp_layout *own = refining->search->options->kept;
+    double own_flow = own ? sp_layout_flow(own, &sp_evaluator_setup(refining->search->coarse)->liquid) : 0;
     for (size_t i = 0; i < front->count; i++) {
         double flow = front->entries[i].point.flow, less = flow * (1 - BETWEEN);
         if (!sp_front_counts(front, i))
             continue;
-        if (i && less > front->entries[i - 1].point.flow * (1 + APART) &&
-            !try_also(refining, trials, &front->entries[i - 1].design, less, SP_TRIAL_OTHER))
+        if (i && less > front->entries[i - 1].point.flow * (1 + APART) && !ask_other(refining, trials, less))
             return false;
-        if (!try_also(refining, trials, &front->entries[i].design, flow, SP_TRIAL_OTHER))
+        if (!ask_other(refining, trials, flow))
             return false;
     }
-    return true;
+    return own_flow <= 0 || ask_other(refining, trials, own_flow);
 }
 
-/* Finds the others, each for its trial. */
+/* All nozzles of the front's designs; NULL when memory runs out. */
+static const sp_placed **list_nozzles(const sp_front *front, size_t *count)
+{
+    size_t total = 0;
+    for (size_t i = 0; i < front->count; i++)
+        total += front->entries[i].design.count;
+    const sp_placed **nozzles = malloc((total + 1) * sizeof *nozzles);
+    *count = 0;
+    for (size_t i = 0; nozzles && i < front->count; i++)
+        for (size_t n = 0; n < front->entries[i].design.count; n++)
+            nozzles[(*count)++] = &front->entries[i].design.items[n];
+    return nozzles;
+}
+
+/* The trials' other designs: of the pool at the flows that refinement may set, and of nozzles that the front's designs
+ * have already, put together anew. */
 static bool find_others(sp_refining *refining, sp_trials *trials)
 {
     const sp_tuned *tuned = &refining->polishing.tuned;
-    double *budgets = malloc((trials->count + 1) * sizeof *budgets);
-    sp_lineup *lineups = calloc(trials->count + 1, sizeof *lineups);
+    size_t count = trials->count, nozzle_count;
+    double *budgets = malloc((count + 1) * sizeof *budgets);
+    sp_lineup *lineups = calloc(count + 1, sizeof *lineups);
+    const sp_placed **nozzles = list_nozzles(refining->front, &nozzle_count);
     sp_table table = {0};
-    bool done = (budgets && lineups) || sp_fail_memory(refining->error);
-    for (size_t i = 0; done && i < trials->count; i++)
+    bool done = (budgets && lineups && nozzles) || sp_fail_memory(refining->error);
+    for (size_t i = 0; done && i < count; i++)
         budgets[i] = trials->items[i].budget * (1 + SP_ROUNDING);
-    done = done && sp_table_create(&tuned->search, &tuned->pool, &table, refining->error) &&
-           sp_guess(&table, budgets, trials->count, refining->watch, lineups, refining->error);
-    for (size_t i = 0; done && i < trials->count; i++)
+    done = done && sp_table_create(&tuned->search, &tuned->pool, nozzles, nozzle_count, &table, refining->error) &&
+           sp_guess(&table, budgets, count, refining->watch, lineups, refining->error);
+    for (size_t i = 0; done && i < count; i++)
         done = sp_lineup_design(&lineups[i], &trials->items[i].other, refining->error);
-    for (size_t i = 0; lineups && i < trials->count; i++)
+    for (size_t i = 0; lineups && i < count; i++)
         sp_lineup_free(&lineups[i]);
     free(budgets);
     free(lineups);
+    free(nozzles);
     sp_table_free(&table);
     return done;
+}
+
+/* Drops the trials whose other design covers no more than what they hold. */
+static void drop_others(sp_trials *trials)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < trials->count; i++) {
+        sp_trial *trial = &trials->items[i];
+        if (trial->other.covered > trial->design.covered * (1 + GAIN_LEAST)) {
+            trials->items[kept++] = *trial;
+            continue;
+        }
+        sp_design_free(&trial->design);
+        sp_design_free(&trial->other);
+    }
+    trials->count = kept;
 }
 
 /* Every design of the front, and others in their places and between. */
 static bool polish_front(sp_refining *refining)
 {
     sp_trials trials = {0};
-    bool done = try_others(refining, &trials) && find_others(refining, &trials) &&
+    bool done = ask_others(refining, &trials) && find_others(refining, &trials) &&
                 try_front(refining, &trials, SP_TRIAL_POLISH) && carry_out(refining, &trials, NULL);
+    trials_free(&trials);
+    return done;
+}
+
+/* What the designs of the front have in common, they give to one another. */
+static bool recombine_front(sp_refining *refining)
+{
+    sp_trials trials = {0};
+    bool done = ask_others(refining, &trials) && find_others(refining, &trials);
+    if (done)
+        drop_others(&trials);
+    done = done && carry_out(refining, &trials, NULL);
     trials_free(&trials);
     return done;
 }
 
 static bool kick_front(sp_refining *refining)
 {
-    bool done = true;
-    for (size_t round = 0; done && round < FRONT_ROUNDS && sp_watch_goes_on(refining->watch, "refine", 0.9); round++) {
-        sp_trials trials = {0};
-        done = try_front(refining, &trials, SP_TRIAL_KICK) && carry_out(refining, &trials, NULL);
-        trials_free(&trials);
-    }
+    sp_trials trials = {0};
+    bool done = try_front(refining, &trials, SP_TRIAL_KICK) && carry_out(refining, &trials, NULL);
+    trials_free(&trials);
     return done;
 }
 
@@ -271,7 +324,7 @@ static bool refine_all(sp_refining *refining)
     bool saves = front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
     if (saves && !(save_water(refining) && save_flow(refining)))
         return false;
-    return kick_front(refining) && sharpen_best(refining);
+    return recombine_front(refining) && kick_front(refining) && recombine_front(refining) && sharpen_best(refining);
 }
 
 bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error)

@@ -14,6 +14,9 @@ void sp_table_free(sp_table *table)
     free(table->start);
     free(table->patch);
     free(table->field);
+    free(table->column_start);
+    free(table->column_row);
+    free(table->column_field);
     *table = (sp_table){0};
 }
 
@@ -33,7 +36,8 @@ static void draw_sample(const sp_search *search, size_t *sample, sp_table *table
 static bool add_rows(const size_t *sample, float *field, sp_table *table, sp_error *error)
 {
     size_t used = 0, room = 0;
-    for (size_t r = 0; r < table->pool->count; r++) {
+    for (size_t r = 0; r < table->row_count; r++) {
+        const float *from = field;
         if (used + table->patch_count > room) {
             room = 2 * (used + table->patch_count);
             uint32_t *patch = realloc(table->patch, room * sizeof *patch);
@@ -45,30 +49,60 @@ static bool add_rows(const size_t *sample, float *field, sp_table *table, sp_err
             if (!patch || !fields)
                 return sp_fail_memory(error);
         }
-        sp_field_pose(table->search, table->pool->items[r], field);
+        if (r < table->pool->count)
+            sp_field_pose(table->search, table->pool->items[r], field);
+        else
+            from = table->others[r - table->pool->count]->field;
         for (size_t i = 0; i < table->patch_count; i++)
-            if (field[sample[i]] > 0) {
+            if (from[sample[i]] > 0) {
                 table->patch[used] = (uint32_t)i;
-                table->field[used++] = field[sample[i]];
+                table->field[used++] = from[sample[i]];
             }
         table->start[r + 1] = used;
     }
     return true;
 }
 
-bool sp_table_create(const sp_search *search, const sp_pool *pool, sp_table *table, sp_error *error)
+/* The rows' entries by patch. */
+static bool add_columns(sp_table *table, sp_error *error)
 {
-    *table = (sp_table){
-        .search = search, .pool = pool, .patch_count = search->patch_count < 2 * SAMPLE ? search->patch_count : SAMPLE};
+    size_t rows = table->row_count, used = table->start[rows];
+    table->column_start = calloc(table->patch_count + 2, sizeof *table->column_start);
+    table->column_row = malloc((used + 1) * sizeof *table->column_row);
+    table->column_field = malloc((used + 1) * sizeof *table->column_field);
+    if (!table->column_start || !table->column_row || !table->column_field)
+        return sp_fail_memory(error);
+    /* counted two places on, so that filling moves each start to its own place */
+    for (size_t i = 0; i < used; i++)
+        table->column_start[table->patch[i] + 2]++;
+    for (size_t p = 0; p < table->patch_count; p++)
+        table->column_start[p + 2] += table->column_start[p + 1];
+    for (size_t r = 0; r < rows; r++)
+        for (size_t i = table->start[r]; i < table->start[r + 1]; i++) {
+            size_t at = table->column_start[table->patch[i] + 1]++;
+            table->column_row[at] = (uint32_t)r;
+            table->column_field[at] = table->field[i];
+        }
+    return true;
+}
+
+bool sp_table_create(const sp_search *search, const sp_pool *pool, const sp_placed *const *others, size_t other_count,
+                     sp_table *table, sp_error *error)
+{
+    *table = (sp_table){.search = search,
+                        .pool = pool,
+                        .row_count = pool->count + other_count,
+                        .others = others,
+                        .patch_count = search->patch_count < 2 * SAMPLE ? search->patch_count : SAMPLE};
     size_t *sample = malloc((table->patch_count + 1) * sizeof *sample);
     float *field = malloc((search->patch_count + 1) * sizeof *field);
     table->area = calloc(table->patch_count + 1, sizeof *table->area);
     table->kept_wet = calloc(table->patch_count + 1, sizeof *table->kept_wet);
-    table->start = calloc(pool->count + 1, sizeof *table->start);
+    table->start = calloc(table->row_count + 1, sizeof *table->start);
     bool done = sample && field && table->area && table->kept_wet && table->start;
     if (done) {
         draw_sample(search, sample, table);
-        done = add_rows(sample, field, table, error);
+        done = add_rows(sample, field, table, error) && add_columns(table, error);
     } else {
         sp_fail_memory(error);
     }
