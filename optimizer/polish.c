@@ -103,14 +103,14 @@ static bool fit(sp_sights *sights, double budget, sp_design *design, bool *fits,
     return true;
 }
 
-/* Anneals from ever wider starts: a narrow one keeps what is there; a wide one forgets it, and may find better. What is
- * new is annealed once or not at all, by turns; compass finds as much where there is little to forget. */
+/* Anneals from ever wider starts: a narrow one keeps what is there; a wide one forgets it, and may find better. By
+ * turns, one of them or none: compass finds as much where there is little to forget. */
 static bool anneal(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, sp_design *design,
                    sp_error *error)
 {
     static const size_t starts[] = {3, 0};
     for (size_t i = 0; i < sizeof starts / sizeof *starts; i++)
-        if ((trial->kind == SP_TRIAL_POLISH || i == trial->seed % TURNS) &&
+        if ((trial->kind == SP_TRIAL_ANNEAL || i == trial->seed % TURNS) &&
             !sp_anneal(sights, starts[i], SP_WIDTHS, trial->budget, polishing->watch, design, error))
             return false;
     return true;

@@ -7,7 +7,8 @@
 #include "tuned.h"
 
 typedef enum {
-    SP_TRIAL_POLISH, /* the design as it is */
+    SP_TRIAL_ANNEAL, /* the design as it is, annealed from every start */
+    SP_TRIAL_POLISH, /* the same, annealed by turns as all that follow */
     SP_TRIAL_KICK,   /* after a kick */
     SP_TRIAL_OTHER,  /* another in its place */
 } sp_trial_kind;

@@ -10,11 +10,14 @@
 #define MISSING_MOST 0.03 /* of the target: more, refinement is not expected to make up for */
 #define BATCH 8           /* kicks of one design at a time; fixed, so that the answer does not depend on the threads */
 #define BATCHES 2         /* before less water is given up */
-#define BETWEEN 0.05      /* less water than a design of the front, for another */
-#define APART 0.02        /* share by which waters must differ for that */
+#define SAVINGS 3
+#define SAVING 0.015 /* less water than the best design, so many times, for another */
+#define BETWEEN 0.05 /* less water than a design of the front, for another */
+#define APART 0.02   /* share by which waters must differ for that */
 
 typedef struct {
     const sp_search *search;
+    const sp_pool *pool;
     sp_watch *watch;
     sp_front *front;
     sp_polishing polishing;
@@ -102,9 +105,10 @@ static bool ask_other(sp_refining *refining, sp_trials *trials, double flow)
     return try_also(refining, trials, &front->entries[i].design, flow, SP_TRIAL_OTHER);
 }
 
-/* Trials of other designs for the water of every design of the front, for a little less, where the front has none, and
- * for that of the scene's own layout, with which the proposal will be compared. The designs are still to be found. */
-static bool ask_others(sp_refining *refining, sp_trials *trials)
+/* Trials of other designs for the water of every design of the front, `between` also for a little less, where the front
+ * has none, and for that of the scene's own layout, with which the proposal will be compared. The designs are still to
+ * be found. */
+static bool ask_others(sp_refining *refining, sp_trials *trials, bool between)
 {
     const sp_front *front = refining->front;
     const sp_layout *own = refining->search->options->kept;
@@ -113,12 +117,22 @@ static bool ask_others(sp_refining *refining, sp_trials *trials)
         double flow = front->entries[i].point.flow, less = flow * (1 - BETWEEN);
         if (!sp_front_counts(front, i))
             continue;
-        if (i && less > front->entries[i - 1].point.flow * (1 + APART) && !ask_other(refining, trials, less))
+        if (between && front->entries[i].design.count > 1 && less > front->entries[i - 1].point.flow * (1 + APART) &&
+            !ask_other(refining, trials, less))
             return false;
         if (!ask_other(refining, trials, flow))
             return false;
     }
     return own_flow <= 0 || ask_other(refining, trials, own_flow);
+}
+
+/* The same for a little less water than the best design takes. */
+static bool ask_savings(sp_refining *refining, sp_trials *trials)
+{
+    for (int i = 1; i <= SAVINGS; i++)
+        if (!ask_other(refining, trials, refining->front->best.flow * (1 - SAVING * i)))
+            return false;
+    return true;
 }
 
 /* All nozzles of the front's designs; NULL when memory runs out. */
@@ -181,7 +195,7 @@ static void drop_others(sp_trials *trials)
 static bool polish_front(sp_refining *refining)
 {
     sp_trials trials = {0};
-    bool done = ask_others(refining, &trials) && find_others(refining, &trials) &&
+    bool done = ask_others(refining, &trials, true) && find_others(refining, &trials) &&
                 try_front(refining, &trials, SP_TRIAL_POLISH) && carry_out(refining, &trials, NULL);
     trials_free(&trials);
     return done;
@@ -191,7 +205,8 @@ static bool polish_front(sp_refining *refining)
 static bool recombine_front(sp_refining *refining)
 {
     sp_trials trials = {0};
-    bool done = ask_others(refining, &trials) && find_others(refining, &trials);
+    bool done =
+        ask_others(refining, &trials, false) && ask_savings(refining, &trials) && find_others(refining, &trials);
     if (done)
         drop_others(&trials);
     done = done && carry_out(refining, &trials, NULL);
@@ -258,7 +273,7 @@ static bool insist(sp_refining *refining, sp_design *design, double budget, cons
             break;
         sp_trials trials = {0};
         for (size_t i = 0; done && i < (batch ? BATCH : 1); i++)
-            done = try_also(refining, &trials, design, budget, batch ? SP_TRIAL_KICK : SP_TRIAL_POLISH);
+            done = try_also(refining, &trials, design, budget, batch ? SP_TRIAL_KICK : SP_TRIAL_ANNEAL);
         done = done && carry_out(refining, &trials, design);
         trials_free(&trials);
     }
@@ -275,13 +290,11 @@ static bool save_share(sp_refining *refining, double share, bool *saved)
     sp_design reduced;
     bool found;
     *saved = false;
-    const sp_tuned *tuned = &refining->polishing.tuned;
-    if (!sp_reduce(&tuned->search, &tuned->pool, &front->best, budget, front->target - front->bias, refining->watch,
+    if (!sp_reduce(refining->search, refining->pool, &front->best, budget, front->target - front->bias, refining->watch,
                    &reduced, &found, refining->error))
         return false;
     if (!found)
         return true;
-    sp_tuned_settle(tuned, &reduced);
     bool done = sp_front_measure(front, refining->search, &reduced, NULL, refining->error) &&
                 insist(refining, &reduced, budget, &before);
     sp_design_free(&reduced);
@@ -322,9 +335,8 @@ static bool refine_all(sp_refining *refining)
     if (!polish_front(refining))
         return false;
     bool saves = front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
-    if (saves && !(save_water(refining) && save_flow(refining)))
-        return false;
-    return recombine_front(refining) && kick_front(refining) && recombine_front(refining) && sharpen_best(refining);
+    return (!saves || save_water(refining)) && recombine_front(refining) && kick_front(refining) &&
+           recombine_front(refining) && sharpen_best(refining) && (!saves || save_flow(refining));
 }
 
 bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error)
@@ -332,7 +344,7 @@ bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watc
     const sp_refine *allowed = &search->options->refine;
     if (allowed->position == 0 && allowed->axis == 0 && !allowed->roll && allowed->angle == 0 && allowed->flow == 0)
         return true;
-    sp_refining refining = {.search = search, .watch = watch, .front = front, .error = error};
+    sp_refining refining = {.search = search, .pool = pool, .watch = watch, .front = front, .error = error};
     if (!sp_polishing_create(search, pool, front->fine, watch, &refining.polishing, error))
         return false;
     bool done = refine_all(&refining);

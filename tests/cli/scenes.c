@@ -360,14 +360,54 @@ static pid_t begin_long_place(const char *folder)
     return child;
 }
 
-static void interrupting_place_writes_the_best_so_far(void **state)
+static void write_long_scene(void)
 {
-    (void)state;
     char *long_yaml = malloc(sizeof room_yaml + 512);
     sprintf(long_yaml, "%s    - box: {min: [0.1, 0.1, 0.1], max: [0.9, 0.9, 0.9], spacing: 20 mm, tilt: 180 deg}\n",
             room_yaml);
     write_file("long.yaml", long_yaml);
     free(long_yaml);
+}
+
+/* check accepts what was written in `folder`, and simulate gives its figures. */
+static void proposal_is_whole(const char *folder)
+{
+    char text[256];
+    snprintf(text, sizeof text, "%s/result.json", folder);
+    json_t *placed = json_file(text);
+    snprintf(text, sizeof text, "check %s/layout.yaml --quiet", folder);
+    outcome result = run_program(text);
+    assert_int_equal(result.status, 0);
+    forget(&result);
+    snprintf(text, sizeof text, "simulate %s/layout.yaml --json", folder);
+    json_t *again = expect_json(text, 0), *proposed = layout_named(placed, "proposed");
+    json_t *manual = layout_named(again, "manual");
+    assert_true(number(proposed, "covered_area_m2") == number(manual, "covered_area_m2"));
+    assert_true(number(proposed, "water_l_min") == number(manual, "water_l_min"));
+    json_decref(placed);
+    json_decref(again);
+}
+
+static void out_of_time_place_writes_the_best_so_far(void **state)
+{
+    (void)state;
+    write_long_scene();
+    static const char *const limits[] = {"0.1", "2"};
+    for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
+        char text[128];
+        snprintf(text, sizeof text, "place long.yaml -o limited%zu --time-limit %s", i, limits[i]);
+        outcome result = run_program(text);
+        assert_true(result.status == 0 || result.status == 4);
+        forget(&result);
+        snprintf(text, sizeof text, "limited%zu", i);
+        proposal_is_whole(text);
+    }
+}
+
+static void interrupting_place_writes_the_best_so_far(void **state)
+{
+    (void)state;
+    write_long_scene();
     pid_t child = begin_long_place("interrupted");
     assert_true(child > 0);
     struct timespec pause = {0, 10000000};
@@ -385,12 +425,7 @@ static void interrupting_place_writes_the_best_so_far(void **state)
     char *complaint = read_file(".err", NULL);
     assert_non_null(strstr(complaint, "interrupted"));
     free(complaint);
-    json_t *object = json_file("interrupted/result.json");
-    layout_named(object, "proposed");
-    json_decref(object);
-    outcome result = run_program("check interrupted/layout.yaml --quiet");
-    assert_int_equal(result.status, 0);
-    forget(&result);
+    proposal_is_whole("interrupted");
 }
 
 int main(void)
@@ -413,6 +448,7 @@ int main(void)
         cmocka_unit_test(place_says_whether_the_coverage_asked_for_is_reached),
         cmocka_unit_test(compare_sets_scenes_side_by_side),
         cmocka_unit_test(atlas_keeps_every_triangle),
+        cmocka_unit_test(out_of_time_place_writes_the_best_so_far),
         cmocka_unit_test(interrupting_place_writes_the_best_so_far),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);

@@ -1,0 +1,305 @@
+/* Searches on a table of poses against every layout that can be made of them. */
+#include "room.h"
+
+#include "guess.h"
+#include "tuned.h"
+
+#define PRESSURE 2e5
+#define SHORT_MOST 0.002 /* of the best */
+#define TEXEL 0.1
+#define LITRES(q) ((q)*LITRES_PER_MINUTE)
+
+typedef struct {
+    room room;
+    sp_nozzle_type types[2];
+    const sp_nozzle_type *type_list[2];
+    double pressure;
+    sp_mount mounts[2];
+    sp_place_options options;
+    sp_watch watch;
+    sp_sites sites;
+    sp_candidates candidates;
+    sp_visibility visibility;
+    sp_search search;
+    sp_pool pool; /* every pose */
+} job;
+
+/* A room of 2 m x 1.4 m x 1.2 m with a sheet across its middle, seven places on a line, one port, two types. */
+static void job_open(job *j, bool single)
+{
+    sp_error error = {0};
+    *j = (job){.pressure = PRESSURE};
+    room_builder b = {0};
+    room_box(&b, sp_v(-1, -0.7, 0), sp_v(1, 0.7, 1.2), "walls", "lid");
+    room_part(&b, "sheet");
+    room_sheet(&b, sp_v(0.1, -0.7, 0), sp_v(0, 1.4, 0), sp_v(0, 0, 0.5));
+    j->room.setup = sp_setup_default();
+    j->room.setup.cavity = SP_CAVITY_POINT;
+    j->room.setup.cavity_point = sp_v(0, 0, 0.8);
+    j->room.setup.criterion.flux = LITRES(3);
+    j->room.setup.criterion.combine = single ? SP_COMBINE_SINGLE : SP_COMBINE_SUM;
+    room_open(&j->room, &b, TEXEL);
+    j->types[0] = room_cone("wide", 120 * DEGREE, 16);
+    j->types[1] = room_cone("narrow", 70 * DEGREE, 7);
+    j->types[0].flow_min *= 0.75;
+    j->types[0].flow_max *= 1.25;
+    for (int i = 0; i < 2; i++)
+        j->type_list[i] = &j->types[i];
+    j->options = room_options();
+    j->options.types = j->type_list;
+    j->options.type_count = 2;
+    j->options.pressures = &j->pressure;
+    j->options.pressure_count = 1;
+    j->options.mounts = j->mounts;
+    j->options.mount_count = 2;
+    j->options.clearance = 0.02;
+    j->options.max_nozzles = 3;
+    j->mounts[0] = (sp_mount){.kind = SP_MOUNT_LINE,
+                              .axis = sp_v(0, 0, -1),
+                              .spacing = 0.3,
+                              .from = sp_v(-0.9, 0.1, 1),
+                              .to = sp_v(0.9, 0.1, 1)};
+    j->mounts[1] =
+        (sp_mount){.kind = SP_MOUNT_PORT, .name = "P", .position = sp_v(0.5, -0.3, 1.1), .axis = sp_v(0, 0, -1)};
+    j->watch = sp_watch_start(&j->options.run);
+    assert_true(sp_sites_create(j->room.evaluator, &j->options, &j->sites, &error));
+    assert_true(sp_candidates_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &error));
+    assert_true(sp_visibility_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &j->watch,
+                                     &j->visibility, &error));
+    assert_true(sp_search_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &j->visibility, &j->search,
+                                 &error));
+    for (uint32_t site = 0; site < j->sites.count; site++)
+        for (uint32_t make = 0; make < j->candidates.make_count; make++)
+            for (uint32_t axis = 0; axis < sp_candidates_axes(&j->candidates, j->sites.items[site].mount, make)->count;
+                 axis++)
+                assert_true(sp_pool_add(&j->pool, (sp_pose){site, make, axis, 0}, &error));
+    sp_pool_settle(&j->pool);
+}
+
+static void job_close(job *j)
+{
+    sp_pool_free(&j->pool);
+    sp_search_free(&j->search);
+    sp_visibility_free(&j->visibility);
+    sp_candidates_free(&j->candidates);
+    sp_sites_free(&j->sites);
+    free(j->watch.stages);
+    room_close(&j->room);
+}
+
+/* What the rows cover by the evaluator itself, with `single` each nozzle evaluated alone where liquid adds up. */
+static double area_of(const job *j, const uint32_t *rows, size_t count, bool alone)
+{
+    sp_error error = {0};
+    sp_setup setup = j->room.setup;
+    setup.criterion.combine = SP_COMBINE_SUM;
+    sp_evaluator *evaluator = sp_evaluator_create(&setup, &error);
+    const sp_patches *patches = sp_evaluator_patches(evaluator);
+    bool *covered = calloc(patches->count, sizeof *covered);
+    assert_non_null(covered);
+    for (size_t i = 0; i < (alone ? count : 1); i++) {
+        sp_nozzle nozzles[3];
+        size_t taken = alone ? 1 : count;
+        for (size_t k = 0; k < taken; k++)
+            nozzles[k] = sp_pose_nozzle(&j->candidates, &j->sites, j->pool.items[rows[alone ? i : k]], setup.up);
+        sp_layout *layout = sp_layout_create(nozzles, taken, &error);
+        sp_coverage *coverage = sp_evaluate_inverse(evaluator, layout, &error);
+        assert_non_null(coverage);
+        for (size_t p = 0; p < patches->count; p++)
+            covered[p] |= coverage->deposits.covered[p];
+        sp_coverage_destroy(coverage);
+        sp_layout_destroy(layout);
+    }
+    double area = 0;
+    for (size_t p = 0; p < patches->count; p++)
+        area += covered[p] ? patches->area[p] : 0;
+    free(covered);
+    sp_evaluator_destroy(evaluator);
+    return area;
+}
+
+static bool fits_port(const sp_table *table, const uint32_t *rows, size_t count)
+{
+    size_t in_port = 0;
+    for (size_t i = 0; i < count; i++)
+        in_port += sp_table_mount(table, rows[i]) == 1;
+    return in_port <= 1;
+}
+
+/* The most that any layout of at most three rows covers with so much water. */
+static double best_of_all(const sp_table *table, double budget, sp_lineup *lineup)
+{
+    uint32_t count = (uint32_t)table->row_count;
+    double best = 0;
+    for (uint32_t a = 0; a < count; a++)
+        for (uint32_t b = a; b <= count; b++)
+            for (uint32_t c = b; c <= count; c++) {
+                uint32_t rows[3] = {a, b, c};
+                size_t taken = b == count ? 1 : c == count ? 2 : 3;
+                if ((b == count && c != count) || !fits_port(table, rows, taken))
+                    continue;
+                sp_lineup_set(lineup, rows, taken);
+                if (lineup->flow <= budget)
+                    best = fmax(best, lineup->covered);
+            }
+    return best;
+}
+
+static void guesses_come_near_the_best(void **state)
+{
+    (void)state;
+    static const double waters[] = {7, 16, 23, 30, 39, 48};
+    for (int single = 0; single < 2; single++) {
+        job j;
+        sp_error error = {0};
+        sp_table table;
+        sp_lineup lineups[6], scratch;
+        double budgets[6];
+        job_open(&j, single);
+        assert_true(sp_table_create(&j.search, &j.pool, NULL, 0, &table, &error));
+        assert_true(table.row_count >= 14);
+        assert_int_equal(table.patch_count, j.search.patch_count);
+        assert_true(sp_lineup_create(&table, &scratch, &error));
+        for (size_t i = 0; i < 6; i++)
+            budgets[i] = LITRES(waters[i]) * (1 + SP_ROUNDING);
+        assert_true(sp_guess(&table, budgets, 6, &j.watch, lineups, &error));
+        for (size_t i = 0; i < 6; i++) {
+            double best = best_of_all(&table, budgets[i], &scratch);
+            assert_true(lineups[i].flow <= budgets[i]);
+            assert_true(fits_port(&table, lineups[i].row, lineups[i].count));
+            assert_true(lineups[i].covered <= best * (1 + 1e-6));
+            if (lineups[i].covered < best * (1 - SHORT_MOST))
+                fail_msg("%s, %g L/min: found %g m2, the best is %g m2", single ? "single" : "sum", waters[i],
+                         lineups[i].covered, best);
+            /* the table's sums are the evaluator's */
+            double area = area_of(&j, lineups[i].row, lineups[i].count, single);
+            assert_true(fabs(area - lineups[i].covered) < 1e-3 * area);
+            sp_lineup_free(&lineups[i]);
+        }
+        sp_lineup_free(&scratch);
+        sp_table_free(&table);
+        job_close(&j);
+    }
+}
+
+/* Two become the one that covers most in their place, with no more water than both. */
+static void two_merge_into_the_best_one(void **state)
+{
+    (void)state;
+    job j;
+    sp_error error = {0};
+    sp_table table;
+    sp_lineup lineup, scratch;
+    job_open(&j, false);
+    assert_true(sp_table_create(&j.search, &j.pool, NULL, 0, &table, &error));
+    assert_true(sp_lineup_create(&table, &lineup, &error) && sp_lineup_create(&table, &scratch, &error));
+    uint32_t narrow[3], found = 0;
+    for (uint32_t r = 0; r < table.row_count && found < 3; r++)
+        if (j.candidates.makes[j.pool.items[r].make].type == &j.types[1])
+            narrow[found++] = r;
+    assert_int_equal(found, 3);
+    for (int i = 0; i < 2; i++) {
+        /* 14 L/min allow no wide one; with a third narrow one's water there would be */
+        double best = 0, most = LITRES(i ? 16 : 14) * (1 + SP_ROUNDING);
+        sp_lineup_set(&lineup, narrow, 3);
+        for (uint32_t r = 0; r < table.row_count; r++) {
+            uint32_t rows[2] = {narrow[1], r};
+            sp_lineup_set(&scratch, rows, 2);
+            if (sp_table_flow(&table, r) <= LITRES(14) * (1 + SP_ROUNDING) && fits_port(&table, rows, 2))
+                best = fmax(best, scratch.covered);
+        }
+        assert_true(sp_lineup_merge(&lineup, 0, 2, LITRES(7) + most));
+        assert_int_equal(lineup.count, 2);
+        assert_int_equal(lineup.row[0], narrow[1]);
+        assert_true(fabs(lineup.covered - best) < 1e-6 * best);
+        assert_true(lineup.flow <= LITRES(21) * (1 + SP_ROUNDING));
+    }
+    /* no water, no merge */
+    sp_lineup_set(&lineup, narrow, 2);
+    double before = lineup.covered;
+    assert_false(sp_lineup_merge(&lineup, 0, 1, LITRES(5)));
+    assert_int_equal(lineup.count, 2);
+    assert_true(lineup.covered == before);
+    sp_lineup_free(&lineup);
+    sp_lineup_free(&scratch);
+    sp_table_free(&table);
+    job_close(&j);
+}
+
+/* Regrouping never loses, and a lineup is the same design on all patches. */
+static void regrouping_never_loses(void **state)
+{
+    (void)state;
+    for (int single = 0; single < 2; single++) {
+        job j;
+        sp_error error = {0};
+        sp_table table;
+        sp_lineup lineup, scratch;
+        job_open(&j, single);
+        assert_true(sp_table_create(&j.search, &j.pool, NULL, 0, &table, &error));
+        assert_true(sp_lineup_create(&table, &lineup, &error) && sp_lineup_create(&table, &scratch, &error));
+        for (uint32_t first = 0; first + 2 < table.row_count; first++) {
+            uint32_t rows[3] = {first, first + 1, first + 2};
+            if (!fits_port(&table, rows, 3))
+                continue;
+            sp_lineup_set(&lineup, rows, 3);
+            double budget = lineup.flow * (1 + SP_ROUNDING), before = lineup.covered;
+            sp_lineup_regroup(&lineup, budget, &scratch);
+            assert_true(lineup.covered >= before && lineup.flow <= budget);
+            sp_design design;
+            assert_true(sp_lineup_design(&lineup, &design, &error));
+            assert_true(fabs(design.covered - lineup.covered) < 1e-5 * lineup.covered);
+            assert_true(fabs(design.flow - lineup.flow) < 1e-12);
+            sp_design_free(&design);
+        }
+        sp_lineup_free(&lineup);
+        sp_lineup_free(&scratch);
+        sp_table_free(&table);
+        job_close(&j);
+    }
+}
+
+/* Poses at other flows carry these, and stay what they were otherwise. */
+static void tuned_poses_say_their_flow(void **state)
+{
+    (void)state;
+    job j;
+    sp_error error = {0};
+    sp_tuned tuned;
+    sp_design design;
+    job_open(&j, false);
+    j.options.refine.flow = INFINITY;
+    assert_true(sp_tuned_create(&j.search, &j.pool, &tuned, &error));
+    assert_int_equal(tuned.candidates.make_count, 2 + 4);
+    assert_true(tuned.pool.count > j.pool.count);
+    for (size_t i = 0; i < tuned.pool.count; i++) {
+        double flow = tuned.candidates.makes[tuned.pool.items[i].make].flow;
+        assert_true(sp_design_create(&tuned.search, &design, &error));
+        assert_true(sp_design_add_pose(&tuned.search, &design, tuned.pool.items[i], &error));
+        sp_tuned_settle(&tuned, &design);
+        const sp_placed *placed = &design.items[0];
+        assert_true(placed->flow == flow);
+        assert_true(fabs(sp_nozzle_flow(&placed->nozzle, &j.room.setup.liquid) - flow) < 1e-9 * flow);
+        assert_true(flow >= 0.999 * placed->nozzle.type->flow_min && flow <= 1.001 * placed->nozzle.type->flow_max);
+        sp_layout *layout = sp_layout_create(&placed->nozzle, 1, &error);
+        sp_coverage *coverage = sp_evaluate_inverse(j.room.evaluator, layout, &error);
+        /* single precision may see two texels at the edge otherwise */
+        assert_true(fabs(coverage->covered_area - design.covered) < 2.1 * TEXEL * TEXEL);
+        sp_coverage_destroy(coverage);
+        sp_layout_destroy(layout);
+        sp_design_free(&design);
+    }
+    sp_tuned_free(&tuned);
+    job_close(&j);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(guesses_come_near_the_best),
+        cmocka_unit_test(two_merge_into_the_best_one),
+        cmocka_unit_test(regrouping_never_loses),
+        cmocka_unit_test(tuned_poses_say_their_flow),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

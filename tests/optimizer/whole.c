@@ -1,0 +1,147 @@
+/* Placements that must come out whole: stopped before they end, or where one nozzle alone must cover. */
+#include "small_room.h"
+
+/* Where one nozzle alone must cover, what a proposal covers is what its nozzles cover one by one where liquid adds up,
+ * and no two others do better. */
+static void one_nozzle_alone_covers(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    j.room.setup.criterion.combine = SP_COMBINE_SINGLE;
+    sp_evaluator_destroy(j.room.evaluator);
+    sp_error error = {0};
+    j.room.evaluator = sp_evaluator_create(&j.room.setup, &error);
+    j.options.max_nozzles = 2;
+    j.options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    for (int refined = 0; refined < 2; refined++) {
+        double best = best_of_two(&j);
+        if (refined) {
+            j.mounts[0].tilt = 40 * DEGREE;
+            j.options.refine = sp_place_options_default().refine;
+        }
+        sp_proposal *proposal = job_place(&j);
+        assert_true(proposal->coverage->covered_area >= best * (1 - 1e-9));
+        assert_int_equal(proposal->layout->count, 2);
+        sp_setup setup = j.room.setup;
+        setup.criterion.combine = SP_COMBINE_SUM;
+        sp_evaluator *sum = sp_evaluator_create(&setup, &error);
+        const sp_patches *patches = sp_evaluator_patches(sum);
+        double area = 0, both = 0;
+        sp_coverage *alone[2];
+        for (int i = 0; i < 2; i++) {
+            sp_layout *layout = sp_layout_create(&proposal->layout->nozzles[i], 1, &error);
+            alone[i] = sp_evaluate(sum, layout, &error);
+            assert_non_null(alone[i]);
+            sp_layout_destroy(layout);
+        }
+        sp_coverage *together = sp_evaluate(sum, proposal->layout, &error);
+        both = together->covered_area;
+        for (size_t p = 0; p < patches->count; p++)
+            area += alone[0]->deposits.covered[p] || alone[1]->deposits.covered[p] ? patches->area[p] : 0;
+        assert_true(fabs(area - proposal->coverage->covered_area) < 1e-9 * area);
+        assert_true(both >= area);
+        sp_coverage_destroy(alone[0]);
+        sp_coverage_destroy(alone[1]);
+        sp_coverage_destroy(together);
+        sp_evaluator_destroy(sum);
+        sp_proposal_destroy(proposal);
+    }
+    room_close(&j.room);
+}
+
+static bool stop_at_greedy(void *user, const char *stage, double done)
+{
+    (void)done;
+    size_t *calls = user;
+    (*calls)++;
+    return strcmp(stage, "greedy") != 0;
+}
+
+static void cancelling_gives_the_best_so_far(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    size_t calls = 0;
+    j.options.run.progress = stop_at_greedy;
+    j.options.run.user = &calls;
+    sp_proposal *proposal = job_place(&j);
+    assert_true(proposal->interrupted);
+    assert_true(calls > 0);
+    assert_false(proposal->reached);
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
+typedef struct {
+    const char *stage;
+    size_t calls, most; /* so many calls of that stage */
+} stopper;
+
+static bool stop_in_stage(void *user, const char *stage, double done)
+{
+    stopper *s = user;
+    (void)done;
+    return strcmp(stage, s->stage) != 0 || s->calls++ < s->most;
+}
+
+/* Wherever it is stopped, what comes out is whole: within its limits, its figures those of its layout, no better than
+ * its bounds. */
+static void wherever_it_stops_the_best_so_far_is_valid(void **state)
+{
+    (void)state;
+    static const char *const stages[] = {"visibility", "attainable", "greedy",     "exchange",
+                                         "front",      "refine",     "certificate"};
+    static const size_t calls[] = {0, 1, 7, 40};
+    size_t stopped = 0;
+    for (size_t s = 0; s < sizeof stages / sizeof *stages; s++)
+        for (size_t c = 0; c < sizeof calls / sizeof *calls; c++) {
+            job j;
+            job_open(&j);
+            stopper stop = {stages[s], 0, calls[c]};
+            j.options.max_nozzles = 4;
+            j.options.coverage = 0.7;
+            j.mounts[0].tilt = 40 * DEGREE;
+            j.mounts[0].spacing = 0.8;
+            j.options.refine = sp_place_options_default().refine;
+            j.options.run.progress = stop_in_stage;
+            j.options.run.user = &stop;
+            sp_proposal *proposal = job_place(&j);
+            assert_int_equal(proposal->interrupted, stop.calls > stop.most);
+            stopped += proposal->interrupted;
+            if (s > 2)
+                assert_true(proposal->layout->count > 0);
+            double area = area_of(&j, proposal->layout->nozzles, proposal->layout->count);
+            assert_true(area == proposal->coverage->covered_area);
+            assert_true(proposal->reached == (proposal->target_area > 0 && area >= proposal->target_area));
+            sp_proposal_destroy(proposal);
+            room_close(&j.room);
+        }
+    assert_true(stopped > 12);
+}
+
+static void out_of_time_there_is_one_nozzle(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    j.options.run.time_limit = 1e-9;
+    sp_proposal *proposal = job_place(&j);
+    assert_true(proposal->interrupted);
+    assert_int_equal(proposal->layout->count, 1);
+    assert_int_equal(proposal->front_count, 1);
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_nozzle_alone_covers),
+        cmocka_unit_test(cancelling_gives_the_best_so_far),
+        cmocka_unit_test(wherever_it_stops_the_best_so_far_is_valid),
+        cmocka_unit_test(out_of_time_there_is_one_nozzle),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
