@@ -1,5 +1,6 @@
 #include "certificate.h"
 
+#include "aim_bound.h"
 #include "branch.h"
 #include "pose_prices.h"
 #include "water_units.h"
@@ -430,7 +431,7 @@ bool sp_certify(const sp_search *search, sp_watch *watch, sp_front *front, sp_ce
     certifying c = {.search = search, .watch = watch, .front = front};
     *certificate = (sp_certificate){0};
     for (size_t i = 0; i < front->count; i++)
-        front->entries[i].point.counted = front->entries[i].point.bound = NAN;
+        front->entries[i].point.counted = front->entries[i].point.bound = front->entries[i].point.every_aim_bound = NAN;
     if (watch->cancelled || !front->found)
         return true;
     if (!list_flows(&c, error))
@@ -440,6 +441,8 @@ bool sp_certify(const sp_search *search, sp_watch *watch, sp_front *front, sp_ce
         done = prepare(&c, error) && lower_all(&c, error);
         if (done)
             conclude(&c, front, certificate);
+        const sp_aim_task task = {search, watch, &c.cover, &c.units, c.need, c.ports, &c.bound.rows};
+        done = done && sp_aim_bound(&task, front, certificate, error);
     }
     certifying_free(&c);
     return done;

@@ -61,7 +61,7 @@ bool sp_front_measure(sp_front *front, const sp_search *search, const sp_design 
     sp_coverage *coverage = layout ? sp_evaluate(front->fine, layout, error) : NULL;
     sp_front_point measured = {0};
     if (coverage)
-        measured = (sp_front_point){coverage->flow, coverage->covered_area, layout->count, NAN, NAN};
+        measured = (sp_front_point){coverage->flow, coverage->covered_area, layout->count, NAN, NAN, NAN};
     bool done = coverage != NULL;
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);

@@ -103,23 +103,31 @@ static inline float share_of(const sp_pose_prices *prices, uint32_t texel, float
     return prices->search->single && !twice ? 0 : ratio;
 }
 
-/* What each arrival of a view brings to a make, and each bin in all. */
+void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, float strength, const sp_prices *u,
+                          float *worth, float *total)
+{
+    for (uint32_t i = 0; i < view->count; i++) {
+        uint32_t t = view->patch[i];
+        bool twice = view->twice && view->twice[i];
+        worth[i] = 0;
+        if (!(prices->need[t] > 0))
+            continue;
+        float share = share_of(prices, t, strength * view->transfer[i], twice);
+        worth[i] = u->plain[t] * share;
+        /* a lift of two arcs together may be more than the sum of theirs, but never more than 1 */
+        if (u->lifts && u->lifted[t] > 0 && share > 0)
+            worth[i] += u->lifted[t] * (twice ? 1 : sp_lift(u->lifts, u->kind[t], share));
+    }
+    prices->search->sweeps->total(view, worth, total);
+}
+
+/* What each arrival of a view brings to a make. */
 static void prepare_worth(const sp_pose_prices *prices, scratch *own, const sp_view *view, const sp_make *make,
                           const sp_prices *u)
 {
     double threshold = prices->search->threshold;
     float strength = threshold > 0 ? (float)(make->flow / (make->spray.solid_angle * threshold)) : INFINITY;
-    for (uint32_t i = 0; i < view->count; i++) {
-        uint32_t t = view->patch[i];
-        own->worth[i] = 0;
-        if (!(prices->need[t] > 0))
-            continue;
-        float share = share_of(prices, t, strength * view->transfer[i], view->twice && view->twice[i]);
-        own->worth[i] = u->plain[t] * share;
-        if (u->lifts && u->lifted[t] > 0)
-            own->worth[i] += u->lifted[t] * sp_lift(u->lifts, u->kind[t], share);
-    }
-    prices->search->sweeps->total(view, own->worth, own->total);
+    sp_pose_prices_worth(prices, view, strength, u, own->worth, own->total);
 }
 
 /* The pose's price, rounded upwards. */

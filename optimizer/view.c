@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#define PART 1024 /* patches traced at a time */
+#define PART 512 /* patches traced at a time */
 
 /* The octahedron unfolded onto [-1, 1]²: Cigolle et al., A survey of efficient representations for independent unit
  * vectors, JCGT 2014. */
@@ -18,7 +18,7 @@ static void encode(sp_vec3 d, double *u, double *v)
     }
 }
 
-static sp_vec3 decode(double u, double v)
+sp_vec3 sp_octahedron_decode(double u, double v)
 {
     double z = 1 - fabs(u) - fabs(v);
     if (z >= 0)
@@ -41,11 +41,12 @@ void sp_bins_create(sp_bins *bins)
     const double edge = 2.0 / SP_BINS_EDGE;
     for (size_t b = 0; b < SP_BINS; b++) {
         double u = (double)(b % SP_BINS_EDGE) * edge - 1, v = (double)(b / SP_BINS_EDGE) * edge - 1;
-        sp_vec3 centre = decode(u + 0.5 * edge, v + 0.5 * edge);
+        sp_vec3 centre = sp_octahedron_decode(u + 0.5 * edge, v + 0.5 * edge);
         double cosine = 1;
         /* A cell's sides are arcs of great circles, so that its corners lie farthest out. */
         for (int corner = 0; corner < 4; corner++)
-            cosine = fmin(cosine, sp_dot(centre, decode(u + edge * (corner & 1), v + edge * (corner >> 1))));
+            cosine =
+                fmin(cosine, sp_dot(centre, sp_octahedron_decode(u + edge * (corner & 1), v + edge * (corner >> 1))));
         bins->x[b] = (float)centre.x;
         bins->y[b] = (float)centre.y;
         bins->z[b] = (float)centre.z;

@@ -26,6 +26,8 @@ typedef struct {
 } sp_bins;
 
 void sp_bins_create(sp_bins *bins);
+/* The unit direction at u, v of [-1, 1]², onto which the octahedron is unfolded. */
+sp_vec3 sp_octahedron_decode(double u, double v);
 
 /* An arrival on its way into a view. */
 typedef struct {

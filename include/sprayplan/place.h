@@ -73,6 +73,7 @@ typedef struct {
     size_t nozzles;
     double counted; /* m² that it covers on the certificate's patches; NAN: no certificate */
     double bound;   /* m² of the same patches that no layout of as much water covers (see sp_certificate); NAN */
+    double every_aim_bound; /* the same of nozzles aimed in any way (see sp_certificate); NAN */
 } sp_front_point;
 
 /* How far from the best the proposal can be: no layout of the candidate poses and of the poses of the layouts found
@@ -89,6 +90,17 @@ typedef struct {
     double area_bound;  /* m² of them that no layout with the proposal's water exceeds */
     double water_bound; /* m³/s that every layout needs at least to cover what the proposal does */
     double gap;         /* (area_bound - counted) / area_bound */
+    /* The same, as far as it could be proved, of all layouts of nozzles at the candidates' mounting points whichever
+     * way they are aimed: every axis within the mount's tilt, every roll, every angle and flow that refinement may set,
+     * not only the candidates'; and of the poses of the layouts found. Places between the mounting points are not
+     * covered. */
+    struct {
+        bool computed;      /* false: nothing is proved that says more than `whole` */
+        size_t places;      /* mounting points */
+        double area_bound;  /* m² */
+        double water_bound; /* m³/s */
+        double gap;
+    } every_aim;
 } sp_certificate;
 
 typedef struct {

@@ -72,6 +72,13 @@ static void print_certificate(const sp_certificate *certificate)
         certificate->candidates, certificate->texels, ceil(1e3 * certificate->counted / certificate->whole - 1e-9) / 10,
         floor(6e5 * certificate->water_bound + 1e-6) / 10,
         ceil(1e3 * certificate->area_bound / certificate->whole - 1e-9) / 10, 100 * certificate->gap);
+    if (certificate->every_aim.computed)
+        printf(
+            "Whichever way nozzles at these %zu mounting points are aimed, at any roll, angle and flow allowed: none "
+            "reaches it with less\nthan %.1f L/min, and with the proposal's water none covers more than %.1f %%. "
+            "Places between are not covered.\n",
+            certificate->every_aim.places, floor(6e5 * certificate->every_aim.water_bound + 1e-6) / 10,
+            ceil(1e3 * certificate->every_aim.area_bound / certificate->whole - 1e-9) / 10);
 }
 
 /* What no layout can cover, by reason. */

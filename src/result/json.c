@@ -145,10 +145,22 @@ static bool put_front(json_t *root, const sp_proposal *proposal, double clean_ar
         done = put_real(entry, "water_l_min", 6e4 * point->flow) &&
                put_real(entry, "coverage", point->area / clean_area) && put_count(entry, "nozzles", point->nozzles) &&
                (!proposal->certificate.computed || (put_real(entry, "coverage_on_texels", point->counted / whole) &&
-                                                    put_real(entry, "coverage_bound", point->bound / whole)));
+                                                    put_real(entry, "coverage_bound", point->bound / whole))) &&
+               (!proposal->certificate.every_aim.computed ||
+                put_real(entry, "coverage_bound_every_aim", point->every_aim_bound / whole));
         done = json_array_append_new(front, entry) == 0 && done;
     }
     return put(root, "front", front) && done;
+}
+
+static bool put_every_aim(json_t *certificate, const sp_certificate *found)
+{
+    json_t *every = json_object();
+    bool done = put_count(every, "mounting_points", found->every_aim.places) &&
+                put_real(every, "coverage_bound_same_water", found->every_aim.area_bound / found->whole) &&
+                put_real(every, "water_bound_same_coverage_l_min", 6e4 * found->every_aim.water_bound) &&
+                put_real(every, "gap", found->every_aim.gap);
+    return put(certificate, "every_aim", every) && done;
 }
 
 /* Everything that it speaks of is counted on its own texels. */
@@ -160,7 +172,8 @@ static bool put_certificate(json_t *root, const sp_certificate *found)
                 put_real(certificate, "coverage_bound_same_water", found->area_bound / found->whole) &&
                 put_real(certificate, "water_bound_same_coverage_l_min", 6e4 * found->water_bound) &&
                 put_real(certificate, "gap", found->gap) && put_count(certificate, "candidates", found->candidates) &&
-                put_count(certificate, "own_poses", found->own) && put_count(certificate, "texels", found->texels);
+                put_count(certificate, "own_poses", found->own) && put_count(certificate, "texels", found->texels) &&
+                (!found->every_aim.computed || put_every_aim(certificate, found));
     return put(root, "certificate", certificate) && done;
 }
 

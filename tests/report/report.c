@@ -47,7 +47,7 @@ static int set_up(void **state)
         reasons[i] = attainable[i] ? SP_REASON_ATTAINABLE : i % 3 ? SP_REASON_SLANTED : SP_REASON_NO_LINE;
     for (int i = 0; i < 3; i++)
         f.front[i] = (sp_front_point){f.coverages[2]->flow * (i + 1) / 3,
-                                      f.coverages[2]->covered_area * (0.7 + 0.1 * i), (size_t)i + 1, NAN, NAN};
+                                      f.coverages[2]->covered_area * (0.7 + 0.1 * i), (size_t)i + 1, NAN, NAN, NAN};
     f.stages[0] = (sp_stage){"visibility", 1.25};
     f.stages[1] = (sp_stage){"refine", 2.5};
     f.proposal = (sp_proposal){.layout = f.layouts[2],

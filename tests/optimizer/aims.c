@@ -1,0 +1,309 @@
+/* Cells of aims: no aim of a cell is worth more than the cell's bound, and small cells' bounds are little more than
+ * what their aims are worth. */
+#include "room.h"
+
+#include "aim_prices.h"
+#include "scoring.h"
+
+#define TYPES 5
+#ifdef SPRAYPLAN_SANITIZE
+#define TEXEL 0.12
+#define CELLS 60
+#else
+#define TEXEL 0.05
+#define CELLS 400
+#endif
+#define AIMS 12 /* of each cell */
+
+typedef struct {
+    room room;
+    sp_nozzle_type type[TYPES];
+    const sp_nozzle_type *types[TYPES];
+    double pressure;
+    sp_mount mounts[2];
+    sp_place_options options;
+    sp_watch watch;
+    sp_sites sites;
+    sp_candidates candidates;
+    sp_visibility visibility;
+    sp_search search;
+    sp_cover cover;
+    uint32_t weight[1], tier[64];
+    const uint32_t *tiers[TYPES];
+    size_t ports[2];
+    float *need;
+    sp_lifts lifts;
+    sp_prices prices;
+    sp_aim_kinds kinds;
+    sp_pose_prices *poses;
+    sp_aim_prices *aims;
+} stage;
+
+static double next_random(uint64_t *state)
+{
+    *state ^= *state >> 12;
+    *state ^= *state << 25;
+    *state ^= *state >> 27;
+    return (double)((*state * 0x2545f4914f6cdd1du) >> 11) * 0x1p-53;
+}
+
+static void set_types(stage *s)
+{
+    s->type[0] = room_cone("wide", 90 * DEGREE, 20);
+    s->type[0].angle_min = 60 * DEGREE;
+    s->type[0].angle_max = 130 * DEGREE;
+    s->type[0].flow_min = 0.7 * s->type[0].flow;
+    s->type[0].flow_max = 1.3 * s->type[0].flow;
+    s->type[1] = room_cone("narrow", 30 * DEGREE, 9);
+    s->type[2] = room_cone("hollow", 120 * DEGREE, 16);
+    s->type[2].pattern = SP_PATTERN_HOLLOW_CONE;
+    s->type[2].hollow = 0.7;
+    s->type[3] = room_cone("fan", 80 * DEGREE, 10);
+    s->type[3].pattern = SP_PATTERN_FLAT_FAN;
+    s->type[3].thickness = 20 * DEGREE;
+    s->type[4] = room_cone("sheet", 240 * DEGREE, 10);
+    s->type[4].pattern = SP_PATTERN_FLAT_FAN;
+    s->type[4].thickness = 40 * DEGREE;
+    for (int i = 0; i < TYPES; i++)
+        s->types[i] = &s->type[i];
+}
+
+/* Prices at random, some texels' by a lift. */
+static void set_prices(stage *s, uint64_t *random)
+{
+    sp_error error = {0};
+    size_t patches = s->search.patch_count;
+    s->weight[0] = 1;
+    for (size_t i = 0; i < 64; i++)
+        s->tier[i] = 0;
+    for (size_t i = 0; i < TYPES; i++)
+        s->tiers[i] = s->tier;
+    s->ports[0] = s->ports[1] = SP_NO_PORT;
+    s->cover = (sp_cover){.texel_count = patches,
+                          .area = s->search.area,
+                          .tier_count = 1,
+                          .weight = s->weight,
+                          .nozzles = 3,
+                          .water = 3,
+                          .repeats = true,
+                          .threads = 1};
+    s->need = malloc(patches * sizeof *s->need);
+    sp_lifts_create(3, &s->lifts);
+    assert_true(s->need && sp_prices_create(&s->cover, &s->prices, &error));
+    s->prices.lifts = &s->lifts;
+    for (size_t t = 0; t < patches; t++) {
+        double lifted = fmax(0, next_random(random) - 0.5);
+        s->need[t] = t % 17 ? 1 : 0.5f;
+        s->prices.plain[t] = (float)(next_random(random) * (1 - lifted)) * s->search.area[t];
+        s->prices.lifted[t] = (float)lifted * s->search.area[t];
+        s->prices.kind[t] = (uint8_t)(next_random(random) * (double)s->lifts.kinds);
+    }
+}
+
+static void stage_open(stage *s, sp_trajectory trajectory, uint64_t *random)
+{
+    sp_error error = {0};
+    *s = (stage){.pressure = 2e5};
+    room_builder b = {0};
+    room_box(&b, sp_v(-1, -1, 0), sp_v(1, 1, 2), "walls", "lid");
+    room_box(&b, sp_v(-0.3, -0.2, 0.6), sp_v(0.2, 0.2, 1.1), "block", "top");
+    s->room.setup = sp_setup_default();
+    s->room.setup.cavity = SP_CAVITY_POINT;
+    s->room.setup.cavity_point = sp_v(0.6, 0.6, 0.5);
+    s->room.setup.criterion =
+        (sp_criterion){.flux = 8 * LITRES_PER_MINUTE, .impact_speed = 3, .incidence = 80 * DEGREE};
+    s->room.setup.fidelity.trajectory = trajectory;
+    room_open(&s->room, &b, TEXEL);
+    set_types(s);
+    s->mounts[0] = (sp_mount){.kind = SP_MOUNT_LINE,
+                              .axis = sp_v(0, 0, -1),
+                              .tilt = M_PI,
+                              .spacing = 0.7,
+                              .from = sp_v(-0.7, 0.4, 1.5),
+                              .to = sp_v(0.7, 0.4, 1.5)};
+    s->mounts[1] = (sp_mount){.kind = SP_MOUNT_BOX,
+                              .axis = sp_unit(sp_v(0.3, 0.2, -1)),
+                              .tilt = 4 * DEGREE,
+                              .from = sp_v(0.6, -0.5, 1.8),
+                              .to = sp_v(0.6, -0.5, 1.8)};
+    s->options = room_options();
+    s->options.refine = sp_place_options_default().refine;
+    s->options.types = s->types;
+    s->options.type_count = TYPES;
+    s->options.pressures = &s->pressure;
+    s->options.pressure_count = 1;
+    s->options.mounts = s->mounts;
+    s->options.mount_count = 2;
+    s->options.run.threads = 1;
+    s->watch = sp_watch_start(&s->options.run);
+    assert_true(sp_sites_create(s->room.evaluator, &s->options, &s->sites, &error));
+    assert_true(sp_candidates_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &error));
+    assert_true(sp_visibility_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->watch,
+                                     &s->visibility, &error));
+    assert_true(sp_search_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->visibility, &s->search,
+                                 &error));
+    set_prices(s, random);
+    assert_true(sp_aim_kinds_create(&s->search, &s->kinds, &error));
+    assert_int_equal(s->kinds.count, TYPES);
+    s->poses = sp_pose_prices_create(&s->search, &s->cover, s->tier, s->need, s->ports, &error);
+    s->aims = sp_aim_prices_create(&s->search, &s->cover, &s->kinds, s->tiers, s->ports, s->poses, &error);
+    assert_true(s->poses && s->aims);
+}
+
+static void stage_close(stage *s)
+{
+    sp_aim_prices_destroy(s->aims);
+    sp_pose_prices_destroy(s->poses);
+    sp_aim_kinds_free(&s->kinds);
+    sp_prices_free(&s->prices);
+    free(s->need);
+    sp_search_free(&s->search);
+    sp_visibility_free(&s->visibility);
+    sp_candidates_free(&s->candidates);
+    sp_sites_free(&s->sites);
+    free(s->watch.stages);
+    room_close(&s->room);
+}
+
+/* What a nozzle is worth, arrival by arrival. */
+static double worth(const stage *s, uint32_t site, size_t speed, const sp_spray *spray, const sp_frame *frame,
+                    double flow)
+{
+    const sp_view *view = &s->visibility.views[site * s->visibility.speed_count + speed];
+    float *flux = calloc(s->search.patch_count, sizeof *flux);
+    double price = 0;
+    assert_non_null(flux);
+    for (uint32_t i = 0; i < view->count; i++) {
+        sp_vec3 d = {(double)view->x[i], (double)view->y[i], (double)view->z[i]};
+        sp_vec3 local = {sp_dot(d, frame->x), sp_dot(d, frame->y), sp_dot(d, frame->z)};
+        flux[view->patch[i]] +=
+            (float)(flow * sp_spray_intensity(spray, local) * (double)view->transfer[i] / s->search.threshold);
+    }
+    for (size_t t = 0; t < s->search.patch_count; t++) {
+        float share = fminf(1, flux[t] / s->need[t]);
+        if (share > 0)
+            price += (double)share * (double)s->prices.plain[t] +
+                     (double)sp_lift(&s->lifts, s->prices.kind[t], share) * (double)s->prices.lifted[t];
+    }
+    free(flux);
+    return price;
+}
+
+static sp_vec3 turned(sp_vec3 v, sp_vec3 about, double angle)
+{
+    sp_vec3 along = sp_scale(about, sp_dot(about, v) * (1 - cos(angle)));
+    return sp_add(sp_add(sp_scale(v, cos(angle)), sp_scale(sp_cross(about, v), sin(angle))), along);
+}
+
+/* An aim of the cell at random: an axis within the square or the tilt, to which the cell's frame turns by the shortest
+ * way; then its roll. */
+static double worth_of_some(const stage *s, const sp_aim_cell *cell, const sp_aim_disc *disc, uint64_t *random)
+{
+    const sp_aim_kind *kind = &s->kinds.items[cell->kind];
+    double edge = ldexp(2, -cell->level);
+    sp_vec3 axis = sp_octahedron_decode(cell->u + edge * next_random(random), cell->v + edge * next_random(random));
+    double angle = cell->angle_low + (cell->angle_high - cell->angle_low) * next_random(random);
+    double low = kind->edge[cell->step], high = kind->edge[cell->step + 1];
+    sp_frame frame = sp_nozzle_frame(disc->axis, cell->roll, sp_v(0, 0, 1));
+    sp_vec3 about = sp_cross(disc->axis, axis);
+    double sine = sp_length(about), away = atan2(sine, sp_dot(disc->axis, axis));
+    double roll = cell->roll_half * (2 * next_random(random) - 1);
+    assert_true(away <= disc->radius);
+    if (sine > 0) {
+        about = sp_scale(about, 1 / sine);
+        frame = (sp_frame){turned(frame.x, about, away), turned(frame.y, about, away), axis};
+    }
+    frame.x = turned(frame.x, axis, roll);
+    frame.y = turned(frame.y, axis, roll);
+    sp_spray spray = sp_spray_create(kind->type, angle);
+    return worth(s, cell->site, kind->speed_class, &spray, &frame, low + (high - low) * next_random(random));
+}
+
+/* A piece of a piece of all aims, and so on. False where it has come to nothing. */
+static bool draw_cell(const stage *s, int splits, uint64_t *random, sp_aim_cell *cell)
+{
+    uint32_t site = (uint32_t)(next_random(random) * (double)s->sites.count);
+    uint32_t number = (uint32_t)(next_random(random) * TYPES);
+    const sp_aim_kind *kind = &s->kinds.items[number];
+    double tilt = s->mounts[s->sites.items[site].mount].tilt;
+    *cell = sp_aim_cell_whole(kind, site, number, (uint32_t)(next_random(random) * (double)kind->step_count));
+    for (int i = 0; i < splits && sp_aim_cell_splits(cell, kind, &s->sites.items[site], tilt); i++) {
+        sp_aim_cell children[SP_AIM_CHILDREN];
+        size_t count = sp_aim_cell_split(cell, kind, &s->sites.items[site], tilt, children);
+        if (!count)
+            return false;
+        *cell = children[(size_t)(next_random(random) * (double)count)];
+    }
+    return cell->level >= 0;
+}
+
+static void no_aim_is_worth_more_than_its_cell(void **state)
+{
+    (void)state;
+    const sp_trajectory trajectories[] = {SP_TRAJECTORY_LINE, SP_TRAJECTORY_PARABOLA};
+    for (int t = 0; t < 2; t++) {
+        stage s;
+        uint64_t random = 5;
+        stage_open(&s, trajectories[t], &random);
+        double small_upper = 0, small_worth = 0;
+        size_t tried = 0;
+        for (int i = 0; i < CELLS; i++) {
+            int splits = 1 + i % 24;
+            sp_aim_cell cell;
+            if (!draw_cell(&s, splits, &random, &cell))
+                continue;
+            const sp_site *site = &s.sites.items[cell.site];
+            sp_aim_disc disc = sp_aim_cell_disc(&cell, site, s.mounts[site->mount].tilt);
+            double upper = sp_aim_prices_upper(s.aims, &cell, &s.prices), most = 0;
+            for (int k = 0; k < AIMS; k++)
+                most = fmax(most, worth_of_some(&s, &cell, &disc, &random));
+            if (most > upper)
+                fail_msg("%s: an aim is worth %g, its cell at most %g", s.type[cell.kind].name, most, upper);
+            if (disc.radius < 0.02 && cell.roll_half < 0.03) {
+                small_upper += upper;
+                small_worth += most;
+            }
+            tried++;
+        }
+        print_message("small cells: bounds %.4f, best of a few aims %.4f\n", small_upper, small_worth);
+        assert_true(tried > CELLS / 2);
+        assert_true(small_worth > 0 && small_upper < 1.25 * small_worth);
+        stage_close(&s);
+    }
+}
+
+/* Pieces leave nothing out: every axis within the tilt lies in one of them. */
+static void pieces_hold_all_axes(void **state)
+{
+    (void)state;
+    sp_nozzle_type type = room_cone("cone", 60 * DEGREE, 10);
+    sp_aim_kind kind = {.type = &type, .angle_low = type.angle, .angle_high = type.angle, .step_count = 1};
+    const double tilts[] = {1 * DEGREE, 4 * DEGREE, 20 * DEGREE, 45 * DEGREE, 180 * DEGREE};
+    uint64_t random = 3;
+    for (size_t t = 0; t < sizeof tilts / sizeof *tilts; t++) {
+        sp_site site = {.axis = sp_unit(sp_v(next_random(&random) - 0.5, next_random(&random) - 0.5, -0.4))};
+        sp_aim_cell whole = sp_aim_cell_whole(&kind, 0, 0, 0), children[SP_AIM_CHILDREN];
+        size_t count = sp_aim_cell_split(&whole, &kind, &site, tilts[t], children);
+        assert_true(count > 1);
+        for (int i = 0; i < 2000; i++) {
+            double polar = tilts[t] * next_random(&random), azimuth = 2 * M_PI * next_random(&random);
+            sp_frame frame = sp_nozzle_frame(site.axis, azimuth, sp_v(0, 0, 1));
+            sp_vec3 axis = sp_along(sp_scale(frame.z, cos(polar)), sin(polar), frame.x);
+            bool held = false;
+            for (size_t k = 0; k < count; k++) {
+                sp_aim_disc disc = sp_aim_cell_disc(&children[k], &site, tilts[t]);
+                held |= sp_dot(axis, disc.axis) >= cos(disc.radius);
+            }
+            assert_true(held);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_aim_is_worth_more_than_its_cell),
+        cmocka_unit_test(pieces_hold_all_axes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
