@@ -24,6 +24,7 @@ typedef struct {
     int x, y, z;
     float sign;
     float origin[3];          /* along x, y, z */
+    double place[3];          /* the origin, not rounded */
     float centre[2], half[2]; /* the range of u, v */
     float blur;               /* how far rounding may move a sheared corner */
     float farthest;           /* the largest `high` */
@@ -38,7 +39,7 @@ typedef struct {
     const sp_ray *rays;
     size_t count;
     sp_direction_entry *order[2]; /* [count]; the first is sorted */
-    float origin[3];              /* in the hierarchy's space */
+    double place[3];              /* of the origin, in the hierarchy's space */
     float blur;                   /* as a bundle's */
 } sp_fan;
 

@@ -152,12 +152,57 @@ static inline void take(sp_bundle *b, int lane, uint32_t triangle, bool sure, fl
         b->triangle[lane] = triangle;
         b->high[lane] = -1;
     } else if (high < b->low[lane]) {
+        __builtin_prefetch(&b->bvh->mesh->triangles[triangle]);
         b->triangle[lane] = triangle;
         b->low[lane] = low;
         b->high[lane] = high;
     } else {
         sp_bundle_settle(b, lane, triangle);
     }
+}
+
+/* For what the bundle's view of a block leaves in doubt: the line's own, in double precision, of the corners as the
+ * block has them. Between which depths it hits; low above high where it surely does not; false where that, too, is in
+ * doubt.
+ *
+ * A corner is off by e along each axis, sheared by 2 e; all else is rounded to 2^-52. As above, weights then are off by
+ * 8 M e + 8 e^2, where M itself is off by 2 e, and the depth by 16 of these times Z over the sum, and by 2 e. */
+static inline bool look_closer(const sp_bundle *b, int lane, const sp_bvh_block *block, int i, float *low, float *high)
+{
+    const double e = 0x1p-24;
+    double x[3], y[3], z[3], inverse = 1 / fabs(b->velocity[2][lane]), most = 0, deepest = 0;
+    double u = b->velocity[0][lane] * inverse, v = b->velocity[1][lane] * inverse;
+    for (int k = 0; k < 3; k++) {
+        z[k] = (block->corner[k][b->z][i] - b->place[2]) * b->sign;
+        x[k] = block->corner[k][b->x][i] - b->place[0] - u * z[k];
+        y[k] = block->corner[k][b->y][i] - b->place[1] - v * z[k];
+        most = sp_greater(most, sp_greater(fabs(x[k]), fabs(y[k])));
+        deepest = sp_greater(deepest, fabs(z[k]));
+    }
+    double w0 = x[2] * y[1] - y[2] * x[1], w1 = x[0] * y[2] - y[0] * x[2], w2 = x[1] * y[0] - y[1] * x[0];
+    double error = 9 * e * most + 32 * e * e, sum = w0 + w1 + w2;
+    double least = sp_lesser(sp_lesser(w0, w1), w2), largest = sp_greater(sp_greater(w0, w1), w2);
+    if (least < -error && largest > error) {
+        *low = 1;
+        *high = 0;
+        return true;
+    }
+    double depth = (w0 * z[0] + w1 * z[1] + w2 * z[2]) / sum, off = 16 * error * deepest / fabs(sum) + 4 * e;
+    *low = (float)(depth - off - 16 * e);
+    *high = (float)(depth + off + 16 * e);
+    return (least > error || largest < -error) && fabs(sum) > 8 * error;
+}
+
+/* Takes what the bundle's view found, or looks closer. */
+static inline void take_found(sp_bundle *b, int lane, const sp_bvh_block *block, int i, bool sure, float nearest,
+                              float low, float high)
+{
+    if (!sure) {
+        sure = look_closer(b, lane, block, i, &low, &high);
+        if (sure && low > high)
+            return;
+    }
+    take(b, lane, block->triangle[i], sure, sure ? low : nearest, high);
 }
 
 /* Where lines meet triangles, one of either at a time: weights and how far they may be off. */
@@ -190,7 +235,7 @@ static inline uint32_t decide(const meeting *m, wide error, wide volume, wide de
 }
 
 /* Tests those of the bundle's lines against triangle i of the block; returns whether anything came of it. */
-static inline bool test_triangle(sp_bundle *b, const bundle_block *p, uint32_t lines, int i, uint32_t triangle)
+static inline bool test_triangle(sp_bundle *b, const bundle_block *p, uint32_t lines, int i, const sp_bvh_block *block)
 {
     wide error = wide_set(p->error[i]);
     bool taken = false;
@@ -208,8 +253,7 @@ static inline bool test_triangle(sp_bundle *b, const bundle_block *p, uint32_t l
         uint32_t sure = decide(&m, error, wide_set(p->volume[i]), wide_set(p->depth_error[i]), b->blur, low, high);
         for (uint32_t rest = m.maybe; rest; rest &= rest - 1) {
             int lane = __builtin_ctz(rest);
-            bool is_sure = sure >> lane & 1;
-            take(b, group + lane, triangle, is_sure, is_sure ? low[lane] : p->nearest[i], high[lane]);
+            take_found(b, group + lane, block, i, sure >> lane & 1, p->nearest[i], low[lane], high[lane]);
         }
         taken = true;
     }
@@ -232,8 +276,7 @@ static inline bool test_line(sp_bundle *b, const bundle_block *p, uint32_t trian
     uint32_t sure = decide(&m, error, wide_load(p->volume), wide_load(p->depth_error), b->blur, low, high);
     for (uint32_t rest = m.maybe; rest; rest &= rest - 1) {
         int i = __builtin_ctz(rest);
-        bool is_sure = sure >> i & 1;
-        take(b, lane, block->triangle[i], is_sure, is_sure ? low[i] : p->nearest[i], high[i]);
+        take_found(b, lane, block, i, sure >> i & 1, p->nearest[i], low[i], high[i]);
     }
     return true;
 }
@@ -264,7 +307,7 @@ static inline void search_bundle_block(sp_bundle *b, const sp_bvh_block *block, 
     } else {
         for (uint32_t rest = triangles; rest; rest &= rest - 1) {
             int i = __builtin_ctz(rest);
-            taken |= test_triangle(b, &p, lines, i, block->triangle[i]);
+            taken |= test_triangle(b, &p, lines, i, block);
         }
     }
     if (taken)

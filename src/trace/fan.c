@@ -45,7 +45,7 @@ static bool place_origin(sp_fan *f)
     sp_to_array(f->rays[0].origin, origin);
     for (int axis = 0; axis < 3; axis++) {
         double place = (origin[axis] - f->bvh->centre[axis]) * f->bvh->scale;
-        f->origin[axis] = (float)place;
+        f->place[axis] = place;
         reach = sp_greater(reach, fabs(place) + 1);
         if (!(fabs(place) <= NEAR_ENOUGH))
             return false;

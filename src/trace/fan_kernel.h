@@ -127,9 +127,11 @@ static size_t fill_bundle(const sp_fan *f, size_t from, sp_bundle *b)
 {
     double t_min[SP_BUNDLE], t_max[SP_BUNDLE];
     b->count = take_rays(f, from, b, t_min, t_max);
-    b->origin[0] = f->origin[b->x];
-    b->origin[1] = f->origin[b->y];
-    b->origin[2] = f->origin[b->z];
+    b->place[0] = f->place[b->x];
+    b->place[1] = f->place[b->y];
+    b->place[2] = f->place[b->z];
+    for (int axis = 0; axis < 3; axis++)
+        b->origin[axis] = (float)b->place[axis];
     for (int i = 0; i < SP_BUNDLE; i++) {
         double along = fabs(b->velocity[2][i]), inverse = 1 / along, rate = along * f->bvh->scale;
         b->slope_u[i] = (float)(b->velocity[0][i] * inverse);
