@@ -16,7 +16,7 @@
 #define WIDEST_GAP 0.12      /* over the smaller sheet's size */
 #define DEVELOPABLE_GAP 1e-4 /* over the length of the run */
 #define LEAST_SHARE 0.15     /* of the smaller sheet's boundary that the run must be */
-#define MOST_WASTE 1.497 /* box around the union over those around the two; no ratio that boxes are likely to have */
+#define MOST_WASTE 1.137 /* box around the union over those around the two; no ratio that boxes are likely to have */
 #define PATCH_SHARE 0.05 /* of the area of developable surface, that a sheet may have which joins it with strain */
 
 typedef struct {
