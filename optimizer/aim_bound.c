@@ -8,7 +8,7 @@
 #define ROUNDS_FIRST 2   /* of pricing all aims, at the proposal's water */
 #define ROUNDS_WATER 2   /* at a water that may be too little for the proposal's coverage */
 #define TRIALS_WATER 1   /* such waters */
-#define POINTS_MOST 4    /* of the front, that get rounds of their own */
+#define POINTS_MOST 2    /* of the front, that get rounds of their own */
 #define ROUNDS_FRONT 2
 #define WORTH_LEAST 1e-3 /* of the whole, below which a bound must lie to say something */
 

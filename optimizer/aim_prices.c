@@ -8,7 +8,7 @@
 
 #define UPWARDS (1 + 1e-4) /* more than a sweep's sum may lie off, see sweep.h */
 #define CLOSE 1.01         /* a cell's bound over the best known aim's price, that is not worth a split */
-#define CELLS_MOST 200000  /* that one pricing looks at, about */
+#define CELLS_MOST 80000  /* that one pricing looks at, about */
 #define ROWS_AT_A_TIME 200
 #define CULLS 16                      /* kept by each thread */
 #define KEY_FIRST (UINT64_C(1) << 62) /* of rows for aims, which have no number */

@@ -12,9 +12,9 @@
 #define ROUNDS_FIRST 2     /* of pricing all poses, at the proposal's water */
 #define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
 #define TRIALS_WATER 3     /* such waters */
-#define IN_VAIN_MOST 2     /* of these in a row that yield nothing */
+#define STEP_WATER 0.4     /* of the way to the proposal's water, for the first of them */
 #define WORK_LEAST 1e6     /* of branch and bound at the front's points, see sp_tree */
-#define WORK_EACH 12       /* the same, besides, in pricings of all candidates */
+#define WORK_EACH 6        /* the same, besides, in pricings of all candidates */
 #define WORK_PROVING 1e10  /* with --prove, where no time limit ends it */
 #define WATER_LIKE 1.7     /* times more or less water still counts as about as much */
 #define WORK_FIRST 1.5     /* of a point, in pricings of all candidates */
@@ -279,18 +279,20 @@ static bool lower(certifying *c, size_t water, size_t rounds, double done, sp_er
     return true;
 }
 
-/* The least water for what the proposal covers: bounds are lowered where they first allow it, until some trials in a
- * row yield nothing. */
-static bool lower_water(certifying *c, double area, size_t trials, size_t rounds, sp_error *error)
+/* The least water for what the proposal covers. Bounds are lowered between where they first allow it and the proposal,
+ * at `most`, the nearer to the former the more trials have yielded nothing. */
+static bool lower_water(certifying *c, double area, size_t most, size_t trials, size_t rounds, sp_error *error)
 {
-    size_t in_vain = 0;
-    for (size_t trial = 0; trial < trials && in_vain < IN_VAIN_MOST; trial++) {
+    double step = STEP_WATER;
+    for (size_t trial = 0; trial < trials; trial++) {
         size_t water = sp_bound_water(&c->bound, area);
-        if (!water || water > c->cover.water)
+        if (!water || water >= most)
             return true;
-        if (!lower(c, water, rounds, 0.3 + 0.3 * (double)trial / (double)trials, error))
+        if (!lower(c, water + (size_t)(step * (double)(most - water)), rounds,
+                   0.3 + 0.3 * (double)trial / (double)trials, error))
             return false;
-        in_vain = sp_bound_water(&c->bound, area) == water ? in_vain + 1 : 0;
+        if (sp_bound_water(&c->bound, area) == water)
+            step *= 0.5;
     }
     return true;
 }
@@ -367,7 +369,7 @@ static bool prove(certifying *c, size_t water, double area, sp_error *error)
     c->bound.iterations = ITERATIONS_PROVING;
     c->bound.tolerance = TOLERANCE_PROVING;
     bool done = lower(c, water, ROUNDS_PROVING, 0.5, error) &&
-                lower_water(c, area, ROUNDS_PROVING, ROUNDS_WATER_PROVING, error);
+                lower_water(c, area, water, ROUNDS_PROVING, ROUNDS_WATER_PROVING, error);
     c->bound.iterations = iterations;
     c->bound.tolerance = tolerance;
     return done && lower_front(c, WORK_PROVING, error);
@@ -382,7 +384,8 @@ static bool lower_all(certifying *c, sp_error *error)
             return false;
     return sp_bound_lower(&c->bound, water, error) && tell_trees(c, water, error) &&
            sp_bound_lower_single(&c->bound, error) && tell_trees(c, c->bound.lightest, error) &&
-           lower(c, water, ROUNDS_FIRST - 1, 0.1, error) && lower_water(c, area, TRIALS_WATER, ROUNDS_WATER, error) &&
+           lower(c, water, ROUNDS_FIRST - 1, 0.1, error) &&
+           lower_water(c, area, water, TRIALS_WATER, ROUNDS_WATER, error) &&
            lower_front(c, WORK_LEAST + WORK_EACH * (double)c->line.count, error) &&
            (!c->search->options->prove || prove(c, water, area, error));
 }

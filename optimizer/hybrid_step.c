@@ -1,7 +1,15 @@
 #include "hybrid.h"
 
 #include <math.h>
-#include <omp.h>
+
+#define SHARES_A_THREAD 30000 /* fewer are added up sooner than another thread wakes */
+
+/* A step is short and there are thousands: no more threads than have enough to do. */
+static int threads_for(const sp_hybrid *h)
+{
+    double shares = (double)h->rows->start[h->rows->count] + (double)h->dual->texels;
+    return (int)fmax(1, fmin(h->dual->cover->threads, floor(shares / SHARES_A_THREAD)));
+}
 
 static size_t lower_bound(const uint32_t *texel, size_t first, size_t end, size_t least)
 {
@@ -20,7 +28,7 @@ void sp_hybrid_add_up(sp_hybrid *h, const double *x)
 {
     const sp_rows *rows = h->rows;
     size_t texels = h->dual->texels;
-    int threads = h->dual->cover->threads;
+    int threads = threads_for(h);
 #pragma omp parallel for num_threads(threads) schedule(static, 1)
     for (int part = 0; part < threads; part++) {
         size_t first = texels * (size_t)part / (size_t)threads, end = texels * ((size_t)part + 1) / (size_t)threads;
@@ -57,7 +65,7 @@ static void find_prices(sp_hybrid *h)
 {
     const sp_rows *rows = h->rows;
     const sp_prices *u = &h->dual->u;
-    int threads = h->dual->cover->threads;
+    int threads = threads_for(h);
 #pragma omp parallel for num_threads(threads) schedule(static, 16)
     for (size_t c = 0; c < rows->count; c++) {
         size_t first = rows->start[c], count = rows->start[c + 1] - first;
@@ -131,7 +139,7 @@ void sp_hybrid_step(sp_hybrid *h)
     find_prices(h);
     step_rows(h);
     sp_hybrid_add_up(h, h->x_bar);
-    int threads = dual->cover->threads;
+    int threads = threads_for(h);
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (size_t t = 0; t < dual->texels; t++)
         step_texel(h, t);

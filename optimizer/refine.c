@@ -335,8 +335,8 @@ static bool refine_all(sp_refining *refining)
     if (!polish_front(refining))
         return false;
     bool saves = front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
-    return (!saves || save_water(refining)) && recombine_front(refining) && kick_front(refining) &&
-           recombine_front(refining) && sharpen_best(refining) && (!saves || save_flow(refining));
+    return (!saves || save_water(refining)) && kick_front(refining) && recombine_front(refining) &&
+           sharpen_best(refining) && (!saves || save_flow(refining));
 }
 
 bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error)

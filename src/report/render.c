@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define BAND 32
 #define LOOK_THROUGH_MOST 1000 /* surfaces; ends a ray that round-off holds in place */
 #define CREASE 0.906           /* cosine of 25 degrees: a sharper edge is drawn */
 #define STEP 0.008             /* of the box's diagonal: a jump in depth that is drawn */
@@ -15,45 +16,81 @@ typedef struct {
     float depth; /* along the forward axis, m */
 } sighting;
 
-/* The first surface that shows its wet side. */
-static sp_hit look(const sp_layers *layers, const sp_camera *camera, sp_vec3 direction, int *back)
+/* Rows of samples that are looked at together: lines from one eye, side by side, are traced faster than one by one. */
+typedef struct {
+    const sp_layers *layers;
+    const sp_camera *camera;
+    int columns, team;
+    sp_ray *rays;      /* [BAND columns] */
+    sp_hit *hits;      /* the same */
+    uint32_t *number;  /* the same: the sample that a ray belongs to, SP_NONE once it is done */
+    sp_sample *sample; /* of the band's first sample */
+    sighting *seen;    /* the same */
+} band;
+
+static void take_sample(const band *b, uint32_t number, const sp_hit *hit, sp_vec3 direction, int back)
 {
-    const sp_mesh *mesh = sp_evaluator_setup(layers->evaluator)->mesh;
-    sp_ray ray = {camera->eye, direction, 0, INFINITY, SP_NONE};
-    if (camera->cut)
-        ray.t_min = sp_dot(sp_sub(camera->centre, camera->eye), camera->forward);
-    sp_hit hit = {.triangle = SP_NONE};
-    for (int i = 0; i < LOOK_THROUGH_MOST; ++i) {
-        hit = sp_trace_nearest(sp_evaluator_tracer(layers->evaluator), &ray, sp_v(0, 0, 0));
-        if (hit.triangle == SP_NONE)
-            return hit;
-        *back = sp_dot(sp_triangle_normal(mesh, hit.triangle), direction) > 0;
-        if (sp_layers_wet(layers, hit.triangle, *back))
-            return hit;
-        ray.t_min = hit.t;
-        ray.skip = hit.triangle;
-    }
-    hit.triangle = SP_NONE;
-    return hit;
+    const sp_mesh *mesh = sp_evaluator_setup(b->layers->evaluator)->mesh;
+    double facing = fabs(sp_dot(sp_triangle_normal(mesh, hit->triangle), sp_unit(direction)));
+    uint32_t patch = sp_layers_patch(b->layers, hit->triangle, hit->u, hit->v, back);
+    /* A light at the eye; weak, because brightness also means flux. */
+    b->sample[number] = (sp_sample){patch == SP_NONE ? SP_LOOK_GREY : patch, (float)(0.7 + 0.3 * facing)};
+    b->seen[number] = (sighting){hit->triangle, (float)hit->t}; /* the direction's forward component is 1 */
 }
 
-static void sample_at(const sp_layers *layers, const sp_camera *camera, double x, double y, sp_sample *sample,
-                      sighting *seen)
+/* True where the ray is to be traced on: what it met shows its dry side. */
+static bool looks_on(const band *b, size_t i)
 {
-    sp_vec3 direction = sp_camera_direction(camera, x, y);
-    int back = 0;
-    sp_hit hit = look(layers, camera, direction, &back);
-    *sample = (sp_sample){SP_LOOK_NOTHING, 1};
-    *seen = (sighting){hit.triangle, 0};
-    if (hit.triangle == SP_NONE)
-        return;
-    const sp_mesh *mesh = sp_evaluator_setup(layers->evaluator)->mesh;
-    double facing = fabs(sp_dot(sp_triangle_normal(mesh, hit.triangle), sp_unit(direction)));
-    uint32_t patch = sp_layers_patch(layers, hit.triangle, hit.u, hit.v, back);
-    sample->look = patch == SP_NONE ? SP_LOOK_GREY : patch;
-    /* A light at the eye; weak, because brightness also means flux. */
-    sample->shade = (float)(0.7 + 0.3 * facing);
-    seen->depth = (float)hit.t; /* the direction's forward component is 1 */
+    const sp_hit *hit = &b->hits[i];
+    sp_ray *ray = &b->rays[i];
+    if (hit->triangle == SP_NONE)
+        return false;
+    const sp_mesh *mesh = sp_evaluator_setup(b->layers->evaluator)->mesh;
+    int back = sp_dot(sp_triangle_normal(mesh, hit->triangle), ray->velocity) > 0;
+    if (sp_layers_wet(b->layers, hit->triangle, back)) {
+        take_sample(b, b->number[i], hit, ray->velocity, back);
+        return false;
+    }
+    ray->t_min = hit->t;
+    ray->skip = hit->triangle;
+    return true;
+}
+
+static void aim(const band *b, int y, size_t count)
+{
+    const sp_camera *camera = b->camera;
+    double from = camera->cut ? sp_dot(sp_sub(camera->centre, camera->eye), camera->forward) : 0;
+#pragma omp parallel for num_threads(b->team) schedule(static)
+    for (size_t i = 0; i < count; ++i) {
+        double column = (double)(i % (size_t)b->columns), row = (double)y + (double)(i / (size_t)b->columns);
+        sp_vec3 direction = sp_camera_direction(camera, 0.5 * (column + 0.5), 0.5 * (row + 0.5));
+        b->rays[i] = (sp_ray){camera->eye, direction, from, INFINITY, SP_NONE};
+        b->number[i] = (uint32_t)i;
+        b->sample[i] = (sp_sample){SP_LOOK_NOTHING, 1};
+        b->seen[i] = (sighting){SP_NONE, 0};
+    }
+}
+
+/* The first surfaces that show their wet sides, `rows` rows from y on. */
+static void look(const band *b, int y, int rows)
+{
+    size_t count = (size_t)rows * (size_t)b->columns;
+    aim(b, y, count);
+    for (int i = 0; count && i < LOOK_THROUGH_MOST; ++i) {
+        sp_trace_nearest_many(sp_evaluator_tracer(b->layers->evaluator), b->rays, count, sp_v(0, 0, 0), b->team,
+                              b->hits);
+#pragma omp parallel for num_threads(b->team) schedule(static)
+        for (size_t k = 0; k < count; ++k)
+            if (!looks_on(b, k))
+                b->number[k] = SP_NONE;
+        size_t kept = 0;
+        for (size_t k = 0; k < count; ++k)
+            if (b->number[k] != SP_NONE) {
+                b->rays[kept] = b->rays[k];
+                b->number[kept++] = b->number[k];
+            }
+        count = kept;
+    }
 }
 
 static sp_vec3 point_of(const sp_camera *camera, int x, int y, const sighting *seen)
@@ -94,24 +131,30 @@ static void ink_edges(sp_shot *shot, const sp_mesh *mesh, const sp_camera *camer
 bool sp_shot_create(sp_shot *shot, const sp_layers *layers, const sp_camera *camera, int threads, sp_error *error)
 {
     int columns = 2 * camera->width, rows = 2 * camera->height;
-    size_t count = (size_t)columns * (size_t)rows;
-    int team = threads > 0 ? threads : omp_get_max_threads();
+    size_t count = (size_t)columns * (size_t)rows, at_once = BAND * (size_t)columns;
+    band b = {.layers = layers, .camera = camera, .columns = columns};
+    b.team = threads > 0 ? threads : omp_get_max_threads();
     *shot = (sp_shot){camera->width, camera->height, malloc(count * sizeof *shot->samples)};
     sighting *seen = malloc(count * sizeof *seen);
-    if (!shot->samples || !seen) {
-        free(seen);
-        sp_shot_free(shot);
-        return sp_fail_memory(error);
+    b.rays = malloc(at_once * sizeof *b.rays);
+    b.hits = malloc(at_once * sizeof *b.hits);
+    b.number = malloc(at_once * sizeof *b.number);
+    bool done = shot->samples && seen && b.rays && b.hits && b.number;
+    for (int y = 0; done && y < rows; y += BAND) {
+        b.sample = shot->samples + (size_t)y * (size_t)columns;
+        b.seen = seen + (size_t)y * (size_t)columns;
+        look(&b, y, rows - y < BAND ? rows - y : BAND);
     }
-#pragma omp parallel for num_threads(team) schedule(dynamic, 8)
-    for (int y = 0; y < rows; ++y)
-        for (int x = 0; x < columns; ++x) {
-            size_t here = (size_t)y * (size_t)columns + (size_t)x;
-            sample_at(layers, camera, 0.5 * (x + 0.5), 0.5 * (y + 0.5), &shot->samples[here], &seen[here]);
-        }
-    ink_edges(shot, sp_evaluator_setup(layers->evaluator)->mesh, camera, seen, team);
+    if (done)
+        ink_edges(shot, sp_evaluator_setup(layers->evaluator)->mesh, camera, seen, b.team);
     free(seen);
-    return true;
+    free(b.rays);
+    free(b.hits);
+    free(b.number);
+    if (done)
+        return true;
+    sp_shot_free(shot);
+    return sp_fail_memory(error);
 }
 
 void sp_shot_free(sp_shot *shot)
