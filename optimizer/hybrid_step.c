@@ -7,7 +7,7 @@
 /* A step is short and there are thousands: no more threads than have enough to do. */
 static int threads_for(const sp_hybrid *h)
 {
-    double shares = (double)h->rows->start[h->rows->count] + (double)h->dual->texels;
+    double shares = (double)h->rows->used + (double)h->dual->texels;
     return (int)fmax(1, fmin(h->dual->cover->threads, floor(shares / SHARES_A_THREAD)));
 }
 

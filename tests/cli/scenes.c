@@ -369,19 +369,24 @@ static void write_long_scene(void)
     free(long_yaml);
 }
 
-/* check accepts what was written in `folder`, and simulate gives its figures. */
-static void proposal_is_whole(const char *folder)
+/* check accepts what was written in `folder`, and simulate gives its figures; of a proposal without nozzles, where that
+ * may be, there is nothing to simulate. */
+static void proposal_is_whole(const char *folder, bool may_be_empty)
 {
     char text[256];
     snprintf(text, sizeof text, "%s/result.json", folder);
-    json_t *placed = json_file(text);
+    json_t *placed = json_file(text), *proposed = layout_named(placed, "proposed");
+    if (may_be_empty && number(proposed, "water_l_min") == 0) {
+        assert_true(number(proposed, "covered_area_m2") == 0);
+        json_decref(placed);
+        return;
+    }
     snprintf(text, sizeof text, "check %s/layout.yaml --quiet", folder);
     outcome result = run_program(text);
     assert_int_equal(result.status, 0);
     forget(&result);
     snprintf(text, sizeof text, "simulate %s/layout.yaml --json", folder);
-    json_t *again = expect_json(text, 0), *proposed = layout_named(placed, "proposed");
-    json_t *manual = layout_named(again, "manual");
+    json_t *again = expect_json(text, 0), *manual = layout_named(again, "manual");
     assert_true(number(proposed, "covered_area_m2") == number(manual, "covered_area_m2"));
     assert_true(number(proposed, "water_l_min") == number(manual, "water_l_min"));
     json_decref(placed);
@@ -400,7 +405,7 @@ static void out_of_time_place_writes_the_best_so_far(void **state)
         assert_true(result.status == 0 || result.status == 4);
         forget(&result);
         snprintf(text, sizeof text, "limited%zu", i);
-        proposal_is_whole(text);
+        proposal_is_whole(text, false);
     }
 }
 
@@ -425,7 +430,7 @@ static void interrupting_place_writes_the_best_so_far(void **state)
     char *complaint = read_file(".err", NULL);
     assert_non_null(strstr(complaint, "interrupted"));
     free(complaint);
-    proposal_is_whole("interrupted");
+    proposal_is_whole("interrupted", true); /* the signal may come before the first nozzle is found */
 }
 
 int main(void)
