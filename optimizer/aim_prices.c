@@ -326,7 +326,8 @@ static bool split_open(sp_aim_prices *prices, sp_offers *offers)
     cell_list before = *open;
     *open = *next;
     *next = before;
-    qsort(open->items, open->count, sizeof *open->items, by_likeness);
+    if (open->count > 1)
+        qsort(open->items, open->count, sizeof *open->items, by_likeness);
     return true;
 }
 
