@@ -55,13 +55,12 @@ void sp_offers_add(sp_offers *offers, size_t port, size_t tier, double price)
 
 /* One nozzle at most out of a choice of prices by tier, on top of `value`. Downwards, so that what is read is still
  * without it. */
-static void take_one(const sp_offers *offers, const double *prices, bool must, size_t nozzles, size_t water,
-                     double *value)
+static void take_one(const sp_offers *offers, const double *prices, size_t nozzles, size_t water, double *value)
 {
     size_t row = water + 1;
     for (size_t n = nozzles + 1; n-- > 0;)
         for (size_t w = row; w-- > 0;) {
-            double best = must ? -INFINITY : value[n * row + w];
+            double best = value[n * row + w];
             for (size_t k = 0; n > 0 && k < offers->tier_count; k++)
                 if (prices[k] > 0 && offers->weight[k] <= w)
                     best = fmax(best, prices[k] + value[(n - 1) * row + w - offers->weight[k]]);
@@ -101,12 +100,7 @@ void sp_knapsack(const sp_offers *offers, size_t nozzles, size_t water, double *
         }
     }
     for (size_t p = 0; p < offers->port_count; p++)
-        take_one(offers, &offers->port[p * offers->tier_count], false, nozzles, water, value);
+        take_one(offers, &offers->port[p * offers->tier_count], nozzles, water, value);
     for (size_t i = 0; i < (nozzles + 1) * (water + 1); i++)
         value[i] *= UPWARDS;
-}
-
-void sp_knapsack_must(const sp_offers *offers, const double *prices, size_t nozzles, size_t water, double *value)
-{
-    take_one(offers, prices, true, nozzles, water, value);
 }

@@ -28,8 +28,5 @@ void sp_offers_add(sp_offers *offers, size_t port, size_t tier, double price);
 /* value[n * (water + 1) + w], [nozzles + 1][water + 1]: the highest total price of at most n nozzles of weight at most
  * w, rounded upwards. Dynamic programming: Martello and Toth, Knapsack Problems, 1990, chapter 2. */
 void sp_knapsack(const sp_offers *offers, size_t nozzles, size_t water, double *value);
-/* Of `value`, a table of sp_knapsack, the same where one more nozzle has to be taken at one of prices[tier_count]
- * (0: none; -INFINITY where nothing fits), written over it. */
-void sp_knapsack_must(const sp_offers *offers, const double *prices, size_t nozzles, size_t water, double *value);
 
 #endif
