@@ -1,7 +1,7 @@
-#include "attainable.h"
-#include "certificate.h"
-#include "find.h"
-#include "refine.h"
+#include "attainable/attainable.h"
+#include "certificate/certificate.h"
+#include "search/find.h"
+#include "refine/refine.h"
 
 #include <stdlib.h>
 

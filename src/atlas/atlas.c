@@ -1,7 +1,7 @@
 #include <sprayplan/atlas.h>
 
-#include "atlas/pack.h"
-#include "atlas/texels.h"
+#include "atlas/packing/pack.h"
+#include "atlas/texels/texels.h"
 
 #include <math.h>
 #include <stdlib.h>

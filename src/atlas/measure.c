@@ -1,6 +1,6 @@
 /* How good an atlas is: cuts, distortion, use of the pages, and checks that hold for every atlas. */
 #include "atlas/overlap.h"
-#include "atlas/texels.h"
+#include "atlas/texels/texels.h"
 
 #include <sprayplan/atlas.h>
 

@@ -2,7 +2,7 @@
 #include "atlas/reuse.h"
 
 #include "atlas/overlap.h"
-#include "atlas/texels.h"
+#include "atlas/texels/texels.h"
 #include "mesh/texture.h"
 
 #include <math.h>

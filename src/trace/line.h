@@ -2,7 +2,7 @@
 #ifndef SPRAYPLAN_TRACE_LINE_H
 #define SPRAYPLAN_TRACE_LINE_H
 
-#include "trace/kd_tree.h"
+#include "trace/kd/kd_tree.h"
 #include "trace/search.h"
 
 /* A line x(t) = origin + velocity t, made ready. */

@@ -2,7 +2,7 @@
 #ifndef SPRAYPLAN_TRACE_PARABOLA_H
 #define SPRAYPLAN_TRACE_PARABOLA_H
 
-#include "trace/kd_tree.h"
+#include "trace/kd/kd_tree.h"
 #include "trace/search.h"
 
 /* Gravity, made ready. */

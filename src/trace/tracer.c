@@ -1,7 +1,7 @@
-#include "trace/bundle.h"
-#include "trace/line_bvh.h"
-#include "trace/parabola_bvh.h"
-#include "trace/volley.h"
+#include "trace/line/bundle.h"
+#include "trace/line/line_bvh.h"
+#include "trace/parabola/parabola_bvh.h"
+#include "trace/parabola/volley.h"
 
 #include <omp.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* Chains of segments: whether they cross is decided exactly, in time about linear in their number. */
 #include "shapes.h"
 
-#include "atlas/crossing.h"
-#include "atlas/predicate.h"
+#include "atlas/charts/crossing.h"
+#include "atlas/charts/predicate.h"
 
 /* A closed chain through `points`. */
 static sp_segment *chain(double (*points)[2], size_t count)

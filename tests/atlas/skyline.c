@@ -1,7 +1,7 @@
 /* Packing: everything on a page, nothing on anything else, one texel between, few texels wasted. */
 #include "shapes.h"
 
-#include "atlas/skyline.h"
+#include "atlas/packing/skyline.h"
 
 /* Paints every rectangle with its number and looks for others in it and around it. */
 static void expect_apart(const sp_rectangle *r, size_t count, uint32_t edge, size_t pages)

@@ -1,7 +1,7 @@
 /* Texels: their areas, to whom they belong, which point lies in which, and which of them touch. */
 #include "shapes.h"
 
-#include "atlas/texels.h"
+#include "atlas/texels/texels.h"
 
 /* Where a point of a triangle lies on its page. */
 static void page_point(const sp_atlas *atlas, uint32_t t, double u, double v, double point[2])

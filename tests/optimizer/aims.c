@@ -2,8 +2,8 @@
  * what their aims are worth. */
 #include "room.h"
 
-#include "aim_prices.h"
-#include "scoring.h"
+#include "certificate/aim_prices.h"
+#include "scoring/scoring.h"
 
 #define TYPES 5
 #ifdef SPRAYPLAN_SANITIZE

@@ -1,7 +1,7 @@
 /* What is attainable, and why the rest is not, where it is known in closed form. */
 #include "room.h"
 
-#include "visibility.h"
+#include "scoring/visibility.h"
 
 #define TEXEL 0.04
 

@@ -2,7 +2,7 @@
 #include "instance.h"
 #include "every_layout.h"
 
-#include "bound.h"
+#include "bound/bound.h"
 
 #define ROUNDS 6
 #ifdef SPRAYPLAN_SANITIZE

@@ -1,7 +1,7 @@
 /* Branch and bound against every layout there is, on instances small enough to try them all. */
 #include "every_layout.h"
 
-#include "branch.h"
+#include "bound/branch.h"
 
 #ifdef SPRAYPLAN_SANITIZE
 #define INSTANCES 5

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "ceres_adaptor.h"
+#include "refine/ceres_adaptor.h"
 
 #define OBSERVATIONS 14
 

@@ -11,7 +11,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-#include "cover.h"
+#include "bound/cover.h"
 
 #define INSTANCE_TIERS 3
 #define INSTANCE_WALLS 24

@@ -1,7 +1,7 @@
 /* Soft levels: their derivatives by every unknown, against differences, for cones and fans, lines and parabolas. */
 #include "room.h"
 
-#include "level.h"
+#include "refine/level.h"
 
 #define PRESSURE 2e5
 

@@ -1,8 +1,8 @@
 /* Searches on a table of poses against every layout that can be made of them. */
 #include "room.h"
 
-#include "guess.h"
-#include "tuned.h"
+#include "search/guess.h"
+#include "search/tuned.h"
 
 #define PRESSURE 2e5
 #define SHORT_MOST 0.002 /* of the best */

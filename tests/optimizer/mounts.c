@@ -1,8 +1,8 @@
 /* Mounting points: how many, where, inside and clear. */
 #include "room.h"
 
-#include "candidates.h"
-#include "distance.h"
+#include "candidates/candidates.h"
+#include "candidates/distance.h"
 
 /* A room of 2 m with a closed block of 0.4 m in its middle. */
 static void open_block_room(room *r)

@@ -3,8 +3,8 @@
  * search, steps of branch and bound. */
 #include "instance.h"
 
-#include "bound.h"
-#include "branch.h"
+#include "bound/bound.h"
+#include "bound/branch.h"
 
 #include <stdio.h>
 #include <time.h>

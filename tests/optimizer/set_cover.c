@@ -4,7 +4,7 @@
  * row how many columns cover it and which. */
 #include "instance.h"
 
-#include "bound.h"
+#include "bound/bound.h"
 
 #include <stdio.h>
 

@@ -1,7 +1,7 @@
 /* All accelerators, with all instructions, give the same answers to the last bit, for rays of every kind. */
 #include "shapes.h"
 
-#include "trace/instructions.h"
+#include "trace/bvh/instructions.h"
 
 #ifdef SPRAYPLAN_SANITIZE
 enum { RAYS = 300 };

@@ -2,7 +2,7 @@
  * on how many threads built it. */
 #include "shapes.h"
 
-#include "trace/bvh.h"
+#include "trace/bvh/bvh.h"
 
 #ifdef SPRAYPLAN_SANITIZE
 enum { BALL = 200 };

@@ -1,11 +1,11 @@
 /* What single precision leaves out, double precision does not hit; what it takes for sure, double precision does. */
 #include "shapes.h"
 
-#include "trace/parabola_bvh.h"
+#include "trace/parabola/parabola_bvh.h"
 
 #define SP_KERNEL(name) name##_tested
 void sp_bvh_parabolas_tested(sp_bvh_jets *jets, sp_bvh_jet *flights, int most);
-#include "trace/parabola_kernel.h"
+#include "trace/parabola/parabola_kernel.h"
 
 #ifdef SPRAYPLAN_SANITIZE
 enum { RAYS = 400 };

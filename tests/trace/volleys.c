@@ -1,7 +1,7 @@
 /* Parabolas of one origin, traced together, get the answers that each gets alone and without a tree. */
 #include "shapes.h"
 
-#include "trace/instructions.h"
+#include "trace/bvh/instructions.h"
 
 #ifdef SPRAYPLAN_SANITIZE
 enum { JETS = 200, VOLLEYS = 16 };

@@ -1,0 +1,306 @@
+#include "attainable/attainable.h"
+
+#include "attainable/bounce.h"
+
+#include <omp.h>
+#include <stdlib.h>
+
+#define CHUNK 256 /* patches a thread does in a row: neighbours are reached from the same sites */
+#define ENDS 1e-7 /* share of a flight at either end in which nothing blocks it */
+
+/* The best that one mounting place can do for one patch. */
+typedef struct {
+    double ratio;     /* flux per flow, 1/m² */
+    double low, high; /* flow, m³/s */
+} sp_offer;
+
+/* A type at a pressure with what refinement may make of it. */
+typedef struct {
+    double angle_low, angle_high; /* rad */
+    double flow_low, flow_high;   /* m³/s */
+} sp_scope;
+
+typedef struct {
+    const sp_evaluator *fine;
+    const sp_search *search;
+    const sp_scope *scopes; /* [makes] */
+    const double *kept;     /* [patches], counted flux of the kept nozzles */
+    size_t nozzles_left;
+    double water_left; /* m³/s */
+} sp_reckoning;
+
+/* Offers for one patch: of each port, and of all other mounting points together, the ones of most flux and of most flux
+ * per flow. */
+typedef struct {
+    sp_offer *strongest, *thriftiest; /* [mount_count + 1], the last for mounts without ports; ratio 0: none */
+    size_t count;
+} sp_offers;
+
+/* Flux per flow and transfer (1/sr) in a direction that lies `away` (rad) from the mount's axis, at best over the axes
+ * within the tilt and the angles allowed; 0: not at all. */
+static double best_intensity(const sp_make *make, const sp_scope *scope, double away, double tilt)
+{
+    /* polar angles about the nozzle's axis that the direction can be brought to */
+    double least = fmax(0, away - tilt), most = fmin(M_PI, away + tilt);
+    const sp_nozzle_type *type = make->type;
+    double angle = fmax(scope->angle_low, 2 * least);
+    if (angle > scope->angle_high * (1 + 1e-12)) {
+        if (least > make->reach)
+            return 0;
+        angle = type->angle;
+    }
+    if (type->pattern == SP_PATTERN_HOLLOW_CONE && most < type->hollow * angle / 2)
+        return 0;
+    return 1 / sp_spray_create(type, angle).solid_angle;
+}
+
+/* Adds what one arrival offers; true where something got better. */
+static bool offer(const sp_reckoning *reckoning, const sp_site *site, size_t speed, sp_vec3 direction, double transfer,
+                  double area, sp_offers *offers)
+{
+    const sp_search *search = reckoning->search;
+    const sp_mount *mount = &search->options->mounts[site->mount];
+    double away = acos(fmin(1, fmax(-1, sp_dot(direction, site->axis))));
+    size_t place = mount->kind == SP_MOUNT_PORT ? site->mount : search->options->mount_count;
+    bool better = false;
+    for (size_t k = 0; k < search->candidates->make_count; k++) {
+        const sp_make *make = &search->candidates->makes[k];
+        const sp_scope *scope = &reckoning->scopes[k];
+        if (make->speed_class != speed || !sp_candidates_axes(search->candidates, site->mount, k)->count ||
+            scope->flow_low > reckoning->water_left)
+            continue;
+        /* a jet narrower than the patch is spread over it */
+        double ratio = fmin(best_intensity(make, scope, away, mount->tilt) * transfer, 1 / area);
+        if (ratio <= 0)
+            continue;
+        sp_offer new = {ratio, scope->flow_low, fmin(scope->flow_high, reckoning->water_left)};
+        if (new.ratio *new.high > offers->strongest[place].ratio * offers->strongest[place].high) {
+            offers->strongest[place] = new;
+            better = true;
+        }
+        if (new.ratio > offers->thriftiest[place].ratio) {
+            offers->thriftiest[place] = new;
+            better = true;
+        }
+    }
+    return better;
+}
+
+/* Whether the offers, best first by flux or by flux per flow, bring `need` within number and water. */
+static bool suffices(const sp_reckoning *reckoning, const sp_offer *offers, size_t count, bool by_flux, double need)
+{
+    double water = reckoning->water_left, flux = 0;
+    size_t nozzles = reckoning->nozzles_left;
+    double before = INFINITY; /* key of the offer taken last */
+    size_t before_at = SIZE_MAX;
+    while (nozzles > 0) {
+        size_t best = SIZE_MAX;
+        double best_key = 0;
+        for (size_t i = 0; i < count; i++) {
+            double key = by_flux ? offers[i].ratio * offers[i].high : offers[i].ratio;
+            bool later = key < before || (key == before && (before_at == SIZE_MAX || i > before_at));
+            if (key > best_key && later) {
+                best = i;
+                best_key = key;
+            }
+        }
+        if (best == SIZE_MAX)
+            return false;
+        before = best_key;
+        before_at = best;
+        /* a port holds one nozzle, the other mounting points together as many as are left */
+        size_t times = best == count - 1 ? nozzles : 1;
+        if (isinf(water)) {
+            flux += times == SIZE_MAX ? INFINITY : (double)times * offers[best].ratio * offers[best].high;
+            nozzles -= times;
+        }
+        for (; !isinf(water) && times > 0 && nozzles > 0 && water >= offers[best].low; times--, nozzles--) {
+            double flow = fmin(offers[best].high, water);
+            flux += offers[best].ratio * flow;
+            water -= flow;
+            if (flux >= need)
+                return true;
+        }
+        if (flux >= need)
+            return true;
+    }
+    return false;
+}
+
+static bool enough(const sp_reckoning *reckoning, const sp_offers *offers, size_t patch)
+{
+    const sp_search *search = reckoning->search;
+    if (!reckoning->nozzles_left)
+        return false;
+    if (search->threshold <= 0)
+        return true;
+    if (search->single) {
+        for (size_t i = 0; i < offers->count; i++)
+            if (offers->strongest[i].ratio * offers->strongest[i].high >= search->threshold)
+                return true;
+        return false;
+    }
+    double need = search->threshold - reckoning->kept[patch];
+    return suffices(reckoning, offers->strongest, offers->count, true, need) ||
+           suffices(reckoning, offers->thriftiest, offers->count, false, need);
+}
+
+/* How near one flight brings the patch if its way is free; NO_LINE where it comes from behind. Its transfer where it
+ * passes. */
+static sp_reason judge(const sp_reckoning *reckoning, const sp_flight *flight, size_t patch, double *transfer)
+{
+    const sp_patches *patches = sp_evaluator_patches(reckoning->fine);
+    const sp_criterion *criterion = &sp_evaluator_setup(reckoning->fine)->criterion;
+    double against = -sp_dot(flight->velocity, patches->normal[patch]);
+    if (patches->side[patch] == SP_SIDE_BOTH)
+        against = fabs(against);
+    if (!(against > 0))
+        return SP_REASON_NO_LINE;
+    if (sp_length(flight->velocity) < criterion->impact_speed)
+        return SP_REASON_SLOW;
+    if (atan2(sp_length(sp_cross(flight->velocity, patches->normal[patch])), against) > criterion->incidence)
+        return SP_REASON_SLANTED;
+    *transfer = against / flight->spread;
+    return SP_REASON_FLUX;
+}
+
+static bool is_free(const sp_reckoning *reckoning, const sp_site *site, double speed, const sp_flight *flight,
+                    size_t patch)
+{
+    sp_ray ray = {.origin = site->position,
+                  .velocity = sp_scale(flight->direction, speed),
+                  .t_min = ENDS * flight->time,
+                  .t_max = (1 - ENDS) * flight->time,
+                  .skip = sp_evaluator_patches(reckoning->fine)->triangle[patch]};
+    return !sp_trace_occluded(sp_evaluator_tracer(reckoning->fine), &ray, sp_evaluator_gravity(reckoning->fine));
+}
+
+/* Whether any make at this speed can be aimed so. */
+static bool aimable(const sp_reckoning *reckoning, const sp_site *site, size_t speed, sp_vec3 direction)
+{
+    const sp_search *search = reckoning->search;
+    double away = acos(fmin(1, fmax(-1, sp_dot(direction, site->axis))));
+    for (size_t k = 0; k < search->candidates->make_count; k++)
+        if (search->candidates->makes[k].speed_class == speed &&
+            sp_candidates_axes(search->candidates, site->mount, k)->count &&
+            best_intensity(&search->candidates->makes[k], &reckoning->scopes[k], away,
+                           search->options->mounts[site->mount].tilt) > 0)
+            return true;
+    return false;
+}
+
+/* What one site offers to a patch; true where something got better. *reason rises to how near it is brought. */
+static bool site_offers(const sp_reckoning *reckoning, const sp_site *site, size_t patch, sp_offers *offers,
+                        sp_reason *reason)
+{
+    const sp_search *search = reckoning->search;
+    const sp_patches *patches = sp_evaluator_patches(reckoning->fine);
+    bool better = false;
+    if (search->options->mounts[site->mount].kind == SP_MOUNT_PORT && search->port_taken[site->mount])
+        return false;
+    for (size_t s = 0; s < search->candidates->speed_count; s++) {
+        double speed = search->candidates->speeds[s], transfer = 0;
+        sp_flight flights[2];
+        int count =
+            sp_flights(site->position, patches->point[patch], speed, sp_evaluator_gravity(reckoning->fine), flights);
+        for (int f = 0; f < count; f++) {
+            if (!aimable(reckoning, site, s, flights[f].direction))
+                continue;
+            sp_reason near = judge(reckoning, &flights[f], patch, &transfer);
+            if ((near < SP_REASON_FLUX && near <= *reason) || !is_free(reckoning, site, speed, &flights[f], patch))
+                continue;
+            *reason = near > *reason ? near : *reason;
+            if (near == SP_REASON_FLUX)
+                better |= offer(reckoning, site, s, flights[f].direction, transfer, patches->area[patch], offers);
+        }
+    }
+    return better;
+}
+
+/* Asks the sites in turn, the one that served the last patch first. */
+static sp_reason patch_reason(const sp_reckoning *reckoning, size_t patch, sp_offers *offers, size_t *hint)
+{
+    size_t sites = reckoning->search->sites->count;
+    sp_reason reason = SP_REASON_NO_LINE;
+    for (size_t i = 0; i < offers->count; i++)
+        offers->strongest[i] = offers->thriftiest[i] = (sp_offer){0};
+    for (size_t i = 0; i < sites; i++) {
+        size_t site = (*hint + i) % sites;
+        if (site_offers(reckoning, &reckoning->search->sites->items[site], patch, offers, &reason) &&
+            enough(reckoning, offers, patch)) {
+            *hint = site;
+            return SP_REASON_ATTAINABLE;
+        }
+    }
+    return reason;
+}
+
+static bool reckon(const sp_reckoning *reckoning, sp_watch *watch, sp_reason *reasons, sp_error *error)
+{
+    size_t patches = sp_evaluator_patches(reckoning->fine)->count;
+    size_t places = reckoning->search->options->mount_count + 1;
+    int threads = sp_threads(&reckoning->search->options->run);
+    sp_offer *offers = malloc((size_t)threads * 2 * places * sizeof *offers);
+    if (!offers)
+        return sp_fail_memory(error);
+    size_t batch = (size_t)threads * 16 * CHUNK;
+    for (size_t first = 0; first < patches; first += batch) {
+        /* a time limit does not stop this: without the target the search would not know when to end */
+        if (!sp_watch_goes_on(watch, "attainable", (double)first / (double)patches) && watch->cancelled)
+            break;
+        size_t end = first + batch < patches ? first + batch : patches;
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+        for (size_t chunk = first; chunk < end; chunk += CHUNK) {
+            sp_offer *mine = &offers[(size_t)omp_get_thread_num() * 2 * places];
+            sp_offers own = {mine, mine + places, places};
+            size_t hint = 0;
+            for (size_t p = chunk; p < chunk + CHUNK && p < end; p++)
+                if (reasons[p] != SP_REASON_ATTAINABLE)
+                    reasons[p] = patch_reason(reckoning, p, &own, &hint);
+        }
+    }
+    free(offers);
+    return true;
+}
+
+static sp_scope *scopes_create(const sp_search *search, const sp_fluid *liquid)
+{
+    sp_scope *scopes = malloc(search->candidates->make_count * sizeof *scopes);
+    for (size_t k = 0; scopes && k < search->candidates->make_count; k++) {
+        const sp_make *make = &search->candidates->makes[k];
+        sp_angle_range(search->options, make->type, &scopes[k].angle_low, &scopes[k].angle_high);
+        sp_flow_range(search->options, liquid, make->type, make->pressure, &scopes[k].flow_low, &scopes[k].flow_high);
+    }
+    return scopes;
+}
+
+bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *watch, sp_reason *reasons,
+                   sp_error *error)
+{
+    const sp_place_options *options = search->options;
+    sp_reckoning reckoning = {.fine = fine,
+                              .search = search,
+                              .water_left = options->max_water - search->kept_flow,
+                              .nozzles_left = !options->max_nozzles ? SIZE_MAX
+                                              : options->max_nozzles > search->kept_count
+                                                  ? options->max_nozzles - search->kept_count
+                                                  : 0};
+    sp_layout *layout = sp_layout_create(search->kept, search->kept_count, error);
+    sp_coverage *kept = layout ? sp_evaluate_inverse(fine, layout, error) : NULL;
+    sp_scope *scopes = scopes_create(search, &sp_evaluator_setup(fine)->liquid);
+    bool done = kept != NULL;
+    if (done && !scopes)
+        done = sp_fail_memory(error);
+    if (done) {
+        reckoning.scopes = scopes;
+        reckoning.kept = kept->deposits.counted;
+        for (size_t p = 0; p < kept->deposits.count; p++)
+            reasons[p] = kept->deposits.covered[p] ? SP_REASON_ATTAINABLE : SP_REASON_UNKNOWN;
+        done =
+            reckon(&reckoning, watch, reasons, error) && (watch->cancelled || sp_bounces(fine, search, reasons, error));
+    }
+    free(scopes);
+    sp_coverage_destroy(kept);
+    sp_layout_destroy(layout);
+    return done;
+}

@@ -1,0 +1,127 @@
+#include "attainable/bounce.h"
+
+#include <stdlib.h>
+
+#define JETS 1048576.0   /* all together */
+#define JETS_LEAST 256.0 /* of a mounting point at a speed */
+#define JETS_MOST 16384.0
+#define BOUNCES 3
+#define MOUTH 1e-6 /* m that a jet flies off a wall before anything stops it */
+
+/* The patch of `evaluator` on a triangle's side; SP_NONE where that is not counted. */
+static uint32_t patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back)
+{
+    const sp_patches *patches = sp_evaluator_patches(evaluator);
+    uint32_t texel = sp_atlas_texel(sp_evaluator_atlas(evaluator), triangle, u, v);
+    size_t low = 0, high = patches->count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (patches->texel[middle] < texel)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (; low < patches->count && patches->texel[low] == texel; low++)
+        if (patches->side[low] == SP_SIDE_BOTH || (patches->side[low] == SP_SIDE_BACK) == back)
+            return (uint32_t)low;
+    return SP_NONE;
+}
+
+/* One jet, from wall to wall; marks the patches that it meets after its first reflection. */
+static void follow(const sp_evaluator *coarse, sp_ray ray, bool *met)
+{
+    const sp_setup *setup = sp_evaluator_setup(coarse);
+    sp_vec3 gravity = sp_evaluator_gravity(coarse);
+    for (int bounce = 0; bounce <= BOUNCES; bounce++) {
+        sp_hit hit = sp_trace_nearest(sp_evaluator_tracer(coarse), &ray, gravity);
+        if (hit.triangle == SP_NONE)
+            return;
+        sp_vec3 velocity = sp_ray_velocity(&ray, gravity, hit.t),
+                normal = sp_triangle_normal(setup->mesh, hit.triangle);
+        double across = sp_dot(velocity, normal);
+        uint32_t patch = bounce ? patch_at(coarse, hit.triangle, hit.u, hit.v, across > 0) : SP_NONE;
+        if (patch != SP_NONE) {
+#pragma omp atomic write
+            met[patch] = true;
+        }
+        const sp_surface *surface = &setup->surfaces[setup->mesh->part[hit.triangle]];
+        if (!(surface->restitution > 0) || !(surface->rebound > 0))
+            return;
+        ray.origin = sp_ray_point(&ray, gravity, hit.t);
+        ray.velocity = sp_along(velocity, -(1 + surface->restitution) * across, normal);
+        double speed = sp_length(ray.velocity);
+        if (!(speed > 0))
+            return;
+        ray.t_min = MOUTH / speed;
+    }
+}
+
+/* Jets over all directions that a site's nozzles can be aimed at, spread evenly (Swinbank and Purser 2006). */
+static void follow_site(const sp_search *search, const sp_site *site, size_t speed, size_t jets, bool *met)
+{
+    static const double golden = 0.61803398874989484820;
+    double half_angle = sp_visibility_needed(search->options, search->candidates, site, speed);
+    sp_frame frame = sp_nozzle_frame(site->axis, 0, sp_evaluator_setup(search->coarse)->up);
+    if (half_angle < 0)
+        return;
+    for (size_t i = 0; i < jets; i++) {
+        double z = 1 - (1 - cos(half_angle)) * ((double)i + 0.5) / (double)jets, turns = (double)i * golden;
+        double longitude = 2 * M_PI * (turns - floor(turns)), radius = sqrt(fmax(0, 1 - z * z));
+        sp_vec3 direction = sp_v(radius * cos(longitude), radius * sin(longitude), z);
+        sp_ray ray = {.origin = site->position,
+                      .velocity = sp_scale(sp_frame_axis(&frame, direction), search->candidates->speeds[speed]),
+                      .t_max = INFINITY,
+                      .skip = SP_NONE};
+        follow(search->coarse, ray, met);
+    }
+}
+
+static bool anything_reflects(const sp_setup *setup)
+{
+    for (size_t i = 0; i < setup->mesh->part_count; i++)
+        if (setup->surfaces[i].restitution > 0 && setup->surfaces[i].rebound > 0)
+            return true;
+    return false;
+}
+
+/* The coarse patch in which a fine one lies. */
+static uint32_t coarse_patch(const sp_evaluator *fine, const sp_evaluator *coarse, size_t patch)
+{
+    const sp_patches *patches = sp_evaluator_patches(fine);
+    const sp_mesh *mesh = sp_evaluator_setup(fine)->mesh;
+    uint32_t triangle = patches->triangle[patch];
+    const uint32_t *corner = mesh->triangles[triangle];
+    sp_vec3 a = mesh->vertices[corner[0]], ab = sp_sub(mesh->vertices[corner[1]], a),
+            ac = sp_sub(mesh->vertices[corner[2]], a), ap = sp_sub(patches->point[patch], a), area = sp_cross(ab, ac);
+    double area2 = sp_dot(area, area);
+    if (!(area2 > 0))
+        return SP_NONE;
+    double u = sp_dot(sp_cross(ap, ac), area) / area2, v = sp_dot(sp_cross(ab, ap), area) / area2;
+    return patch_at(coarse, triangle, u, v, patches->side[patch] == SP_SIDE_BACK);
+}
+
+bool sp_bounces(const sp_evaluator *fine, const sp_search *search, sp_reason *reasons, sp_error *error)
+{
+    size_t patches = sp_evaluator_patches(fine)->count, views = search->sites->count * search->candidates->speed_count;
+    size_t unseen = 0;
+    for (size_t p = 0; p < patches; p++)
+        unseen += reasons[p] == SP_REASON_NO_LINE;
+    if (!unseen || !anything_reflects(sp_evaluator_setup(fine)))
+        return true;
+    bool *met = calloc(search->patch_count ? search->patch_count : 1, sizeof *met);
+    if (!met)
+        return sp_fail_memory(error);
+    size_t jets = (size_t)fmin(JETS_MOST, fmax(JETS_LEAST, JETS / (double)views));
+    int threads = sp_threads(&search->options->run);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+    for (size_t i = 0; i < views; i++)
+        follow_site(search, &search->sites->items[i / search->candidates->speed_count],
+                    i % search->candidates->speed_count, jets, met);
+    for (size_t p = 0; p < patches; p++) {
+        uint32_t patch = reasons[p] == SP_REASON_NO_LINE ? coarse_patch(fine, search->coarse, p) : SP_NONE;
+        if (patch != SP_NONE && met[patch])
+            reasons[p] = SP_REASON_REFLECTION;
+    }
+    free(met);
+    return true;
+}

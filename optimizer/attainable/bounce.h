@@ -1,0 +1,12 @@
+/* What only reflected liquid reaches. */
+#ifndef OPTIMIZER_BOUNCE_H
+#define OPTIMIZER_BOUNCE_H
+
+#include "scoring/design.h"
+
+/* Turns SP_REASON_NO_LINE into SP_REASON_REFLECTION where a jet of some candidate that a wall has thrown back passes,
+ * judged on the coarse patches by jets spread over all that the candidates can aim at. `reasons` are of the patches of
+ * `fine`. Does nothing where no surface reflects. */
+bool sp_bounces(const sp_evaluator *fine, const sp_search *search, sp_reason *reasons, sp_error *error);
+
+#endif

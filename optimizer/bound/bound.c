@@ -1,0 +1,195 @@
+#include "bound/bound.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ITERATIONS 150    /* of a solve, at most */
+#define TOLERANCE 5e-4    /* at which a solve ends, as a share of the bound */
+#define ROWS_MOST 600     /* of the few */
+#define CHOICE_LEAST 1e-6 /* a row that the linear program takes less of than this may go */
+
+bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *bound, sp_error *error)
+{
+    *bound = (sp_bound){.cover = cover, .pricer = pricer, .iterations = ITERATIONS, .tolerance = TOLERANCE};
+    if (!sp_dual_create(cover, &bound->dual, error) ||
+        !sp_offers_create(cover->tier_count, cover->weight, cover->port_count, cover->nozzles, cover->repeats,
+                          &bound->offers, error)) {
+        sp_bound_free(bound);
+        return false;
+    }
+    bound->by_water = malloc((cover->water + 1) * sizeof *bound->by_water);
+    bound->by_nozzles = malloc((cover->nozzles + 1) * sizeof *bound->by_nozzles);
+    bound->needed = malloc(cover->tier_count * sizeof *bound->needed);
+    if (cover->water < SIZE_MAX / sizeof(double) / (cover->nozzles + 1) - 1)
+        bound->table = malloc((cover->nozzles + 1) * (cover->water + 1) * sizeof *bound->table);
+    if (!bound->by_water || !bound->by_nozzles || !bound->needed || !bound->table) {
+        sp_bound_free(bound);
+        return sp_fail_memory(error);
+    }
+    bound->lightest = UINT32_MAX;
+    for (size_t k = 0; k < cover->tier_count; k++)
+        bound->lightest = cover->weight[k] < bound->lightest ? cover->weight[k] : bound->lightest;
+    double whole = cover->base;
+    for (size_t t = 0; t < cover->texel_count; t++)
+        whole += (double)cover->area[t];
+    for (size_t w = 0; w <= cover->water; w++)
+        bound->by_water[w] = (w < bound->lightest ? cover->base : whole) * (1 + 1e-11);
+    for (size_t n = 0; n <= cover->nozzles; n++)
+        bound->by_nozzles[n] = (n ? whole : cover->base) * (1 + 1e-11);
+    return true;
+}
+
+void sp_bound_free(sp_bound *bound)
+{
+    sp_rows_free(&bound->rows);
+    sp_dual_free(&bound->dual);
+    sp_offers_free(&bound->offers);
+    free(bound->by_water);
+    free(bound->by_nozzles);
+    free(bound->needed);
+    free(bound->table);
+    *bound = (sp_bound){0};
+}
+
+static void offer_rows(sp_bound *bound)
+{
+    const sp_rows *rows = &bound->rows;
+    for (size_t c = 0; c < rows->count; c++)
+        sp_offers_add(&bound->offers, rows->port[c], rows->tier[c], sp_rows_price(rows, c, &bound->dual.price));
+}
+
+/* What a candidate must be worth to raise the bound at this water. */
+static void find_needed(sp_bound *bound, size_t water)
+{
+    const sp_cover *cover = bound->cover;
+    sp_offers_clear(&bound->offers);
+    offer_rows(bound);
+    sp_knapsack(&bound->offers, cover->nozzles, water, bound->table);
+    double most = bound->table[(cover->nozzles + 1) * (water + 1) - 1];
+    for (size_t k = 0; k < cover->tier_count; k++)
+        bound->needed[k] = cover->weight[k] > water
+                               ? INFINITY
+                               : most - bound->table[cover->nozzles * (water + 1) - 1 - cover->weight[k]];
+}
+
+/* Prices all candidates on top of the few and lowers every bound that these prices lower; `proved` is the one at
+ * `water`. */
+static bool prove(sp_bound *bound, size_t water, sp_error *error)
+{
+    const sp_cover *cover = bound->cover;
+    size_t row = cover->water + 1;
+    if (!bound->pricer->price(bound->pricer->user, &bound->dual.price, bound->needed, true, &bound->offers,
+                              &bound->rows, error))
+        return false;
+    sp_knapsack(&bound->offers, cover->nozzles, cover->water, bound->table);
+    double rest = (cover->base + sp_cover_rest(cover, &bound->dual.price)) * (1 + 1e-12);
+    size_t nozzles = bound->dual.price.lifts ? bound->lifts.nozzles : cover->nozzles;
+    for (size_t w = 0; w < row && (nozzles == cover->nozzles || w / bound->lightest <= nozzles); w++)
+        bound->by_water[w] = fmin(bound->by_water[w], rest + bound->table[cover->nozzles * row + w]);
+    for (size_t n = 0; n <= nozzles; n++)
+        bound->by_nozzles[n] = fmin(bound->by_nozzles[n], rest + bound->table[n * row + cover->water]);
+    bound->proved = rest + bound->table[cover->nozzles * row + water];
+    return true;
+}
+
+/* Lets go of rows that the linear program has no use for, the oldest first. */
+static bool thin_out(sp_bound *bound, sp_error *error)
+{
+    sp_rows *rows = &bound->rows;
+    if (rows->count <= ROWS_MOST)
+        return true;
+    bool *marked = malloc(rows->count * sizeof *marked);
+    if (!marked)
+        return sp_fail_memory(error);
+    size_t excess = rows->count - ROWS_MOST;
+    for (size_t c = 0; c < rows->count; c++) {
+        marked[c] = !excess || rows->key[c] == SP_OWN_KEY || bound->dual.choice[c] >= CHOICE_LEAST;
+        excess -= !marked[c];
+    }
+    size_t count = rows->count;
+    sp_rows_keep(rows, marked);
+    sp_dual_keep(&bound->dual, count, marked);
+    free(marked);
+    return true;
+}
+
+bool sp_bound_lower_single(sp_bound *bound, sp_error *error)
+{
+    const sp_cover *cover = bound->cover;
+    sp_prices *price = &bound->dual.price;
+    sp_lifts_create(1, &bound->lifts);
+    price->lifts = cover->whole ? NULL : &bound->lifts;
+    for (size_t t = 0; t < cover->texel_count; t++) {
+        /* all that counts is whether one nozzle brings all */
+        price->plain[t] = cover->whole ? cover->area[t] : 0;
+        price->lifted[t] = cover->whole ? 0 : cover->area[t];
+        price->kind[t] = SP_LIFT_ALL_OR_NOTHING;
+    }
+    for (size_t k = 0; k < cover->tier_count; k++)
+        bound->needed[k] = INFINITY;
+    sp_offers_clear(&bound->offers);
+    offer_rows(bound);
+    return prove(bound, bound->lightest < cover->water ? bound->lightest : cover->water, error);
+}
+
+/* Solves on the few, and finds what a candidate must be worth to join them. */
+static bool solve(sp_bound *bound, size_t water, sp_error *error)
+{
+    const sp_cover *cover = bound->cover;
+    size_t fit = water / bound->lightest;
+    sp_lifts_create(fit < cover->nozzles ? fit : cover->nozzles, &bound->lifts);
+    sp_dual_task task = {.nozzles = cover->nozzles,
+                         .water = water,
+                         .iterations = bound->iterations,
+                         .tolerance = bound->tolerance,
+                         .lifts = bound->lifting ? &bound->lifts : NULL};
+    if (bound->lifting && !sp_dual_lift(&bound->dual, &bound->rows, &bound->lifts, error))
+        return false;
+    if (!thin_out(bound, error) || !sp_dual_solve(&bound->dual, &bound->rows, &task, error))
+        return false;
+    find_needed(bound, water);
+    return true;
+}
+
+bool sp_bound_lower(sp_bound *bound, size_t water, sp_error *error)
+{
+    const sp_cover *cover = bound->cover;
+    if (water < bound->lightest) {
+        bound->proved = bound->by_water[water];
+        bound->closed = true;
+        return true;
+    }
+    if (!solve(bound, water, error) || !prove(bound, water, error))
+        return false;
+    bound->closed = (bound->lifting || cover->whole) && bound->proved <= bound->dual.bound * (1 + bound->tolerance);
+    bound->lifting = !cover->whole;
+    return true;
+}
+
+bool sp_bound_explore(sp_bound *bound, size_t water, sp_error *error)
+{
+    if (water < bound->lightest)
+        return true;
+    if (!solve(bound, water, error) || !bound->pricer->price(bound->pricer->user, &bound->dual.price, bound->needed,
+                                                             false, &bound->offers, &bound->rows, error))
+        return false;
+    bound->lifting = !bound->cover->whole;
+    return true;
+}
+
+size_t sp_bound_water(const sp_bound *bound, double area)
+{
+    for (size_t w = 0; w <= bound->cover->water; w++)
+        if (bound->by_water[w] >= area)
+            return w;
+    return SIZE_MAX;
+}
+
+size_t sp_bound_nozzles(const sp_bound *bound, double area)
+{
+    for (size_t n = 0; n <= bound->cover->nozzles; n++)
+        if (bound->by_nozzles[n] >= area)
+            return n;
+    return SIZE_MAX;
+}

@@ -1,0 +1,58 @@
+/* Bounds on what any layout could cover, whatever the number of candidates: prices are sought on a few of them and then
+ * proved on all. */
+#ifndef OPTIMIZER_BOUND_H
+#define OPTIMIZER_BOUND_H
+
+#include "bound/dual.h"
+
+/* All candidates, however they are kept. */
+typedef struct {
+    void *user;
+    /* Adds every candidate's total price at texel prices u to `offers`, or something no lower. Appends to `rows` some
+     * of those worth more than needed[tier] that are not among them yet (by key). Without `all` it may look at some
+     * only, and offer nothing. */
+    bool (*price)(void *user, const sp_prices *u, const double *needed, bool all, sp_offers *offers, sp_rows *rows,
+                  sp_error *error);
+} sp_pricer;
+
+/* What has been proved: no layout of at most so much covers more. m², base included. */
+typedef struct {
+    const sp_cover *cover;
+    const sp_pricer *pricer;
+    sp_rows rows; /* the few; a caller may put some in at the start */
+    sp_dual dual;
+    double *by_water;   /* [cover->water + 1], with all the nozzles; never falls */
+    double *by_nozzles; /* [cover->nozzles + 1], with all the water */
+    double *table, *needed;
+    sp_offers offers;
+    uint32_t lightest; /* of the tiers */
+    double proved;     /* the bound at the last water by the last prices alone */
+    bool closed;       /* which is as low as these lifts go: all candidates bring no more than the few */
+    size_t iterations; /* of a solve, at most; may be set */
+    double tolerance;  /* at which a solve ends, as a share of the bound; may be set */
+    sp_lifts lifts;    /* of the last task */
+    bool lifting;      /* they have come into use */
+} sp_bound;
+
+bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *bound, sp_error *error);
+void sp_bound_free(sp_bound *bound);
+/* Lowers the bounds at and about `water` (units): solves on the few, then proves on all. Meant to be repeated: what all
+ * have that the few lack joins them, and texels take up new lifts. */
+bool sp_bound_lower(sp_bound *bound, size_t water, sp_error *error);
+/* The same without a proof: only looks for candidates and lifts, where pricing all takes long. */
+bool sp_bound_explore(sp_bound *bound, size_t water, sp_error *error);
+/* Lowers the bounds where no more than one nozzle fits, to what the best one covers. Goes before all else. */
+bool sp_bound_lower_single(sp_bound *bound, sp_error *error);
+/* The least water with which the bound does not rule out that `area` (m²) is covered; SIZE_MAX where it always does. */
+size_t sp_bound_water(const sp_bound *bound, double area);
+size_t sp_bound_nozzles(const sp_bound *bound, double area);
+
+/* Candidates that all lie in memory, as an sp_pricer. */
+typedef struct {
+    const sp_cover *cover;
+    const sp_rows *rows;
+    size_t most; /* rows to hand out at a time */
+} sp_stored;
+sp_pricer sp_stored_pricer(sp_stored *stored);
+
+#endif

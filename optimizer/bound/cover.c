@@ -1,0 +1,143 @@
+#include "bound/cover.h"
+
+#include "bound/grow.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define UPWARDS (1 + 1e-11)
+
+static bool make_room(sp_rows *rows, size_t more)
+{
+    if (rows->count == rows->capacity) {
+        size_t capacity = rows->capacity ? 2 * rows->capacity : 256;
+        if (!sp_reallocate(&rows->start, capacity + 1, sizeof *rows->start) ||
+            !sp_reallocate(&rows->port, capacity, sizeof *rows->port) ||
+            !sp_reallocate(&rows->tier, capacity, sizeof *rows->tier) ||
+            !sp_reallocate(&rows->key, capacity, sizeof *rows->key))
+            return false;
+        rows->capacity = capacity;
+    }
+    if (more <= rows->room - rows->used)
+        return true;
+    if (more > SIZE_MAX / 4 - rows->used)
+        return false;
+    size_t room = 2 * (rows->used + more);
+    if (!sp_reallocate(&rows->texel, room, sizeof *rows->texel) ||
+        !sp_reallocate(&rows->share, room, sizeof *rows->share))
+        return false;
+    rows->room = room;
+    return true;
+}
+
+bool sp_rows_add(sp_rows *rows, uint64_t key, size_t port, uint32_t tier, const uint32_t *texels, const float *shares,
+                 size_t count, sp_error *error)
+{
+    if (!make_room(rows, count))
+        return sp_fail_memory(error);
+    if (!rows->count)
+        rows->start[0] = 0;
+    if (count) {
+        memcpy(&rows->texel[rows->used], texels, count * sizeof *texels);
+        memcpy(&rows->share[rows->used], shares, count * sizeof *shares);
+    }
+    rows->port[rows->count] = port;
+    rows->tier[rows->count] = tier;
+    rows->key[rows->count] = key;
+    rows->used += count;
+    rows->start[++rows->count] = rows->used;
+    return true;
+}
+
+bool sp_rows_append(sp_rows *rows, const sp_rows *more, sp_error *error)
+{
+    bool done = true;
+    for (size_t i = 0; done && i < more->count; i++)
+        done = sp_rows_add(rows, more->key[i], more->port[i], more->tier[i], more->texel + more->start[i],
+                           more->share + more->start[i], more->start[i + 1] - more->start[i], error);
+    return done;
+}
+
+void sp_rows_keep(sp_rows *rows, const bool *marked)
+{
+    size_t kept = 0, used = 0;
+    for (size_t i = 0; i < rows->count; i++) {
+        size_t first = rows->start[i], count = rows->start[i + 1] - first;
+        if (!marked[i])
+            continue;
+        memmove(&rows->texel[used], &rows->texel[first], count * sizeof *rows->texel);
+        memmove(&rows->share[used], &rows->share[first], count * sizeof *rows->share);
+        rows->port[kept] = rows->port[i];
+        rows->tier[kept] = rows->tier[i];
+        rows->key[kept] = rows->key[i];
+        rows->start[kept++] = used;
+        used += count;
+    }
+    rows->count = kept;
+    rows->used = used;
+    if (rows->start)
+        rows->start[kept] = used;
+}
+
+void sp_rows_free(sp_rows *rows)
+{
+    free(rows->start);
+    free(rows->port);
+    free(rows->tier);
+    free(rows->key);
+    free(rows->texel);
+    free(rows->share);
+    *rows = (sp_rows){0};
+}
+
+bool sp_prices_create(const sp_cover *cover, sp_prices *prices, sp_error *error)
+{
+    size_t texels = cover->texel_count + 1;
+    *prices = (sp_prices){.plain = malloc(texels * sizeof *prices->plain),
+                          .lifted = calloc(texels, sizeof *prices->lifted),
+                          .kind = calloc(texels, sizeof *prices->kind)};
+    if (!prices->plain || !prices->lifted || !prices->kind) {
+        sp_prices_free(prices);
+        return sp_fail_memory(error);
+    }
+    memcpy(prices->plain, cover->area, cover->texel_count * sizeof *prices->plain);
+    return true;
+}
+
+void sp_prices_copy(const sp_cover *cover, const sp_prices *from, sp_prices *to)
+{
+    to->lifts = from->lifts;
+    memcpy(to->plain, from->plain, cover->texel_count * sizeof *to->plain);
+    memcpy(to->lifted, from->lifted, cover->texel_count * sizeof *to->lifted);
+    memcpy(to->kind, from->kind, cover->texel_count * sizeof *to->kind);
+}
+
+void sp_prices_free(sp_prices *prices)
+{
+    free(prices->plain);
+    free(prices->lifted);
+    free(prices->kind);
+    *prices = (sp_prices){0};
+}
+
+double sp_rows_price(const sp_rows *rows, size_t row, const sp_prices *prices)
+{
+    /* two sums side by side, so that neither waits for the other */
+    double plain = 0, lifted = 0;
+    for (size_t i = rows->start[row]; i < rows->start[row + 1]; i++) {
+        uint32_t t = rows->texel[i];
+        plain += (double)rows->share[i] * (double)prices->plain[t];
+        if (prices->lifts && prices->lifted[t] > 0)
+            lifted += (double)sp_lift(prices->lifts, prices->kind[t], rows->share[i]) * (double)prices->lifted[t];
+    }
+    return (plain + lifted) * UPWARDS;
+}
+
+double sp_cover_rest(const sp_cover *cover, const sp_prices *prices)
+{
+    double rest = 0;
+    for (size_t t = 0; t < cover->texel_count; t++)
+        rest += fmax(0, (double)cover->area[t] - (double)prices->plain[t] - (double)prices->lifted[t]);
+    return rest * UPWARDS;
+}

@@ -1,0 +1,62 @@
+/* Maximum coverage: candidates as sparse rows over texels, of which some may be chosen within number, water and ports.
+ *
+ * A texel counts as covered only where the shares of the chosen candidates come to at least 1. With liquid that adds up
+ * a share is min(1, flux over what the texel still needs); where one nozzle alone must do, it is 1 or 0. */
+#ifndef OPTIMIZER_COVER_H
+#define OPTIMIZER_COVER_H
+
+#include "bound/knapsack.h"
+#include "bound/lift.h"
+
+#define SP_NO_PORT SIZE_MAX
+#define SP_OWN_KEY UINT64_MAX
+
+typedef struct {
+    size_t texel_count;
+    const float *area;      /* [texel_count], m²; 0: is covered anyway, or counts for nothing */
+    double base;            /* m² that are covered whatever is chosen, besides */
+    size_t tier_count;      /* of candidates, by water */
+    const uint32_t *weight; /* [tier_count], whole units of water, above 0 */
+    size_t port_count;      /* each holds one candidate at most */
+    size_t nozzles, water;  /* most that may be chosen; units */
+    bool repeats;           /* a candidate without a port may be chosen more than once */
+    bool whole;             /* every share is 1: nothing to lift */
+    int threads;
+} sp_cover;
+
+typedef struct {
+    size_t count, capacity;
+    size_t *start; /* [count + 1] */
+    size_t *port;  /* [count], SP_NO_PORT: none */
+    uint32_t *tier;
+    uint64_t *key; /* which candidate it is; SP_OWN_KEY: a nozzle of a layout that was found */
+    size_t used, room;
+    uint32_t *texel; /* [used], ascending in a row */
+    float *share;    /* [used], above 0, at most 1 */
+} sp_rows;
+
+/* Appends a row of `count` texels; false when memory runs out. */
+bool sp_rows_add(sp_rows *rows, uint64_t key, size_t port, uint32_t tier, const uint32_t *texels, const float *shares,
+                 size_t count, sp_error *error);
+/* Appends all of `more`. */
+bool sp_rows_append(sp_rows *rows, const sp_rows *more, sp_error *error);
+/* Keeps the rows that are marked, in their order. */
+void sp_rows_keep(sp_rows *rows, const bool *marked);
+void sp_rows_free(sp_rows *rows);
+/* Prices of texels, m²: of their shares, and of what one of the lifts makes of these. */
+typedef struct {
+    const sp_lifts *lifts; /* NULL: only shares count */
+    float *plain, *lifted; /* [texels], plain + lifted <= area */
+    uint8_t *kind;         /* [texels], which lift */
+} sp_prices;
+
+bool sp_prices_create(const sp_cover *cover, sp_prices *prices, sp_error *error);
+void sp_prices_copy(const sp_cover *cover, const sp_prices *from, sp_prices *to);
+void sp_prices_free(sp_prices *prices);
+
+/* What a row is worth; rounded upwards. */
+double sp_rows_price(const sp_rows *rows, size_t row, const sp_prices *prices);
+/* The area, Σ (area - price), that prices leave: what no candidate has to bring. Rounded upwards. */
+double sp_cover_rest(const sp_cover *cover, const sp_prices *prices);
+
+#endif

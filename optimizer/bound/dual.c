@@ -1,0 +1,111 @@
+#include "bound/dual.h"
+
+#include "bound/grow.h"
+#include "bound/hybrid.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LOOK 25            /* iterations between two looks at the bound */
+#define CHOICE_LEAST 1e-4f /* of a row, that is worth a look */
+#define KIND_BETTER 1e-3f  /* by which another lift must cover less */
+#define WEIGHT_FIRST 5     /* primal weight to begin with, in mean texel areas */
+
+bool sp_dual_create(const sp_cover *cover, sp_dual *dual, sp_error *error)
+{
+    *dual = (sp_dual){.cover = cover, .texels = cover->texel_count};
+    if (!sp_prices_create(cover, &dual->price, error) || !sp_prices_create(cover, &dual->u, error)) {
+        sp_dual_free(dual);
+        return false;
+    }
+    dual->dual_resource = calloc(2 + cover->port_count, sizeof *dual->dual_resource);
+    if (dual->dual_resource)
+        return true;
+    sp_dual_free(dual);
+    return sp_fail_memory(error);
+}
+
+void sp_dual_free(sp_dual *dual)
+{
+    sp_prices_free(&dual->price);
+    sp_prices_free(&dual->u);
+    free(dual->choice);
+    free(dual->x);
+    free(dual->dual_resource);
+    *dual = (sp_dual){0};
+}
+
+void sp_dual_keep(sp_dual *dual, size_t rows, const bool *marked)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < rows && i < dual->row_capacity; i++)
+        if (marked[i]) {
+            dual->x[kept] = dual->x[i];
+            dual->choice[kept++] = dual->choice[i];
+        }
+    for (; kept < dual->row_capacity; kept++)
+        dual->x[kept] = dual->choice[kept] = 0;
+}
+
+static bool make_room(sp_dual *dual, size_t rows)
+{
+    if (rows <= dual->row_capacity)
+        return true;
+    size_t capacity = 2 * rows;
+    if (!sp_reallocate(&dual->x, capacity, sizeof *dual->x) ||
+        !sp_reallocate(&dual->choice, capacity, sizeof *dual->choice))
+        return false;
+    for (; dual->row_capacity < capacity; dual->row_capacity++)
+        dual->x[dual->row_capacity] = dual->choice[dual->row_capacity] = 0;
+    return true;
+}
+
+bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_error *error)
+{
+    sp_hybrid h;
+    if (!(dual->weight > 0)) {
+        double area = 0;
+        for (size_t t = 0; t < dual->texels; t++)
+            area += (double)dual->cover->area[t];
+        dual->weight = fmax(WEIGHT_FIRST * area / (double)(dual->texels ? dual->texels : 1), 1e-30);
+    }
+    if (!make_room(dual, rows->count))
+        return sp_fail_memory(error);
+    if (!sp_hybrid_create(dual, rows, task, &h, error))
+        return false;
+    dual->bound = INFINITY;
+    dual->reached = -INFINITY;
+    for (size_t i = 1; i <= task->iterations; i++) {
+        sp_hybrid_step(&h);
+        if (i % LOOK == 0 && sp_hybrid_look(&h, i))
+            break;
+    }
+    if (!task->slot_count)
+        memcpy(dual->dual_resource, h.dual_resource, h.resources * sizeof *h.dual_resource);
+    sp_hybrid_free(&h);
+    return true;
+}
+
+bool sp_dual_lift(sp_dual *dual, const sp_rows *rows, const sp_lifts *lifts, sp_error *error)
+{
+    size_t kinds = lifts->kinds;
+    float *sums = calloc(dual->texels * kinds + 1, sizeof *sums);
+    if (!sums)
+        return sp_fail_memory(error);
+    for (size_t c = 0; c < rows->count && c < dual->row_capacity; c++) {
+        float amount = (float)dual->choice[c];
+        for (size_t i = rows->start[c]; amount > CHOICE_LEAST && i < rows->start[c + 1]; i++)
+            for (size_t k = 0; k < kinds; k++)
+                sums[rows->texel[i] * kinds + k] += amount * sp_lift(lifts, k, rows->share[i]);
+    }
+    for (size_t t = 0; t < dual->texels; t++) {
+        uint8_t best = dual->u.kind[t];
+        for (size_t k = 0; k < kinds; k++)
+            if (sums[t * kinds + k] < sums[t * kinds + best] - KIND_BETTER)
+                best = (uint8_t)k;
+        dual->u.kind[t] = best;
+    }
+    free(sums);
+    return true;
+}

@@ -1,0 +1,50 @@
+/* Prices of texels that make the best layout's bound low: the Lagrangian dual of maximum coverage.
+ *
+ * For prices 0 <= u <= area no layout covers more than Σ (area - u) + the most that Σ u share of its nozzles can come
+ * to. That holds for any u, and for any lift of the shares; the iterations here only look for good ones. */
+#ifndef OPTIMIZER_DUAL_H
+#define OPTIMIZER_DUAL_H
+
+#include "bound/cover.h"
+
+typedef struct {
+    const sp_cover *cover;
+    size_t texels;
+    sp_prices price;       /* the best found by the last solve */
+    double bound;          /* m² that it shows for the rows it was solved on, cover->base included */
+    double reached;        /* m² that fractions of those rows do cover (the linear program's own value, from below) */
+    size_t row_capacity;   /* of what follows */
+    double *choice;        /* [rows], fraction of each row in the average of the last solve */
+    sp_prices u;           /* where the iterations stand */
+    double *x;             /* [rows] */
+    double *dual_resource; /* [2 + ports], of water, number and ports; begins anew in a solve with slots */
+    double weight;         /* primal weight: steps in price over steps in choice */
+} sp_dual;
+
+bool sp_dual_create(const sp_cover *cover, sp_dual *dual, sp_error *error);
+void sp_dual_free(sp_dual *dual);
+
+#define SP_NO_SLOT UINT32_MAX
+#define SP_SHUT_OUT (UINT32_MAX - 1)
+
+/* What a solve is about. */
+typedef struct {
+    size_t nozzles, water; /* at most, of rows in no slot; no more than the cover's */
+    size_t slot_count;
+    const uint32_t *slot_room; /* [slot_count], of how many rows of the slot may be chosen, besides */
+    const uint32_t *slot_of;   /* [rows], SP_NO_SLOT, or SP_SHUT_OUT: may not be chosen; NULL: all in no slot */
+    size_t iterations;         /* at most */
+    double tolerance;          /* ends where bound and linear program are this near, as a share of the bound */
+    const sp_lifts *lifts;     /* for as many nozzles at least, or NULL */
+} sp_dual_task;
+
+/* Goes on from where the last solve ended; rows that are new since then start at 0. Primal-dual hybrid gradient with
+ * averages, restarts and diagonal steps: Chambolle and Pock 2011; Pock and Chambolle 2011; Applegate et al., Practical
+ * large-scale linear programming using primal-dual hybrid gradient, 2021. */
+bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_error *error);
+/* Gives every texel the lift under which what the last solve chose covers it least. */
+bool sp_dual_lift(sp_dual *dual, const sp_rows *rows, const sp_lifts *lifts, sp_error *error);
+/* After sp_rows_keep with the same marks. */
+void sp_dual_keep(sp_dual *dual, size_t rows, const bool *marked);
+
+#endif

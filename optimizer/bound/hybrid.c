@@ -1,0 +1,184 @@
+#include "bound/hybrid.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void sp_hybrid_free(sp_hybrid *h)
+{
+    free(h->tau);
+    free(h->cover);
+    free(h->lifted);
+    sp_prices_free(&h->u_last);
+    sp_prices_free(&h->u_mean);
+    free(h->table);
+    sp_offers_free(&h->offers);
+}
+
+/* All doubles in one block. */
+static bool allocate(sp_hybrid *h, sp_error *error)
+{
+    const sp_cover *cover = h->dual->cover;
+    size_t rows = h->rows->count, texels = cover->texel_count;
+    h->resources = 2 + cover->port_count + h->task->slot_count;
+    if (h->task->water + 1 > SIZE_MAX / sizeof(double) / (h->task->nozzles + 1))
+        return sp_fail_memory(error);
+    h->tau = calloc(6 * rows + 6 * texels + 6 * h->resources + 1, sizeof *h->tau);
+    h->cover = calloc(2 * texels + 1, sizeof *h->cover);
+    h->table = malloc((h->task->nozzles + 1) * (h->task->water + 1) * sizeof *h->table);
+    if (!h->tau || !h->cover || !h->table)
+        return sp_fail_memory(error);
+    h->price = h->tau + rows;
+    h->price_sum = h->price + rows;
+    h->x_sum = h->price_sum + rows;
+    h->x_bar = h->x_sum + rows;
+    h->x_start = h->x_bar + rows;
+    h->sigma = h->x_start + rows;
+    h->u_sum = h->sigma + 2 * texels;
+    h->u_start = h->u_sum + 2 * texels;
+    h->sigma_resource = h->u_start + 2 * texels;
+    h->load = h->sigma_resource + h->resources;
+    h->use = h->load + h->resources;
+    h->resource_sum = h->use + h->resources;
+    h->dual_resource = h->resource_sum + h->resources;
+    h->slot_best = h->dual_resource + h->resources;
+    return sp_offers_create(cover->tier_count, cover->weight, cover->port_count, h->task->nozzles + 1, cover->repeats,
+                            &h->offers, error) &&
+           sp_prices_create(cover, &h->u_last, error) && sp_prices_create(cover, &h->u_mean, error);
+}
+
+/* The rows' shares as the texels' lifts make them. What they are worth changes with the lifts. */
+static bool lift_rows(sp_hybrid *h, sp_error *error)
+{
+    sp_prices *const all[] = {&h->dual->u, &h->u_last, &h->u_mean};
+    const sp_rows *rows = h->rows;
+    for (size_t i = 0; i < 3; i++) {
+        all[i]->lifts = h->task->lifts;
+        memcpy(all[i]->kind, h->dual->u.kind, h->dual->texels);
+    }
+    if (!h->task->lifts) {
+        memset(h->dual->u.lifted, 0, h->dual->texels * sizeof *h->dual->u.lifted);
+        return true;
+    }
+    h->lifted = malloc((rows->used + 1) * sizeof *h->lifted);
+    if (!h->lifted)
+        return sp_fail_memory(error);
+    for (size_t i = 0; i < rows->used; i++)
+        h->lifted[i] = sp_lift(h->task->lifts, h->dual->u.kind[rows->texel[i]], rows->share[i]);
+    return true;
+}
+
+/* Nozzles that all limits together let in. */
+static double nozzles_of(const sp_hybrid *h)
+{
+    double nozzles = (double)h->task->nozzles;
+    for (size_t i = 0; i < h->task->slot_count; i++)
+        nozzles += (double)h->task->slot_room[i];
+    return nozzles;
+}
+
+sp_takes sp_hybrid_takes(const sp_hybrid *h, size_t row)
+{
+    const sp_cover *cover = h->dual->cover;
+    uint32_t slot = sp_hybrid_slot(h, row);
+    double one = h->scale / nozzles_of(h);
+    if (slot != SP_NO_SLOT)
+        return (sp_takes){1, {2 + cover->port_count + slot}, {one}};
+    sp_takes takes = {2, {0, 1}, {h->scale * cover->weight[h->rows->tier[row]] / (double)h->task->water, one}};
+    if (h->rows->port[row] != SP_NO_PORT) {
+        takes.resource[2] = 2 + h->rows->port[row];
+        takes.amount[2] = one;
+        takes.count = 3;
+    }
+    return takes;
+}
+
+double sp_hybrid_limit(const sp_hybrid *h, size_t resource)
+{
+    size_t ports = h->dual->cover->port_count;
+    double one = h->scale / nozzles_of(h);
+    if (resource == 0)
+        return h->scale;
+    if (resource == 1)
+        return one * (double)h->task->nozzles;
+    return resource < 2 + ports ? one : one * (double)h->task->slot_room[resource - 2 - ports];
+}
+
+static bool can_choose(const sp_hybrid *h, size_t row)
+{
+    uint32_t slot = sp_hybrid_slot(h, row);
+    if (slot == SP_SHUT_OUT || h->rows->start[row + 1] == h->rows->start[row])
+        return false;
+    return slot != SP_NO_SLOT || (h->task->nozzles && h->dual->cover->weight[h->rows->tier[row]] <= h->task->water);
+}
+
+/* Sums of columns, into tau, and of the texels' rows, into sigma. */
+static void add_shares(sp_hybrid *h, double *mean)
+{
+    const sp_rows *rows = h->rows;
+    size_t texels = h->dual->texels, chosen = 0;
+    for (size_t t = 0; t < 2 * texels; t++)
+        h->sigma[t] = 0;
+    *mean = 0;
+    for (size_t c = 0; c < rows->count; c++) {
+        h->tau[c] = 0;
+        if (!can_choose(h, c)) {
+            h->dual->x[c] = 0;
+            continue;
+        }
+        for (size_t i = rows->start[c]; i < rows->start[c + 1]; i++) {
+            h->tau[c] += (double)rows->share[i];
+            h->sigma[rows->texel[i]] += (double)rows->share[i];
+            if (h->lifted) {
+                h->tau[c] += (double)h->lifted[i];
+                h->sigma[texels + rows->texel[i]] += (double)h->lifted[i];
+            }
+        }
+        *mean += h->tau[c];
+        chosen++;
+    }
+    *mean = chosen ? *mean / (double)chosen : 0;
+}
+
+/* Diagonal steps: the inverse sums of rows and columns. */
+static void set_steps(sp_hybrid *h)
+{
+    double mean;
+    add_shares(h, &mean);
+    h->scale = mean > 0 ? 0.5 * mean * nozzles_of(h) : 1;
+    for (size_t r = 0; r < h->resources; r++)
+        h->load[r] = 0;
+    for (size_t c = 0; c < h->rows->count; c++) {
+        if (h->tau[c] <= 0)
+            continue;
+        sp_takes takes = sp_hybrid_takes(h, c);
+        for (size_t k = 0; k < takes.count; k++) {
+            h->load[takes.resource[k]] += takes.amount[k];
+            h->tau[c] += takes.amount[k];
+        }
+        h->tau[c] = 1 / h->tau[c];
+    }
+    for (size_t t = 0; t < 2 * h->dual->texels; t++)
+        h->sigma[t] = h->sigma[t] > 0 ? 1 / h->sigma[t] : 0;
+    for (size_t r = 0; r < h->resources; r++)
+        h->sigma_resource[r] = h->load[r] > 0 ? 1 / h->load[r] : 0;
+}
+
+bool sp_hybrid_create(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_hybrid *h, sp_error *error)
+{
+    *h = (sp_hybrid){.dual = dual, .rows = rows, .task = task, .gap_start = INFINITY};
+    if (!allocate(h, error) || !lift_rows(h, error)) {
+        sp_hybrid_free(h);
+        return false;
+    }
+    if (rows->count)
+        memcpy(h->x_start, dual->x, rows->count * sizeof *dual->x);
+    for (size_t t = 0; t < dual->texels; t++) {
+        h->u_start[t] = (double)dual->u.plain[t];
+        h->u_start[dual->texels + t] = (double)dual->u.lifted[t];
+    }
+    if (!task->slot_count)
+        memcpy(h->dual_resource, dual->dual_resource, h->resources * sizeof *h->dual_resource);
+    set_steps(h);
+    return true;
+}

@@ -1,0 +1,54 @@
+/* One run of the primal-dual hybrid gradient method that sp_dual_solve makes: steps, and looks at where they lead. */
+#ifndef OPTIMIZER_HYBRID_H
+#define OPTIMIZER_HYBRID_H
+
+#include "bound/dual.h"
+
+/* Everything that a run needs. Resources: water, number, ports, slots. */
+typedef struct {
+    sp_dual *dual;
+    const sp_rows *rows;
+    const sp_dual_task *task;
+    double *tau;   /* [rows], of the step in x; 0: a row that cannot be chosen */
+    double *sigma; /* [2 texels], plain and lifted, as all that follows of [2 texels] */
+    float *lifted; /* [rows->used], the shares lifted; NULL: no lifts */
+    double *dual_resource, *sigma_resource, *load, *use; /* [resources]; load: Σ of a row's use over the rows */
+    double *price, *price_sum;                           /* [rows] */
+    double *x_sum, *x_bar;                               /* [rows] */
+    double *u_sum;                                       /* [2 texels] */
+    sp_prices u_last, u_mean;
+    double *resource_sum;
+    float *cover; /* [2 texels], Σ share x */
+    double *x_start, *u_start;
+    double *table;     /* of the knapsack */
+    double *slot_best; /* [slots] */
+    sp_offers offers;
+    double scale; /* of the resource rows, so that their steps keep up with the texels' */
+    size_t resources, since;
+    double gap_start;
+} sp_hybrid;
+
+/* dual->x and dual->choice have room for all rows. */
+bool sp_hybrid_create(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_hybrid *h, sp_error *error);
+void sp_hybrid_free(sp_hybrid *h);
+void sp_hybrid_step(sp_hybrid *h);
+/* Looks at where the steps stand and at their average, and notes in the dual what is best; true where bound and linear
+ * program are near enough. */
+bool sp_hybrid_look(sp_hybrid *h, size_t iteration);
+
+static inline uint32_t sp_hybrid_slot(const sp_hybrid *h, size_t row)
+{
+    return h->task->slot_of ? h->task->slot_of[row] : SP_NO_SLOT;
+}
+
+/* What one unit of a row takes: of how many resources, which, and how much. */
+typedef struct {
+    size_t count, resource[3];
+    double amount[3];
+} sp_takes;
+sp_takes sp_hybrid_takes(const sp_hybrid *h, size_t row);
+double sp_hybrid_limit(const sp_hybrid *h, size_t resource);
+/* cover = Σ share x. */
+void sp_hybrid_add_up(sp_hybrid *h, const double *x);
+
+#endif

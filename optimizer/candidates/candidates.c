@@ -1,0 +1,226 @@
+#include "candidates/candidates.h"
+
+#include <stdlib.h>
+
+/* Axes lie at most about a third of the pattern's half-angle apart, and closer, down to a twelfth, while there are
+ * fewer poses than POSES_ENOUGH: finer ones look alike to the search, and refinement moves them anyway. */
+#define AXIS_SHARE (1.0 / 3)
+#define AXIS_STEP_LEAST (8 * M_PI / 180)
+#define AXIS_STEP_MOST (20 * M_PI / 180)
+#define FINENESS_LEAST 0.25
+#define FINENESS_STEP 0.95
+#define POSES_ENOUGH 1.1e6
+#define FAN_ROLLS 8
+#define ANGLES 3
+
+void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high)
+{
+    *low = fmax(type->angle_min, type->angle - options->refine.angle);
+    *high = fmin(type->angle_max, type->angle + options->refine.angle);
+}
+
+void sp_flow_range(const sp_place_options *options, const sp_fluid *liquid, const sp_nozzle_type *type, double pressure,
+                   double *low, double *high)
+{
+    double least = fmax(type->flow_min, type->flow * (1 - options->refine.flow));
+    double most = fmin(type->flow_max, type->flow * (1 + options->refine.flow));
+    *low = sp_type_flow(type, least, pressure, liquid);
+    *high = sp_type_flow(type, most, pressure, liquid);
+}
+
+static bool make_create(const sp_setup *setup, const sp_nozzle_type *type, double pressure, double angle,
+                        sp_candidates *candidates)
+{
+    sp_nozzle nozzle = {.type = type, .pressure = pressure};
+    sp_make make = {.type = type, .pressure = pressure, .angle = angle, .spray = sp_spray_create(type, angle)};
+    make.flow = sp_nozzle_flow(&nozzle, &setup->liquid);
+    make.speed = sp_nozzle_speed(&nozzle, &setup->liquid);
+    make.reach = sp_spray_reach(&make.spray);
+    make.roll_count = type->pattern == SP_PATTERN_FLAT_FAN ? FAN_ROLLS : 1;
+    if (!(make.flow > 0) || !(make.speed > 0))
+        return false;
+    while (make.speed_class < candidates->speed_count && candidates->speeds[make.speed_class] != make.speed)
+        make.speed_class++;
+    if (make.speed_class == candidates->speed_count)
+        candidates->speeds[candidates->speed_count++] = make.speed;
+    candidates->makes[candidates->make_count++] = make;
+    return true;
+}
+
+/* An adjustable type at its own angle and at the ends of what refinement may set: the search must see that it helps. */
+static bool type_makes(const sp_setup *setup, const sp_place_options *options, const sp_nozzle_type *type,
+                       double pressure, sp_candidates *candidates)
+{
+    double low, high;
+    sp_angle_range(options, type, &low, &high);
+    return make_create(setup, type, pressure, type->angle, candidates) &&
+           (low >= type->angle || make_create(setup, type, pressure, low, candidates)) &&
+           (high <= type->angle || make_create(setup, type, pressure, high, candidates));
+}
+
+static bool makes_create(const sp_setup *setup, const sp_place_options *options, sp_candidates *candidates,
+                         sp_error *error)
+{
+    if (!options->type_count || !options->pressure_count)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: no %s to choose from",
+                       options->type_count ? "pressure" : "type");
+    if (options->pressure_count > SIZE_MAX / ANGLES / sizeof(sp_make) / options->type_count)
+        return sp_fail_memory(error);
+    size_t most = options->type_count * options->pressure_count * ANGLES;
+    candidates->makes = calloc(most, sizeof *candidates->makes);
+    candidates->speeds = calloc(most, sizeof *candidates->speeds);
+    if (!candidates->makes || !candidates->speeds)
+        return sp_fail_memory(error);
+    for (size_t t = 0; t < options->type_count; t++)
+        for (size_t p = 0; p < options->pressure_count; p++)
+            if (!type_makes(setup, options, options->types[t], options->pressures[p], candidates))
+                return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: type %s at %g Pa sprays nothing",
+                               options->types[t]->name, options->pressures[p]);
+    return true;
+}
+
+/* Rings about +z, the outermost at the tilt itself, each ring's axes no further apart than the rings. With `axes` NULL
+ * it only counts. */
+static size_t rings(double tilt, double step, sp_vec3 *axes)
+{
+    size_t ring_count = tilt > 0 ? (size_t)ceil(tilt / step * (1 - 1e-9)) : 0, count = 0;
+    for (size_t ring = 0; ring <= ring_count; ring++) {
+        double polar = ring_count ? tilt * (double)ring / (double)ring_count : 0;
+        size_t around = (size_t)fmax(1, ceil(2 * M_PI * sin(polar) / step * (1 - 1e-9)));
+        for (size_t i = 0; i < around; i++, count++) {
+            /* every other ring is turned by half a step */
+            double azimuth = 2 * M_PI * ((double)i + 0.5 * (double)(ring % 2)) / (double)around;
+            if (axes)
+                axes[count] = sp_v(sin(polar) * cos(azimuth), sin(polar) * sin(azimuth), cos(polar));
+        }
+    }
+    return count;
+}
+
+static bool fits(const sp_mount *mount, const sp_nozzle_type *type)
+{
+    if (mount->kind != SP_MOUNT_PORT || !mount->type_count)
+        return true;
+    for (size_t i = 0; i < mount->type_count; i++)
+        if (mount->types[i] == type)
+            return true;
+    return false;
+}
+
+/* How far apart a make's axes lie, and how far out. */
+static double axis_step(const sp_make *make, double fineness)
+{
+    return fineness * fmin(AXIS_STEP_MOST, fmax(AXIS_STEP_LEAST, AXIS_SHARE * make->reach));
+}
+
+static double axis_tilt(const sp_make *make, const sp_mount *mount)
+{
+    /* what sprays all round is the same whatever its axis */
+    bool all_round = make->spray.kind != SP_PATTERN_FLAT_FAN && make->spray.outer >= M_PI && make->spray.inner <= 0;
+    return all_round ? 0 : fmin(M_PI, mount->tilt);
+}
+
+static double count_poses(const sp_place_options *options, const sp_sites *sites, const sp_candidates *candidates,
+                          double fineness)
+{
+    double poses = 0, per_site = 0;
+    uint32_t counted = SP_NONE; /* the mount that per_site is of: sites come mount by mount */
+    for (size_t i = 0; i < sites->count; i++, poses += per_site) {
+        const sp_mount *mount = &options->mounts[sites->items[i].mount];
+        if (sites->items[i].mount == counted)
+            continue;
+        counted = sites->items[i].mount;
+        per_site = 0;
+        for (size_t k = 0; k < candidates->make_count; k++) {
+            const sp_make *make = &candidates->makes[k];
+            if (fits(mount, make->type))
+                per_site +=
+                    (double)make->roll_count * (double)rings(axis_tilt(make, mount), axis_step(make, fineness), NULL);
+        }
+    }
+    return poses;
+}
+
+static bool axes_create(const sp_place_options *options, const sp_sites *sites, sp_candidates *candidates,
+                        sp_error *error)
+{
+    double fineness = 1;
+    while (fineness > FINENESS_LEAST && count_poses(options, sites, candidates, fineness) < POSES_ENOUGH)
+        fineness *= FINENESS_STEP;
+    candidates->mount_count = options->mount_count;
+    candidates->axes = calloc(options->mount_count * candidates->make_count, sizeof *candidates->axes);
+    if (!candidates->axes)
+        return sp_fail_memory(error);
+    for (size_t m = 0; m < options->mount_count; m++)
+        for (size_t k = 0; k < candidates->make_count; k++) {
+            const sp_make *make = &candidates->makes[k];
+            if (!fits(&options->mounts[m], make->type))
+                continue;
+            double step = axis_step(make, fineness), tilt = axis_tilt(make, &options->mounts[m]);
+            sp_axes *axes = &candidates->axes[m * candidates->make_count + k];
+            axes->axes = malloc(rings(tilt, step, NULL) * sizeof *axes->axes);
+            if (!axes->axes)
+                return sp_fail_memory(error);
+            axes->count = rings(tilt, step, axes->axes);
+        }
+    return true;
+}
+
+bool sp_candidates_create(const sp_evaluator *evaluator, const sp_place_options *options, const sp_sites *sites,
+                          sp_candidates *candidates, sp_error *error)
+{
+    *candidates = (sp_candidates){0};
+    const sp_setup *setup = sp_evaluator_setup(evaluator);
+    if (!makes_create(setup, options, candidates, error) || !axes_create(options, sites, candidates, error)) {
+        sp_candidates_free(candidates);
+        return false;
+    }
+    candidates->pose_start = calloc(sites->count + 1, sizeof *candidates->pose_start);
+    if (!candidates->pose_start) {
+        sp_candidates_free(candidates);
+        return sp_fail_memory(error);
+    }
+    for (size_t i = 0; i < sites->count; i++) {
+        size_t count = 0;
+        for (size_t k = 0; k < candidates->make_count; k++)
+            count += sp_candidates_axes(candidates, sites->items[i].mount, k)->count * candidates->makes[k].roll_count;
+        candidates->pose_start[i + 1] = candidates->pose_start[i] + count;
+    }
+    return true;
+}
+
+void sp_candidates_free(sp_candidates *candidates)
+{
+    for (size_t i = 0; candidates->axes && i < candidates->mount_count * candidates->make_count; i++)
+        free(candidates->axes[i].axes);
+    free(candidates->axes);
+    free(candidates->makes);
+    free(candidates->speeds);
+    free(candidates->pose_start);
+    *candidates = (sp_candidates){0};
+}
+
+sp_vec3 sp_frame_axis(const sp_frame *frame, sp_vec3 axis)
+{
+    return sp_unit(sp_add(sp_add(sp_scale(frame->x, axis.x), sp_scale(frame->y, axis.y)), sp_scale(frame->z, axis.z)));
+}
+
+double sp_make_roll(const sp_make *make, size_t i)
+{
+    /* Half a turn brings a fan back to itself. */
+    return M_PI * (double)i / (double)make->roll_count;
+}
+
+sp_nozzle sp_pose_nozzle(const sp_candidates *candidates, const sp_sites *sites, sp_pose pose, sp_vec3 up)
+{
+    const sp_site *site = &sites->items[pose.site];
+    const sp_make *make = &candidates->makes[pose.make];
+    const sp_axes *axes = sp_candidates_axes(candidates, site->mount, pose.make);
+    sp_frame frame = sp_nozzle_frame(site->axis, 0, up);
+    return (sp_nozzle){.type = make->type,
+                       .position = site->position,
+                       .axis = sp_frame_axis(&frame, axes->axes[pose.axis]),
+                       .roll = sp_make_roll(make, pose.roll),
+                       .pressure = make->pressure,
+                       .angle = make->angle == make->type->angle ? 0 : make->angle};
+}

@@ -1,0 +1,60 @@
+/* Candidate poses: mounting point x type x pressure x angle x axis x roll. */
+#ifndef OPTIMIZER_CANDIDATES_H
+#define OPTIMIZER_CANDIDATES_H
+
+#include "candidates/mounts.h"
+
+/* A type at a pressure and an angle. */
+typedef struct {
+    const sp_nozzle_type *type;
+    double pressure; /* Pa */
+    double angle;    /* rad */
+    double flow;     /* m³/s */
+    double speed;    /* m/s */
+    size_t speed_class;
+    sp_spray spray;
+    double reach;      /* rad, half-angle of the cone that holds the pattern */
+    size_t roll_count; /* 1 but for fans */
+} sp_make;
+
+/* Axes within a mount's tilt, about +z. */
+typedef struct {
+    size_t count; /* 0: the type does not fit the mount */
+    sp_vec3 *axes;
+} sp_axes;
+
+typedef struct {
+    size_t make_count;
+    sp_make *makes; /* by type, then pressure, then angle */
+    size_t speed_count;
+    double *speeds; /* m/s, distinct */
+    size_t mount_count;
+    sp_axes *axes;      /* [mount_count x make_count] */
+    size_t *pose_start; /* [site_count + 1], poses of site i are [start[i], start[i + 1]) */
+} sp_candidates;
+
+/* One pose. `make`, `axis` and `roll` number within `site`'s own choice. */
+typedef struct {
+    uint32_t site, make, axis, roll;
+} sp_pose;
+
+bool sp_candidates_create(const sp_evaluator *evaluator, const sp_place_options *options, const sp_sites *sites,
+                          sp_candidates *candidates, sp_error *error);
+void sp_candidates_free(sp_candidates *candidates);
+
+static inline const sp_axes *sp_candidates_axes(const sp_candidates *candidates, uint32_t mount, size_t make)
+{
+    return &candidates->axes[mount * candidates->make_count + make];
+}
+/* Turns an axis about +z to lie about the z of a frame: for a site sp_nozzle_frame(site->axis, 0, up). */
+sp_vec3 sp_frame_axis(const sp_frame *frame, sp_vec3 axis);
+/* What refinement may set: angle (rad), and flow (m³/s) of a type at a pressure. */
+void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high);
+void sp_flow_range(const sp_place_options *options, const sp_fluid *liquid, const sp_nozzle_type *type, double pressure,
+                   double *low, double *high);
+/* The roll of step i. */
+double sp_make_roll(const sp_make *make, size_t i);
+/* The pose as a nozzle without a name. */
+sp_nozzle sp_pose_nozzle(const sp_candidates *candidates, const sp_sites *sites, sp_pose pose, sp_vec3 up);
+
+#endif

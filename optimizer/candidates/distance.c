@@ -1,0 +1,83 @@
+#include "candidates/distance.h"
+
+/* Ericson, Real-Time Collision Detection, 5.1.5: by the Voronoi region of the triangle's corners, edges and face. */
+sp_vec3 sp_triangle_nearest(const sp_mesh *mesh, uint32_t triangle, sp_vec3 point)
+{
+    const uint32_t *corner = mesh->triangles[triangle];
+    sp_vec3 a = mesh->vertices[corner[0]], b = mesh->vertices[corner[1]], c = mesh->vertices[corner[2]];
+    sp_vec3 ab = sp_sub(b, a), ac = sp_sub(c, a), ap = sp_sub(point, a);
+    double d1 = sp_dot(ab, ap), d2 = sp_dot(ac, ap);
+    if (d1 <= 0 && d2 <= 0)
+        return a;
+    sp_vec3 bp = sp_sub(point, b);
+    double d3 = sp_dot(ab, bp), d4 = sp_dot(ac, bp);
+    if (d3 >= 0 && d4 <= d3)
+        return b;
+    double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0)
+        return sp_along(a, d1 / (d1 - d3), ab);
+    sp_vec3 cp = sp_sub(point, c);
+    double d5 = sp_dot(ab, cp), d6 = sp_dot(ac, cp);
+    if (d6 >= 0 && d5 <= d6)
+        return c;
+    double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0)
+        return sp_along(a, d2 / (d2 - d6), ac);
+    double va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+        return sp_along(b, (d4 - d3) / ((d4 - d3) + (d5 - d6)), sp_sub(c, b));
+    double scale = 1 / (va + vb + vc);
+    return sp_along(sp_along(a, vb * scale, ab), vc * scale, ac);
+}
+
+/* How far p lies outside the interval that three coordinates span. Comparisons, which compile to a few instructions
+ * where fmin and fmax are calls. */
+static inline double outside(double a, double b, double c, double p)
+{
+    double low = a < b ? a : b, high = a < b ? b : a;
+    low = c < low ? c : low;
+    high = c > high ? c : high;
+    return p < low ? low - p : p > high ? p - high : 0;
+}
+
+/* A lower bound: the distance to the triangle's box, squared. */
+static inline double box_distance2(const sp_mesh *mesh, uint32_t triangle, sp_vec3 p)
+{
+    const uint32_t *corner = mesh->triangles[triangle];
+    sp_vec3 a = mesh->vertices[corner[0]], b = mesh->vertices[corner[1]], c = mesh->vertices[corner[2]];
+    double x = outside(a.x, b.x, c.x, p.x), y = outside(a.y, b.y, c.y, p.y), z = outside(a.z, b.z, c.z, p.z);
+    return x * x + y * y + z * z;
+}
+
+uint32_t sp_nearest_triangle(const sp_mesh *mesh, uint32_t part, sp_vec3 point)
+{
+    uint32_t nearest = SP_NONE;
+    double best = INFINITY;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        if ((part != SP_NONE && mesh->part[t] != part) || box_distance2(mesh, t, point) >= best)
+            continue;
+        sp_vec3 away = sp_sub(sp_triangle_nearest(mesh, t, point), point);
+        double distance = sp_dot(away, away);
+        if (distance < best) {
+            best = distance;
+            nearest = t;
+        }
+    }
+    return nearest;
+}
+
+bool sp_is_clear(const sp_mesh *mesh, sp_vec3 point, double clearance, uint32_t own)
+{
+    /* A point placed exactly at the clearance must not fail by round-off. */
+    double limit = clearance * clearance * (1 - 1e-9);
+    if (limit <= 0)
+        return true;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        if (mesh->part[t] == own || box_distance2(mesh, t, point) >= limit)
+            continue;
+        sp_vec3 away = sp_sub(sp_triangle_nearest(mesh, t, point), point);
+        if (sp_dot(away, away) < limit)
+            return false;
+    }
+    return true;
+}

@@ -1,0 +1,300 @@
+#include "candidates/mounts.h"
+
+#include "candidates/distance.h"
+#include "watch.h"
+
+#include <stdlib.h>
+
+#define SITES_MOST 100000   /* beyond that a spacing is taken for a mistake */
+#define SAMPLES_PER_SITE 16 /* points to choose from, per square of the spacing */
+#define STANDOFF_LEAST 1e-4 /* m: on the surface itself every line of sight would start in it */
+
+static bool append(sp_sites *sites, const sp_site *site, sp_error *error)
+{
+    if (sites->count == sites->capacity) {
+        size_t capacity = sites->capacity ? 2 * sites->capacity : 64;
+        sp_site *items = realloc(sites->items, capacity * sizeof *items);
+        if (!items)
+            return sp_fail_memory(error);
+        sites->items = items;
+        sites->capacity = capacity;
+    }
+    sites->items[sites->count++] = *site;
+    return true;
+}
+
+/* Points from one end of a length to the other, both included, no further apart than the spacing. */
+static bool steps(double length, double spacing, size_t *count, sp_error *error)
+{
+    *count = 1;
+    if (!(length > 0))
+        return true;
+    if (!(spacing > 0))
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "mount: a spacing of %g m, expected more than 0", spacing);
+    double intervals = ceil(length / spacing * (1 - 1e-9));
+    if (intervals >= SITES_MOST)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "mount: a spacing of %g m over %g m, more than %d mounting points", spacing, length, SITES_MOST);
+    *count = 1 + (size_t)fmax(1, intervals);
+    return true;
+}
+
+static double step_at(double from, double to, size_t i, size_t count)
+{
+    return count > 1 ? from + (to - from) * (double)i / (double)(count - 1) : from;
+}
+
+static bool port_sites(const sp_mesh *mesh, const sp_mount *mount, uint32_t index, sp_sites *sites, sp_error *error)
+{
+    size_t count;
+    if (!steps(mount->depth_to - mount->depth_from, mount->depth_spacing, &count, error))
+        return false;
+    uint32_t nearest = sp_nearest_triangle(mesh, SP_NONE, mount->position);
+    for (size_t i = 0; i < count; i++) {
+        double depth = step_at(mount->depth_from, mount->depth_to, i, count);
+        sp_site site = {.position = sp_along(mount->position, depth, mount->axis),
+                        .axis = mount->axis,
+                        .mount = index,
+                        .own = nearest == SP_NONE ? SP_NONE : mesh->part[nearest]};
+        if (!append(sites, &site, error))
+            return false;
+    }
+    return true;
+}
+
+static bool box_sites(const sp_mount *mount, uint32_t index, sp_sites *sites, sp_error *error)
+{
+    size_t nx, ny, nz;
+    if (!steps(mount->to.x - mount->from.x, mount->spacing, &nx, error) ||
+        !steps(mount->to.y - mount->from.y, mount->spacing, &ny, error) ||
+        !steps(mount->to.z - mount->from.z, mount->spacing, &nz, error))
+        return false;
+    if ((double)nx * (double)ny * (double)nz > SITES_MOST)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "mount: a spacing of %g m gives a box of %zu x %zu x %zu mounting points, more than %d",
+                       mount->spacing, nx, ny, nz, SITES_MOST);
+    for (size_t k = 0; k < nz; k++)
+        for (size_t j = 0; j < ny; j++)
+            for (size_t i = 0; i < nx; i++) {
+                sp_site site = {.position = sp_v(step_at(mount->from.x, mount->to.x, i, nx),
+                                                 step_at(mount->from.y, mount->to.y, j, ny),
+                                                 step_at(mount->from.z, mount->to.z, k, nz)),
+                                .axis = mount->axis,
+                                .mount = index,
+                                .own = SP_NONE};
+                if (!append(sites, &site, error))
+                    return false;
+            }
+    return true;
+}
+
+static bool line_sites(const sp_mount *mount, uint32_t index, sp_sites *sites, sp_error *error)
+{
+    size_t count;
+    sp_vec3 along = sp_sub(mount->to, mount->from);
+    if (!steps(sp_length(along), mount->spacing, &count, error))
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        sp_site site = {.position = sp_along(mount->from, step_at(0, 1, i, count), along),
+                        .axis = mount->axis,
+                        .mount = index,
+                        .own = SP_NONE};
+        if (!append(sites, &site, error))
+            return false;
+    }
+    return true;
+}
+
+static bool on_mount(const sp_mesh *mesh, const sp_mount *mount, uint32_t triangle)
+{
+    uint32_t part = mesh->part[triangle];
+    return mesh->parts[part].geometry == mount->geometry && (mount->part == SP_NONE || mount->part == part);
+}
+
+static sp_site stood_off(const sp_mesh *mesh, const sp_mount *mount, uint32_t index, uint32_t triangle, sp_vec3 point,
+                         bool back)
+{
+    sp_vec3 normal = sp_triangle_normal(mesh, triangle);
+    if (back)
+        normal = sp_scale(normal, -1);
+    return (sp_site){.position = sp_along(point, fmax(mount->standoff, STANDOFF_LEAST), normal),
+                     .axis = normal,
+                     .mount = index,
+                     .own = mesh->part[triangle]};
+}
+
+/* van der Corput's sequence in the given base */
+static double radical_inverse(size_t i, size_t base)
+{
+    double value = 0, digit = 1.0 / (double)base;
+    for (; i; i /= base, digit /= (double)base)
+        value += digit * (double)(i % base);
+    return value;
+}
+
+/* Points spread evenly by area over one side of the mount's triangles, each stood off. */
+static bool surface_samples(const sp_evaluator *evaluator, const sp_mount *mount, uint32_t index, sp_sites *samples,
+                            sp_error *error)
+{
+    const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
+    double total = 0;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        if (on_mount(mesh, mount, t))
+            total += sp_triangle_area(mesh, t);
+    if (!(total > 0))
+        return true;
+    /* a part smaller than a square of the spacing has its choice of points all the same */
+    double per_area = SAMPLES_PER_SITE / fmin(mount->spacing * mount->spacing, total);
+    if (!(mount->spacing > 0) || total * per_area > (double)SITES_MOST * SAMPLES_PER_SITE)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "mount: a spacing of %g m on %g m² of surface, more than %d mounting points", mount->spacing,
+                       total, SITES_MOST);
+    double passed = 0.5; /* the first sample lies half a sample's area in */
+    size_t number = 0;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        if (!on_mount(mesh, mount, t))
+            continue;
+        passed += sp_triangle_area(mesh, t) * per_area;
+        for (; (double)number + 1 <= passed; number++) {
+            double u = radical_inverse(number + 1, 2), v = radical_inverse(number + 1, 3);
+            sp_vec3 point = u + v > 1 ? sp_triangle_point(mesh, t, 1 - u, 1 - v) : sp_triangle_point(mesh, t, u, v);
+            for (unsigned side = 0; side < 2; side++) {
+                sp_site site = stood_off(mesh, mount, index, t, point, side == 1);
+                if (sp_evaluator_wet(evaluator, t) >> side & 1 && !append(samples, &site, error))
+                    return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Farthest-point sampling: each site is the sample farthest from those already taken, until none is a spacing away.
+ * Both sides of a sheet are far from one another. */
+static bool surface_sites(const sp_evaluator *evaluator, const sp_mount *mount, uint32_t index, sp_sites *sites,
+                          sp_error *error)
+{
+    sp_sites samples = {0};
+    double *distance = NULL;
+    bool done = surface_samples(evaluator, mount, index, &samples, error);
+    if (done && samples.count) {
+        distance = malloc(samples.count * sizeof *distance);
+        if (!distance)
+            done = sp_fail_memory(error);
+    }
+    for (size_t i = 0; distance && i < samples.count; i++)
+        distance[i] = INFINITY;
+    for (size_t next = 0; done && next < samples.count;) {
+        sp_site taken = samples.items[next];
+        done = append(sites, &taken, error);
+        double farthest = mount->spacing;
+        next = samples.count;
+        for (size_t i = 0; i < samples.count; i++) {
+            if (sp_dot(samples.items[i].axis, taken.axis) > 0)
+                distance[i] = fmin(distance[i], sp_distance(samples.items[i].position, taken.position));
+            if (distance[i] >= farthest && (next == samples.count || distance[i] > farthest)) {
+                farthest = distance[i];
+                next = i;
+            }
+        }
+    }
+    free(distance);
+    sp_sites_free(&samples);
+    return done;
+}
+
+static bool lance_blocked(const sp_evaluator *evaluator, sp_vec3 from, sp_vec3 to, uint32_t own)
+{
+    const sp_tracer *tracer = sp_evaluator_tracer(evaluator);
+    const sp_mesh *mesh = sp_tracer_mesh(tracer);
+    sp_ray ray = {.origin = from, .velocity = sp_sub(to, from), .t_max = 1, .skip = SP_NONE};
+    while (sp_length(ray.velocity) > 0) {
+        sp_hit hit = sp_trace_nearest(tracer, &ray, sp_v(0, 0, 0));
+        if (hit.triangle == SP_NONE)
+            return false;
+        if (mesh->part[hit.triangle] != own)
+            return true;
+        ray.t_min = hit.t;
+    }
+    return false;
+}
+
+bool sp_site_allowed(const sp_evaluator *evaluator, const sp_place_options *options, const sp_site *site)
+{
+    const sp_mount *mount = &options->mounts[site->mount];
+    if (!sp_is_clear(sp_evaluator_setup(evaluator)->mesh, site->position, options->clearance, site->own) ||
+        !sp_evaluator_inside(evaluator, site->position))
+        return false;
+    return mount->kind != SP_MOUNT_PORT || !lance_blocked(evaluator, mount->position, site->position, site->own);
+}
+
+bool sp_site_project(const sp_evaluator *evaluator, const sp_place_options *options, sp_site *site, sp_vec3 point)
+{
+    const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
+    const sp_mount *mount = &options->mounts[site->mount];
+    uint32_t triangle = sp_nearest_triangle(mesh, site->own, point);
+    if (triangle == SP_NONE)
+        return false;
+    bool back = sp_dot(sp_triangle_normal(mesh, triangle), site->axis) < 0;
+    if (!(sp_evaluator_wet(evaluator, triangle) >> back & 1))
+        return false;
+    *site = stood_off(mesh, mount, site->mount, triangle, sp_triangle_nearest(mesh, triangle, point), back);
+    return true;
+}
+
+static bool mount_sites(const sp_evaluator *evaluator, const sp_mount *mount, uint32_t index, sp_sites *sites,
+                        sp_error *error)
+{
+    switch (mount->kind) {
+    case SP_MOUNT_PORT:
+        return port_sites(sp_evaluator_setup(evaluator)->mesh, mount, index, sites, error);
+    case SP_MOUNT_SURFACE:
+        return surface_sites(evaluator, mount, index, sites, error);
+    case SP_MOUNT_LINE:
+        return line_sites(mount, index, sites, error);
+    case SP_MOUNT_BOX:
+        return box_sites(mount, index, sites, error);
+    }
+    return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "a mount of unknown kind %d", (int)mount->kind);
+}
+
+/* Keeps the sites that are allowed, in order. */
+static bool sift(const sp_evaluator *evaluator, const sp_place_options *options, sp_sites *sites, sp_error *error)
+{
+    bool *allowed = calloc(sites->count ? sites->count : 1, sizeof *allowed);
+    if (!allowed)
+        return sp_fail_memory(error);
+    int threads = sp_threads(&options->run);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 4)
+    for (size_t i = 0; i < sites->count; i++)
+        allowed[i] = sp_site_allowed(evaluator, options, &sites->items[i]);
+    size_t kept = 0;
+    for (size_t i = 0; i < sites->count; i++)
+        if (allowed[i])
+            sites->items[kept++] = sites->items[i];
+    free(allowed);
+    if (!kept)
+        sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                "place: none of %zu mounting points is inside the cavity and %g m clear of surfaces", sites->count,
+                options->clearance);
+    sites->count = kept;
+    return kept > 0;
+}
+
+bool sp_sites_create(const sp_evaluator *evaluator, const sp_place_options *options, sp_sites *sites, sp_error *error)
+{
+    *sites = (sp_sites){0};
+    bool done = true;
+    for (size_t m = 0; done && m < options->mount_count; m++)
+        done = mount_sites(evaluator, &options->mounts[m], (uint32_t)m, sites, error);
+    if (!done || !sift(evaluator, options, sites, error)) {
+        sp_sites_free(sites);
+        return false;
+    }
+    return true;
+}
+
+void sp_sites_free(sp_sites *sites)
+{
+    free(sites->items);
+    *sites = (sp_sites){0};
+}

@@ -1,0 +1,289 @@
+#include "certificate/aim_bound.h"
+
+#include "certificate/aim_prices.h"
+
+#include <stdlib.h>
+
+#define NOZZLES_MOST 256 /* of a layout */
+#define ROUNDS_FIRST 2   /* of pricing all aims, at the proposal's water */
+#define ROUNDS_WATER 2   /* at a water that may be too little for the proposal's coverage */
+#define TRIALS_WATER 1   /* such waters */
+#define POINTS_MOST 2    /* of the front, that get rounds of their own */
+#define ROUNDS_FRONT 2
+#define WORTH_LEAST 1e-3 /* of the whole, below which a bound must lie to say something */
+
+typedef struct {
+    const sp_aim_task *task;
+    sp_front *front;
+    sp_cover cover;
+    sp_water_units units;
+    sp_aim_kinds kinds;
+    double *flows; /* [flow_count], of all that may be taken, the makes' first */
+    size_t flow_count;
+    uint32_t *weight;   /* [tiers] */
+    uint32_t **tier_of; /* [kinds][steps] */
+    uint32_t *none;     /* [makes], for the poses' prices, which are not asked */
+    sp_pose_prices *poses;
+    sp_aim_prices *prices;
+    sp_pricer pricer;
+    sp_bound bound;
+} aiming;
+
+static void aiming_free(aiming *a)
+{
+    sp_bound_free(&a->bound);
+    sp_aim_prices_destroy(a->prices);
+    sp_pose_prices_destroy(a->poses);
+    for (size_t k = 0; a->tier_of && k < a->kinds.count; k++)
+        free(a->tier_of[k]);
+    free(a->tier_of);
+    free(a->none);
+    free(a->weight);
+    free(a->flows);
+    sp_aim_kinds_free(&a->kinds);
+}
+
+static const sp_design *design_of(const sp_front *front, size_t i)
+{
+    return i < front->count ? &front->entries[i].design : &front->best;
+}
+
+static bool list_flows(aiming *a, sp_error *error)
+{
+    const sp_candidates *candidates = a->task->search->candidates;
+    size_t count = candidates->make_count;
+    for (size_t i = 0; i <= a->front->count; i++)
+        count += design_of(a->front, i)->count;
+    for (size_t k = 0; k < a->kinds.count; k++)
+        count += a->kinds.items[k].step_count;
+    a->flows = malloc((count + 1) * sizeof *a->flows);
+    a->weight = malloc((count + 1) * sizeof *a->weight);
+    if (!a->flows || !a->weight)
+        return sp_fail_memory(error);
+    for (size_t k = 0; k < candidates->make_count; k++)
+        a->flows[a->flow_count++] = candidates->makes[k].flow;
+    for (size_t i = 0; i <= a->front->count; i++)
+        for (size_t n = 0; n < design_of(a->front, i)->count; n++)
+            a->flows[a->flow_count++] = design_of(a->front, i)->items[n].flow;
+    for (size_t k = 0; k < a->kinds.count; k++)
+        for (size_t step = 0; step < a->kinds.items[k].step_count; step++)
+            a->flows[a->flow_count++] = a->kinds.items[k].edge[step];
+    return true;
+}
+
+/* False where nothing can be placed, or too many nozzles at a time. */
+static bool set_limits(aiming *a)
+{
+    const sp_search *search = a->task->search;
+    size_t limit = search->options->max_nozzles;
+    double most = 0, least = INFINITY;
+    for (size_t i = 0; i < a->flow_count; i++)
+        least = fmin(least, a->flows[i]);
+    for (size_t i = 0; i <= a->front->count; i++)
+        most = fmax(most, design_of(a->front, i)->flow - search->kept_flow);
+    if (!(most >= least))
+        return false;
+    a->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
+    if (limit && limit - search->kept_count < a->cover.nozzles)
+        a->cover.nozzles = limit - search->kept_count;
+    if (a->cover.nozzles > NOZZLES_MOST)
+        return false;
+    a->units = sp_water_units_create(a->flows, search->candidates->make_count, least, a->cover.nozzles, most);
+    a->cover.water = sp_water_budget(&a->units, most);
+    return true;
+}
+
+static uint32_t tier_of_weight(aiming *a, uint32_t weight)
+{
+    uint32_t tier = 0;
+    while (tier < a->cover.tier_count && a->weight[tier] != weight)
+        tier++;
+    if (tier == a->cover.tier_count)
+        a->weight[a->cover.tier_count++] = weight;
+    return tier;
+}
+
+static bool set_tiers(aiming *a, sp_error *error)
+{
+    a->cover.tier_count = 0;
+    a->cover.weight = a->weight;
+    a->tier_of = calloc(a->kinds.count + 1, sizeof *a->tier_of);
+    a->none = calloc(a->task->search->candidates->make_count + 1, sizeof *a->none);
+    if (!a->tier_of || !a->none)
+        return sp_fail_memory(error);
+    for (size_t i = 0; i < a->flow_count; i++)
+        tier_of_weight(a, sp_water_weight(&a->units, a->flows[i]));
+    for (size_t k = 0; k < a->kinds.count; k++) {
+        const sp_aim_kind *kind = &a->kinds.items[k];
+        a->tier_of[k] = malloc(kind->step_count * sizeof **a->tier_of);
+        if (!a->tier_of[k])
+            return sp_fail_memory(error);
+        for (size_t step = 0; step < kind->step_count; step++)
+            a->tier_of[k][step] = tier_of_weight(a, sp_water_weight(&a->units, kind->edge[step]));
+    }
+    return true;
+}
+
+/* The layouts' own nozzles, and where water is counted alike the candidates that made good layouts. */
+static bool add_rows(aiming *a, sp_error *error)
+{
+    const sp_rows *rows = a->task->rows;
+    for (size_t i = 0; i <= a->front->count; i++)
+        for (size_t n = 0; n < design_of(a->front, i)->count; n++) {
+            const sp_placed *placed = &design_of(a->front, i)->items[n];
+            uint32_t tier = tier_of_weight(a, sp_water_weight(&a->units, placed->flow));
+            if (!sp_pose_prices_row(a->poses, placed->field, SP_OWN_KEY, a->task->ports[placed->site.mount], tier,
+                                    &a->bound.rows, error))
+                return false;
+        }
+    for (size_t c = 0; c < rows->count && a->units.unit == a->task->units->unit; c++) {
+        size_t first = rows->start[c];
+        uint32_t tier = tier_of_weight(a, a->task->cover->weight[rows->tier[c]]);
+        if (rows->key[c] != SP_OWN_KEY &&
+            !sp_rows_add(&a->bound.rows, rows->key[c], rows->port[c], tier, rows->texel + first, rows->share + first,
+                         rows->start[c + 1] - first, error))
+            return false;
+    }
+    return true;
+}
+
+static bool prepare(aiming *a, sp_error *error)
+{
+    const sp_aim_task *task = a->task;
+    if (!set_tiers(a, error))
+        return false;
+    a->poses = sp_pose_prices_create(task->search, &a->cover, a->none, task->need, task->ports, error);
+    if (!a->poses)
+        return false;
+    a->prices = sp_aim_prices_create(task->search, &a->cover, &a->kinds, (const uint32_t *const *)a->tier_of,
+                                     task->ports, a->poses, error);
+    if (!a->prices)
+        return false;
+    a->pricer = sp_aim_pricer(a->prices);
+    return sp_bound_create(&a->cover, &a->pricer, &a->bound, error) && add_rows(a, error);
+}
+
+static size_t budget_of(const aiming *a, double flow)
+{
+    size_t budget = sp_water_budget(&a->units, flow - a->task->search->kept_flow);
+    return budget < a->cover.water ? budget : a->cover.water;
+}
+
+/* True while there is time; that it ends here leaves the proposal as good as it is. */
+static bool goes_on(const aiming *a)
+{
+    sp_watch *watch = a->task->watch;
+    return (watch->run.time_limit <= 0 || sp_watch_elapsed(watch) < watch->run.time_limit) &&
+           sp_watch_goes_on(watch, "certificate", 1);
+}
+
+static bool lower(aiming *a, size_t water, size_t rounds, sp_error *error)
+{
+    sp_aim_prices_seek(a->prices, water);
+    for (size_t round = 0; round < rounds && goes_on(a); round++)
+        if (!sp_bound_lower(&a->bound, water, error))
+            return false;
+    return true;
+}
+
+/* The least water for what the proposal covers. */
+static bool lower_water(aiming *a, double area, sp_error *error)
+{
+    for (size_t trial = 0; trial < TRIALS_WATER; trial++) {
+        size_t water = sp_bound_water(&a->bound, area);
+        if (!water || water > a->cover.water)
+            return true;
+        if (!lower(a, water, ROUNDS_WATER, error))
+            return false;
+        if (sp_bound_water(&a->bound, area) == water)
+            return true;
+    }
+    return true;
+}
+
+/* The point of the front with the widest gap that has not had its turn; front->count where none is left. */
+static size_t widest(const aiming *a, const bool *had)
+{
+    size_t found = a->front->count;
+    double most = 0;
+    for (size_t i = 0; i < a->front->count; i++) {
+        const sp_front_point *point = &a->front->entries[i].point;
+        double open = 1 - point->counted / a->bound.by_water[budget_of(a, point->flow)];
+        if (!had[i] && open > most) {
+            found = i;
+            most = open;
+        }
+    }
+    return found;
+}
+
+static bool lower_front(aiming *a, sp_error *error)
+{
+    bool *had = calloc(a->front->count + 1, sizeof *had), done = had != NULL;
+    if (!had)
+        return sp_fail_memory(error);
+    for (size_t turn = 0; done && turn < POINTS_MOST; turn++) {
+        size_t i = widest(a, had);
+        if (i == a->front->count)
+            break;
+        had[i] = true;
+        done = lower(a, budget_of(a, a->front->entries[i].point.flow), ROUNDS_FRONT, error);
+    }
+    free(had);
+    return done;
+}
+
+/* Mounting points that were traced, not in ports that kept nozzles take. */
+static size_t count_places(const sp_search *search)
+{
+    size_t count = 0;
+    for (uint32_t i = 0; i < search->sites->count; i++) {
+        bool known = false;
+        for (size_t s = 0; s < search->candidates->speed_count; s++)
+            known |= sp_visibility_known(search->visibility, i, s);
+        count += known && !search->port_taken[search->sites->items[i].mount];
+    }
+    return count;
+}
+
+/* What is proved, where it says more than that there is no more than all. */
+static void conclude(const aiming *a, sp_front *front, sp_certificate *certificate)
+{
+    double whole = certificate->whole, counted = certificate->counted;
+    size_t water = sp_bound_water(&a->bound, counted);
+    double area = fmin(whole, a->bound.by_water[budget_of(a, front->best.flow)]);
+    bool says = area < whole * (1 - WORTH_LEAST);
+    for (size_t i = 0; i < front->count; i++) {
+        sp_front_point *point = &front->entries[i].point;
+        point->every_aim_bound = fmin(whole, a->bound.by_water[budget_of(a, point->flow)]);
+        says = says || point->every_aim_bound < whole * (1 - WORTH_LEAST);
+    }
+    if (!says)
+        return;
+    certificate->every_aim.computed = true;
+    certificate->every_aim.places = count_places(a->task->search);
+    certificate->every_aim.area_bound = area;
+    certificate->every_aim.water_bound =
+        fmin(front->best.flow, a->task->search->kept_flow + a->units.unit * (double)water);
+    certificate->every_aim.gap = (area - counted) / area;
+}
+
+bool sp_aim_bound(const sp_aim_task *task, sp_front *front, sp_certificate *certificate, sp_error *error)
+{
+    aiming a = {.task = task, .front = front, .cover = *task->cover};
+    for (size_t i = 0; i < front->count; i++)
+        front->entries[i].point.every_aim_bound = NAN;
+    if (!sp_watch_stage(task->watch, "certificate", error))
+        return false;
+    if (!goes_on(&a))
+        return true;
+    bool done = sp_aim_kinds_create(task->search, &a.kinds, error) && list_flows(&a, error);
+    if (done && set_limits(&a)) {
+        done = prepare(&a, error) && lower(&a, budget_of(&a, front->best.flow), ROUNDS_FIRST, error) &&
+               lower_water(&a, certificate->counted, error) && lower_front(&a, error);
+        if (done)
+            conclude(&a, front, certificate);
+    }
+    aiming_free(&a);
+    return done && sp_watch_stage(task->watch, "every aim", error);
+}

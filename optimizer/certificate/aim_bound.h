@@ -1,0 +1,23 @@
+/* Bounds that hold for every aim at the candidates' mounting points, not only for the candidates'. */
+#ifndef OPTIMIZER_AIM_BOUND_H
+#define OPTIMIZER_AIM_BOUND_H
+
+#include "bound/bound.h"
+#include "search/front.h"
+#include "certificate/water_units.h"
+
+/* What the certificate of the candidates has made, all borrowed. */
+typedef struct {
+    const sp_search *search;
+    sp_watch *watch;
+    const sp_cover *cover;
+    const sp_water_units *units;
+    const float *need;   /* [patches] */
+    const size_t *ports; /* [mounts] */
+    const sp_rows *rows; /* candidates that make good layouts, by the cover's tiers; and the layouts' own nozzles */
+} sp_aim_task;
+
+/* Fills certificate->every_aim, and every_aim_bound of the front's points, after all else of them. */
+bool sp_aim_bound(const sp_aim_task *task, sp_front *front, sp_certificate *certificate, sp_error *error);
+
+#endif

@@ -1,0 +1,439 @@
+#include "certificate/aim_prices.h"
+
+#include "scoring/scoring.h"
+
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define UPWARDS (1 + 1e-4) /* more than a sweep's sum may lie off, see sweep.h */
+#define CLOSE 1.01         /* a cell's bound over the best known aim's price, that is not worth a split */
+#define CELLS_MOST 80000   /* that one pricing looks at, about */
+#define ROWS_AT_A_TIME 200
+#define CULLS 16                      /* kept by each thread */
+#define KEY_FIRST (UINT64_C(1) << 62) /* of rows for aims, which have no number */
+
+typedef struct {
+    bool used;
+    sp_spray spray;
+    sp_cull cull;
+} kept_cull;
+
+/* One thread's own. */
+typedef struct {
+    sp_desk *desk;
+    const sp_view *view;
+    float *worth; /* [largest view + SP_LANES] */
+    float total[SP_BINS];
+    kept_cull *culls; /* [CULLS] */
+    size_t next_cull;
+} scratch;
+
+typedef struct {
+    sp_aim_cell cell;
+    double middle; /* price of its middle; 0: of no use */
+    double excess; /* its bound over what it may be; 0: not above it */
+    size_t group;  /* scratch of loops */
+} entry;
+
+typedef struct {
+    size_t count, capacity;
+    entry *items;
+} cell_list;
+
+/* A cell's middle that is worth more than needed. */
+typedef struct {
+    sp_aim_cell cell;
+    double excess; /* price over what is needed; 0: none */
+} aim;
+
+struct sp_aim_prices {
+    const sp_search *search;
+    const sp_cover *cover;
+    const sp_aim_kinds *kinds;
+    const uint32_t *const *tier_of;
+    const size_t *ports;
+    const sp_pose_prices *poses;
+    int threads;
+    scratch *scratches; /* [threads] */
+    aim *best;          /* [sites x kinds] */
+    double *known;      /* [ports + 1][tiers], the best price known, the last place being all that is no port */
+    float *field;       /* [texels] */
+    size_t water;       /* that a bound is sought for */
+    double *table;      /* of the knapsack */
+    double *fair;       /* [tiers], worth of a nozzle that does not raise the bound; INFINITY: it takes too much */
+    cell_list open, next;
+    size_t looked_at; /* cells, by this pricing */
+    uint64_t keys;    /* given out so far */
+};
+
+static bool scratch_create(const sp_search *search, scratch *own)
+{
+    own->worth = calloc(search->visibility->largest + SP_LANES, sizeof *own->worth);
+    own->culls = calloc(CULLS, sizeof *own->culls);
+    return own->worth && own->culls;
+}
+
+sp_aim_prices *sp_aim_prices_create(const sp_search *search, const sp_cover *cover, const sp_aim_kinds *kinds,
+                                    const uint32_t *const *tier_of, const size_t *ports, const sp_pose_prices *poses,
+                                    sp_error *error)
+{
+    sp_aim_prices *prices = malloc(sizeof *prices);
+    if (!prices)
+        return sp_fail_memory(error);
+    *prices = (sp_aim_prices){.search = search,
+                              .cover = cover,
+                              .kinds = kinds,
+                              .tier_of = tier_of,
+                              .ports = ports,
+                              .poses = poses,
+                              .threads = sp_sweeper_threads(search),
+                              .water = cover->water};
+    prices->scratches = calloc((size_t)prices->threads, sizeof *prices->scratches);
+    prices->best = calloc(search->sites->count + 1, kinds->count * sizeof *prices->best);
+    prices->known = calloc((cover->port_count + 1) * cover->tier_count, sizeof *prices->known);
+    prices->field = malloc((search->patch_count + 1) * sizeof *prices->field);
+    prices->fair = malloc((cover->tier_count + 1) * sizeof *prices->fair);
+    if (cover->water < SIZE_MAX / sizeof(double) / (cover->nozzles + 1) - 1)
+        prices->table = malloc((cover->nozzles + 1) * (cover->water + 1) * sizeof *prices->table);
+    bool done = prices->scratches && prices->best && prices->known && prices->field && prices->fair && prices->table;
+    for (int i = 0; done && i < prices->threads; i++)
+        done = scratch_create(search, &prices->scratches[i]);
+    if (done)
+        return prices;
+    sp_aim_prices_destroy(prices);
+    return sp_fail_memory(error);
+}
+
+void sp_aim_prices_destroy(sp_aim_prices *prices)
+{
+    if (!prices)
+        return;
+    for (int i = 0; prices->scratches && i < prices->threads; i++) {
+        free(prices->scratches[i].worth);
+        free(prices->scratches[i].culls);
+    }
+    free(prices->scratches);
+    free(prices->best);
+    free(prices->known);
+    free(prices->field);
+    free(prices->table);
+    free(prices->fair);
+    free(prices->open.items);
+    free(prices->next.items);
+    free(prices);
+}
+
+void sp_aim_prices_seek(sp_aim_prices *prices, size_t water)
+{
+    prices->water = water;
+}
+
+static bool append(cell_list *cells, const sp_aim_cell *cell)
+{
+    if (cells->count == cells->capacity) {
+        size_t capacity = cells->capacity ? 2 * cells->capacity : 1024;
+        entry *items = realloc(cells->items, capacity * sizeof *items);
+        if (!items)
+            return false;
+        cells->items = items;
+        cells->capacity = capacity;
+    }
+    cells->items[cells->count++] = (entry){.cell = *cell};
+    return true;
+}
+
+static double tilt_of(const sp_aim_prices *prices, uint32_t site)
+{
+    return prices->search->options->mounts[prices->search->sites->items[site].mount].tilt;
+}
+
+static uint32_t tier_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
+{
+    return prices->tier_of[cell->kind][cell->step];
+}
+
+/* The best price known of the cell's port, or of all other mounting points, and tier. */
+static double *known_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
+{
+    size_t port = prices->ports[prices->search->sites->items[cell->site].mount];
+    size_t place = port == SP_NO_PORT ? prices->cover->port_count : port;
+    return &prices->known[place * prices->cover->tier_count + tier_of(prices, cell)];
+}
+
+/* Whether two cells need the same worths of arrivals. */
+static bool alike(const sp_aim_cell *a, const sp_aim_cell *b)
+{
+    return a->site == b->site && a->kind == b->kind && a->step == b->step && a->angle_low == b->angle_low &&
+           a->angle_high == b->angle_high;
+}
+
+static bool same(const sp_spray *a, const sp_spray *b)
+{
+    return a->kind == b->kind && a->inner == b->inner && a->outer == b->outer && a->half_width == b->half_width &&
+           a->half_thickness == b->half_thickness;
+}
+
+static const sp_cull *cull_of(scratch *own, const sp_bins *bins, const sp_spray *spray)
+{
+    for (size_t i = 0; i < CULLS; i++)
+        if (own->culls[i].used && same(&own->culls[i].spray, spray))
+            return &own->culls[i].cull;
+    kept_cull *kept = &own->culls[own->next_cull++ % CULLS];
+    kept->used = true;
+    kept->spray = *spray;
+    sp_cull_create(bins, spray, &kept->cull);
+    return &kept->cull;
+}
+
+/* The sum over all that aims sprayed as `cell` about `disc` may reach. */
+static double reach_price(const sp_aim_prices *prices, scratch *own, const sp_aim_cell *cell, sp_aim_disc disc)
+{
+    const sp_search *search = prices->search;
+    sp_spray spray = sp_aim_cell_spray(cell, &prices->kinds->items[cell->kind], disc.radius);
+    sp_frame frame = sp_aim_cell_frame(cell, &disc, sp_evaluator_setup(search->coarse)->up);
+    sp_region region = sp_region_create(&spray, &frame);
+    const sp_bins *bins = &search->visibility->bins;
+    const sp_weight weight = {own->worth, own->total};
+    double price;
+    search->sweeps->sum(bins, cull_of(own, bins, &spray), &region, own->view, &weight, 1, &price);
+    return price * UPWARDS;
+}
+
+/* Turns to what a cell's aims bring at most; false where nothing is seen. */
+static bool turn_to(const sp_aim_prices *prices, scratch *own, const sp_aim_cell *cell, const sp_prices *u)
+{
+    const sp_search *search = prices->search;
+    const sp_aim_kind *kind = &prices->kinds->items[cell->kind];
+    double strength = sp_aim_cell_intensity(cell, kind) / search->threshold;
+    own->view = sp_visibility_look(search->visibility, cell->site, kind->speed_class, &own->desk);
+    if (!own->view->start)
+        return false;
+    sp_pose_prices_worth(prices->poses, own->view, search->threshold > 0 ? (float)strength : INFINITY, u, own->worth,
+                         own->total);
+    return true;
+}
+
+/* Bounds of cells that are alike, and the prices of the middles of those that may matter. */
+static void price_alike(const sp_aim_prices *prices, scratch *own, entry *entries, size_t count, const sp_prices *u)
+{
+    const sp_site *site = &prices->search->sites->items[entries[0].cell.site];
+    double tilt = tilt_of(prices, entries[0].cell.site);
+    bool sees = turn_to(prices, own, &entries[0].cell, u);
+    for (size_t i = 0; i < count; i++) {
+        sp_aim_cell *cell = &entries[i].cell;
+        sp_aim_disc disc = sp_aim_cell_disc(cell, site, tilt);
+        /* nor more than the cell that it is a piece of */
+        cell->upper = sees ? fmin(cell->upper, reach_price(prices, own, cell, disc)) : 0;
+        entries[i].middle = 0;
+        if (cell->upper <= fmin(*known_of(prices, cell), prices->fair[tier_of(prices, cell)]) ||
+            sp_dot(disc.axis, site->axis) < cos(tilt) - 1e-12)
+            continue;
+        sp_aim_cell middle = sp_aim_cell_middle(cell, &prices->kinds->items[cell->kind]);
+        entries[i].middle = reach_price(prices, own, &middle, (sp_aim_disc){disc.axis, 0});
+    }
+}
+
+static void price_open(sp_aim_prices *prices, const sp_prices *u)
+{
+    cell_list *open = &prices->open;
+    size_t groups = 0;
+    for (size_t i = 0; i < open->count; i++)
+        if (!i || !alike(&open->items[i - 1].cell, &open->items[i].cell))
+            open->items[groups++].group = i;
+#pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
+    for (size_t g = 0; g < groups; g++) {
+        size_t first = open->items[g].group, end = g + 1 < groups ? open->items[g + 1].group : open->count;
+        price_alike(prices, &prices->scratches[omp_get_thread_num()], &open->items[first], end - first, u);
+    }
+    for (int i = 0; i < prices->threads; i++)
+        sp_visibility_leave(prices->search->visibility, &prices->scratches[i].desk);
+    prices->looked_at += open->count;
+}
+
+/* Remembers the middles: as what is known, and as what may be handed out. */
+static void note_middles(sp_aim_prices *prices)
+{
+    for (size_t i = 0; i < prices->open.count; i++) {
+        const entry *found = &prices->open.items[i];
+        const sp_aim_cell *cell = &found->cell;
+        double *known = known_of(prices, cell), need = prices->fair[tier_of(prices, cell)];
+        *known = fmax(*known, found->middle);
+        aim *best = &prices->best[cell->site * prices->kinds->count + cell->kind];
+        double excess = need > 0 ? found->middle / need : found->middle * 1e30;
+        if (found->middle > need && excess > best->excess)
+            *best = (aim){*cell, excess};
+    }
+}
+
+/* What a cell's bound may be without mattering more than what is known anyway. */
+static double harmless(const sp_aim_prices *prices, const sp_aim_cell *cell)
+{
+    return fmax(CLOSE * *known_of(prices, cell), prices->fair[tier_of(prices, cell)]);
+}
+
+static int by_excess(const void *a, const void *b)
+{
+    const entry *p = a, *q = b;
+    if (p->excess != q->excess)
+        return p->excess > q->excess ? -1 : 1;
+    return (p->group > q->group) - (p->group < q->group);
+}
+
+static int by_likeness(const void *a, const void *b)
+{
+    const sp_aim_cell *p = &((const entry *)a)->cell, *q = &((const entry *)b)->cell;
+    const uint32_t left[] = {p->site, p->kind, p->step}, right[] = {q->site, q->kind, q->step};
+    for (size_t i = 0; i < 3; i++)
+        if (left[i] != right[i])
+            return left[i] < right[i] ? -1 : 1;
+    const double l[] = {p->angle_low, p->angle_high, p->level, p->u, p->v, p->roll};
+    const double r[] = {q->angle_low, q->angle_high, q->level, q->u, q->v, q->roll};
+    for (size_t i = 0; i < 6; i++)
+        if (l[i] != r[i])
+            return l[i] < r[i] ? -1 : 1;
+    return 0;
+}
+
+/* Splits the open cells that matter, the highest first, as long as there is work left to spend; offers the others. */
+static bool split_open(sp_aim_prices *prices, sp_offers *offers)
+{
+    cell_list *open = &prices->open, *next = &prices->next;
+    next->count = 0;
+    for (size_t i = 0; i < open->count; i++) {
+        entry *own = &open->items[i];
+        double limit = harmless(prices, &own->cell);
+        own->group = i;
+        own->excess = own->cell.upper > limit ? own->cell.upper / limit : 0;
+    }
+    qsort(open->items, open->count, sizeof *open->items, by_excess);
+    for (size_t i = 0; i < open->count; i++) {
+        const sp_aim_cell *cell = &open->items[i].cell;
+        const sp_aim_kind *kind = &prices->kinds->items[cell->kind];
+        const sp_site *site = &prices->search->sites->items[cell->site];
+        double tilt = tilt_of(prices, cell->site);
+        sp_aim_cell children[SP_AIM_CHILDREN];
+        size_t count = 0;
+        if (open->items[i].excess > 0 && prices->looked_at + next->count < CELLS_MOST &&
+            sp_aim_cell_splits(cell, kind, site, tilt))
+            count = sp_aim_cell_split(cell, kind, site, tilt, children);
+        else
+            sp_offers_add(offers, prices->ports[site->mount], tier_of(prices, cell), cell->upper);
+        for (size_t k = 0; k < count; k++)
+            if (!append(next, &children[k]))
+                return false;
+    }
+    cell_list before = *open;
+    *open = *next;
+    *next = before;
+    if (open->count > 1)
+        qsort(open->items, open->count, sizeof *open->items, by_likeness);
+    return true;
+}
+
+/* All aims at all mounting points, in as few cells as can be. */
+static bool open_all(sp_aim_prices *prices)
+{
+    const sp_search *search = prices->search;
+    prices->open.count = prices->looked_at = 0;
+    for (uint32_t site = 0; site < search->sites->count; site++)
+        for (uint32_t k = 0; k < prices->kinds->count; k++) {
+            const sp_aim_kind *kind = &prices->kinds->items[k];
+            uint32_t mount = search->sites->items[site].mount;
+            prices->best[site * prices->kinds->count + k] = (aim){0};
+            if (search->port_taken[mount] || !sp_candidates_axes(search->candidates, mount, kind->make)->count)
+                continue;
+            for (uint32_t step = 0; step < kind->step_count; step++) {
+                sp_aim_cell whole = sp_aim_cell_whole(kind, site, k, step);
+                if (prices->cover->weight[prices->tier_of[k][step]] <= prices->cover->water &&
+                    !append(&prices->open, &whole))
+                    return false;
+            }
+        }
+    return true;
+}
+
+/* What the rows at hand are worth is known. Where every nozzle is worth no more than its part of the water that a bound
+ * is sought for, measured by the best choice of rows, no choice of them is worth more than that. */
+static void read_offers(sp_aim_prices *prices, const sp_offers *offers)
+{
+    const sp_cover *cover = prices->cover;
+    size_t tiers = cover->tier_count, ports = cover->port_count, nozzles = cover->nozzles, water = prices->water;
+    sp_knapsack(offers, nozzles, water, prices->table);
+    double most = prices->table[(nozzles + 1) * (water + 1) - 1];
+    for (size_t k = 0; k < tiers; k++) {
+        for (size_t p = 0; p < ports; p++)
+            prices->known[p * tiers + k] = offers->port[p * tiers + k];
+        prices->known[ports * tiers + k] = offers->free[k * offers->most];
+        prices->fair[k] = cover->weight[k] > water ? INFINITY : most * (double)cover->weight[k] / (double)water;
+    }
+}
+
+/* The row of an aim: a cell's middle. */
+static bool hand_out_one(sp_aim_prices *prices, const sp_aim_cell *cell, sp_rows *rows, sp_error *error)
+{
+    const sp_search *search = prices->search;
+    const sp_aim_kind *kind = &prices->kinds->items[cell->kind];
+    const sp_site *site = &search->sites->items[cell->site];
+    sp_aim_cell middle = sp_aim_cell_middle(cell, kind);
+    sp_aim_disc disc = {sp_aim_cell_disc(cell, site, tilt_of(prices, cell->site)).axis, 0};
+    sp_spray spray = sp_aim_cell_spray(&middle, kind, 0);
+    sp_frame frame = sp_aim_cell_frame(&middle, &disc, sp_evaluator_setup(search->coarse)->up);
+    sp_region region = sp_region_create(&spray, &frame);
+    float strength = search->threshold > 0 ? (float)(sp_aim_cell_intensity(cell, kind) / search->threshold) : INFINITY;
+    sp_desk *desk = NULL;
+    const sp_view *view = sp_visibility_look(search->visibility, cell->site, kind->speed_class, &desk);
+    memset(prices->field, 0, search->patch_count * sizeof *prices->field);
+    for (uint32_t i = 0; i < view->count; i++)
+        if (sp_region_holds(&region, view->x[i], view->y[i], view->z[i]))
+            prices->field[view->patch[i]] += strength * view->transfer[i];
+    sp_visibility_leave(search->visibility, &desk);
+    return sp_pose_prices_row(prices->poses, prices->field, KEY_FIRST + prices->keys++, prices->ports[site->mount],
+                              tier_of(prices, cell), rows, error);
+}
+
+static int by_merit(const void *a, const void *b)
+{
+    const aim *p = a, *q = b;
+    if (p->excess != q->excess)
+        return p->excess > q->excess ? -1 : 1;
+    return by_likeness(&(entry){.cell = p->cell}, &(entry){.cell = q->cell});
+}
+
+static bool price_aims(void *user, const sp_prices *u, const double *needed, bool all, sp_offers *offers, sp_rows *rows,
+                       sp_error *error)
+{
+    (void)all, (void)needed; /* what matters is asked of all aims together, and little is spent on what does not */
+    sp_aim_prices *prices = user;
+    size_t bests = prices->search->sites->count * prices->kinds->count;
+    if (!open_all(prices))
+        return sp_fail_memory(error);
+    read_offers(prices, offers);
+    while (prices->open.count) {
+        price_open(prices, u);
+        note_middles(prices);
+        if (!split_open(prices, offers))
+            return sp_fail_memory(error);
+    }
+    qsort(prices->best, bests, sizeof *prices->best, by_merit);
+    bool done = true;
+    for (size_t i = 0; done && i < bests && i < ROWS_AT_A_TIME && prices->best[i].excess > 0; i++)
+        done = hand_out_one(prices, &prices->best[i].cell, rows, error);
+    return done;
+}
+
+sp_pricer sp_aim_pricer(sp_aim_prices *prices)
+{
+    return (sp_pricer){prices, price_aims};
+}
+
+double sp_aim_prices_upper(sp_aim_prices *prices, const sp_aim_cell *cell, const sp_prices *u)
+{
+    const sp_site *site = &prices->search->sites->items[cell->site];
+    scratch *own = &prices->scratches[0];
+    double upper = 0;
+    if (turn_to(prices, own, cell, u))
+        upper = reach_price(prices, own, cell, sp_aim_cell_disc(cell, site, tilt_of(prices, cell->site)));
+    sp_visibility_leave(prices->search->visibility, &own->desk);
+    return upper;
+}

@@ -1,0 +1,452 @@
+#include "certificate/certificate.h"
+
+#include "certificate/aim_bound.h"
+#include "bound/branch.h"
+#include "certificate/pose_prices.h"
+#include "certificate/water_units.h"
+
+#include <stdlib.h>
+
+#define NOZZLES_MOST 256   /* of a layout */
+#define ROUNDS_EXPLORING 4 /* of looking at some of the poses first */
+#define ROUNDS_FIRST 2     /* of pricing all poses, at the proposal's water */
+#define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
+#define TRIALS_WATER 3     /* such waters */
+#define STEP_WATER 0.4     /* of the way to the proposal's water, for the first of them */
+#define WORK_LEAST 1e6     /* of branch and bound at the front's points, see sp_tree */
+#define WORK_EACH 6        /* the same, besides, in pricings of all candidates */
+#define WORK_PROVING 1e10  /* with --prove, where no time limit ends it */
+#define WATER_LIKE 1.7     /* times more or less water still counts as about as much */
+#define WORK_FIRST 1.5     /* of a point, in pricings of all candidates */
+#define ALIVE_FEW 0.5      /* of all candidates: fewer are alive than it takes to price all again */
+#define WORK_PAST 0.2      /* what a point has taken counts so much, beside what its next step takes */
+#define ROUNDS_LIFTED 3    /* at least, so that the lifts have settled */
+#define ROUNDS_PROVING 2   /* with --prove, at the proposal's water, and trials of water */
+#define ROUNDS_WATER_PROVING 1
+#define ITERATIONS_PROVING 500
+#define TOLERANCE_PROVING 2e-5
+#define OPEN_LEAST 1e-3 /* gap of a point of the front that is worth a turn */
+
+typedef struct {
+    const sp_search *search;
+    sp_watch *watch;
+    const sp_front *front;
+    sp_cover cover;
+    sp_water_units units;
+    float *area, *need; /* [patches] */
+    uint32_t *weight;   /* [tiers] */
+    uint32_t *tier_of;  /* [makes] */
+    size_t *ports;      /* [mounts] */
+    double *flows;      /* [makes], then one for each nozzle of the front */
+    size_t own;         /* nozzles of the front */
+    sp_pose_prices *prices;
+    sp_rows nozzles; /* of the front */
+    sp_pose_order order;
+    sp_line line;
+    sp_pricer pricer;
+    sp_bound bound;
+    sp_branching branching;
+    sp_tree *trees; /* [front->count + 1], by points, then the proposal's; empty where it takes no water */
+    bool *begun;    /* the same, whether all candidates were priced for it */
+    double *found;  /* the same, m² that a layout found with no more water covers */
+} certifying;
+
+static void certifying_free(certifying *c)
+{
+    for (size_t i = 0; c->trees && i <= c->front->count; i++)
+        sp_tree_free(&c->trees[i]);
+    free(c->trees);
+    free(c->found);
+    free(c->begun);
+    sp_branching_free(&c->branching);
+    sp_bound_free(&c->bound);
+    sp_pose_order_free(&c->order);
+    sp_rows_free(&c->nozzles);
+    sp_pose_prices_destroy(c->prices);
+    free(c->area);
+    free(c->need);
+    free(c->weight);
+    free(c->tier_of);
+    free(c->ports);
+    free(c->flows);
+}
+
+static double least_of(const double *values, size_t count)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < count; i++)
+        least = fmin(least, values[i]);
+    return least;
+}
+
+/* Designs of the front, and the best. */
+static const sp_design *design_of(const sp_front *front, size_t i)
+{
+    return i < front->count ? &front->entries[i].design : &front->best;
+}
+
+static bool list_flows(certifying *c, sp_error *error)
+{
+    const sp_candidates *candidates = c->search->candidates;
+    for (size_t i = 0; i <= c->front->count; i++)
+        c->own += design_of(c->front, i)->count;
+    c->flows = malloc((candidates->make_count + c->own + 1) * sizeof *c->flows);
+    if (!c->flows)
+        return sp_fail_memory(error);
+    size_t count = 0;
+    for (size_t k = 0; k < candidates->make_count; k++)
+        c->flows[count++] = candidates->makes[k].flow;
+    for (size_t i = 0; i <= c->front->count; i++)
+        for (size_t n = 0; n < design_of(c->front, i)->count; n++)
+            c->flows[count++] = design_of(c->front, i)->items[n].flow;
+    return true;
+}
+
+static uint32_t tier_for(certifying *c, double flow)
+{
+    uint32_t weight = sp_water_weight(&c->units, flow), tier = 0;
+    while (tier < c->cover.tier_count && c->weight[tier] != weight)
+        tier++;
+    if (tier == c->cover.tier_count)
+        c->weight[c->cover.tier_count++] = weight;
+    return tier;
+}
+
+/* Water of the layouts, in units, and number; false where nothing can be placed, or too many nozzles at a time for the
+ * knapsack's table. */
+static bool set_limits(certifying *c)
+{
+    const sp_search *search = c->search;
+    size_t makes = search->candidates->make_count, limit = search->options->max_nozzles;
+    double most = 0, least = least_of(c->flows, makes + c->own);
+    for (size_t i = 0; i <= c->front->count; i++)
+        most = fmax(most, design_of(c->front, i)->flow - search->kept_flow);
+    if (!(most >= least) || (limit && limit <= search->kept_count))
+        return false;
+    c->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
+    if (limit && limit - search->kept_count < c->cover.nozzles)
+        c->cover.nozzles = limit - search->kept_count;
+    if (c->cover.nozzles > NOZZLES_MOST)
+        return false;
+    c->units = sp_water_units_create(c->flows, makes, least, c->cover.nozzles, most);
+    c->cover.water = sp_water_budget(&c->units, most);
+    return true;
+}
+
+static bool set_tiers(certifying *c, sp_error *error)
+{
+    const sp_search *search = c->search;
+    size_t makes = search->candidates->make_count, mounts = search->options->mount_count;
+    c->weight = malloc((makes + c->own + 1) * sizeof *c->weight);
+    c->tier_of = malloc((makes + 1) * sizeof *c->tier_of);
+    c->ports = malloc((mounts + 1) * sizeof *c->ports);
+    if (!c->weight || !c->tier_of || !c->ports)
+        return sp_fail_memory(error);
+    for (size_t k = 0; k < makes; k++)
+        c->tier_of[k] = tier_for(c, c->flows[k]);
+    for (size_t i = 0; i < c->own; i++)
+        tier_for(c, c->flows[makes + i]);
+    for (size_t m = 0; m < mounts; m++)
+        c->ports[m] = search->options->mounts[m].kind == SP_MOUNT_PORT ? c->cover.port_count++ : SP_NO_PORT;
+    return true;
+}
+
+/* What every texel still needs besides the kept nozzles. */
+static bool set_texels(certifying *c, sp_error *error)
+{
+    const sp_search *search = c->search;
+    c->area = malloc((search->patch_count + 1) * sizeof *c->area);
+    c->need = malloc((search->patch_count + 1) * sizeof *c->need);
+    if (!c->area || !c->need)
+        return sp_fail_memory(error);
+    for (size_t t = 0; t < search->patch_count; t++) {
+        double had = (double)search->kept_wet[t] * (1 + SP_FIELD_MARGIN);
+        double need = had >= 1 ? 0 : search->single ? 1 : 1 - had;
+        c->need[t] = need > SP_FIELD_MARGIN ? (float)need : 0;
+        c->area[t] = c->need[t] > 0 ? search->area[t] : 0;
+        c->cover.base += c->need[t] > 0 ? 0 : (double)search->area[t];
+    }
+    c->cover.texel_count = search->patch_count;
+    c->cover.area = c->area;
+    c->cover.weight = c->weight;
+    c->cover.repeats = true;
+    c->cover.whole = search->single || search->threshold <= 0;
+    c->cover.threads = sp_threads(&search->options->run);
+    return true;
+}
+
+static bool add_own(certifying *c, sp_error *error)
+{
+    for (size_t i = 0; i <= c->front->count; i++) {
+        const sp_design *design = design_of(c->front, i);
+        for (size_t n = 0; n < design->count; n++) {
+            const sp_placed *placed = &design->items[n];
+            if (!sp_pose_prices_row(c->prices, placed->field, SP_OWN_KEY, c->ports[placed->site.mount],
+                                    tier_for(c, placed->flow), &c->nozzles, error))
+                return false;
+        }
+    }
+    return true;
+}
+
+static double counted_area(const sp_search *search, const sp_design *design)
+{
+    double area = 0;
+    for (size_t p = 0; p < search->patch_count; p++)
+        area += design->wet[p] >= 1 ? (double)search->area[p] : 0;
+    return area;
+}
+
+static size_t budget_of(const certifying *c, double flow)
+{
+    size_t budget = sp_water_budget(&c->units, flow - c->search->kept_flow);
+    return budget < c->cover.water ? budget : c->cover.water;
+}
+
+/* The most that a layout found with so much water covers, as counted here. */
+static double found_within(const certifying *c, size_t water)
+{
+    double most = c->cover.base;
+    for (size_t i = 0; i <= c->front->count; i++)
+        if (budget_of(c, design_of(c->front, i)->flow) <= water)
+            most = fmax(most, counted_area(c->search, design_of(c->front, i)));
+    return most;
+}
+
+/* One for every point of the front and the proposal, where water for a nozzle is. */
+static bool plant_trees(certifying *c, sp_error *error)
+{
+    for (size_t i = 0; i <= c->front->count; i++) {
+        size_t water = budget_of(c, design_of(c->front, i)->flow);
+        c->found[i] = found_within(c, water);
+        if (water && !sp_tree_create(&c->branching, water, c->bound.by_water[water], c->found[i], &c->trees[i], error))
+            return false;
+    }
+    return true;
+}
+
+static bool prepare(certifying *c, sp_error *error)
+{
+    if (!set_tiers(c, error) || !set_texels(c, error))
+        return false;
+    c->prices = sp_pose_prices_create(c->search, &c->cover, c->tier_of, c->need, c->ports, error);
+    if (!c->prices)
+        return false;
+    if (!add_own(c, error) ||
+        !sp_pose_order_create(c->search, &c->cover, c->tier_of, c->ports, &c->nozzles, &c->order, error))
+        return false;
+    if (!sp_pose_line(c->prices, &c->order, &c->line, error))
+        return false;
+    c->pricer = sp_pose_pricer(c->prices);
+    c->trees = calloc(c->front->count + 1, sizeof *c->trees);
+    c->found = malloc((c->front->count + 1) * sizeof *c->found);
+    c->begun = calloc(c->front->count + 1, sizeof *c->begun);
+    if (!c->trees || !c->found || !c->begun)
+        return sp_fail_memory(error);
+    return sp_bound_create(&c->cover, &c->pricer, &c->bound, error) &&
+           sp_rows_append(&c->bound.rows, &c->nozzles, error) &&
+           sp_branching_create(&c->cover, &c->line, &c->branching, error) && plant_trees(c, error);
+}
+
+/* True while there is time; that it ends here leaves the proposal as good as it is. */
+static bool goes_on(certifying *c, double done)
+{
+    double limit = c->watch->run.time_limit;
+    return (limit <= 0 || sp_watch_elapsed(c->watch) < limit) && sp_watch_goes_on(c->watch, "certificate", done);
+}
+
+/* Tells the trees of the prices that the bound was last proved with, those of about as much water: to others they say
+ * little. */
+static bool tell_trees(certifying *c, size_t water, sp_error *error)
+{
+    for (size_t i = 0; i <= c->front->count; i++)
+        if ((double)c->trees[i].water * WATER_LIKE > (double)water &&
+            (double)c->trees[i].water < WATER_LIKE * (double)water &&
+            !sp_tree_hear(&c->branching, &c->trees[i], &c->bound.dual.price, sp_pose_prices_last(c->prices), error))
+            return false;
+    return true;
+}
+
+/* Lowers the bound at this water. `done`: how far the certificate is. */
+static bool lower(certifying *c, size_t water, size_t rounds, double done, sp_error *error)
+{
+    for (size_t round = 0; round < rounds && goes_on(c, done); round++) {
+        if (!sp_bound_lower(&c->bound, water, error) || !tell_trees(c, water, error))
+            return false;
+        if (c->bound.closed && round >= ROUNDS_LIFTED)
+            break;
+    }
+    return true;
+}
+
+/* The least water for what the proposal covers. Bounds are lowered between where they first allow it and the proposal,
+ * at `most`, the nearer to the former the more trials have yielded nothing. */
+static bool lower_water(certifying *c, double area, size_t most, size_t trials, size_t rounds, sp_error *error)
+{
+    double step = STEP_WATER;
+    for (size_t trial = 0; trial < trials; trial++) {
+        size_t water = sp_bound_water(&c->bound, area);
+        if (!water || water >= most)
+            return true;
+        if (!lower(c, water + (size_t)(step * (double)(most - water)), rounds,
+                   0.3 + 0.3 * (double)trial / (double)trials, error))
+            return false;
+        if (sp_bound_water(&c->bound, area) == water)
+            step *= 0.5;
+    }
+    return true;
+}
+
+/* A point whose tree has not yet heard of prices that leave little alive is best begun with a pricing of all. */
+static bool begins_anew(const certifying *c, size_t i)
+{
+    const sp_tree *tree = &c->trees[i];
+    return !c->begun[i] && !(tree->next_work > 0 && tree->next_work < ALIVE_FEW * (double)c->line.count);
+}
+
+/* Of the front's points and the proposal the one whose turn it is: the wider its gap and the less work
+ * it takes and took, the sooner; front->count + 1 where none is left open. */
+static size_t next_point(const certifying *c)
+{
+    size_t found = c->front->count + 1;
+    double most = 0;
+    for (size_t i = 0; i <= c->front->count; i++) {
+        const sp_tree *tree = &c->trees[i];
+        size_t water = budget_of(c, design_of(c->front, i)->flow);
+        double open = 1 - c->found[i] / c->bound.by_water[water];
+        double next = begins_anew(c, i) ? WORK_FIRST * (double)c->line.count : tree->next_work;
+        double score = open / (next + WORK_PAST * tree->work);
+        if (!sp_tree_closed(tree) && open > OPEN_LEAST && score > most) {
+            found = i;
+            most = score;
+        }
+    }
+    return found;
+}
+
+/* A first turn at a point of the front prices all candidates, which all trees hear of; each further one is a step of
+ * its tree, which lowers all bounds up to its water. */
+static bool grow_tree(certifying *c, size_t i, sp_error *error)
+{
+    sp_tree *tree = &c->trees[i];
+    size_t water = budget_of(c, design_of(c->front, i)->flow);
+    if (begins_anew(c, i)) {
+        c->begun[i] = true;
+        tree->work += WORK_FIRST * (double)c->line.count;
+        return sp_bound_lower(&c->bound, water, error) && tell_trees(c, water, error) &&
+               sp_branching_take(&c->branching, &c->bound.rows, error);
+    }
+    if (!sp_tree_step(&c->branching, tree, error))
+        return false;
+    double bound = sp_tree_bound(tree);
+    for (size_t w = 0; w <= water; w++)
+        c->bound.by_water[w] = fmin(c->bound.by_water[w], bound);
+    return true;
+}
+
+/* Branch and bound at the points of the front in turn. */
+static bool lower_front(certifying *c, double work, sp_error *error)
+{
+    if (!sp_branching_take(&c->branching, &c->bound.rows, error))
+        return false;
+    for (double done = 0; done < work;) {
+        size_t i = next_point(c);
+        if (i > c->front->count || !goes_on(c, 0.6 + 0.4 * done / work))
+            break;
+        double before = c->trees[i].work;
+        if (!grow_tree(c, i, error))
+            return false;
+        done += c->trees[i].work - before;
+    }
+    return true;
+}
+
+/* The bounds at the proposal once more, more carefully, then branch and bound. */
+static bool prove(certifying *c, size_t water, double area, sp_error *error)
+{
+    size_t iterations = c->bound.iterations;
+    double tolerance = c->bound.tolerance;
+    c->bound.iterations = ITERATIONS_PROVING;
+    c->bound.tolerance = TOLERANCE_PROVING;
+    bool done = lower(c, water, ROUNDS_PROVING, 0.5, error) &&
+                lower_water(c, area, water, ROUNDS_PROVING, ROUNDS_WATER_PROVING, error);
+    c->bound.iterations = iterations;
+    c->bound.tolerance = tolerance;
+    return done && lower_front(c, WORK_PROVING, error);
+}
+
+static bool lower_all(certifying *c, sp_error *error)
+{
+    size_t water = budget_of(c, c->front->best.flow);
+    double area = counted_area(c->search, &c->front->best);
+    for (size_t round = 0; round < ROUNDS_EXPLORING && goes_on(c, 0.02 * (double)round); round++)
+        if (!sp_bound_explore(&c->bound, water, error))
+            return false;
+    return sp_bound_lower(&c->bound, water, error) && tell_trees(c, water, error) &&
+           sp_bound_lower_single(&c->bound, error) && tell_trees(c, c->bound.lightest, error) &&
+           lower(c, water, ROUNDS_FIRST - 1, 0.1, error) &&
+           lower_water(c, area, water, TRIALS_WATER, ROUNDS_WATER, error) &&
+           lower_front(c, WORK_LEAST + WORK_EACH * (double)c->line.count, error) &&
+           (!c->search->options->prove || prove(c, water, area, error));
+}
+
+/* Poses that were priced: those of mounting points that were traced, not in ports that kept nozzles take. */
+static size_t count_poses(const certifying *c)
+{
+    const sp_search *search = c->search;
+    size_t count = 0;
+    for (size_t i = 0; i < search->sites->count; i++)
+        for (size_t k = 0; k < search->candidates->make_count; k++) {
+            uint32_t mount = search->sites->items[i].mount;
+            const sp_make *make = &search->candidates->makes[k];
+            if (!search->port_taken[mount] && sp_visibility_known(search->visibility, (uint32_t)i, make->speed_class))
+                count += sp_candidates_axes(search->candidates, mount, k)->count * make->roll_count;
+        }
+    return count;
+}
+
+static void conclude(const certifying *c, sp_front *front, sp_certificate *certificate)
+{
+    double whole = 0, counted = counted_area(c->search, &front->best);
+    for (size_t p = 0; p < c->search->patch_count; p++)
+        whole += (double)c->search->area[p];
+    for (size_t i = 0; i < front->count; i++) {
+        sp_front_point *point = &front->entries[i].point;
+        point->counted = counted_area(c->search, &front->entries[i].design);
+        point->bound = fmin(whole, c->bound.by_water[budget_of(c, point->flow)]);
+    }
+    size_t water = sp_bound_water(&c->bound, counted);
+    *certificate = (sp_certificate){
+        .computed = true,
+        .texels = c->search->patch_count,
+        .candidates = count_poses(c),
+        .own = c->own,
+        .whole = whole,
+        .counted = counted,
+        .area_bound = fmin(whole, c->bound.by_water[budget_of(c, front->best.flow)]),
+        .water_bound = fmin(front->best.flow, c->search->kept_flow + c->units.unit * (double)water),
+    };
+    certificate->gap = certificate->area_bound > 0 ? (certificate->area_bound - counted) / certificate->area_bound : 0;
+}
+
+bool sp_certify(const sp_search *search, sp_watch *watch, sp_front *front, sp_certificate *certificate, sp_error *error)
+{
+    certifying c = {.search = search, .watch = watch, .front = front};
+    *certificate = (sp_certificate){0};
+    for (size_t i = 0; i < front->count; i++)
+        front->entries[i].point.counted = front->entries[i].point.bound = front->entries[i].point.every_aim_bound = NAN;
+    if (watch->cancelled || !front->found)
+        return true;
+    if (!list_flows(&c, error))
+        return false;
+    bool done = true;
+    if (set_limits(&c)) {
+        done = prepare(&c, error) && lower_all(&c, error);
+        if (done)
+            conclude(&c, front, certificate);
+        const sp_aim_task task = {search, watch, &c.cover, &c.units, c.need, c.ports, &c.bound.rows};
+        done = done && sp_aim_bound(&task, front, certificate, error);
+    }
+    certifying_free(&c);
+    return done;
+}

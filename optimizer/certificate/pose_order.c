@@ -1,0 +1,300 @@
+#include "certificate/pose_order.h"
+
+#include <stdlib.h>
+
+typedef struct {
+    double along;
+    uint32_t at;
+} entry;
+
+static int by_place(const void *a, const void *b)
+{
+    const entry *p = a, *q = b;
+    if (p->along != q->along)
+        return p->along < q->along ? -1 : 1;
+    return (p->at > q->at) - (p->at < q->at);
+}
+
+static double along(sp_vec3 v, int axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+/* Halves the points across their widest extent, and so on, in the middle of what is left each time. */
+static void halve(const sp_vec3 *points, entry *entries, size_t count)
+{
+    double widest = -1;
+    int axis = 0;
+    if (count < 3)
+        return;
+    for (int k = 0; k < 3; k++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t i = 0; i < count; i++) {
+            low = fmin(low, along(points[entries[i].at], k));
+            high = fmax(high, along(points[entries[i].at], k));
+        }
+        if (high - low > widest) {
+            widest = high - low;
+            axis = k;
+        }
+    }
+    for (size_t i = 0; i < count; i++)
+        entries[i].along = along(points[entries[i].at], axis);
+    qsort(entries, count, sizeof *entries, by_place);
+    halve(points, entries, count / 2);
+    halve(points, entries + count / 2, count - count / 2);
+}
+
+/* Numbers of the points such that neighbours in the order are neighbours in space. malloc'd. */
+static uint32_t *order_points(const sp_vec3 *points, size_t count)
+{
+    uint32_t *order = malloc((count + 1) * sizeof *order);
+    entry *entries = malloc((count + 1) * sizeof *entries);
+    for (size_t i = 0; entries && i < count; i++)
+        entries[i] = (entry){0, (uint32_t)i};
+    if (order && entries) {
+        halve(points, entries, count);
+        for (size_t i = 0; i < count; i++)
+            order[i] = entries[i].at;
+    }
+    free(entries ? entries : (void *)order);
+    return entries ? order : NULL;
+}
+
+static bool order_axes(sp_pose_order *order)
+{
+    const sp_candidates *candidates = order->search->candidates;
+    size_t count = candidates->mount_count * candidates->make_count;
+    order->axis_at = calloc(count + 1, sizeof *order->axis_at);
+    order->rank_of = calloc(count + 1, sizeof *order->rank_of);
+    if (!order->axis_at || !order->rank_of)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        const sp_axes *axes = &candidates->axes[i];
+        if (!axes->count)
+            continue;
+        order->axis_at[i] = order_points(axes->axes, axes->count);
+        order->rank_of[i] = malloc(axes->count * sizeof *order->rank_of[i]);
+        if (!order->axis_at[i] || !order->rank_of[i])
+            return false;
+        for (size_t a = 0; a < axes->count; a++)
+            order->rank_of[i][order->axis_at[i][a]] = (uint32_t)a;
+    }
+    return true;
+}
+
+/* Sites mount by mount, neighbours of a mount side by side. malloc'd. */
+static uint32_t *order_sites(const sp_sites *sites)
+{
+    uint32_t *order = malloc((sites->count + 1) * sizeof *order);
+    sp_vec3 *points = malloc((sites->count + 1) * sizeof *points);
+    bool done = order && points;
+    for (size_t first = 0, end; done && first < sites->count; first = end) {
+        for (end = first; end < sites->count && sites->items[end].mount == sites->items[first].mount; end++)
+            points[end - first] = sites->items[end].position;
+        uint32_t *within = order_points(points, end - first);
+        done = within != NULL;
+        for (size_t i = first; done && i < end; i++)
+            order[i] = (uint32_t)first + within[i - first];
+        free(within);
+    }
+    free(points);
+    if (done)
+        return order;
+    free(order);
+    return NULL;
+}
+
+/* What a line in the making is made of. */
+typedef struct {
+    sp_pose_order *order;
+    const sp_cover *cover;
+    const uint32_t *tier_of;
+    const size_t *ports;
+    uint32_t *sites;
+    uint32_t *tiers; /* by falling weight */
+} lining;
+
+/* Ends the line with a block of so many candidates. */
+static void add_block(lining *l, sp_pose_block block, size_t port, size_t count)
+{
+    sp_line *line = &l->order->line;
+    size_t kind = line->kind_count - 1;
+    block.start = line->count;
+    l->order->blocks[l->order->block_count++] = block;
+    bool goes_on = line->run_count && line->run_start[line->run_count - 1] >= line->kind_start[kind] &&
+                   line->run_port[line->run_count - 1] == port;
+    if (!goes_on) {
+        line->run_start[line->run_count] = line->count;
+        line->run_port[line->run_count++] = port;
+    }
+    line->count += count;
+}
+
+static void add_make(lining *l, uint32_t make)
+{
+    const sp_search *search = l->order->search;
+    const sp_candidates *candidates = search->candidates;
+    for (size_t i = 0; i < search->sites->count; i++) {
+        uint32_t site = l->sites[i], mount = search->sites->items[site].mount;
+        size_t poses = sp_candidates_axes(candidates, mount, make)->count * candidates->makes[make].roll_count;
+        if (!poses || search->port_taken[mount] ||
+            !sp_visibility_known(search->visibility, site, candidates->makes[make].speed_class))
+            continue;
+        l->order->block_of[site * candidates->make_count + make] = l->order->block_count;
+        add_block(l, (sp_pose_block){0, site, make}, l->ports[mount], poses);
+    }
+}
+
+/* Found nozzles of the tier, port by port. */
+static void add_found(lining *l, uint32_t tier, size_t *listed)
+{
+    const sp_rows *own = l->order->own;
+    for (size_t port = 0; port <= l->cover->port_count; port++) {
+        size_t first = *listed, wanted = port < l->cover->port_count ? port : SP_NO_PORT;
+        for (size_t i = 0; i < own->count; i++)
+            if (own->tier[i] == tier && own->port[i] == wanted)
+                l->order->own_order[(*listed)++] = i;
+        if (*listed > first)
+            add_block(l, (sp_pose_block){0, (uint32_t)first, SP_NONE}, wanted, *listed - first);
+    }
+}
+
+static void fill(lining *l)
+{
+    sp_line *line = &l->order->line;
+    size_t listed = 0;
+    for (size_t i = 0; i < l->cover->tier_count; i++) {
+        size_t at = i;
+        for (; at > 0 && l->cover->weight[l->tiers[at - 1]] < l->cover->weight[i]; at--)
+            l->tiers[at] = l->tiers[at - 1];
+        l->tiers[at] = (uint32_t)i;
+    }
+    for (size_t i = 0; i < l->cover->tier_count; i++) {
+        uint32_t tier = l->tiers[i];
+        size_t before = line->count;
+        line->kind_start[line->kind_count] = before;
+        line->weight[line->kind_count++] = l->cover->weight[tier];
+        for (uint32_t k = 0; k < l->order->search->candidates->make_count; k++)
+            if (l->tier_of[k] == tier)
+                add_make(l, k);
+        add_found(l, tier, &listed);
+        line->kind_count -= line->count == before;
+    }
+    line->kind_start[line->kind_count] = line->run_start[line->run_count] = line->count;
+    l->order->blocks[l->order->block_count].start = line->count;
+}
+
+bool sp_pose_order_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of, const size_t *ports,
+                          const sp_rows *own, sp_pose_order *order, sp_error *error)
+{
+    size_t cells = search->sites->count * search->candidates->make_count, blocks = cells + own->count + 1;
+    *order = (sp_pose_order){.search = search, .own = own};
+    order->own_order = malloc((own->count + 1) * sizeof *order->own_order);
+    order->blocks = malloc(blocks * sizeof *order->blocks);
+    order->block_of = malloc((cells + 1) * sizeof *order->block_of);
+    order->line.kind_start = malloc((cover->tier_count + 1) * sizeof(size_t));
+    order->line.weight = malloc((cover->tier_count + 1) * sizeof(uint32_t));
+    order->line.run_start = malloc(blocks * sizeof(size_t));
+    order->line.run_port = malloc(blocks * sizeof(size_t));
+    lining l = {
+        order, cover, tier_of, ports, order_sites(search->sites), malloc((cover->tier_count + 1) * sizeof(uint32_t))};
+    bool done = order->own_order && order->blocks && order->block_of && order->line.kind_start && order->line.weight &&
+                order->line.run_start && order->line.run_port && l.sites && l.tiers && order_axes(order);
+    for (size_t i = 0; done && i < cells; i++)
+        order->block_of[i] = SIZE_MAX;
+    if (done)
+        fill(&l);
+    free(l.sites);
+    free(l.tiers);
+    if (done)
+        return true;
+    sp_pose_order_free(order);
+    return sp_fail_memory(error);
+}
+
+void sp_pose_order_free(sp_pose_order *order)
+{
+    size_t count = order->search ? order->search->candidates->mount_count * order->search->candidates->make_count : 0;
+    for (size_t i = 0; i < count; i++) {
+        free(order->axis_at ? order->axis_at[i] : NULL);
+        free(order->rank_of ? order->rank_of[i] : NULL);
+    }
+    free(order->axis_at);
+    free(order->rank_of);
+    free(order->own_order);
+    free(order->blocks);
+    free(order->block_of);
+    sp_line_free(&order->line);
+    *order = (sp_pose_order){0};
+}
+
+size_t sp_pose_order_block(const sp_pose_order *order, size_t position)
+{
+    size_t low = 0, high = order->block_count;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (order->blocks[middle].start <= position)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+sp_pose sp_pose_order_at(const sp_pose_order *order, size_t block, size_t position)
+{
+    const sp_candidates *candidates = order->search->candidates;
+    const sp_pose_block *own = &order->blocks[block];
+    uint32_t mount = order->search->sites->items[own->site].mount;
+    size_t rolls = candidates->makes[own->make].roll_count, within = position - own->start;
+    const uint32_t *axis_at = order->axis_at[mount * candidates->make_count + own->make];
+    return (sp_pose){own->site, own->make, axis_at[within / rolls], (uint32_t)(within % rolls)};
+}
+
+size_t sp_pose_order_position(const sp_pose_order *order, sp_pose pose)
+{
+    const sp_candidates *candidates = order->search->candidates;
+    uint32_t mount = order->search->sites->items[pose.site].mount;
+    size_t block = order->block_of[pose.site * candidates->make_count + pose.make];
+    const uint32_t *rank_of = order->rank_of[mount * candidates->make_count + pose.make];
+    return order->blocks[block].start + (size_t)rank_of[pose.axis] * candidates->makes[pose.make].roll_count +
+           pose.roll;
+}
+
+/* The start of the block nearest to the middle that differs from the one before it in what `of` tells; SIZE_MAX: none
+ * does. */
+static size_t nearest_change(const sp_pose_order *order, size_t first, size_t last,
+                             size_t (*of)(const sp_pose_order *order, size_t block))
+{
+    size_t best = SIZE_MAX, middle = (first + last + 1) / 2, least = SIZE_MAX;
+    for (size_t i = first + 1; i <= last; i++) {
+        size_t far = i > middle ? i - middle : middle - i;
+        if (of(order, i) != of(order, i - 1) && far < least) {
+            least = far;
+            best = order->blocks[i].start;
+        }
+    }
+    return best;
+}
+
+static size_t make_of(const sp_pose_order *order, size_t block)
+{
+    return order->blocks[block].make;
+}
+
+static size_t run_of(const sp_pose_order *order, size_t block)
+{
+    return sp_line_run(&order->line, order->blocks[block].start);
+}
+
+size_t sp_pose_order_cut(const sp_pose_order *order, size_t first, size_t end)
+{
+    size_t a = sp_pose_order_block(order, first), b = sp_pose_order_block(order, end - 1);
+    if (a == b)
+        return first + (end - first) / 2;
+    size_t at = nearest_change(order, a, b, make_of);
+    if (at == SIZE_MAX)
+        at = nearest_change(order, a, b, run_of);
+    return at == SIZE_MAX ? order->blocks[(a + b + 1) / 2].start : at;
+}

@@ -1,0 +1,381 @@
+#include "certificate/pose_prices.h"
+
+#include "scoring/scoring.h"
+
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define UPWARDS (1 + 1e-4) /* more than a sweep's sum may lie off, see sweep.h */
+#define ROWS_AT_A_TIME 300
+#define STRIDE 7 /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
+
+/* The pose of highest price of a site and make. */
+typedef struct {
+    sp_pose pose;
+    double price;
+} best;
+
+/* One thread's own. */
+typedef struct {
+    float *worth; /* [arrivals of a view + SP_LANES], price that it brings to a make */
+    float total[SP_BINS];
+    sp_desk *desk;
+} scratch;
+
+struct sp_pose_prices {
+    const sp_search *search;
+    const sp_cover *cover;
+    const uint32_t *tier_of;
+    const float *need;
+    const size_t *ports;
+    const sp_pose_order *order; /* NULL until a line is asked for */
+    float *last;                /* [order->line.count], see sp_pose_prices_last */
+    best *bests;                /* [sites x makes] */
+    int threads;
+    scratch *scratches; /* [threads] */
+    float *field;       /* [texels] */
+    uint32_t *texels;
+    float *shares;
+};
+
+static bool allocate(sp_pose_prices *prices)
+{
+    const sp_search *search = prices->search;
+    size_t texels = search->patch_count + 1;
+    prices->bests = calloc(search->sites->count + 1, search->candidates->make_count * sizeof *prices->bests);
+    prices->scratches = calloc((size_t)prices->threads, sizeof *prices->scratches);
+    prices->field = malloc(texels * sizeof *prices->field);
+    prices->texels = malloc(texels * sizeof *prices->texels);
+    prices->shares = malloc(texels * sizeof *prices->shares);
+    if (!prices->bests || !prices->scratches || !prices->field || !prices->texels || !prices->shares)
+        return false;
+    for (int i = 0; i < prices->threads; i++) {
+        prices->scratches[i].worth = calloc(search->visibility->largest + SP_LANES, sizeof *prices->scratches[i].worth);
+        if (!prices->scratches[i].worth)
+            return false;
+    }
+    return true;
+}
+
+sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of,
+                                      const float *need, const size_t *ports, sp_error *error)
+{
+    sp_pose_prices *prices = malloc(sizeof *prices);
+    if (!prices)
+        return sp_fail_memory(error);
+    *prices = (sp_pose_prices){.search = search,
+                               .cover = cover,
+                               .tier_of = tier_of,
+                               .need = need,
+                               .ports = ports,
+                               .threads = sp_sweeper_threads(search)};
+    if (allocate(prices))
+        return prices;
+    sp_pose_prices_destroy(prices);
+    return sp_fail_memory(error);
+}
+
+void sp_pose_prices_destroy(sp_pose_prices *prices)
+{
+    if (!prices)
+        return;
+    for (int i = 0; prices->scratches && i < prices->threads; i++)
+        free(prices->scratches[i].worth);
+    free(prices->bests);
+    free(prices->last);
+    free(prices->scratches);
+    free(prices->field);
+    free(prices->texels);
+    free(prices->shares);
+    free(prices);
+}
+
+/* The share of what a texel needs that a flux brings, rounded upwards. */
+static inline float share_of(const sp_pose_prices *prices, uint32_t texel, float flux, bool twice)
+{
+    float ratio = flux / prices->need[texel] * (float)(1 + SP_FIELD_MARGIN);
+    if (ratio >= 1)
+        return 1;
+    if (!(ratio > 0))
+        return 0;
+    /* two arcs of one nozzle add up, even where one nozzle alone must do */
+    return prices->search->single && !twice ? 0 : ratio;
+}
+
+void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, float strength, const sp_prices *u,
+                          float *worth, float *total)
+{
+    for (uint32_t i = 0; i < view->count; i++) {
+        uint32_t t = view->patch[i];
+        bool twice = view->twice && view->twice[i];
+        worth[i] = 0;
+        if (!(prices->need[t] > 0))
+            continue;
+        float share = share_of(prices, t, strength * view->transfer[i], twice);
+        worth[i] = u->plain[t] * share;
+        /* a lift of two arcs together may be more than the sum of theirs, but never more than 1 */
+        if (u->lifts && u->lifted[t] > 0 && share > 0)
+            worth[i] += u->lifted[t] * (twice ? 1 : sp_lift(u->lifts, u->kind[t], share));
+    }
+    prices->search->sweeps->total(view, worth, total);
+}
+
+/* What each arrival of a view brings to a make. */
+static void prepare_worth(const sp_pose_prices *prices, scratch *own, const sp_view *view, const sp_make *make,
+                          const sp_prices *u)
+{
+    double threshold = prices->search->threshold;
+    float strength = threshold > 0 ? (float)(make->flow / (make->spray.solid_angle * threshold)) : INFINITY;
+    sp_pose_prices_worth(prices, view, strength, u, own->worth, own->total);
+}
+
+/* The pose's price, rounded upwards. */
+static double price_of(const sp_pose_prices *prices, const scratch *own, const sp_view *view, sp_pose pose,
+                       sp_region *region)
+{
+    const sp_search *search = prices->search;
+    sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
+    sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
+    sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, up);
+    const sp_weight weight = {own->worth, own->total};
+    double price;
+    sp_region_turn(region, &frame);
+    search->sweeps->sum(&search->visibility->bins, &search->culls[pose.make], region, view, &weight, 1, &price);
+    return price * UPWARDS;
+}
+
+/* What a site's pose of a make must be worth to matter: more than is on offer, or than is needed. */
+static double least_of(const sp_pose_prices *prices, size_t port, size_t tier, const double *needed,
+                       const sp_offers *offers)
+{
+    double offered =
+        port == SP_NO_PORT ? offers->free[tier * offers->most] : offers->port[port * offers->tier_count + tier];
+    return prices->cover->weight[tier] > prices->cover->water ? INFINITY : fmin(offered, needed[tier]);
+}
+
+/* The best pose of every make at a site, of those that matter, and of these of every `stride`th, another one at the
+ * next site. */
+static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, const sp_prices *u, const double *needed,
+                       size_t stride, const sp_offers *offers)
+{
+    const sp_candidates *candidates = prices->search->candidates;
+    uint32_t mount = prices->search->sites->items[site].mount;
+    sp_vec3 up = sp_evaluator_setup(prices->search->coarse)->up;
+    sp_frame frame = sp_nozzle_frame(prices->search->sites->items[site].axis, 0, up);
+    for (uint32_t k = 0; k < candidates->make_count; k++) {
+        const sp_make *make = &candidates->makes[k];
+        best *found = &prices->bests[site * candidates->make_count + k];
+        size_t axes = sp_candidates_axes(candidates, mount, k)->count;
+        double least = least_of(prices, prices->ports[mount], prices->tier_of[k], needed, offers);
+        *found = (best){.price = 0};
+        if (!axes || !isfinite(least) || prices->search->port_taken[mount])
+            continue;
+        const sp_view *view = sp_visibility_look(prices->search->visibility, site, make->speed_class, &own->desk);
+        if (!view->start)
+            continue;
+        prepare_worth(prices, own, view, make, u);
+        sp_region region = sp_region_create(&make->spray, &frame);
+        for (uint32_t a = 0; a < axes; a++)
+            for (uint32_t r = 0; r < make->roll_count; r++) {
+                sp_pose pose = {site, k, a, r};
+                if ((site + a * make->roll_count + r) % stride)
+                    continue;
+                double price = price_of(prices, own, view, pose, &region);
+                if (stride == 1)
+                    prices->last[sp_pose_order_position(prices->order, pose)] = nextafterf((float)price, INFINITY);
+                if (price > fmax(found->price, least))
+                    *found = (best){pose, price};
+            }
+    }
+}
+
+bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t tier,
+                        sp_rows *rows, sp_error *error)
+{
+    size_t count = 0;
+    for (uint32_t t = 0; t < prices->search->patch_count; t++) {
+        if (!(field[t] > 0) || !(prices->need[t] > 0))
+            continue;
+        float share = share_of(prices, t, field[t], false);
+        if (share > 0) {
+            prices->texels[count] = t;
+            prices->shares[count++] = share;
+        }
+    }
+    return sp_rows_add(rows, key, port, tier, prices->texels, prices->shares, count, error);
+}
+
+bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *rows, sp_error *error)
+{
+    sp_field_pose(prices->search, pose, prices->field);
+    return sp_pose_prices_row(prices, prices->field, sp_pose_order_position(prices->order, pose),
+                              prices->ports[prices->search->sites->items[pose.site].mount], prices->tier_of[pose.make],
+                              rows, error);
+}
+
+typedef struct {
+    double excess;
+    size_t at;
+} entry;
+
+static int by_excess(const void *a, const void *b)
+{
+    const entry *p = a, *q = b;
+    if (p->excess != q->excess)
+        return p->excess > q->excess ? -1 : 1;
+    return (p->at > q->at) - (p->at < q->at);
+}
+
+static int by_key(const void *a, const void *b)
+{
+    uint64_t p = *(const uint64_t *)a, q = *(const uint64_t *)b;
+    return (p > q) - (p < q);
+}
+
+/* Appends the best of the bests that are worth more than needed. */
+static bool hand_out(const sp_pose_prices *prices, const double *needed, sp_rows *rows, sp_error *error)
+{
+    size_t count = prices->search->sites->count * prices->search->candidates->make_count, found = 0, had = rows->count;
+    entry *entries = malloc((count + 1) * sizeof *entries);
+    uint64_t *keys = malloc((had + 1) * sizeof *keys);
+    bool done = entries && keys;
+    if (!done)
+        sp_fail_memory(error);
+    for (size_t i = 0; done && i < count; i++) {
+        double need = needed[prices->tier_of[prices->bests[i].pose.make]], price = prices->bests[i].price;
+        if (price > need)
+            entries[found++] = (entry){need > 0 ? price / need : price * 1e30, i};
+    }
+    for (size_t i = 0; done && i < had; i++)
+        keys[i] = rows->key[i];
+    if (done) {
+        qsort(keys, had, sizeof *keys, by_key);
+        qsort(entries, found, sizeof *entries, by_excess);
+    }
+    for (size_t i = 0, given = 0; done && i < found && given < ROWS_AT_A_TIME; i++) {
+        sp_pose pose = prices->bests[entries[i].at].pose;
+        uint64_t key = sp_pose_order_position(prices->order, pose);
+        if (bsearch(&key, keys, had, sizeof *keys, by_key))
+            continue;
+        done = sp_pose_prices_add(prices, pose, rows, error);
+        given++;
+    }
+    free(entries);
+    free(keys);
+    return done;
+}
+
+/* Found nozzles, those that are alive; alive NULL: all. */
+static void price_found(const sp_pose_order *order, const sp_prices *u, const uint8_t *alive, float *price)
+{
+    for (size_t i = 0; i < order->block_count; i++) {
+        const sp_pose_block *found = &order->blocks[i];
+        for (size_t at = found->start; found->make == SP_NONE && at < found[1].start; at++) {
+            size_t row = order->own_order[found->site + at - found->start];
+            price[at] = !alive || alive[at] ? nextafterf((float)sp_rows_price(order->own, row, u), INFINITY) : 0;
+        }
+    }
+}
+
+static bool price_poses(void *user, const sp_prices *u, const double *needed, bool all, sp_offers *offers,
+                        sp_rows *rows, sp_error *error)
+{
+    sp_pose_prices *prices = user;
+    const sp_search *search = prices->search;
+    size_t makes = search->candidates->make_count, sites = search->sites->count;
+    memset(prices->last, 0, prices->order->line.count * sizeof *prices->last);
+    price_found(prices->order, u, NULL, prices->last);
+#pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
+    for (size_t i = 0; i < sites; i++)
+        price_site(prices, &prices->scratches[omp_get_thread_num()], (uint32_t)i, u, needed, all ? 1 : STRIDE, offers);
+    for (int i = 0; i < prices->threads; i++)
+        sp_visibility_leave(search->visibility, &prices->scratches[i].desk);
+    for (size_t i = 0; i < sites * makes; i++)
+        if (prices->bests[i].price > 0)
+            sp_offers_add(offers, prices->ports[search->sites->items[i / makes].mount], prices->tier_of[i % makes],
+                          prices->bests[i].price);
+    return hand_out(prices, needed, rows, error);
+}
+
+/* The poses of a block that are alive. */
+static void price_block(sp_pose_prices *prices, scratch *own, size_t block, const sp_prices *u, const uint8_t *alive,
+                        float *price)
+{
+    const sp_search *search = prices->search;
+    const sp_pose_block *poses = &prices->order->blocks[block];
+    size_t end = poses[1].start;
+    const sp_make *make = &search->candidates->makes[poses->make];
+    sp_frame frame = sp_nozzle_frame(search->sites->items[poses->site].axis, 0, sp_evaluator_setup(search->coarse)->up);
+    memset(price + poses->start, 0, (end - poses->start) * sizeof *price);
+    if (!memchr(alive + poses->start, 1, end - poses->start))
+        return;
+    const sp_view *view = sp_visibility_look(search->visibility, poses->site, make->speed_class, &own->desk);
+    if (!view->start)
+        return;
+    prepare_worth(prices, own, view, make, u);
+    sp_region region = sp_region_create(&make->spray, &frame);
+    for (size_t i = poses->start; i < end; i++)
+        if (alive[i])
+            price[i] = nextafterf(
+                (float)price_of(prices, own, view, sp_pose_order_at(prices->order, block, i), &region), INFINITY);
+}
+
+static bool price_line(void *user, const sp_prices *u, const uint8_t *alive, float *price, sp_error *error)
+{
+    (void)error;
+    sp_pose_prices *prices = user;
+    const sp_pose_order *order = prices->order;
+    size_t makes = prices->search->candidates->make_count, sites = prices->search->sites->count;
+#pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
+    for (size_t site = 0; site < sites; site++)
+        for (size_t k = 0; k < makes; k++)
+            if (order->block_of[site * makes + k] != SIZE_MAX)
+                price_block(prices, &prices->scratches[omp_get_thread_num()], order->block_of[site * makes + k], u,
+                            alive, price);
+    for (int i = 0; i < prices->threads; i++)
+        sp_visibility_leave(prices->search->visibility, &prices->scratches[i].desk);
+    price_found(order, u, alive, price);
+    return true;
+}
+
+static bool row_of_line(void *user, size_t position, sp_rows *rows, sp_error *error)
+{
+    const sp_pose_prices *prices = user;
+    const sp_pose_order *order = prices->order;
+    size_t block = sp_pose_order_block(order, position);
+    if (order->blocks[block].make != SP_NONE)
+        return sp_pose_prices_add(prices, sp_pose_order_at(order, block, position), rows, error);
+    const sp_rows *own = order->own;
+    size_t row = order->own_order[order->blocks[block].site + position - order->blocks[block].start];
+    return sp_rows_add(rows, position, own->port[row], own->tier[row], own->texel + own->start[row],
+                       own->share + own->start[row], own->start[row + 1] - own->start[row], error);
+}
+
+static size_t cut_line(void *user, size_t first, size_t end)
+{
+    const sp_pose_prices *prices = user;
+    return sp_pose_order_cut(prices->order, first, end);
+}
+
+bool sp_pose_line(sp_pose_prices *prices, const sp_pose_order *order, sp_line *line, sp_error *error)
+{
+    *line = order->line;
+    line->user = prices;
+    line->cut = cut_line;
+    line->price = price_line;
+    line->row = row_of_line;
+    prices->order = order;
+    prices->last = calloc(order->line.count + 1, sizeof *prices->last);
+    return prices->last || sp_fail_memory(error);
+}
+
+const float *sp_pose_prices_last(const sp_pose_prices *prices)
+{
+    return prices->last;
+}
+
+sp_pricer sp_pose_pricer(sp_pose_prices *prices)
+{
+    return (sp_pricer){prices, price_poses};
+}

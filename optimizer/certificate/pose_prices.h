@@ -1,0 +1,37 @@
+/* What every candidate pose is worth at given prices of the texels: swept from what was traced, no pose's row stored.
+ */
+#ifndef OPTIMIZER_POSE_PRICES_H
+#define OPTIMIZER_POSE_PRICES_H
+
+#include "bound/bound.h"
+#include "scoring/design.h"
+#include "certificate/pose_order.h"
+
+/* Fields rounded in single precision, and those of some 300 nozzles added up so, lie off by less than this share. */
+#define SP_FIELD_MARGIN 2e-5
+
+typedef struct sp_pose_prices sp_pose_prices;
+
+/* For the cover of `search`, its texels the coarse patches: tier_of[make], the tier of each make's water; need
+ * [texels], flux over threshold that a texel lacks, 0 where it is not to be counted; ports [mounts], the port that a
+ * mount is, SP_NO_PORT where it is none. All borrowed. */
+sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of,
+                                      const float *need, const size_t *ports, sp_error *error);
+void sp_pose_prices_destroy(sp_pose_prices *prices);
+/* The line of all poses and of order->own, whose arrays stay the order's, which is borrowed. Goes before the pricer:
+ * the keys of rows are positions. */
+bool sp_pose_line(sp_pose_prices *prices, const sp_pose_order *order, sp_line *line, sp_error *error);
+sp_pricer sp_pose_pricer(sp_pose_prices *prices);
+/* What the pricer found everything to be worth when it last priced all, by position of the line, rounded upwards. */
+const float *sp_pose_prices_last(const sp_pose_prices *prices);
+/* What each arrival of a view brings to a nozzle of `strength`, flux over threshold per transfer, rounded upwards
+ * (worth, [view->count]); and each bin in all (total, [SP_BINS]). */
+void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, float strength, const sp_prices *u,
+                          float *worth, float *total);
+/* Appends a field (flux over threshold) as a row. */
+bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t tier,
+                        sp_rows *rows, sp_error *error);
+/* Appends the row of a pose. */
+bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *rows, sp_error *error);
+
+#endif

@@ -1,0 +1,102 @@
+#include "refine/compass.h"
+
+#include "refine/move.h"
+#include "scoring/scoring.h"
+
+#include <stdlib.h>
+
+#define PLACE_LEAST 0.05 /* of half the range: each move of a place is traced */
+#define SWEEPS_MOST 4    /* at one size of step */
+#define GAIN_LEAST 1e-6  /* of the area, for a step to count */
+
+/* The nozzle in hand, and the design without it. */
+typedef struct {
+    const sp_search *search; /* without credit */
+    sp_sights *sights;
+    sp_design *design; /* without the nozzle */
+    double budget, least;
+    sp_placed placed;
+    double gain;  /* of its field, exact, m² */
+    float *trial; /* [patch_count] */
+    sp_error *error;
+} sp_needle;
+
+/* Tries one value of one unknown and keeps it where more is covered. */
+static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
+{
+    sp_freedom freedom = sp_freedom_create(needle->search, &needle->placed);
+    double values[SP_UNKNOWNS], half = 0.5 * (freedom.high[k] - freedom.low[k]);
+    for (size_t j = 0; j < freedom.count; j++)
+        values[j] = freedom.value[j];
+    values[k] = fmin(freedom.high[k], fmax(freedom.low[k], values[k] + step * half));
+    if (values[k] == freedom.value[k])
+        return true;
+    sp_placed trial = needle->placed;
+    sp_placed_move(needle->search, &trial, &freedom, values);
+    if (needle->design->flow + trial.flow > needle->budget * (1 + 1e-12))
+        return true;
+    bool elsewhere = sp_distance(trial.nozzle.position, needle->placed.nozzle.position) > 0;
+    if (freedom.kind[k] == SP_UNKNOWN_PLACE && !elsewhere)
+        return true;
+    if (!sp_sights_field(needle->sights, &trial, needle->trial, needle->error))
+        return false;
+    double gain = sp_field_gain(needle->search, needle->design->wet, needle->trial);
+    if (gain <= needle->gain + needle->least)
+        return true;
+    trial.field = needle->trial;
+    needle->trial = needle->placed.field;
+    needle->placed = trial;
+    needle->gain = gain;
+    *moved = true;
+    return true;
+}
+
+/* Both ways along every unknown of the design's first nozzle, which then stands last. */
+static bool try_nozzle(const sp_search *search, sp_sights *sights, double budget, double step, sp_design *design,
+                       bool *moved, sp_error *error)
+{
+    sp_needle needle = {.search = search,
+                        .sights = sights,
+                        .design = design,
+                        .budget = budget,
+                        .error = error,
+                        .least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area};
+    needle.placed = sp_design_take(search, design, 0);
+    needle.trial = malloc(search->patch_count * sizeof *needle.trial);
+    bool done = needle.trial || sp_fail_memory(error);
+    if (done)
+        needle.gain = sp_field_gain(search, design->wet, needle.placed.field);
+    sp_freedom freedom = sp_freedom_create(search, &needle.placed);
+    for (size_t k = 0; done && k < freedom.count; k++) {
+        if (freedom.kind[k] == SP_UNKNOWN_PLACE && step < PLACE_LEAST)
+            continue;
+        bool forth = false;
+        done = try_value(&needle, k, step, &forth) && (forth || try_value(&needle, k, -step, &forth));
+        *moved |= forth;
+    }
+    free(needle.trial);
+    return sp_design_add(search, design, needle.placed, error) && done;
+}
+
+bool sp_compass(sp_sights *sights, double first, double least, double budget, sp_watch *watch, sp_design *design,
+                sp_error *error)
+{
+    sp_search exact = *sights->search;
+    exact.credit = 0;
+    bool done = true;
+    int sweeps = 0;
+    for (double step = first; done && step > least;) {
+        bool moved = false;
+        if (!sp_watch_goes_on(watch, "refine", 1))
+            break;
+        /* after all turns the first nozzle is the first again */
+        for (size_t i = 0; done && i < design->count; i++)
+            done = try_nozzle(&exact, sights, budget, step, design, &moved, error);
+        if (moved && ++sweeps < SWEEPS_MOST)
+            continue;
+        step /= 2;
+        sweeps = 0;
+    }
+    sp_design_refresh(sights->search, design);
+    return done;
+}

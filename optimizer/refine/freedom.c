@@ -1,0 +1,175 @@
+#include "refine/freedom.h"
+
+static void add(sp_freedom *freedom, sp_unknown kind, sp_vec3 move, double value, double low, double high)
+{
+    if (!(high - low > 1e-9 * (fabs(high) + fabs(low))))
+        return;
+    size_t i = freedom->count++;
+    freedom->kind[i] = kind;
+    freedom->move[i] = move;
+    freedom->value[i] = fmin(high, fmax(low, value));
+    freedom->low[i] = low;
+    freedom->high[i] = high;
+}
+
+/* A move along a line on which the mount allows [from, to], the nozzle's origin being at `origin`. */
+static void add_move(sp_freedom *freedom, sp_vec3 direction, double from, double to, double origin, double limit)
+{
+    double value = sp_dot(sp_sub(freedom->start.position, freedom->origin.position), direction);
+    add(freedom, SP_UNKNOWN_PLACE, direction, value, fmax(from - origin, -limit), fmin(to - origin, limit));
+}
+
+static void add_place(sp_freedom *freedom, const sp_place_options *options, const sp_mount *mount)
+{
+    sp_vec3 at = freedom->origin.position;
+    double spacing = mount->kind == SP_MOUNT_PORT ? mount->depth_spacing : mount->spacing;
+    double limit = options->refine.position < 0 ? 0.5 * spacing : options->refine.position;
+    sp_vec3 along = sp_sub(mount->to, mount->from), unit = sp_unit(along);
+    switch (mount->kind) {
+    case SP_MOUNT_PORT:
+        add_move(freedom, mount->axis, mount->depth_from, mount->depth_to,
+                 sp_dot(sp_sub(at, mount->position), mount->axis), limit);
+        break;
+    case SP_MOUNT_LINE:
+        add_move(freedom, unit, 0, sp_length(along), sp_dot(sp_sub(at, mount->from), unit), limit);
+        break;
+    case SP_MOUNT_BOX:
+        add_move(freedom, sp_v(1, 0, 0), mount->from.x, mount->to.x, at.x, limit);
+        add_move(freedom, sp_v(0, 1, 0), mount->from.y, mount->to.y, at.y, limit);
+        add_move(freedom, sp_v(0, 0, 1), mount->from.z, mount->to.z, at.z, limit);
+        break;
+    case SP_MOUNT_SURFACE: {
+        /* along the tangent plane; whoever applies the move brings it back to the standoff */
+        sp_frame frame = sp_nozzle_frame(freedom->reference, 0, freedom->up);
+        add_move(freedom, frame.x, -INFINITY, INFINITY, 0, limit);
+        add_move(freedom, frame.y, -INFINITY, INFINITY, 0, limit);
+        break;
+    }
+    }
+}
+
+/* Turned by `angle` about the unit vector `about`: Rodrigues' formula. */
+static sp_vec3 turned(sp_vec3 v, sp_vec3 about, double angle)
+{
+    sp_vec3 along = sp_scale(about, sp_dot(about, v) * (1 - cos(angle)));
+    return sp_add(sp_add(sp_scale(v, cos(angle)), sp_scale(sp_cross(about, v), sin(angle))), along);
+}
+
+static double angle_between(sp_vec3 a, sp_vec3 b)
+{
+    return atan2(sp_length(sp_cross(a, b)), sp_dot(a, b));
+}
+
+/* The axis brought within `limit` of `centre`. */
+static sp_vec3 leaned(sp_vec3 axis, sp_vec3 centre, double limit)
+{
+    double away = angle_between(axis, centre);
+    if (away <= limit)
+        return axis;
+    sp_vec3 about = sp_unit(sp_cross(centre, axis));
+    return sp_unit(turned(centre, about, limit));
+}
+
+/* The roll at which a nozzle with this axis keeps the origin's own x as far as turning the axis alone allows: the
+ * frame's roll jumps where the axis passes the vertical, this one does not. */
+static double carried_roll(const sp_freedom *freedom, sp_vec3 axis)
+{
+    sp_frame from = sp_nozzle_frame(freedom->origin.axis, freedom->origin.roll, freedom->up);
+    sp_frame to = sp_nozzle_frame(axis, 0, freedom->up);
+    sp_vec3 about = sp_unit(sp_cross(from.z, axis));
+    sp_vec3 x = turned(from.x, about, angle_between(from.z, axis));
+    return atan2(sp_dot(x, to.y), sp_dot(x, to.x));
+}
+
+static void add_axis(sp_freedom *freedom, double limit)
+{
+    if (!(limit > 0) || !(freedom->tilt > 0))
+        return;
+    sp_vec3 axis = freedom->start.axis, centre = freedom->origin.axis;
+    double away = angle_between(axis, centre);
+    sp_vec3 direction = sp_unit(sp_sub(axis, sp_scale(centre, sp_dot(axis, centre))));
+    for (int i = 0; i < 2; i++)
+        add(freedom, SP_UNKNOWN_AXIS, freedom->across[i], away * sp_dot(direction, freedom->across[i]), -limit, limit);
+}
+
+sp_freedom sp_freedom_create(const sp_search *search, const sp_placed *placed)
+{
+    const sp_place_options *options = search->options;
+    const sp_mount *mount = &options->mounts[placed->site.mount];
+    const sp_setup *setup = sp_evaluator_setup(search->coarse);
+    const sp_nozzle_type *type = placed->nozzle.type;
+    sp_freedom freedom = {.start = placed->nozzle,
+                          .origin = placed->origin,
+                          .up = setup->up,
+                          .reference = placed->site.axis,
+                          .tilt = mount->tilt,
+                          .axis_limit = fmin(M_PI, options->refine.axis)};
+    sp_frame frame = sp_nozzle_frame(placed->origin.axis, 0, setup->up);
+    freedom.across[0] = frame.x;
+    freedom.across[1] = frame.y;
+    add_place(&freedom, options, mount);
+    add_axis(&freedom, freedom.axis_limit);
+    sp_vec3 none = {0, 0, 0};
+    if (options->refine.roll && type->pattern == SP_PATTERN_FLAT_FAN) {
+        /* a fan is the same after half a turn */
+        double roll = remainder(placed->nozzle.roll - carried_roll(&freedom, placed->nozzle.axis), M_PI);
+        add(&freedom, SP_UNKNOWN_ROLL, none, roll, -M_PI / 2, M_PI / 2);
+    }
+    double low, high;
+    sp_angle_range(options, type, &low, &high);
+    add(&freedom, SP_UNKNOWN_ANGLE, none, sp_nozzle_angle(&placed->nozzle), low, high);
+    sp_flow_range(options, &setup->liquid, type, placed->nozzle.pressure, &low, &high);
+    add(&freedom, SP_UNKNOWN_FLOW, none, placed->flow, low, high);
+    return freedom;
+}
+
+sp_nozzle sp_freedom_nozzle(const sp_freedom *freedom, const double *values)
+{
+    sp_nozzle nozzle = freedom->start;
+    sp_vec3 position = freedom->start.position, lean = {0, 0, 0};
+    double roll = 0;
+    bool leans = false, rolls = false;
+    for (size_t i = 0; i < freedom->count; i++) {
+        double value = fmin(freedom->high[i], fmax(freedom->low[i], values[i]));
+        switch (freedom->kind[i]) {
+        case SP_UNKNOWN_PLACE:
+            position = sp_along(position, value - freedom->value[i], freedom->move[i]);
+            break;
+        case SP_UNKNOWN_AXIS:
+            lean = sp_along(lean, value, freedom->move[i]);
+            leans = true;
+            break;
+        case SP_UNKNOWN_ROLL:
+            roll = value;
+            rolls = true;
+            break;
+        case SP_UNKNOWN_ANGLE:
+            nozzle.angle = value;
+            break;
+        case SP_UNKNOWN_FLOW:
+            nozzle.flow = value;
+            break;
+        }
+    }
+    nozzle.position = position;
+    if (leans) {
+        double away = fmin(freedom->axis_limit, sp_length(lean));
+        sp_vec3 about = sp_unit(sp_cross(freedom->origin.axis, lean));
+        nozzle.axis = leaned(sp_unit(turned(freedom->origin.axis, about, away)), freedom->reference, freedom->tilt);
+    }
+    if (leans || rolls)
+        nozzle.roll = carried_roll(freedom, nozzle.axis) + roll;
+    return nozzle;
+}
+
+sp_nozzle sp_freedom_nozzle_at(const sp_freedom *freedom, const double *values, const sp_site *site)
+{
+    sp_nozzle nozzle = sp_freedom_nozzle(freedom, values);
+    double roll = nozzle.roll - carried_roll(freedom, nozzle.axis);
+    nozzle.position = site->position;
+    if (angle_between(nozzle.axis, site->axis) > freedom->tilt) {
+        nozzle.axis = leaned(nozzle.axis, site->axis, freedom->tilt);
+        nozzle.roll = carried_roll(freedom, nozzle.axis) + roll;
+    }
+    return nozzle;
+}

@@ -1,0 +1,210 @@
+#include "refine/level.h"
+
+#define FAR 8.0   /* widths beyond the edge where nothing is left of a pattern */
+#define STEP 1e-6 /* share of half an unknown's range, for differences of frames and patterns */
+
+/* All that a nozzle's arrivals share. */
+typedef struct {
+    const sp_search *search;
+    const sp_freedom *freedom;
+    sp_width width;
+    sp_nozzle nozzle;
+    const sp_sight *sight;
+    sp_spray spray;
+    sp_frame frame;
+    double strength; /* flux over threshold per transfer */
+    double least;    /* cosine of the angle from which nothing is left */
+    bool moved;      /* not where it was traced from */
+    /* by unknown: axis and roll turn the frame, angle and flow change the pattern and its strength */
+    sp_frame turn[SP_UNKNOWNS];
+    sp_spray other[SP_UNKNOWNS];
+    double step[SP_UNKNOWNS];
+    double thicken[SP_UNKNOWNS]; /* derivative of log strength */
+} sp_posed;
+
+static sp_vec3 difference(sp_vec3 to, sp_vec3 from, double step)
+{
+    return sp_scale(sp_sub(to, from), 1 / step);
+}
+
+/* What of the pose changes with unknown k, by a difference towards the middle of its range. */
+static void vary(sp_posed *posed, const double *values, size_t k)
+{
+    const sp_freedom *freedom = posed->freedom;
+    const sp_setup *setup = sp_evaluator_setup(posed->search->coarse);
+    double changed[SP_UNKNOWNS], half = 0.5 * (freedom->high[k] - freedom->low[k]);
+    for (size_t i = 0; i < freedom->count; i++)
+        changed[i] = values[i];
+    double step = copysign(STEP * half, freedom->low[k] + half - values[k]);
+    changed[k] += step;
+    sp_nozzle nozzle = sp_freedom_nozzle(freedom, changed);
+    sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, setup->up);
+    posed->turn[k] = (sp_frame){difference(frame.x, posed->frame.x, step), difference(frame.y, posed->frame.y, step),
+                                difference(frame.z, posed->frame.z, step)};
+    posed->step[k] = step;
+    posed->other[k] = sp_spray_create(nozzle.type, sp_nozzle_angle(&nozzle));
+    double before = sp_nozzle_flow(&posed->nozzle, &setup->liquid) / posed->spray.solid_angle;
+    double after = sp_nozzle_flow(&nozzle, &setup->liquid) / posed->other[k].solid_angle;
+    posed->thicken[k] = (after - before) / (step * before);
+}
+
+static sp_posed pose(const sp_search *search, const sp_freedom *freedom, const sp_sight *sight, sp_width width,
+                     const double *values, bool slopes)
+{
+    const sp_setup *setup = sp_evaluator_setup(search->coarse);
+    sp_posed posed = {.search = search, .freedom = freedom, .width = width, .sight = sight};
+    posed.nozzle = sp_freedom_nozzle(freedom, values);
+    posed.spray = sp_spray_create(posed.nozzle.type, sp_nozzle_angle(&posed.nozzle));
+    posed.frame = sp_nozzle_frame(posed.nozzle.axis, posed.nozzle.roll, setup->up);
+    double flow = sp_nozzle_flow(&posed.nozzle, &setup->liquid);
+    posed.strength = search->threshold > 0 ? flow / (posed.spray.solid_angle * search->threshold) : 1;
+    double most = sp_spray_reach(&posed.spray) + FAR * width.edge;
+    posed.least = most < M_PI ? cos(most) : -2;
+    posed.moved = sp_distance(posed.nozzle.position, sight->position) > 0;
+    for (size_t k = 0; slopes && k < freedom->count; k++)
+        vary(&posed, values, k);
+    return posed;
+}
+
+/* An arrival in the nozzle's hands: where it goes, how thick it arrives, how far inside the pattern it starts. */
+typedef struct {
+    sp_flight flight;
+    double transfer;  /* 1/m² */
+    sp_vec3 local;    /* its direction in the nozzle's frame */
+    double margin;    /* rad */
+    sp_vec3 gradient; /* of the margin by `local`; for slopes alone */
+    double inside;    /* soft, 0 to 1 */
+} sp_borne;
+
+static sp_vec3 in_frame(const sp_frame *frame, sp_vec3 d)
+{
+    return sp_v(sp_dot(d, frame->x), sp_dot(d, frame->y), sp_dot(d, frame->z));
+}
+
+/* How far inside the pattern a direction of the nozzle's frame lies, and where `gradient` is not NULL how that changes
+ * with the direction. */
+static double margin_of(const sp_spray *spray, sp_vec3 d, sp_vec3 *gradient)
+{
+    if (spray->kind == SP_PATTERN_FLAT_FAN) {
+        double margin = sp_spray_margin(spray, d);
+        if (gradient) {
+            sp_vec3 a = sp_unit(sp_cross(d, fabs(d.x) < 0.5 ? sp_v(1, 0, 0) : sp_v(0, 1, 0))), b = sp_cross(d, a);
+            double by_a = (sp_spray_margin(spray, sp_unit(sp_along(d, STEP, a))) - margin) / STEP;
+            double by_b = (sp_spray_margin(spray, sp_unit(sp_along(d, STEP, b))) - margin) / STEP;
+            *gradient = sp_along(sp_scale(a, by_a), by_b, b);
+        }
+        return margin;
+    }
+    /* the polar angle's gradient on the sphere is -1/sin along z */
+    double sine = sqrt(d.x * d.x + d.y * d.y), polar = atan2(sine, d.z);
+    double outwards = spray->outer < M_PI ? spray->outer - polar : M_PI;
+    double inwards = spray->inner > 0 ? polar - spray->inner : M_PI;
+    bool out = outwards < inwards;
+    if (gradient)
+        *gradient = sp_v(0, 0, sine < 1e-9 || (out ? outwards : inwards) >= M_PI ? 0 : (out ? 1 : -1) / sine);
+    return out ? outwards : inwards;
+}
+
+/* False where nothing is left of the pattern. */
+static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool slopes, sp_borne *borne)
+{
+    borne->flight.direction = seen->direction;
+    borne->transfer = seen->transfer;
+    if (flies &&
+        !sp_sight_fly(posed->search, posed->sight, seen, posed->nozzle.position, &borne->flight, &borne->transfer))
+        return false;
+    borne->local = in_frame(&posed->frame, borne->flight.direction);
+    if (borne->local.z < posed->least)
+        return false;
+    borne->margin = margin_of(&posed->spray, borne->local, slopes ? &borne->gradient : NULL);
+    double widths = borne->margin / posed->width.edge;
+    if (widths < -FAR)
+        return false;
+    borne->inside = widths > FAR ? 1 : sp_soft_step(widths);
+    return true;
+}
+
+/* Derivatives of a flight when its start moves along `move`, differentiated from |r - g t²/2| = v t; with u the
+ * direction, w the velocity on arrival: t' = u·r'/u·w, u' = (r' - w t')/(v t). Returns that of log transfer, and u'. */
+static double shift(const sp_posed *posed, const sp_borne *borne, uint32_t patch, sp_vec3 move, sp_vec3 *turn)
+{
+    const sp_patches *patches = sp_evaluator_patches(posed->search->coarse);
+    sp_vec3 target = patches->point[patch], normal = patches->normal[patch];
+    sp_vec3 g = sp_evaluator_gravity(posed->search->coarse);
+    sp_vec3 r = sp_sub(target, posed->nozzle.position), by = sp_scale(move, -1);
+    sp_vec3 u = borne->flight.direction, w = borne->flight.velocity;
+    double v = posed->sight->speed, t = borne->flight.time;
+    double later = sp_dot(u, by) / sp_dot(u, w);
+    *turn = sp_scale(sp_along(by, -later, w), 1 / (v * t));
+    sp_vec3 faster = sp_along(sp_scale(*turn, v), later, g);
+    /* spread = v t² √D with b = v² + r·g, D = b² - g² r² */
+    double b = v * v + sp_dot(r, g), root = borne->flight.spread / (v * t * t);
+    double d = 2 * b * sp_dot(by, g) - 2 * sp_dot(g, g) * sp_dot(r, by);
+    double spread = 2 * later / t + d / (2 * root * root);
+    return sp_dot(normal, faster) / sp_dot(normal, w) - spread;
+}
+
+/* Derivative of the logarithm of transfer times inside by unknown k, and of the strength. */
+static double log_slope(const sp_posed *posed, const sp_borne *borne, uint32_t patch, size_t k)
+{
+    const sp_freedom *freedom = posed->freedom;
+    double edge = (1 - borne->inside) / posed->width.edge, thicker = 0;
+    sp_vec3 turn;
+    switch (freedom->kind[k]) {
+    case SP_UNKNOWN_PLACE:
+        thicker = shift(posed, borne, patch, freedom->move[k], &turn);
+        return (posed->search->threshold > 0 ? thicker : 0) +
+               edge * sp_dot(borne->gradient, in_frame(&posed->frame, turn));
+    case SP_UNKNOWN_AXIS:
+    case SP_UNKNOWN_ROLL:
+        return edge > 0 ? edge * sp_dot(borne->gradient, in_frame(&posed->turn[k], borne->flight.direction)) : 0;
+    case SP_UNKNOWN_ANGLE:
+        if (edge > 0)
+            thicker = edge * (margin_of(&posed->other[k], borne->local, NULL) - borne->margin) / posed->step[k];
+        return thicker + (posed->search->threshold > 0 ? posed->thicken[k] : 0);
+    case SP_UNKNOWN_FLOW:
+        return posed->search->threshold > 0 ? posed->thicken[k] : 0;
+    }
+    return 0;
+}
+
+/* The level of an arrival, and by how much it changes per change of its logarithm's argument. */
+static double level_of(const sp_posed *posed, const sp_borne *borne, double *rise)
+{
+    double flux = posed->strength * borne->transfer * borne->inside;
+    if (posed->search->threshold <= 0)
+        return *rise = borne->inside;
+    if (sp_levels_sum(posed->search))
+        return *rise = flux;
+    double cover = sp_soft_step(log(flux) / posed->width.level);
+    *rise = cover * (1 - cover) / posed->width.level;
+    return cover;
+}
+
+static bool has_place(const sp_freedom *freedom)
+{
+    for (size_t k = 0; k < freedom->count; k++)
+        if (freedom->kind[k] == SP_UNKNOWN_PLACE)
+            return true;
+    return false;
+}
+
+void sp_levels(const sp_search *search, const sp_freedom *freedom, const sp_sight *sight, sp_width width,
+               const double *values, double *level, double *slope)
+{
+    sp_posed posed = pose(search, freedom, sight, width, values, slope != NULL);
+    bool flies = posed.moved || (slope && has_place(freedom));
+    for (size_t i = 0; i < sight->count; i++) {
+        const sp_seen *seen = &sight->seen[i];
+        sp_borne borne = {0};
+        double rise = 0;
+        bool borne_there = bear(&posed, seen, flies, slope != NULL, &borne);
+        level[i] = borne_there ? level_of(&posed, &borne, &rise) : 0;
+        if (!slope)
+            continue;
+        for (size_t k = 0; k < freedom->count; k++) {
+            double by_k = rise > 0 ? rise * log_slope(&posed, &borne, seen->patch, k) : 0;
+            slope[k * sight->count + i] = isfinite(by_k) ? by_k : 0;
+        }
+    }
+}

@@ -1,0 +1,32 @@
+/* What each arrival of a nozzle brings to its patch, softly, and how that changes with what refinement may set. */
+#ifndef OPTIMIZER_LEVEL_H
+#define OPTIMIZER_LEVEL_H
+
+#include "refine/freedom.h"
+#include "refine/sight.h"
+
+/* How soft: the width (in logarithm of flux over threshold) of the step from dry to covered, and of the pattern's edge.
+ */
+typedef struct {
+    double level;
+    double edge; /* rad */
+} sp_width;
+
+/* Levels that add up are fluxes over threshold; others are covers, any of which suffices. */
+static inline bool sp_levels_sum(const sp_search *search)
+{
+    return !search->single && search->threshold > 0;
+}
+
+/* At the freedom's values [SP_UNKNOWNS], visibility as in `sight`: level [sight->count] and, where `slope` is not NULL,
+ * its derivatives by each value, [freedom->count][sight->count]. */
+void sp_levels(const sp_search *search, const sp_freedom *freedom, const sp_sight *sight, sp_width width,
+               const double *values, double *level, double *slope);
+
+/* Logistic function. */
+static inline double sp_soft_step(double x)
+{
+    return 1 / (1 + exp(-x));
+}
+
+#endif

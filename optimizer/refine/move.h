@@ -1,0 +1,10 @@
+/* Moving a design's nozzle to values of its freedom. */
+#ifndef OPTIMIZER_MOVE_H
+#define OPTIMIZER_MOVE_H
+
+#include "refine/freedom.h"
+
+/* Takes the values over, the place only where mount, cavity and clearance allow it. The field stays as it was. */
+void sp_placed_move(const sp_search *search, sp_placed *placed, const sp_freedom *freedom, const double *values);
+
+#endif

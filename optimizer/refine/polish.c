@@ -1,0 +1,262 @@
+#include "refine/polish.h"
+
+#include "refine/compass.h"
+
+#include <omp.h>
+#include <stdlib.h>
+
+#define ROUGH_PATCHES 4000.0 /* most of the polishing sees no more than these show */
+#define SIGHTS 24            /* kept for each thread */
+#define STEP_FIRST 0.25      /* of half an unknown's range, of the compass */
+#define STEP_SHARP 0.12
+#define STEP_TURN 0.045 /* small enough for places to stay */
+#define STEP_LEAST 0.006
+#define SHARP_START 4   /* width at which the last polish starts */
+#define KEEPS_UP 0.002  /* of what is covered, by which few patches may mislead */
+#define TURNS 4         /* of kicks and new designs, two that are annealed first */
+#define GAIN_LEAST 1e-5 /* of what is covered: less is no improvement */
+#define BEHIND_MOST                                                                                                    \
+    0.005 /* of what was covered before a kick: with more to make up for, annealing is the end of it                   \
+           */
+
+static bool sights_create(const sp_search *search, int threads, size_t capacity, sp_sights **sights, sp_error *error)
+{
+    *sights = calloc((size_t)threads, sizeof **sights);
+    if (!*sights)
+        return sp_fail_memory(error);
+    for (int i = 0; i < threads; i++)
+        if (!sp_sights_create(search, capacity, &(*sights)[i], error))
+            return false;
+    return true;
+}
+
+static void sights_free(sp_sights *sights, int threads)
+{
+    for (int i = 0; sights && i < threads; i++)
+        sp_sights_free(&sights[i]);
+    free(sights);
+}
+
+void sp_polishing_free(sp_polishing *polishing)
+{
+    sights_free(polishing->sights, polishing->threads);
+    sights_free(polishing->rough_sights, polishing->threads);
+    if (polishing->rough_evaluator)
+        sp_search_free(&polishing->rough);
+    sp_evaluator_destroy(polishing->rough_evaluator);
+    sp_tuned_free(&polishing->tuned);
+    *polishing = (sp_polishing){0};
+}
+
+bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine, sp_watch *watch,
+                         sp_polishing *polishing, sp_error *error)
+{
+    const sp_patches *patches = sp_evaluator_patches(search->coarse);
+    *polishing = (sp_polishing){
+        .search = search, .pool = pool, .watch = watch, .rough = *search, .threads = sp_threads(&search->options->run)};
+    bool done = sp_tuned_create(search, pool, &polishing->tuned, error);
+    if (done && (double)patches->count > 1.5 * ROUGH_PATCHES) {
+        polishing->rough_evaluator = sp_evaluator_resample(fine, sqrt(patches->total_area / ROUGH_PATCHES), error);
+        done = polishing->rough_evaluator &&
+               sp_search_create(polishing->rough_evaluator, search->options, search->sites, search->candidates,
+                                search->visibility, &polishing->rough, error);
+    }
+    done = done && sights_create(search, polishing->threads, SIGHTS, &polishing->sights, error) &&
+           sights_create(&polishing->rough, polishing->threads, SIGHTS, &polishing->rough_sights, error);
+    if (!done)
+        sp_polishing_free(polishing);
+    return done;
+}
+
+/* The same nozzles on other patches, or on the same ones looked at anew. */
+static bool transfer(sp_sights *sights, const sp_design *from, sp_design *to, sp_error *error)
+{
+    if (!sp_design_create(sights->search, to, error))
+        return false;
+    bool done = true;
+    for (size_t i = 0; done && i < from->count; i++) {
+        sp_placed placed = from->items[i];
+        placed.field = malloc(sights->search->patch_count * sizeof *placed.field);
+        if (!placed.field)
+            done = sp_fail_memory(error);
+        else if (sp_sights_field(sights, &placed, placed.field, error))
+            done = sp_design_add(sights->search, to, placed, error);
+        else {
+            free(placed.field);
+            done = false;
+        }
+    }
+    if (!done)
+        sp_design_free(to);
+    return done;
+}
+
+/* Within the budget by turning nozzles down; false in *fits where that is not enough. */
+static bool fit(sp_sights *sights, double budget, sp_design *design, bool *fits, sp_error *error)
+{
+    if (design->flow > budget) {
+        sp_turn_down(sights->search, design, budget);
+        if (!sp_design_look(sights, design, error))
+            return false;
+    }
+    *fits = design->flow <= budget * (1 + SP_ROUNDING);
+    return true;
+}
+
+/* Anneals from ever wider starts: a narrow one keeps what is there; a wide one forgets it, and may find better. By
+ * turns, one of them or none: compass finds as much where there is little to forget. */
+static bool anneal(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, sp_design *design,
+                   sp_error *error)
+{
+    static const size_t starts[] = {3, 0};
+    for (size_t i = 0; i < sizeof starts / sizeof *starts; i++)
+        if ((trial->kind == SP_TRIAL_ANNEAL || i == trial->seed % TURNS) &&
+            !sp_anneal(sights, starts[i], SP_WIDTHS, trial->budget, polishing->watch, design, error))
+            return false;
+    return true;
+}
+
+/* What `start` becomes on few patches, if it keeps up with `before`. */
+static bool refine(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, double before,
+                   const sp_design *start, sp_design *refined, sp_error *error)
+{
+    bool fits;
+    if (!transfer(sights, start, refined, error))
+        return false;
+    bool done = fit(sights, trial->budget, refined, &fits, error);
+    if (done && fits)
+        done = anneal(polishing, sights, trial, refined, error) &&
+               (refined->covered < before * (1 - BEHIND_MOST) ||
+                sp_compass(sights, STEP_FIRST, STEP_LEAST, trial->budget, polishing->watch, refined, error));
+    if (!done)
+        sp_design_free(refined);
+    return done;
+}
+
+/* What the trial covers on few patches before anything is done to it, within its budget; 0 where it cannot be that. */
+static bool cover_before(sp_sights *sights, const sp_trial *trial, double *covered, sp_error *error)
+{
+    sp_design design;
+    bool fits;
+    if (!transfer(sights, &trial->design, &design, error))
+        return false;
+    bool done = fit(sights, trial->budget, &design, &fits, error);
+    *covered = done && fits ? design.covered : 0;
+    sp_design_free(&design);
+    return done;
+}
+
+/* What the trial starts from. */
+static bool begin(const sp_polishing *polishing, const sp_trial *trial, sp_design *start, sp_error *error)
+{
+    const sp_tuned *tuned = &polishing->tuned;
+    const sp_design *from = trial->kind == SP_TRIAL_OTHER ? &trial->other : &trial->design;
+    if (!sp_design_copy(polishing->search, from, start, error))
+        return false;
+    if (trial->kind == SP_TRIAL_KICK &&
+        !sp_kick(&tuned->search, &tuned->pool, trial->budget, trial->seed, start, error)) {
+        sp_design_free(start);
+        return false;
+    }
+    sp_tuned_settle(tuned, start);
+    return true;
+}
+
+/* The refined design on the search's own patches, turned a little more on these, becomes the trial's. */
+static bool take_over(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
+{
+    sp_sights *sights = &polishing->sights[thread];
+    sp_design design;
+    sp_sights_forget(sights);
+    if (!transfer(sights, &trial->refined, &design, error))
+        return false;
+    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, trial->budget, polishing->watch, &design, error)) {
+        sp_design_free(&design);
+        return false;
+    }
+    sp_design_free(&trial->design);
+    trial->design = design;
+    return true;
+}
+
+static bool polish(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
+{
+    sp_sights *sights = &polishing->rough_sights[thread];
+    sp_design start;
+    double before;
+    if (!sp_watch_goes_on(polishing->watch, "refine", 0))
+        return true;
+    /* what was looked at before is another thread's luck */
+    sp_sights_forget(sights);
+    if (!cover_before(sights, trial, &before, error) || !begin(polishing, trial, &start, error))
+        return false;
+    bool done = refine(polishing, sights, trial, before, &start, &trial->refined, error);
+    sp_design_free(&start);
+    if (!done)
+        return false;
+    trial->covered = trial->refined.covered;
+    trial->better =
+        trial->refined.flow <= trial->budget * (1 + SP_ROUNDING) && trial->refined.covered > before * (1 + GAIN_LEAST);
+    return true;
+}
+
+/* It got better, and no other trial of the same water much more so: few patches do not tell more. */
+static bool keeps_up(const sp_trial *trials, size_t count, size_t i)
+{
+    for (size_t k = 0; k < count; k++)
+        if (trials[k].better && trials[k].budget == trials[i].budget &&
+            trials[k].covered * (1 - KEEPS_UP) > trials[i].covered)
+            return false;
+    return trials[i].better;
+}
+
+typedef bool (*sp_step)(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error);
+
+/* Takes the step for every trial, or for those that are better. */
+static bool for_each(const sp_polishing *polishing, sp_trial *trials, size_t count, bool better, sp_step step,
+                     sp_error *error)
+{
+    sp_error failure = {0};
+#pragma omp parallel for num_threads(polishing->threads) schedule(dynamic, 1)
+    for (size_t i = 0; i < count; i++) {
+        sp_error mine = {0};
+        if ((!better || trials[i].better) && !step(polishing, omp_get_thread_num(), &trials[i], &mine)) {
+#pragma omp critical(sp_polish_failure)
+            failure = mine;
+        }
+    }
+    if (failure.kind == SP_OK)
+        return true;
+    return sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
+}
+
+bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error)
+{
+    bool done = for_each(polishing, trials, count, false, polish, error);
+    bool *keeps = calloc(count ? count : 1, sizeof *keeps);
+    if (!keeps)
+        done = sp_fail_memory(error);
+    for (size_t i = 0; done && i < count; i++)
+        keeps[i] = keeps_up(trials, count, i);
+    for (size_t i = 0; done && i < count; i++)
+        trials[i].better = keeps[i];
+    free(keeps);
+    done = done && for_each(polishing, trials, count, true, take_over, error);
+    for (size_t i = 0; i < count; i++)
+        sp_design_free(&trials[i].refined);
+    return done;
+}
+
+bool sp_sharpen(sp_polishing *polishing, double budget, sp_design *design, sp_error *error)
+{
+    sp_sights *sights = &polishing->sights[0];
+    sp_sights_forget(sights);
+    return sp_anneal(sights, SHARP_START, SP_WIDTHS, budget, polishing->watch, design, error) &&
+           sp_compass(sights, STEP_SHARP, STEP_LEAST, budget, polishing->watch, design, error);
+}
+
+bool sp_look_anew(sp_polishing *polishing, sp_design *design, sp_error *error)
+{
+    sp_sights_forget(&polishing->sights[0]);
+    return sp_design_look(&polishing->sights[0], design, error);
+}

@@ -1,0 +1,11 @@
+/* Refinement of a design's poses with Ceres, accepted only where the scene's own measure improves. */
+#ifndef OPTIMIZER_REFINE_H
+#define OPTIMIZER_REFINE_H
+
+#include "search/exchange.h"
+#include "search/front.h"
+
+/* Refines front->best in place: poses, then less water at the coverage asked for. */
+bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error);
+
+#endif

@@ -1,0 +1,182 @@
+#include "refine/sight.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define NEAR 0.2  /* of a texel */
+#define SPARE 0.2 /* rad beyond what the nozzle can reach from its place, for when it moves */
+
+bool sp_sights_reserve(sp_sights *sights, size_t capacity, sp_error *error)
+{
+    if (capacity <= sights->capacity)
+        return true;
+    sp_sight *items = realloc(sights->items, capacity * sizeof *items);
+    if (!items)
+        return sp_fail_memory(error);
+    memset(&items[sights->capacity], 0, (capacity - sights->capacity) * sizeof *items);
+    sights->items = items;
+    sights->capacity = capacity;
+    return true;
+}
+
+bool sp_sights_create(const sp_search *search, size_t capacity, sp_sights *sights, sp_error *error)
+{
+    *sights = (sp_sights){.search = search, .tolerance = NEAR * sp_evaluator_fidelity(search->coarse)->texel};
+    return sp_sights_reserve(sights, capacity, error);
+}
+
+void sp_sights_forget(sp_sights *sights)
+{
+    for (size_t i = 0; i < sights->capacity; i++) {
+        free(sights->items[i].seen);
+        sights->items[i] = (sp_sight){0};
+    }
+}
+
+void sp_sights_free(sp_sights *sights)
+{
+    sp_sights_forget(sights);
+    free(sights->items);
+    *sights = (sp_sights){0};
+}
+
+/* Half-angle about the candidate's axis that holds the pattern as far as it may turn and open. */
+static double needed(const sp_search *search, const sp_placed *placed)
+{
+    const sp_place_options *options = search->options;
+    double low, high;
+    sp_angle_range(options, placed->nozzle.type, &low, &high);
+    sp_spray spray = sp_spray_create(placed->nozzle.type, fmax(high, sp_nozzle_angle(&placed->nozzle)));
+    double turn = fmin(options->refine.axis, 2 * options->mounts[placed->site.mount].tilt);
+    return fmin(M_PI, sp_spray_reach(&spray) + turn + SPARE);
+}
+
+static bool equal(sp_vec3 a, sp_vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* The two arcs to a point leave on either side of the bisector of the way there and the vertical (Torricelli), the high
+ * one above it. `up` is zero without gravity. */
+static bool is_high(sp_vec3 way, sp_vec3 up, sp_vec3 direction)
+{
+    sp_vec3 middle = sp_unit(sp_add(sp_unit(way), up));
+    return sp_dot(direction, sp_along(up, -sp_dot(up, middle), middle)) > 0;
+}
+
+static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
+{
+    const sp_patches *patches = sp_evaluator_patches(search->coarse);
+    sp_vec3 up = sp_unit(sp_scale(sp_evaluator_gravity(search->coarse), -1));
+    sp_reach *reach = sp_evaluator_reach_passing(search->coarse, sight->position, sight->speed, sight->axis,
+                                                 sight->half_angle, error);
+    if (!reach)
+        return false;
+    sight->seen = malloc((reach->count ? reach->count : 1) * sizeof *sight->seen);
+    for (size_t i = 0; sight->seen && i < reach->count; i++) {
+        const sp_arrival *arrival = &reach->arrivals[i];
+        uint32_t arc = is_high(sp_sub(patches->point[arrival->patch], sight->position), up, arrival->direction);
+        sight->seen[sight->count++] = (sp_seen){arrival->patch, arc, arrival->direction, arrival->transfer};
+    }
+    sp_reach_destroy(reach);
+    return sight->seen || sp_fail_memory(error);
+}
+
+/* The sight nearest to the one wanted of those that will do; NULL for none. */
+static sp_sight *known(const sp_sights *sights, const sp_sight *wanted)
+{
+    sp_sight *best = NULL;
+    double nearest = sights->tolerance;
+    for (size_t i = 0; i < sights->capacity; i++) {
+        sp_sight *item = &sights->items[i];
+        if (!item->seen || item->speed != wanted->speed || item->half_angle < wanted->half_angle ||
+            (item->half_angle < M_PI && !equal(item->axis, wanted->axis)))
+            continue;
+        double distance = sp_distance(item->position, wanted->position);
+        if (distance < nearest) {
+            best = item;
+            nearest = distance;
+        }
+    }
+    return best;
+}
+
+const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_error *error)
+{
+    const sp_search *search = sights->search;
+    sp_sight wanted = {.position = placed->nozzle.position,
+                       .speed = sp_nozzle_speed(&placed->nozzle, &sp_evaluator_setup(search->coarse)->liquid),
+                       .axis = placed->origin.axis,
+                       .half_angle = needed(search, placed)};
+    sp_sight *sight = known(sights, &wanted);
+    if (!sight) {
+        sight = &sights->items[0];
+        for (size_t i = 1; i < sights->capacity; i++)
+            if (sights->items[i].used < sight->used)
+                sight = &sights->items[i];
+        free(sight->seen);
+        *sight = (sp_sight){0};
+        if (!trace(search, &wanted, error)) {
+            free(wanted.seen);
+            return NULL;
+        }
+        *sight = wanted;
+    }
+    sight->used = ++sights->clock;
+    return sight;
+}
+
+bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen *seen, sp_vec3 position,
+                  sp_flight *flight, double *transfer)
+{
+    const sp_patches *patches = sp_evaluator_patches(search->coarse);
+    sp_flight flights[2];
+    int count =
+        sp_flights(position, patches->point[seen->patch], sight->speed, sp_evaluator_gravity(search->coarse), flights);
+    if ((int)seen->arc >= count)
+        return false;
+    *flight = flights[seen->arc];
+    double against = -sp_dot(flight->velocity, patches->normal[seen->patch]);
+    if (patches->side[seen->patch] == SP_SIDE_BOTH)
+        against = fabs(against);
+    *transfer = fmax(0, against) / flight->spread;
+    return *transfer > 0;
+}
+
+/* Cones without an inverse trigonometric function, fans by the pattern itself. */
+static bool holds(const sp_spray *spray, double inner, double outer, const sp_frame *frame, sp_vec3 d)
+{
+    double z = sp_dot(d, frame->z);
+    if (spray->kind != SP_PATTERN_FLAT_FAN)
+        return z >= outer && z <= inner;
+    return sp_spray_intensity(spray, sp_v(sp_dot(d, frame->x), sp_dot(d, frame->y), z)) > 0;
+}
+
+void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_placed *placed, float *field)
+{
+    const sp_setup *setup = sp_evaluator_setup(search->coarse);
+    const sp_nozzle *nozzle = &placed->nozzle;
+    sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
+    sp_frame frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up);
+    double inner = spray.inner > 0 ? cos(spray.inner) : 2, outer = spray.outer < M_PI ? cos(spray.outer) : -2;
+    double strength = sp_nozzle_flow(nozzle, &setup->liquid) / (spray.solid_angle * search->threshold);
+    bool moved = !equal(nozzle->position, sight->position);
+    memset(field, 0, search->patch_count * sizeof *field);
+    for (size_t i = 0; i < sight->count; i++) {
+        const sp_seen *seen = &sight->seen[i];
+        sp_flight flight = {.direction = seen->direction};
+        double transfer = seen->transfer;
+        if (moved && !sp_sight_fly(search, sight, seen, nozzle->position, &flight, &transfer))
+            continue;
+        if (transfer > 0 && holds(&spray, inner, outer, &frame, flight.direction))
+            field[seen->patch] += search->threshold > 0 ? (float)(strength * transfer) : INFINITY;
+    }
+}
+
+bool sp_sights_field(sp_sights *sights, const sp_placed *placed, float *field, sp_error *error)
+{
+    const sp_sight *sight = sp_sights_look(sights, placed, error);
+    if (sight)
+        sp_sight_field(sights->search, sight, placed, field);
+    return sight;
+}

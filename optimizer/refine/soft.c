@@ -1,0 +1,360 @@
+#include "refine/soft.h"
+
+#include "refine/ceres_adaptor.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define ITERATIONS 8
+#define TOLERANCE 1e-5
+#define CHUNKS 16          /* fixed, so that sums do not depend on the number of threads */
+#define WATER_PENALTY 10.0 /* of the square root of the area, per share of water above the budget */
+#define EDGE_LEAST 0.2     /* cosine of the unknown's angle at the start: at 0 it would be stuck at its limit */
+#define SURE 16.0          /* widths above the threshold where nothing is missing any more */
+
+typedef struct {
+    const sp_freedom *freedom;
+    const sp_sight *sight;
+    size_t first;  /* of its unknowns */
+    double *level; /* [sight->count] */
+    double *slope; /* [freedom->count][sight->count], by unknown */
+} sp_soft_nozzle;
+
+/* A patch's arrivals are links[start[p]] to links[start[p + 1]]. */
+typedef struct {
+    uint32_t nozzle, arrival;
+} sp_link;
+
+typedef struct {
+    const sp_search *search;
+    sp_width width;
+    bool sums; /* levels are fluxes that add up; else covers, any of which suffices */
+    double budget;
+    size_t nozzle_count, unknowns;
+    sp_soft_nozzle *nozzles;
+    size_t *start; /* [patch_count + 1] */
+    sp_link *links;
+    double *chunk_cost, *chunk_gradient, *chunk_normal; /* [CHUNKS][1], [][unknowns], [][unknowns²] */
+} sp_soft;
+
+/* The values at x, whose entries are angles: value = middle + half range * sin(x). That keeps the limits without
+ * telling Ceres, which searches long where bounds are many. */
+static void values_at(const sp_soft_nozzle *own, const double *x, double values[SP_UNKNOWNS])
+{
+    const sp_freedom *freedom = own->freedom;
+    for (size_t k = 0; k < freedom->count; k++) {
+        double half = 0.5 * (freedom->high[k] - freedom->low[k]);
+        values[k] = freedom->low[k] + half + half * sin(x[own->first + k]);
+    }
+}
+
+/* The levels at x and, where asked for, their derivatives by x. */
+static void set_levels(sp_soft *soft, const double *x, bool slopes)
+{
+    int threads = sp_threads(&soft->search->options->run);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+    for (size_t i = 0; i < soft->nozzle_count; i++) {
+        sp_soft_nozzle *own = &soft->nozzles[i];
+        const sp_freedom *freedom = own->freedom;
+        double values[SP_UNKNOWNS];
+        values_at(own, x, values);
+        sp_levels(soft->search, freedom, own->sight, soft->width, values, own->level, slopes ? own->slope : NULL);
+        for (size_t k = 0; slopes && k < freedom->count; k++) {
+            double chain = 0.5 * (freedom->high[k] - freedom->low[k]) * cos(x[own->first + k]);
+            for (size_t a = 0; a < own->sight->count; a++)
+                own->slope[k * own->sight->count + a] *= chain;
+        }
+    }
+}
+
+/* What is missing at a patch, 1 - soft cover, from its levels; *factor is what a level's slope is multiplied by to give
+ * the slope of the miss, for levels that add up. */
+static double miss_of_sum(const sp_soft *soft, size_t patch, double *factor)
+{
+    double sum = (double)soft->search->kept_wet[patch];
+    for (size_t l = soft->start[patch]; l < soft->start[patch + 1]; l++)
+        sum += soft->nozzles[soft->links[l].nozzle].level[soft->links[l].arrival];
+    *factor = 0;
+    if (sum <= 0)
+        return 1;
+    double widths = log(sum) / soft->width.level;
+    if (widths > SURE)
+        return 0;
+    double cover = sp_soft_step(widths);
+    *factor = -cover * (1 - cover) / (soft->width.level * sum);
+    return 1 - cover;
+}
+
+/* The same where any one level suffices: the product of what each leaves dry, but for link `but` (SIZE_MAX: none). */
+static double miss_of_any(const sp_soft *soft, size_t patch, size_t but)
+{
+    double miss = soft->search->kept_wet[patch] >= 1 ? 0 : 1;
+    for (size_t l = soft->start[patch]; l < soft->start[patch + 1]; l++)
+        if (l != but)
+            miss *= 1 - soft->nozzles[soft->links[l].nozzle].level[soft->links[l].arrival];
+    return miss;
+}
+
+/* Adds a patch's row of the Jacobian, which is never held, to the normal matrix and the gradient. */
+static void add_row(const sp_soft *soft, size_t patch, double weight, double miss, double factor, double *row,
+                    size_t *columns, double *gradient, double *normal)
+{
+    size_t n = soft->unknowns, used = 0;
+    for (size_t l = soft->start[patch]; l < soft->start[patch + 1]; l++) {
+        const sp_soft_nozzle *own = &soft->nozzles[soft->links[l].nozzle];
+        if (own->level[soft->links[l].arrival] <= 0)
+            continue;
+        double by_level = soft->sums ? factor : -miss_of_any(soft, patch, l);
+        for (size_t k = 0; k < own->freedom->count; k++) {
+            double slope = weight * by_level * own->slope[k * own->sight->count + soft->links[l].arrival];
+            if (slope == 0)
+                continue;
+            if (row[own->first + k] == 0)
+                columns[used++] = own->first + k;
+            row[own->first + k] += slope;
+        }
+    }
+    for (size_t i = 0; i < used; i++) {
+        gradient[columns[i]] += row[columns[i]] * weight * miss;
+        for (size_t j = 0; j < used; j++)
+            if (columns[j] <= columns[i])
+                normal[columns[i] * n + columns[j]] += row[columns[i]] * row[columns[j]];
+    }
+    for (size_t i = 0; i < used; i++)
+        row[columns[i]] = 0;
+}
+
+/* Sums one chunk of the patches. `row` (all zero) and `columns` are the chunk's own scratch. */
+static void sum_chunk(sp_soft *soft, size_t chunk, bool slopes, double *row, size_t *columns)
+{
+    size_t n = soft->unknowns, patches = soft->search->patch_count;
+    double *gradient = &soft->chunk_gradient[chunk * n], *normal = &soft->chunk_normal[chunk * n * n], cost = 0;
+    if (slopes) {
+        memset(gradient, 0, n * sizeof *gradient);
+        memset(normal, 0, n * n * sizeof *normal);
+    }
+    for (size_t p = patches * chunk / CHUNKS; p < patches * (chunk + 1) / CHUNKS; p++) {
+        if (soft->start[p] == soft->start[p + 1])
+            continue;
+        double weight = sqrt((double)soft->search->area[p]), factor = 0;
+        double miss = soft->sums ? miss_of_sum(soft, p, &factor) : miss_of_any(soft, p, SIZE_MAX);
+        cost += weight * weight * miss * miss;
+        if (slopes && miss > 0)
+            add_row(soft, p, weight, miss, factor, row, columns, gradient, normal);
+    }
+    soft->chunk_cost[chunk] = cost;
+}
+
+static bool sum_patches(sp_soft *soft, bool slopes)
+{
+    size_t n = soft->unknowns;
+    double *rows = calloc(CHUNKS * n, sizeof *rows);
+    size_t *columns = malloc(CHUNKS * n * sizeof *columns);
+    int threads = sp_threads(&soft->search->options->run);
+    if (rows && columns) {
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+        for (size_t chunk = 0; chunk < CHUNKS; chunk++)
+            sum_chunk(soft, chunk, slopes, &rows[chunk * n], &columns[chunk * n]);
+        for (size_t chunk = 1; chunk < CHUNKS; chunk++) {
+            soft->chunk_cost[0] += soft->chunk_cost[chunk];
+            for (size_t i = 0; slopes && i < n; i++)
+                soft->chunk_gradient[i] += soft->chunk_gradient[chunk * n + i];
+            for (size_t i = 0; slopes && i < n * n; i++)
+                soft->chunk_normal[i] += soft->chunk_normal[chunk * n * n + i];
+        }
+    }
+    bool done = rows && columns;
+    free(rows);
+    free(columns);
+    return done;
+}
+
+/* Water above the budget as one more residual. */
+static void add_water(sp_soft *soft, const double *x, bool slopes)
+{
+    size_t n = soft->unknowns;
+    double flow = soft->search->kept_flow,
+           penalty = WATER_PENALTY * sqrt(sp_evaluator_patches(soft->search->coarse)->total_area);
+    double *row = soft->chunk_gradient + n; /* chunk 1's, summed up already */
+    for (size_t i = 0; i < soft->nozzle_count; i++) {
+        const sp_soft_nozzle *own = &soft->nozzles[i];
+        double values[SP_UNKNOWNS];
+        values_at(own, x, values);
+        sp_nozzle nozzle = sp_freedom_nozzle(own->freedom, values);
+        flow += sp_nozzle_flow(&nozzle, &sp_evaluator_setup(soft->search->coarse)->liquid);
+        for (size_t k = 0; k < own->freedom->count; k++) {
+            double half = 0.5 * (own->freedom->high[k] - own->freedom->low[k]);
+            row[own->first + k] =
+                own->freedom->kind[k] == SP_UNKNOWN_FLOW ? penalty * half * cos(x[own->first + k]) / soft->budget : 0;
+        }
+    }
+    double over = penalty * (flow / soft->budget - 1);
+    if (over <= 0)
+        return;
+    soft->chunk_cost[0] += over * over;
+    for (size_t i = 0; slopes && i < n; i++) {
+        soft->chunk_gradient[i] += over * row[i];
+        for (size_t j = 0; j <= i; j++)
+            soft->chunk_normal[i * n + j] += row[i] * row[j];
+    }
+}
+
+/* The lower triangle of `a` [n x n] becomes L with L Lᵀ = a (Cholesky). */
+static bool factorise(double *a, size_t n)
+{
+    for (size_t j = 0; j < n; j++) {
+        for (size_t k = 0; k < j; k++)
+            for (size_t i = j; i < n; i++)
+                a[i * n + j] -= a[i * n + k] * a[j * n + k];
+        if (!(a[j * n + j] > 0) || !isfinite(a[j * n + j]))
+            return false;
+        double scale = 1 / sqrt(a[j * n + j]);
+        for (size_t i = j; i < n; i++)
+            a[i * n + j] *= scale;
+    }
+    return true;
+}
+
+/* As many residuals as patches would be slow and fat. With JᵀJ = L Lᵀ the n residuals L⁻¹Jᵀr with Jacobian Lᵀ have the
+ * same gradient and normal matrix, and one more without slope makes up the cost. */
+static bool condense(sp_soft *soft, double *residuals, double *jacobian)
+{
+    size_t n = soft->unknowns;
+    double *normal = soft->chunk_normal, largest = 0, explained = 0;
+    for (size_t i = 0; i < n; i++)
+        largest = fmax(largest, normal[i * n + i]);
+    /* an unknown that nothing depends on must not make the matrix singular */
+    for (size_t i = 0; i < n; i++)
+        normal[i * n + i] += 1e-10 * normal[i * n + i] + 1e-12 * largest + 1e-30;
+    if (!factorise(normal, n))
+        return false;
+    for (size_t i = 0; i < n; i++) {
+        residuals[i] = soft->chunk_gradient[i];
+        for (size_t k = 0; k < i; k++)
+            residuals[i] -= normal[i * n + k] * residuals[k];
+        residuals[i] /= normal[i * n + i];
+        explained += residuals[i] * residuals[i];
+        for (size_t k = 0; k < n; k++)
+            jacobian[i * n + k] = k >= i ? normal[k * n + i] : 0;
+    }
+    residuals[n] = sqrt(fmax(0, soft->chunk_cost[0] - explained));
+    memset(&jacobian[n * n], 0, n * sizeof *jacobian);
+    return true;
+}
+
+static bool evaluate(void *user, const double *x, double *residuals, double *jacobian)
+{
+    sp_soft *soft = user;
+    size_t n = soft->unknowns;
+    set_levels(soft, x, jacobian != NULL);
+    if (!sum_patches(soft, jacobian != NULL))
+        return false;
+    add_water(soft, x, jacobian != NULL);
+    if (!isfinite(soft->chunk_cost[0]))
+        return false;
+    if (jacobian)
+        return condense(soft, residuals, jacobian);
+    memset(residuals, 0, n * sizeof *residuals);
+    residuals[n] = sqrt(soft->chunk_cost[0]);
+    return true;
+}
+
+static bool link_patches(sp_soft *soft, sp_error *error)
+{
+    size_t patches = soft->search->patch_count, total = 0;
+    for (size_t i = 0; i < soft->nozzle_count; i++)
+        total += soft->nozzles[i].sight->count;
+    soft->start = calloc(patches + 2, sizeof *soft->start);
+    soft->links = malloc((total ? total : 1) * sizeof *soft->links);
+    if (!soft->start || !soft->links)
+        return sp_fail_memory(error);
+    /* counted two places on, so that filling moves each start to its own place */
+    for (size_t i = 0; i < soft->nozzle_count; i++)
+        for (size_t a = 0; a < soft->nozzles[i].sight->count; a++)
+            soft->start[soft->nozzles[i].sight->seen[a].patch + 2]++;
+    for (size_t p = 0; p < patches; p++)
+        soft->start[p + 2] += soft->start[p + 1];
+    for (size_t i = 0; i < soft->nozzle_count; i++)
+        for (size_t a = 0; a < soft->nozzles[i].sight->count; a++)
+            soft->links[soft->start[soft->nozzles[i].sight->seen[a].patch + 1]++] = (sp_link){(uint32_t)i, (uint32_t)a};
+    return true;
+}
+
+static bool soft_create(sp_soft *soft, const sp_freedom *freedoms, const sp_sight *const *sights, sp_error *error)
+{
+    soft->nozzles = calloc(soft->nozzle_count, sizeof *soft->nozzles);
+    if (!soft->nozzles)
+        return sp_fail_memory(error);
+    size_t first = 0;
+    for (size_t i = 0; i < soft->nozzle_count; i++) {
+        size_t most = sights[i]->count ? sights[i]->count : 1;
+        soft->nozzles[i] = (sp_soft_nozzle){.freedom = &freedoms[i], .sight = sights[i], .first = first};
+        first += freedoms[i].count;
+        soft->nozzles[i].level = malloc(most * sizeof *soft->nozzles[i].level);
+        soft->nozzles[i].slope = malloc(most * SP_UNKNOWNS * sizeof *soft->nozzles[i].slope);
+        if (!soft->nozzles[i].level || !soft->nozzles[i].slope)
+            return sp_fail_memory(error);
+    }
+    size_t n = soft->unknowns;
+    soft->chunk_cost = calloc(CHUNKS, sizeof *soft->chunk_cost);
+    soft->chunk_gradient = calloc(CHUNKS * n, sizeof *soft->chunk_gradient);
+    soft->chunk_normal = calloc(CHUNKS * n, n * sizeof *soft->chunk_normal);
+    if (!soft->chunk_cost || !soft->chunk_gradient || !soft->chunk_normal)
+        return sp_fail_memory(error);
+    return link_patches(soft, error);
+}
+
+static void soft_free(sp_soft *soft)
+{
+    for (size_t i = 0; soft->nozzles && i < soft->nozzle_count; i++) {
+        free(soft->nozzles[i].level);
+        free(soft->nozzles[i].slope);
+    }
+    free(soft->nozzles);
+    free(soft->start);
+    free(soft->links);
+    free(soft->chunk_cost);
+    free(soft->chunk_gradient);
+    free(soft->chunk_normal);
+}
+
+static bool solve(sp_soft *soft, double (*values)[SP_UNKNOWNS], sp_error *error)
+{
+    double *x = malloc(soft->unknowns * sizeof *x);
+    if (!x)
+        return sp_fail_memory(error);
+    const double most = acos(EDGE_LEAST);
+    for (size_t i = 0; i < soft->nozzle_count; i++) {
+        const sp_freedom *freedom = soft->nozzles[i].freedom;
+        for (size_t k = 0; k < freedom->count; k++) {
+            double half = 0.5 * (freedom->high[k] - freedom->low[k]);
+            double angle = asin(fmin(1, fmax(-1, (freedom->value[k] - freedom->low[k] - half) / half)));
+            x[soft->nozzles[i].first + k] = fmin(most, fmax(-most, angle));
+        }
+    }
+    sp_least_squares problem = {.unknowns = soft->unknowns,
+                                .residuals = soft->unknowns + 1,
+                                .function = evaluate,
+                                .user = soft,
+                                .iterations = ITERATIONS,
+                                .tolerance = TOLERANCE};
+    bool done = sp_ceres_solve(&problem, x, NULL, error);
+    for (size_t i = 0; done && i < soft->nozzle_count; i++)
+        values_at(&soft->nozzles[i], x, values[i]);
+    free(x);
+    return done;
+}
+
+bool sp_soft_solve(const sp_search *search, const sp_freedom *freedoms, const sp_sight *const *sights, size_t count,
+                   sp_width width, double budget, double (*values)[SP_UNKNOWNS], sp_error *error)
+{
+    sp_soft soft = {
+        .search = search, .width = width, .sums = sp_levels_sum(search), .budget = budget, .nozzle_count = count};
+    for (size_t i = 0; i < count; i++)
+        soft.unknowns += freedoms[i].count;
+    if (!soft.unknowns)
+        return true;
+    bool done = soft_create(&soft, freedoms, sights, error) && solve(&soft, values, error);
+    soft_free(&soft);
+    return done;
+}

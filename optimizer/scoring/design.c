@@ -1,0 +1,259 @@
+#include "scoring/design.h"
+
+#include "scoring/scoring.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CREDIT 0.2f /* of a patch that has almost the flux it needs: a saturating surrogate misleads the search */
+#define PORT_TOLERANCE 1e-3 /* m: a kept nozzle this near to a port's lance sits in the port */
+
+static bool kept_create(sp_search *search, sp_error *error)
+{
+    const sp_layout *layout = search->options->kept;
+    float *field = malloc(search->patch_count * sizeof *field);
+    search->kept = calloc(layout->count ? layout->count : 1, sizeof *search->kept);
+    bool done = field && search->kept;
+    if (!done)
+        sp_fail_memory(error);
+    for (size_t i = 0; done && i < layout->count; i++) {
+        if (!layout->nozzles[i].keep)
+            continue;
+        search->kept[search->kept_count++] = layout->nozzles[i];
+        search->kept_flow += sp_nozzle_flow(&layout->nozzles[i], &sp_evaluator_setup(search->coarse)->liquid);
+        done = sp_field_nozzle(search, &layout->nozzles[i], field, error);
+        for (size_t p = 0; done && p < search->patch_count; p++)
+            search->kept_wet[p] =
+                search->single ? fmaxf(search->kept_wet[p], field[p]) : search->kept_wet[p] + field[p];
+    }
+    free(field);
+    return done;
+}
+
+static bool sits_in(const sp_nozzle *nozzle, const sp_mount *mount)
+{
+    double depth = sp_dot(sp_sub(nozzle->position, mount->position), mount->axis);
+    depth = fmin(fmax(depth, mount->depth_from), mount->depth_to);
+    return sp_distance(nozzle->position, sp_along(mount->position, depth, mount->axis)) <= PORT_TOLERANCE;
+}
+
+bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
+                      const sp_candidates *candidates, const sp_visibility *visibility, sp_search *search,
+                      sp_error *error)
+{
+    const sp_patches *patches = sp_evaluator_patches(coarse);
+    const sp_criterion *criterion = &sp_evaluator_setup(coarse)->criterion;
+    *search = (sp_search){.options = options,
+                          .sites = sites,
+                          .candidates = candidates,
+                          .visibility = visibility,
+                          .sweeps = sp_sweep_best(),
+                          .coarse = coarse,
+                          .patch_count = patches->count,
+                          .threshold = criterion->flux,
+                          .single = criterion->combine == SP_COMBINE_SINGLE,
+                          .credit = criterion->combine == SP_COMBINE_SINGLE ? 0 : CREDIT};
+    search->area = malloc(patches->count * sizeof *search->area);
+    search->kept_wet = calloc(patches->count, sizeof *search->kept_wet);
+    search->culls = malloc(candidates->make_count * sizeof *search->culls);
+    search->port_taken = calloc(options->mount_count, sizeof *search->port_taken);
+    if (!search->area || !search->kept_wet || !search->culls || !search->port_taken) {
+        sp_search_free(search);
+        return sp_fail_memory(error);
+    }
+    for (size_t p = 0; p < patches->count; p++)
+        search->area[p] = (float)patches->area[p];
+    for (size_t k = 0; k < candidates->make_count; k++)
+        sp_cull_create(&visibility->bins, &candidates->makes[k].spray, &search->culls[k]);
+    if (options->kept && !kept_create(search, error)) {
+        sp_search_free(search);
+        return false;
+    }
+    for (size_t m = 0; m < options->mount_count; m++)
+        for (size_t i = 0; options->mounts[m].kind == SP_MOUNT_PORT && i < search->kept_count; i++)
+            search->port_taken[m] |= sits_in(&search->kept[i], &options->mounts[m]);
+    return true;
+}
+
+void sp_search_free(sp_search *search)
+{
+    free(search->area);
+    free(search->kept_wet);
+    free(search->culls);
+    free(search->port_taken);
+    free(search->kept);
+    *search = (sp_search){0};
+}
+
+void sp_design_refresh(const sp_search *search, sp_design *design)
+{
+    memcpy(design->wet, search->kept_wet, search->patch_count * sizeof *design->wet);
+    design->flow = search->kept_flow;
+    for (size_t i = 0; i < design->count; i++) {
+        const float *field = design->items[i].field;
+        design->flow += design->items[i].flow;
+        if (search->single)
+            for (size_t p = 0; p < search->patch_count; p++)
+                design->wet[p] = fmaxf(design->wet[p], field[p]);
+        else
+            for (size_t p = 0; p < search->patch_count; p++)
+                design->wet[p] += field[p];
+    }
+    design->covered = design->value = 0;
+    for (size_t p = 0; p < search->patch_count; p++) {
+        design->value += (double)(search->area[p] * sp_worth(search, design->wet[p]));
+        if (design->wet[p] >= 1)
+            design->covered += (double)search->area[p];
+    }
+}
+
+bool sp_design_create(const sp_search *search, sp_design *design, sp_error *error)
+{
+    *design = (sp_design){0};
+    design->wet = malloc(search->patch_count * sizeof *design->wet);
+    if (!design->wet)
+        return sp_fail_memory(error);
+    sp_design_refresh(search, design);
+    return true;
+}
+
+void sp_design_free(sp_design *design)
+{
+    for (size_t i = 0; i < design->count; i++)
+        free(design->items[i].field);
+    free(design->items);
+    free(design->wet);
+    *design = (sp_design){0};
+}
+
+static bool append(sp_design *design, sp_placed placed, sp_error *error)
+{
+    if (design->count == design->capacity) {
+        size_t capacity = design->capacity ? 2 * design->capacity : 16;
+        sp_placed *items = realloc(design->items, capacity * sizeof *items);
+        if (!items) {
+            free(placed.field);
+            return sp_fail_memory(error);
+        }
+        design->items = items;
+        design->capacity = capacity;
+    }
+    design->items[design->count++] = placed;
+    return true;
+}
+
+bool sp_design_copy(const sp_search *search, const sp_design *from, sp_design *to, sp_error *error)
+{
+    if (!sp_design_create(search, to, error))
+        return false;
+    for (size_t i = 0; i < from->count; i++) {
+        sp_placed placed = from->items[i];
+        placed.field = malloc(search->patch_count * sizeof *placed.field);
+        if (placed.field)
+            memcpy(placed.field, from->items[i].field, search->patch_count * sizeof *placed.field);
+        else
+            sp_fail_memory(error);
+        if (!placed.field || !append(to, placed, error)) {
+            sp_design_free(to);
+            return false;
+        }
+    }
+    sp_design_refresh(search, to);
+    return true;
+}
+
+bool sp_design_add(const sp_search *search, sp_design *design, sp_placed placed, sp_error *error)
+{
+    if (!append(design, placed, error))
+        return false;
+    sp_design_refresh(search, design);
+    return true;
+}
+
+bool sp_design_add_pose(const sp_search *search, sp_design *design, sp_pose pose, sp_error *error)
+{
+    sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, sp_evaluator_setup(search->coarse)->up);
+    sp_placed placed = {.nozzle = nozzle,
+                        .origin = nozzle,
+                        .site = search->sites->items[pose.site],
+                        .flow = search->candidates->makes[pose.make].flow,
+                        .field = malloc(search->patch_count * sizeof *placed.field)};
+    if (!placed.field)
+        return sp_fail_memory(error);
+    sp_field_pose(search, pose, placed.field);
+    return sp_design_add(search, design, placed, error);
+}
+
+sp_placed sp_design_take(const sp_search *search, sp_design *design, size_t i)
+{
+    sp_placed taken = design->items[i];
+    design->count--;
+    memmove(&design->items[i], &design->items[i + 1], (design->count - i) * sizeof *design->items);
+    sp_design_refresh(search, design);
+    return taken;
+}
+
+void sp_design_remove(const sp_search *search, sp_design *design, size_t i)
+{
+    free(sp_design_take(search, design, i).field);
+}
+
+bool sp_design_has_place(const sp_search *search, const sp_design *design, uint32_t mount)
+{
+    if (search->options->max_nozzles && search->kept_count + design->count >= search->options->max_nozzles)
+        return false;
+    if (search->options->mounts[mount].kind != SP_MOUNT_PORT)
+        return true;
+    if (search->port_taken[mount])
+        return false;
+    for (size_t i = 0; i < design->count; i++)
+        if (design->items[i].site.mount == mount)
+            return false;
+    return true;
+}
+
+static bool name_taken(const sp_layout *layout, size_t but, const char *name)
+{
+    for (size_t i = 0; i < layout->count; i++)
+        if (i != but && !strcmp(layout->nozzles[i].name, name))
+            return true;
+    return false;
+}
+
+/* A port's nozzle is called after the port, any other P1, P2, ...; where that is taken, the first free "name-2", ... */
+static void name_nozzle(const sp_layout *layout, size_t i, const char *port, size_t *number)
+{
+    char *name = layout->nozzles[i].name;
+    if (port && port[0]) {
+        snprintf(name, SP_NAME, "%s", port);
+        for (size_t again = 2; name_taken(layout, i, name); again++)
+            snprintf(name, SP_NAME, "%.40s-%zu", port, again);
+        return;
+    }
+    do
+        snprintf(name, SP_NAME, "P%zu", ++*number);
+    while (name_taken(layout, i, name));
+}
+
+sp_layout *sp_design_layout(const sp_search *search, const sp_design *design, sp_error *error)
+{
+    sp_layout *layout = sp_layout_create(NULL, search->kept_count + design->count, error);
+    if (!layout)
+        return NULL;
+    for (size_t i = 0; i < search->kept_count; i++)
+        layout->nozzles[i] = search->kept[i];
+    size_t number = 0;
+    /* ports first, so that no P1 takes the name of a port P1 */
+    for (int ports = 1; ports >= 0; ports--)
+        for (size_t i = 0; i < design->count; i++) {
+            const sp_mount *mount = &search->options->mounts[design->items[i].site.mount];
+            size_t at = search->kept_count + i;
+            if ((mount->kind == SP_MOUNT_PORT) != ports)
+                continue;
+            layout->nozzles[at] = design->items[i].nozzle;
+            layout->nozzles[at].name[0] = 0;
+            name_nozzle(layout, at, ports ? mount->name : NULL, &number);
+        }
+    return layout;
+}

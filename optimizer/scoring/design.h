@@ -1,0 +1,69 @@
+/* A layout during the search: nozzles with what each brings to the coarse patches. */
+#ifndef OPTIMIZER_DESIGN_H
+#define OPTIMIZER_DESIGN_H
+
+#include "scoring/sweep.h"
+
+#define SP_ROUNDING 1e-9 /* share of the water by which a sum of flows may lie above what is allowed */
+
+/* Everything that the search's files share. Read-only once made. */
+typedef struct {
+    const sp_place_options *options;
+    const sp_sites *sites;
+    const sp_candidates *candidates;
+    const sp_visibility *visibility;
+    const sp_evaluator *coarse;
+    size_t patch_count;
+    float *area;      /* [patch_count], m² */
+    double threshold; /* m³/s per m² that cover; 0: any liquid */
+    bool single;      /* one nozzle alone must cover */
+    float credit;     /* worth of an uncovered patch per share of the threshold that it has */
+    sp_cull *culls;   /* [make_count] */
+    const sp_sweep_set *sweeps;
+    size_t kept_count;
+    sp_nozzle *kept; /* the nozzles that every layout contains */
+    double kept_flow;
+    float *kept_wet;  /* [patch_count], flux over threshold */
+    bool *port_taken; /* [mount_count], by a kept nozzle */
+} sp_search;
+
+typedef struct {
+    sp_nozzle nozzle;
+    sp_nozzle origin; /* the candidate that it was, from which refinement's limits count */
+    sp_site site;     /* where it is now: a surface's axis changes along it */
+    double flow;      /* m³/s */
+    float *field;     /* [patch_count], flux over threshold; INFINITY where any liquid covers */
+} sp_placed;
+
+typedef struct {
+    size_t count, capacity;
+    sp_placed *items; /* besides the kept nozzles */
+    float *wet;       /* [patch_count], all nozzles together, flux over threshold */
+    double flow;      /* m³/s, kept nozzles included */
+    double covered;   /* m² of coarse patches */
+    double value;     /* covered, and the credit for what is on the way */
+} sp_design;
+
+bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
+                      const sp_candidates *candidates, const sp_visibility *visibility, sp_search *search,
+                      sp_error *error);
+void sp_search_free(sp_search *search);
+
+/* A design of the kept nozzles alone. */
+bool sp_design_create(const sp_search *search, sp_design *design, sp_error *error);
+bool sp_design_copy(const sp_search *search, const sp_design *from, sp_design *to, sp_error *error);
+void sp_design_free(sp_design *design);
+/* Adds a nozzle and takes its field over, also on failure. */
+bool sp_design_add(const sp_search *search, sp_design *design, sp_placed placed, sp_error *error);
+bool sp_design_add_pose(const sp_search *search, sp_design *design, sp_pose pose, sp_error *error);
+void sp_design_remove(const sp_search *search, sp_design *design, size_t i);
+/* Removes item i and hands it over. */
+sp_placed sp_design_take(const sp_search *search, sp_design *design, size_t i);
+/* Draws wet, flow, covered and value from the items. */
+void sp_design_refresh(const sp_search *search, sp_design *design);
+/* True where the design may take one more nozzle at the site: number and ports, not water. */
+bool sp_design_has_place(const sp_search *search, const sp_design *design, uint32_t mount);
+/* Named nozzles, the kept ones first. */
+sp_layout *sp_design_layout(const sp_search *search, const sp_design *design, sp_error *error);
+
+#endif

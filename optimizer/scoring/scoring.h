@@ -1,0 +1,62 @@
+/* Scoring: what a pose would add to a design, by sweeping what its mounting point can reach. */
+#ifndef OPTIMIZER_SCORING_H
+#define OPTIMIZER_SCORING_H
+
+#include "scoring/design.h"
+
+typedef struct {
+    double gain; /* m² by which the design's value would rise */
+    double room; /* m² by which it could rise at most, whatever the flow: never grows while a design only grows */
+} sp_score;
+
+/* The worth of a patch per m² at this flux over threshold. */
+static inline float sp_worth(const sp_search *search, float wet)
+{
+    return wet >= 1 ? 1 : search->credit * wet;
+}
+
+/* What scores many poses one after the other, those of one mounting point together: what an arrival is worth to a make
+ * does not depend on where the nozzle points, so that it is found once and then only summed. One thread's own. Both
+ * arcs of a parabola to the same patch count one after the other, which matters only where both fall short. */
+typedef struct {
+    float *block;                    /* holds the four */
+    float *had, *area, *room, *gain; /* [largest view + SP_LANES], by arrival */
+    float room_total[SP_BINS], gain_total[SP_BINS];
+    const sp_search *search; /* what it looks at, NULL: nothing */
+    const sp_view *view;
+    sp_desk *desk; /* NULL, or what the view lies on */
+    uint32_t site;
+    size_t speed;
+    size_t make;      /* SIZE_MAX: none */
+    sp_frame frame;   /* the site's */
+    sp_region region; /* the make's, about the site's axis */
+} sp_sweeper;
+
+/* Threads that may score at a time: no more than memory has desks for. */
+int sp_sweeper_threads(const sp_search *search);
+/* One for each of `count` threads; NULL on error. */
+sp_sweeper *sp_sweepers_create(const sp_search *search, int count, sp_error *error);
+void sp_sweepers_destroy(sp_sweeper *sweepers, int count);
+/* Says that what is wet, or the search's credit, has changed, and leaves the desk: all sweepers of a loop are to forget
+ * at its end, before anyone else looks. */
+void sp_sweepers_forget(sp_sweeper *sweepers, int count);
+/* Turns to what a site's nozzles at a speed class would add to what is wet. */
+void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const float *wet, uint32_t site, size_t speed);
+/* Then to a make of that speed class. Both do nothing where the sweeper has not turned elsewhere since, nor forgotten.
+ */
+void sp_sweeper_take(sp_sweeper *sweeper, size_t make);
+/* Then to its poses. */
+sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll);
+/* All three at once. */
+sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const float *wet, sp_pose pose);
+
+/* The region of a pose at the site that the sweeper looks at, of the make that it took. */
+sp_region sp_sweeper_region(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll);
+
+/* [patch_count], flux over threshold of a candidate pose; of any nozzle, traced anew. */
+void sp_field_pose(const sp_search *search, sp_pose pose, float *field);
+bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, float *field, sp_error *error);
+/* What a field adds to a design. */
+double sp_field_gain(const sp_search *search, const float *wet, const float *field);
+
+#endif

@@ -1,0 +1,170 @@
+#include "scoring/view.h"
+
+#include <stdlib.h>
+
+#define PART 512 /* patches traced at a time */
+
+/* The octahedron unfolded onto [-1, 1]²: Cigolle et al., A survey of efficient representations for independent unit
+ * vectors, JCGT 2014. */
+static void encode(sp_vec3 d, double *u, double *v)
+{
+    double scale = 1 / (fabs(d.x) + fabs(d.y) + fabs(d.z));
+    *u = d.x * scale;
+    *v = d.y * scale;
+    if (d.z < 0) {
+        double x = *u, y = *v;
+        *u = copysign(1 - fabs(y), x);
+        *v = copysign(1 - fabs(x), y);
+    }
+}
+
+sp_vec3 sp_octahedron_decode(double u, double v)
+{
+    double z = 1 - fabs(u) - fabs(v);
+    if (z >= 0)
+        return sp_unit(sp_v(u, v, z));
+    return sp_unit(sp_v(copysign(1 - fabs(v), u), copysign(1 - fabs(u), v), z));
+}
+
+static uint16_t bin_of(sp_vec3 direction)
+{
+    double u, v;
+    encode(direction, &u, &v);
+    int i = (int)((u + 1) * (0.5 * SP_BINS_EDGE)), j = (int)((v + 1) * (0.5 * SP_BINS_EDGE));
+    i = i < 0 ? 0 : i >= SP_BINS_EDGE ? SP_BINS_EDGE - 1 : i;
+    j = j < 0 ? 0 : j >= SP_BINS_EDGE ? SP_BINS_EDGE - 1 : j;
+    return (uint16_t)(j * SP_BINS_EDGE + i);
+}
+
+void sp_bins_create(sp_bins *bins)
+{
+    const double edge = 2.0 / SP_BINS_EDGE;
+    for (size_t b = 0; b < SP_BINS; b++) {
+        double u = (double)(b % SP_BINS_EDGE) * edge - 1, v = (double)(b / SP_BINS_EDGE) * edge - 1;
+        sp_vec3 centre = sp_octahedron_decode(u + 0.5 * edge, v + 0.5 * edge);
+        double cosine = 1;
+        /* A cell's sides are arcs of great circles, so that its corners lie farthest out. */
+        for (int corner = 0; corner < 4; corner++)
+            cosine =
+                fmin(cosine, sp_dot(centre, sp_octahedron_decode(u + edge * (corner & 1), v + edge * (corner >> 1))));
+        bins->x[b] = (float)centre.x;
+        bins->y[b] = (float)centre.y;
+        bins->z[b] = (float)centre.z;
+        bins->radius[b] = (float)(acos(cosine) + 1e-3);
+    }
+}
+
+size_t sp_sightings_work(void)
+{
+    return PART * SP_REACH_WORK;
+}
+
+/* The two arcs to a patch follow one another. */
+static bool take(const sp_reach *reach, sp_sightings *sightings)
+{
+    size_t at = sightings->parts;
+    if (!reach->count)
+        return true;
+    sp_sighting *part = sightings->part[at] = malloc(reach->count * sizeof *part);
+    if (!part)
+        return false;
+    for (size_t i = 0; i < reach->count; i++) {
+        const sp_arrival *arrival = &reach->arrivals[i];
+        sp_vec3 d = arrival->direction;
+        part[i] = (sp_sighting){(float)d.x,     (float)d.y, (float)d.z,   (float)arrival->transfer,
+                                arrival->patch, bin_of(d),  arrival->arc, false};
+        if (i && part[i - 1].patch == part[i].patch)
+            part[i - 1].twice = part[i].twice = sightings->any_twice = true;
+    }
+    sightings->size[at] = reach->count;
+    sightings->count += reach->count;
+    sightings->parts++;
+    return true;
+}
+
+bool sp_sightings_trace(const sp_evaluator *evaluator, const sp_site *site, double speed, double half_angle,
+                        const uint8_t *known, sp_sightings *sightings, sp_error *error)
+{
+    size_t patches = sp_evaluator_patches(evaluator)->count;
+    *sightings = (sp_sightings){.most_parts = patches / PART + 1};
+    sightings->size = calloc(sightings->most_parts, sizeof *sightings->size);
+    sightings->part = calloc(sightings->most_parts, sizeof *sightings->part);
+    if (!sightings->size || !sightings->part)
+        return sp_fail_memory(error);
+    for (size_t first = 0; first < patches; first += PART) {
+        sp_reach *reach = sp_evaluator_reach_part(evaluator, site->position, speed, site->axis, half_angle, first,
+                                                  first + PART < patches ? first + PART : patches, known, error);
+        if (!reach)
+            return false;
+        bool done = take(reach, sightings);
+        sp_reach_destroy(reach);
+        if (!done)
+            return sp_fail_memory(error);
+    }
+    return true;
+}
+
+void sp_sightings_note(const sp_sightings *sightings, uint8_t *known)
+{
+    for (size_t p = 0; p < sightings->parts; p++)
+        for (size_t i = 0; i < sightings->size[p]; i++) {
+            size_t bit = 2 * (size_t)sightings->part[p][i].patch + sightings->part[p][i].arc;
+            known[bit / 8] |= (uint8_t)(1u << bit % 8);
+        }
+}
+
+void sp_sightings_free(sp_sightings *sightings)
+{
+    for (size_t i = 0; i < sightings->parts; i++)
+        free(sightings->part[i]);
+    free(sightings->part);
+    free(sightings->size);
+    *sightings = (sp_sightings){0};
+}
+
+size_t sp_view_bytes(size_t count, bool any_twice)
+{
+    return (SP_BINS + 1 + count) * sizeof(uint32_t) + 4 * (count + SP_LANES) * sizeof(float) + (any_twice ? count : 0);
+}
+
+/* The bins' starts first, then the arrays. */
+static void lay_out(void *block, size_t count, bool any_twice, sp_view *view)
+{
+    size_t padded = count + SP_LANES;
+    *view = (sp_view){.count = (uint32_t)count, .start = block};
+    view->patch = view->start + SP_BINS + 1;
+    float *columns = (float *)(view->patch + count), **column[] = {&view->x, &view->y, &view->z, &view->transfer};
+    for (size_t i = 0; i < 4; i++) {
+        *column[i] = columns + i * padded;
+        for (size_t k = count; k < padded; k++)
+            (*column[i])[k] = 0;
+    }
+    view->twice = any_twice ? (uint8_t *)(columns + 4 * padded) : NULL;
+}
+
+void sp_view_write(const sp_sightings *sightings, void *block, sp_view *view)
+{
+    lay_out(block, sightings->count, sightings->any_twice, view);
+    uint32_t *start = view->start, next[SP_BINS];
+    for (size_t b = 0; b <= SP_BINS; b++)
+        start[b] = 0;
+    for (size_t p = 0; p < sightings->parts; p++)
+        for (size_t i = 0; i < sightings->size[p]; i++)
+            start[sightings->part[p][i].bin + 1]++;
+    for (size_t b = 0; b < SP_BINS; b++)
+        start[b + 1] += start[b];
+    for (size_t b = 0; b < SP_BINS; b++)
+        next[b] = start[b];
+    for (size_t p = 0; p < sightings->parts; p++)
+        for (size_t i = 0; i < sightings->size[p]; i++) {
+            const sp_sighting *from = &sightings->part[p][i];
+            uint32_t at = next[from->bin]++;
+            view->x[at] = from->x;
+            view->y[at] = from->y;
+            view->z[at] = from->z;
+            view->transfer[at] = from->transfer;
+            view->patch[at] = from->patch;
+            if (view->twice)
+                view->twice[at] = from->twice;
+        }
+}

@@ -1,0 +1,64 @@
+/* Views: what a mounting point can reach at one speed, sorted by direction. */
+#ifndef OPTIMIZER_VIEW_H
+#define OPTIMIZER_VIEW_H
+
+#include "candidates/candidates.h"
+
+#define SP_BINS_EDGE 32
+#define SP_BINS (SP_BINS_EDGE * SP_BINS_EDGE)
+#define SP_LANES 16 /* floats that a sweep takes at a time: views have as many more, all 0, behind their last */
+
+/* Arrivals that pass the criterion's speed and incidence, sorted by the octahedral bin of their direction, then by
+ * patch. */
+typedef struct {
+    uint32_t count;
+    uint32_t *start;  /* [SP_BINS + 1]; NULL: nothing is known to be reached */
+    float *x, *y, *z; /* [count + SP_LANES], unit direction at the nozzle */
+    float *transfer;  /* [count + SP_LANES], 1/m² */
+    uint32_t *patch;  /* [count] */
+    uint8_t *twice;   /* [count], whether both arcs reach the patch; NULL: nowhere */
+} sp_view;
+
+/* The bins' cones: all directions of a bin are within `radius` of its centre. */
+typedef struct {
+    float x[SP_BINS], y[SP_BINS], z[SP_BINS];
+    float radius[SP_BINS]; /* rad */
+} sp_bins;
+
+void sp_bins_create(sp_bins *bins);
+/* The unit direction at u, v of [-1, 1]², onto which the octahedron is unfolded. */
+sp_vec3 sp_octahedron_decode(double u, double v);
+
+/* An arrival on its way into a view. */
+typedef struct {
+    float x, y, z, transfer;
+    uint32_t patch;
+    uint16_t bin;
+    uint8_t arc;
+    bool twice;
+} sp_sighting;
+
+/* What was traced, patches ascending, in parts of their own so that none has to be moved. */
+typedef struct {
+    size_t count, most_parts, parts; /* count: of all parts together */
+    size_t *size;                    /* [most_parts] */
+    sp_sighting **part;              /* [most_parts] */
+    bool any_twice;
+} sp_sightings;
+
+/* Traces what `site` can reach at `speed` (m/s) within half_angle (rad) about its axis; or, where `known` is not NULL,
+ * tells again what was traced before. While it runs it takes no more than sp_sightings_work() bytes besides the
+ * sightings. The caller frees, also on failure. */
+bool sp_sightings_trace(const sp_evaluator *evaluator, const sp_site *site, double speed, double half_angle,
+                        const uint8_t *known, sp_sightings *sightings, sp_error *error);
+/* Sets bit 2 patch + arc of `known` for every sighting. */
+void sp_sightings_note(const sp_sightings *sightings, uint8_t *known);
+void sp_sightings_free(sp_sightings *sightings);
+size_t sp_sightings_work(void);
+
+/* Bytes of a view's block. */
+size_t sp_view_bytes(size_t count, bool any_twice);
+/* Writes the sightings as a view into the block, of sp_view_bytes, that then is view->start. */
+void sp_view_write(const sp_sightings *sightings, void *block, sp_view *view);
+
+#endif

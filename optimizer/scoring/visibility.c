@@ -1,0 +1,354 @@
+#include "scoring/visibility.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+
+#define PATCHES_MOST 20000.0
+#define PATCHES_LEAST 500.0
+#define RAYS_MOST 1e8  /* patches times views */
+#define MEMORY 1e9     /* bytes, for all views, where the options do not say */
+#define BATCH 16       /* sites traced between two looks at clock and memory */
+#define TIME_SHARE 0.5 /* of a time limit, that tracing may take */
+
+struct sp_desks {
+    pthread_mutex_t lock;
+    pthread_cond_t left;
+    sp_desk *items; /* [desk_count] */
+    sp_desk *idle;
+    sp_error failure;
+};
+
+static double memory_of(const sp_place_options *options)
+{
+    return options->memory > 0 ? options->memory : MEMORY;
+}
+
+double sp_visibility_needed(const sp_place_options *options, const sp_candidates *candidates, const sp_site *site,
+                            size_t speed)
+{
+    double reach = -1;
+    for (size_t k = 0; k < candidates->make_count; k++)
+        if (candidates->makes[k].speed_class == speed && sp_candidates_axes(candidates, site->mount, k)->count)
+            reach = fmax(reach, candidates->makes[k].reach);
+    return reach < 0 ? reach : fmin(M_PI, reach + options->mounts[site->mount].tilt + 1e-6);
+}
+
+/* Bytes that one desk takes for views of so many arrivals: the view, its sightings and the tracing. */
+static double desk_bytes(size_t arrivals, bool any_twice)
+{
+    return (double)sp_view_bytes(arrivals, any_twice) + (double)arrivals * sizeof(sp_sighting) +
+           (double)sp_sightings_work();
+}
+
+static uint8_t *sights_of(const sp_visibility *visibility, size_t at)
+{
+    return &visibility->sights[at * visibility->sight_bytes];
+}
+
+/* Traces view `at`, or works it out again; false also where there is nothing to see: then error stays as it is. */
+static bool trace(const sp_visibility *visibility, size_t at, sp_sightings *sightings, sp_error *error)
+{
+    const sp_site *site = &visibility->sites->items[at / visibility->speed_count];
+    size_t speed = at % visibility->speed_count;
+    double half_angle = sp_visibility_needed(visibility->options, visibility->candidates, site, speed);
+    const uint8_t *known = visibility->known[at] ? sights_of(visibility, at) : NULL;
+    *sightings = (sp_sightings){0};
+    return half_angle >= 0 && sp_sightings_trace(visibility->evaluator, site, visibility->candidates->speeds[speed],
+                                                 half_angle, known, sightings, error);
+}
+
+/* Site `i` of the order in which to trace: strided, so that a run that ends early has seen something of every mount. */
+static size_t strided(size_t i, size_t count)
+{
+    size_t stride = (size_t)(0.6180339887 * (double)count) | 1;
+    for (;; stride += 2) {
+        size_t a = stride, b = count;
+        while (b) {
+            size_t r = a % b;
+            a = b;
+            b = r;
+        }
+        if (a == 1)
+            return i * stride % count;
+    }
+}
+
+/* The tracing of all views for the first time. */
+typedef struct {
+    sp_visibility *visibility;
+    size_t *sizes;     /* [views], arrivals */
+    bool *any_twice;   /* [views] */
+    bool twice_at_all; /* in some view */
+    int threads;
+    double kept; /* bytes of views, and of what is known of all */
+    sp_error failure;
+} sp_survey;
+
+static void fail(sp_survey *survey, const sp_error *error)
+{
+#pragma omp critical(sp_visibility_failure)
+    survey->failure = *error;
+}
+
+/* Traces a view, and keeps it or only its size. */
+static void survey_view(sp_survey *survey, size_t at, bool keep)
+{
+    sp_visibility *visibility = survey->visibility;
+    sp_sightings sightings;
+    sp_error error = {0};
+    if (trace(visibility, at, &sightings, &error)) {
+        survey->sizes[at] = sightings.count;
+        survey->any_twice[at] = sightings.any_twice;
+        if (!visibility->known[at])
+            sp_sightings_note(&sightings, sights_of(visibility, at));
+        visibility->known[at] = true;
+        void *block = keep ? malloc(sp_view_bytes(sightings.count, sightings.any_twice)) : NULL;
+        if (block)
+            sp_view_write(&sightings, block, &visibility->views[at]);
+        else if (keep)
+            sp_fail_memory(&error);
+    }
+    sp_sightings_free(&sightings);
+    if (error.kind != SP_OK)
+        fail(survey, &error);
+}
+
+static bool pass_on(const sp_error *failure, sp_error *error)
+{
+    if (failure->kind == SP_OK)
+        return true;
+    return sp_fail(error, failure->kind, failure->file, failure->line, failure->column, "%s", failure->message);
+}
+
+/* The sites first to end of the strided order. */
+static bool survey_batch(sp_survey *survey, size_t first, size_t end, bool keep, sp_error *error)
+{
+    sp_visibility *visibility = survey->visibility;
+    size_t speeds = visibility->speed_count, sites = visibility->site_count;
+#pragma omp parallel for num_threads(survey->threads) schedule(dynamic, 1)
+    for (size_t i = first * speeds; i < end * speeds; i++)
+        survey_view(survey, strided(i / speeds, sites) * speeds + i % speeds, keep);
+    for (size_t i = first * speeds; i < end * speeds; i++) {
+        size_t at = strided(i / speeds, sites) * speeds + i % speeds;
+        visibility->largest = survey->sizes[at] > visibility->largest ? survey->sizes[at] : visibility->largest;
+        survey->twice_at_all |= survey->any_twice[at];
+        if (visibility->views[at].start)
+            survey->kept += (double)sp_view_bytes(survey->sizes[at], survey->any_twice[at]);
+    }
+    return pass_on(&survey->failure, error);
+}
+
+/* All sites as far as time allows. Views are kept while it is certain that there is room for them, for those of a
+ * whole batch and for every thread's work. */
+static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
+{
+    sp_visibility *visibility = survey->visibility;
+    const sp_place_options *options = visibility->options;
+    size_t sites = visibility->site_count, most = 2 * sp_evaluator_patches(visibility->evaluator)->count;
+    double memory = memory_of(options), work = desk_bytes(most, true);
+    survey->kept = (double)(sites * visibility->speed_count) * (double)visibility->sight_bytes;
+    survey->threads = sp_threads(&options->run);
+    if ((double)survey->threads * work > memory)
+        survey->threads = 1;
+    for (size_t first = 0; first < sites; first += BATCH) {
+        /* out of time the first batch is traced all the same, so that there is something to choose from */
+        if (!sp_watch_goes_on(watch, "visibility", (double)first / (double)sites) && (first || watch->cancelled))
+            break;
+        if (first && options->run.time_limit > 0 && sp_watch_elapsed(watch) > TIME_SHARE * options->run.time_limit) {
+            watch->interrupted = true;
+            break;
+        }
+        double batch = BATCH * (double)visibility->speed_count * (double)sp_view_bytes(most, true);
+        bool keep = survey->kept + batch + (double)survey->threads * work <= memory;
+        if (!survey_batch(survey, first, first + BATCH < sites ? first + BATCH : sites, keep, error))
+            return false;
+        visibility->bytes =
+            fmax(visibility->bytes, survey->kept + (double)survey->threads * desk_bytes(visibility->largest, true));
+    }
+    return true;
+}
+
+/* Keeps as many more views as there is room for besides the desks. */
+static bool fill(sp_survey *survey, double room, sp_error *error)
+{
+    sp_visibility *visibility = survey->visibility;
+    size_t views = visibility->site_count * visibility->speed_count;
+    survey->threads = visibility->desk_count;
+    for (size_t first = 0, end; first < views && survey->failure.kind == SP_OK; first = end) {
+        bool chosen[BATCH] = {0};
+        end = first + BATCH < views ? first + BATCH : views;
+        for (size_t at = first; at < end; at++) {
+            double bytes = (double)sp_view_bytes(survey->sizes[at], survey->any_twice[at]);
+            chosen[at - first] = visibility->known[at] && !visibility->views[at].start && survey->kept + bytes <= room;
+            survey->kept += chosen[at - first] ? bytes : 0;
+        }
+#pragma omp parallel for num_threads(survey->threads) schedule(dynamic, 1)
+        for (size_t at = first; at < end; at++)
+            if (chosen[at - first])
+                survey_view(survey, at, true);
+    }
+    return pass_on(&survey->failure, error);
+}
+
+static bool desks_create(sp_visibility *visibility, bool any_twice, sp_error *error)
+{
+    sp_desks *desks = visibility->desks = calloc(1, sizeof *desks);
+    if (!desks)
+        return sp_fail_memory(error);
+    pthread_mutex_init(&desks->lock, NULL);
+    pthread_cond_init(&desks->left, NULL);
+    desks->items = calloc((size_t)visibility->desk_count, sizeof *desks->items);
+    for (int i = 0; desks->items && i < visibility->desk_count; i++) {
+        sp_desk *desk = &desks->items[i];
+        *desk = (sp_desk){
+            .block = malloc(sp_view_bytes(visibility->largest, any_twice)), .at = SIZE_MAX, .next = desks->idle};
+        if (!desk->block)
+            return sp_fail_memory(error);
+        desks->idle = desk;
+    }
+    return desks->items || sp_fail_memory(error);
+}
+
+/* As many desks as threads and memory allow, and with what is left as many views as fit. */
+static bool furnish(sp_survey *survey, sp_error *error)
+{
+    sp_visibility *visibility = survey->visibility;
+    size_t views = visibility->site_count * visibility->speed_count, missing = 0;
+    double memory = memory_of(visibility->options), work = desk_bytes(visibility->largest, survey->twice_at_all);
+    double sights = (double)views * (double)visibility->sight_bytes;
+    if (sights + work > memory)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "memory: %g bytes found, expected %.0f or more for what is in sight of %zu mounting points and "
+                       "to trace one of them",
+                       memory, sights + work, visibility->site_count);
+    visibility->desk_count = (int)fmin(sp_threads(&visibility->options->run), floor((memory - sights) / work));
+    double desks = visibility->desk_count * work;
+    if (!fill(survey, memory - desks, error))
+        return false;
+    for (size_t at = 0; at < views; at++)
+        missing += visibility->known[at] && !visibility->views[at].start;
+    visibility->bytes = fmax(visibility->bytes, survey->kept + (missing ? desks : 0));
+    return !missing || desks_create(visibility, survey->twice_at_all, error);
+}
+
+bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
+                          const sp_candidates *candidates, sp_watch *watch, sp_visibility *visibility, sp_error *error)
+{
+    size_t views = sites->count * candidates->speed_count;
+    *visibility = (sp_visibility){.evaluator = coarse,
+                                  .options = options,
+                                  .sites = sites,
+                                  .candidates = candidates,
+                                  .site_count = sites->count,
+                                  .speed_count = candidates->speed_count,
+                                  .sight_bytes = sp_evaluator_patches(coarse)->count / 4 + 1};
+    sp_survey survey = {.visibility = visibility};
+    sp_bins_create(&visibility->bins);
+    visibility->views = calloc(views + 1, sizeof *visibility->views);
+    visibility->known = calloc(views + 1, sizeof *visibility->known);
+    visibility->sights = calloc(views + 1, visibility->sight_bytes);
+    survey.sizes = calloc(views + 1, sizeof *survey.sizes);
+    survey.any_twice = calloc(views + 1, sizeof *survey.any_twice);
+    bool done = visibility->views && visibility->known && visibility->sights && survey.sizes && survey.any_twice;
+    done = done || sp_fail_memory(error);
+    done = done && survey_all(&survey, watch, error) && furnish(&survey, error);
+    free(survey.sizes);
+    free(survey.any_twice);
+    if (!done)
+        sp_visibility_free(visibility);
+    return done;
+}
+
+bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options, const sp_sites *sites,
+                       const sp_candidates *candidates, sp_watch *watch, sp_evaluator **resampled,
+                       sp_visibility *visibility, sp_error *error)
+{
+    double views = (double)sites->count * (double)candidates->speed_count;
+    double patches = fmax(PATCHES_LEAST, fmin(PATCHES_MOST, RAYS_MOST / views));
+    double texel = sqrt(sp_evaluator_patches(fine)->total_area / patches);
+    *resampled = NULL;
+    if (texel > 1.1 * sp_evaluator_fidelity(fine)->texel) {
+        *resampled = sp_evaluator_resample(fine, texel, error);
+        if (!*resampled)
+            return false;
+    }
+    if (sp_visibility_create(*resampled ? *resampled : fine, options, sites, candidates, watch, visibility, error))
+        return true;
+    sp_evaluator_destroy(*resampled);
+    *resampled = NULL;
+    return false;
+}
+
+void sp_visibility_free(sp_visibility *visibility)
+{
+    sp_desks *desks = visibility->desks;
+    for (size_t i = 0; visibility->views && i < visibility->site_count * visibility->speed_count; i++)
+        free(visibility->views[i].start);
+    for (int i = 0; desks && desks->items && i < visibility->desk_count; i++)
+        free(desks->items[i].block);
+    if (desks) {
+        pthread_mutex_destroy(&desks->lock);
+        pthread_cond_destroy(&desks->left);
+        free(desks->items);
+    }
+    free(desks);
+    free(visibility->views);
+    free(visibility->known);
+    free(visibility->sights);
+    *visibility = (sp_visibility){0};
+}
+
+bool sp_visibility_sound(const sp_visibility *visibility, sp_error *error)
+{
+    return !visibility->desks || pass_on(&visibility->desks->failure, error);
+}
+
+static sp_desk *take_desk(sp_desks *desks)
+{
+    pthread_mutex_lock(&desks->lock);
+    while (!desks->idle)
+        pthread_cond_wait(&desks->left, &desks->lock);
+    sp_desk *desk = desks->idle;
+    desks->idle = desk->next;
+    pthread_mutex_unlock(&desks->lock);
+    return desk;
+}
+
+void sp_visibility_leave(const sp_visibility *visibility, sp_desk **desk)
+{
+    sp_desks *desks = visibility->desks;
+    if (!*desk)
+        return;
+    pthread_mutex_lock(&desks->lock);
+    (*desk)->next = desks->idle;
+    desks->idle = *desk;
+    *desk = NULL;
+    pthread_cond_signal(&desks->left);
+    pthread_mutex_unlock(&desks->lock);
+}
+
+const sp_view *sp_visibility_look(const sp_visibility *visibility, uint32_t site, size_t speed, sp_desk **desk)
+{
+    size_t at = site * visibility->speed_count + speed;
+    const sp_view *kept = &visibility->views[at];
+    if (kept->start || !visibility->known[at])
+        return kept;
+    if (!*desk)
+        *desk = take_desk(visibility->desks);
+    if ((*desk)->at == at)
+        return &(*desk)->view;
+    sp_sightings sightings;
+    sp_error error = {0};
+    (*desk)->at = at;
+    if (trace(visibility, at, &sightings, &error))
+        sp_view_write(&sightings, (*desk)->block, &(*desk)->view);
+    else {
+        (*desk)->view = (sp_view){0};
+        (*desk)->at = SIZE_MAX;
+        pthread_mutex_lock(&visibility->desks->lock);
+        visibility->desks->failure = error;
+        pthread_mutex_unlock(&visibility->desks->lock);
+    }
+    sp_sightings_free(&sightings);
+    return &(*desk)->view;
+}

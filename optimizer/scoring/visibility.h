@@ -1,0 +1,68 @@
+/* Visibility: what each mounting point can reach at each speed, whatever the nozzle's axis, roll and type. Traced once
+ * and kept as far as the options' memory allows; of what does not fit only what is in sight is kept, two bits a patch,
+ * and the rest is worked out again whenever it is looked at, and is the same then. */
+#ifndef OPTIMIZER_VISIBILITY_H
+#define OPTIMIZER_VISIBILITY_H
+
+#include "scoring/view.h"
+#include "watch.h"
+
+/* Where one view at a time is worked out that is not kept. */
+typedef struct sp_desk {
+    void *block;
+    sp_view view;
+    size_t at; /* which view that is; SIZE_MAX: none */
+    struct sp_desk *next;
+} sp_desk;
+
+/* Desks that nobody has. */
+typedef struct sp_desks sp_desks;
+
+typedef struct {
+    const sp_evaluator *evaluator; /* borrowed, as the next three: the coarse one that is traced on */
+    const sp_place_options *options;
+    const sp_sites *sites;
+    const sp_candidates *candidates;
+    size_t site_count, speed_count;
+    size_t largest;  /* most arrivals of a view */
+    sp_view *views;  /* [site_count x speed_count], those that are kept */
+    bool *known;     /* [site_count x speed_count], traced before the time was up */
+    uint8_t *sights; /* [site_count x speed_count][sight_bytes], bit 2 patch + arc: whether the way is free */
+    size_t sight_bytes;
+    double bytes;   /* most that views, desks and tracing take at any time */
+    int desk_count; /* threads that may look at a time */
+    sp_desks *desks;
+    sp_bins bins;
+} sp_visibility;
+
+/* Half-angle (rad) about the site's axis that holds all that its candidates at this speed can reach; negative: there
+ * are none. */
+double sp_visibility_needed(const sp_place_options *options, const sp_candidates *candidates, const sp_site *site,
+                            size_t speed);
+/* Traces all views on patches as fine as time allows: those of *resampled, or of `fine` itself where that stays NULL.
+ * The caller destroys it. */
+bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options, const sp_sites *sites,
+                       const sp_candidates *candidates, sp_watch *watch, sp_evaluator **resampled,
+                       sp_visibility *visibility, sp_error *error);
+/* Traces all views on the patches of `coarse`. Sites left out when the time ends see nothing. Fails with
+ * SP_ERROR_INPUT where the options' memory does not hold one view and what tracing it takes. */
+bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
+                          const sp_candidates *candidates, sp_watch *watch, sp_visibility *visibility, sp_error *error);
+void sp_visibility_free(sp_visibility *visibility);
+/* False where a look has failed since; what was looked at then was empty. */
+bool sp_visibility_sound(const sp_visibility *visibility, sp_error *error);
+
+/* A view; one without `start` where nothing is known. *desk, NULL or from an earlier look, is what the view may lie on:
+ * it holds until the next look with the same desk or until that is left. Waits for a desk where others have all, so no
+ * thread may hold two, nor more than desk_count threads hold one and wait for each other. Safe to call from many
+ * threads. */
+const sp_view *sp_visibility_look(const sp_visibility *visibility, uint32_t site, size_t speed, sp_desk **desk);
+/* Gives the desk back, if there is one. */
+void sp_visibility_leave(const sp_visibility *visibility, sp_desk **desk);
+
+static inline bool sp_visibility_known(const sp_visibility *visibility, uint32_t site, size_t speed)
+{
+    return visibility->known[site * visibility->speed_count + speed];
+}
+
+#endif

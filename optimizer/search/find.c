@@ -1,0 +1,245 @@
+#include "search/find.h"
+
+#include "search/guess.h"
+
+#include <stdlib.h>
+
+#define ROUNDS_MOST 4    /* corrections for what the coarse patches misjudge */
+#define FRONT_BUDGETS 8  /* about as many points of the front are searched for */
+#define FRONT_RATIO 1.15 /* between two amounts of water at which the front is searched, at most */
+
+typedef struct {
+    const sp_search *search;
+    sp_watch *watch;
+    sp_front *front;
+    sp_pool *pool;
+    sp_error *error;
+    double target; /* m² on the final patches; INFINITY: as much as possible */
+    double budget; /* m³/s */
+} sp_finding;
+
+/* Greedy over everything; where the fine measure falls short of the target, on with a higher coarse one. */
+static bool first_design(const sp_finding *finding, sp_design *design)
+{
+    double coarse = finding->target;
+    sp_front_point point;
+    for (int round = 0; round < ROUNDS_MOST; round++) {
+        size_t before = design->count;
+        if (!sp_greedy(finding->search, 1, coarse, finding->budget, finding->watch, design, finding->pool,
+                       finding->error) ||
+            !sp_front_measure(finding->front, finding->search, design, &point, finding->error))
+            return false;
+        if (point.area >= finding->target || (round && design->count == before))
+            return true;
+        coarse = design->covered + (finding->target - point.area);
+    }
+    return true;
+}
+
+/* Greedy over the pool with another weight of water, improved within the water allowed. */
+static bool other_design(const sp_finding *finding, double power)
+{
+    sp_design design;
+    sp_bench bench;
+    if (!sp_design_create(finding->search, &design, finding->error))
+        return false;
+    double coarse = finding->target - finding->front->bias;
+    bool done = sp_bench_create(finding->search, finding->pool, &bench, finding->error);
+    if (done) {
+        done = sp_greedy_pool(finding->search, finding->pool, power, coarse, finding->budget, &bench, &design,
+                              finding->error);
+        sp_bench_free(&bench);
+    }
+    double budget = design.covered >= coarse ? design.flow : finding->budget;
+    done = done && sp_improve(finding->search, finding->pool, budget, finding->watch, &design, finding->error) &&
+           sp_front_measure(finding->front, finding->search, &design, NULL, finding->error);
+    sp_design_free(&design);
+    return done;
+}
+
+/* Less water at the same coverage, judged on the coarse patches and confirmed on the fine ones. */
+static bool shrink_best(const sp_finding *finding)
+{
+    bool done = true;
+    for (int round = 0; done && round < ROUNDS_MOST; round++) {
+        sp_front *front = finding->front;
+        sp_front_point before = front->measured, point;
+        sp_design design;
+        if (!sp_design_copy(finding->search, &front->best, &design, finding->error))
+            return false;
+        double target = before.area < finding->target ? before.area : finding->target;
+        /* each round asks the coarse patches for a little more than the last one's miss */
+        double coarse = target - front->bias + 0.001 * round * target;
+        done = sp_shrink(finding->search, finding->pool, coarse, finding->watch, &design, finding->error);
+        bool shrunk = done && design.flow < before.flow;
+        if (shrunk)
+            done = sp_front_measure(front, finding->search, &design, &point, finding->error);
+        sp_design_free(&design);
+        if (!shrunk || (done && point.area >= target))
+            break;
+    }
+    return done;
+}
+
+/* Start number i of a search within a budget: the first of the greedy order, what was found by guessing, and the pool's
+ * greedy by less regard for water. */
+static bool start_from(const sp_finding *finding, const sp_design *greedy, const sp_lineup *guessed, double budget,
+                       size_t i, sp_bench *bench, sp_design *design)
+{
+    static const double powers[] = {0.5, 0};
+    const sp_search *search = finding->search;
+    if (i == 1)
+        return sp_lineup_design(guessed, design, finding->error);
+    if (i == 0) {
+        if (!sp_design_copy(search, greedy, design, finding->error))
+            return false;
+        while (design->count && design->flow > budget)
+            sp_design_remove(search, design, design->count - 1);
+        return true;
+    }
+    if (!sp_design_create(search, design, finding->error))
+        return false;
+    if (sp_greedy_pool(search, finding->pool, powers[i - 2], INFINITY, budget, bench, design, finding->error))
+        return true;
+    sp_design_free(design);
+    return false;
+}
+
+/* The best that four starts improve to within a budget. */
+static bool at_budget(const sp_finding *finding, const sp_design *greedy, const sp_lineup *guessed, double budget)
+{
+    sp_design best;
+    sp_bench bench;
+    if (!sp_bench_create(finding->search, finding->pool, &bench, finding->error))
+        return false;
+    if (!sp_design_create(finding->search, &best, finding->error)) {
+        sp_bench_free(&bench);
+        return false;
+    }
+    bool done = true;
+    for (size_t i = 0; done && i < 4 && sp_watch_goes_on(finding->watch, "front", 0); i++) {
+        sp_design design;
+        done = start_from(finding, greedy, guessed, budget, i, &bench, &design);
+        if (!done)
+            break;
+        done = sp_improve(finding->search, finding->pool, budget, finding->watch, &design, finding->error);
+        bool better = design.covered > best.covered;
+        sp_design_free(better ? &best : &design);
+        if (better)
+            best = design;
+    }
+    done = done && sp_front_measure(finding->front, finding->search, &best, NULL, finding->error);
+    sp_bench_free(&bench);
+    sp_design_free(&best);
+    return done;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Sorts and drops what the front is not searched for: no more than the kept nozzles take, too much, or twice the same.
+ * Returns how many are left. */
+static size_t sift(const sp_finding *finding, double *budgets, size_t count)
+{
+    size_t unique = 0;
+    qsort(budgets, count, sizeof *budgets, by_size);
+    for (size_t i = 0; i < count; i++)
+        if (budgets[i] > finding->search->kept_flow && budgets[i] <= finding->budget &&
+            (!unique || budgets[i] > budgets[unique - 1] * (1 + 1e-9)))
+            budgets[unique++] = budgets[i];
+    return unique;
+}
+
+/* Puts amounts between those that lie further apart than FRONT_RATIO; NULL when memory runs out. */
+static double *densify(double *budgets, size_t *count)
+{
+    double most = *count ? log(budgets[*count - 1] / budgets[0]) / log(FRONT_RATIO) : 0;
+    double *dense = malloc((2 * *count + (size_t)most + 1) * sizeof *dense);
+    size_t found = 0;
+    for (size_t i = 0; dense && i < *count; i++) {
+        double gap = i ? log(budgets[i] / budgets[i - 1]) : 0;
+        size_t steps = i ? (size_t)ceil(gap / log(FRONT_RATIO) * (1 - 1e-9)) : 1;
+        for (size_t k = 1; k < steps; k++)
+            dense[found++] = budgets[i - 1] * exp(gap * (double)k / (double)steps);
+        dense[found++] = budgets[i];
+    }
+    free(budgets);
+    *count = found;
+    return dense;
+}
+
+/* The water at which the front is searched: what the greedy order used as it went, what one nozzle of each make takes,
+ * that of the scene's own layout, with which the proposal will be compared, and enough between. Rising; malloc'd, NULL
+ * when memory runs out. */
+static double *list_budgets(const sp_finding *finding, const sp_design *greedy, size_t *count)
+{
+    const sp_search *search = finding->search;
+    const sp_candidates *candidates = search->candidates;
+    const sp_layout *own = search->options->kept;
+    double *budgets = malloc((greedy->count + candidates->make_count + 1) * sizeof *budgets);
+    if (!budgets)
+        return NULL;
+    size_t found = 0, stride = greedy->count / (FRONT_BUDGETS + 1) + 1;
+    double flow = search->kept_flow;
+    for (size_t i = 0; i + 1 < greedy->count; i++) {
+        flow += greedy->items[i].flow;
+        if ((i + 1) % stride == 0)
+            budgets[found++] = flow;
+    }
+    for (size_t m = 0; m < candidates->make_count; m++)
+        budgets[found++] = search->kept_flow + candidates->makes[m].flow;
+    if (own)
+        budgets[found++] = sp_layout_flow(own, &sp_evaluator_setup(search->coarse)->liquid);
+    *count = sift(finding, budgets, found);
+    return densify(budgets, count);
+}
+
+/* The front besides the best. */
+static bool fill_front(const sp_finding *finding, const sp_design *greedy)
+{
+    size_t count = 0;
+    double *budgets = list_budgets(finding, greedy, &count);
+    if (!budgets)
+        return sp_fail_memory(finding->error);
+    for (size_t i = 0; i < count; i++)
+        budgets[i] *= 1 + SP_ROUNDING;
+    sp_table table = {0};
+    sp_lineup *guessed = calloc(count + 1, sizeof *guessed);
+    bool done = guessed || sp_fail_memory(finding->error);
+    done = done && sp_table_create(finding->search, finding->pool, NULL, 0, &table, finding->error) &&
+           sp_guess(&table, budgets, count, finding->watch, guessed, finding->error);
+    for (size_t i = 0; done && i < count && sp_watch_goes_on(finding->watch, "front", (double)i / (double)count); i++)
+        done = at_budget(finding, greedy, &guessed[i], budgets[i]);
+    for (size_t i = 0; guessed && i < count; i++)
+        sp_lineup_free(&guessed[i]);
+    sp_table_free(&table);
+    free(guessed);
+    free(budgets);
+    return done;
+}
+
+bool sp_find(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool *pool, sp_error *error)
+{
+    bool most = front->objective == SP_OBJECTIVE_MAX_COVERAGE;
+    sp_finding finding = {.search = search,
+                          .watch = watch,
+                          .front = front,
+                          .pool = pool,
+                          .error = error,
+                          .target = most ? INFINITY : front->target,
+                          .budget = search->options->max_water * (1 + SP_ROUNDING)};
+    sp_design design;
+    if (!sp_design_create(search, &design, error))
+        return false;
+    bool done = sp_front_measure(front, search, &design, NULL, error) && first_design(&finding, &design) &&
+                sp_watch_stage(watch, "greedy", error);
+    for (int i = 0; done && i < 2 && sp_watch_goes_on(watch, "exchange", 0); i++)
+        done = other_design(&finding, i == 0 ? 0.5 : 0);
+    done = done && shrink_best(&finding) && sp_watch_stage(watch, "exchange", error) && fill_front(&finding, &design) &&
+           sp_watch_stage(watch, "front", error);
+    sp_design_free(&design);
+    return done;
+}

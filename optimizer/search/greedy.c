@@ -1,0 +1,301 @@
+#include "search/greedy.h"
+
+#include <omp.h>
+#include <stdlib.h>
+
+#define GAIN_LEAST 1e-6   /* of the area: less is no reason for a nozzle */
+#define POOL_PER_ROUND 64 /* best mounting points of a round whose poses are remembered */
+
+bool sp_pool_add(sp_pool *pool, sp_pose pose, sp_error *error)
+{
+    if (pool->count == pool->capacity) {
+        size_t capacity = pool->capacity ? 2 * pool->capacity : 256;
+        sp_pose *items = realloc(pool->items, capacity * sizeof *items);
+        if (!items)
+            return sp_fail_memory(error);
+        pool->items = items;
+        pool->capacity = capacity;
+    }
+    pool->items[pool->count++] = pose;
+    return true;
+}
+
+static int compare_poses(const void *a, const void *b)
+{
+    const sp_pose *p = a, *q = b;
+    const uint32_t left[4] = {p->site, p->make, p->axis, p->roll}, right[4] = {q->site, q->make, q->axis, q->roll};
+    for (int i = 0; i < 4; i++)
+        if (left[i] != right[i])
+            return left[i] < right[i] ? -1 : 1;
+    return 0;
+}
+
+void sp_pool_settle(sp_pool *pool)
+{
+    if (!pool->count)
+        return;
+    qsort(pool->items, pool->count, sizeof *pool->items, compare_poses);
+    size_t kept = 1;
+    for (size_t i = 1; i < pool->count; i++)
+        if (compare_poses(&pool->items[i], &pool->items[kept - 1]))
+            pool->items[kept++] = pool->items[i];
+    pool->count = kept;
+}
+
+void sp_pool_free(sp_pool *pool)
+{
+    free(pool->items);
+    *pool = (sp_pool){0};
+}
+
+/* The best pose of one mounting point and make in this round. */
+typedef struct {
+    sp_pose pose;
+    double merit; /* gain per water^power; 0: none */
+    double gain;
+} sp_round_best;
+
+typedef struct {
+    const sp_search *search;
+    double power, budget;
+    float *room;         /* [poses], what each could gain at most; INFINITY: not yet known */
+    sp_round_best *best; /* [sites x makes] */
+    int threads;
+    sp_sweeper *sweepers; /* [threads] */
+    bool started;
+} sp_rounds;
+
+static void forget_rooms(sp_rounds *rounds)
+{
+    for (size_t i = 0; i < rounds->search->candidates->pose_start[rounds->search->sites->count]; i++)
+        rounds->room[i] = INFINITY;
+}
+
+/* Credit is for what later nozzles complete: the last one gets none. */
+static bool is_last(const sp_search *search, const sp_design *design)
+{
+    return search->options->max_nozzles && search->kept_count + design->count + 1 >= search->options->max_nozzles;
+}
+
+static bool rounds_create(const sp_search *search, double power, double budget, sp_rounds *rounds, sp_error *error)
+{
+    size_t sites = search->sites->count, poses = search->candidates->pose_start[sites];
+    *rounds = (sp_rounds){.search = search, .power = power, .budget = budget, .threads = sp_sweeper_threads(search)};
+    rounds->room = malloc((poses ? poses : 1) * sizeof *rounds->room);
+    rounds->best = calloc(sites, search->candidates->make_count * sizeof *rounds->best);
+    if (!rounds->room || !rounds->best)
+        return sp_fail_memory(error);
+    forget_rooms(rounds);
+    rounds->sweepers = sp_sweepers_create(search, rounds->threads, error);
+    return rounds->sweepers;
+}
+
+static void rounds_free(sp_rounds *rounds)
+{
+    free(rounds->room);
+    free(rounds->best);
+    sp_sweepers_destroy(rounds->sweepers, rounds->threads);
+}
+
+/* Scores one site's poses of a make but those that cannot beat `least`, a merit that some pose of this round has. The
+ * sweeper takes the make where that is needed. */
+static void scan_make(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t make, size_t number, double least)
+{
+    const sp_candidates *candidates = rounds->search->candidates;
+    const sp_make *own = &candidates->makes[make];
+    sp_round_best *best = &rounds->best[sweeper->site * candidates->make_count + make];
+    size_t axes = sp_candidates_axes(candidates, rounds->search->sites->items[sweeper->site].mount, make)->count;
+    double price = pow(own->flow, rounds->power);
+    bool taken = false;
+    for (uint32_t a = 0; a < axes; a++)
+        for (uint32_t r = 0; r < own->roll_count; r++, number++) {
+            if ((double)rounds->room[number] * (1 + 1e-6) < least * price)
+                continue;
+            if (!taken)
+                sp_sweeper_take(sweeper, make);
+            taken = true;
+            sp_score score = sp_sweeper_score(sweeper, a, r);
+            rounds->room[number] = (float)score.room;
+            if (score.gain / price > best->merit)
+                *best = (sp_round_best){{sweeper->site, make, a, r}, score.gain / price, score.gain};
+        }
+}
+
+static void scan_site(sp_rounds *rounds, const sp_design *design, sp_sweeper *sweeper, uint32_t site, double least)
+{
+    const sp_candidates *candidates = rounds->search->candidates;
+    uint32_t mount = rounds->search->sites->items[site].mount;
+    for (size_t k = 0; k < candidates->make_count; k++)
+        rounds->best[site * candidates->make_count + k] = (sp_round_best){0};
+    if (!sp_design_has_place(rounds->search, design, mount))
+        return;
+    for (size_t s = 0; s < candidates->speed_count; s++) {
+        size_t number = candidates->pose_start[site];
+        sp_sweeper_look(sweeper, rounds->search, design->wet, site, s);
+        for (size_t k = 0; k < candidates->make_count; k++) {
+            const sp_make *make = &candidates->makes[k];
+            if (make->speed_class == s && design->flow + make->flow <= rounds->budget)
+                scan_make(rounds, sweeper, (uint32_t)k, number, least);
+            number += sp_candidates_axes(candidates, mount, k)->count * make->roll_count;
+        }
+    }
+}
+
+/* A merit that this round surely reaches: that of the last round's best poses, scored again. */
+static double round_floor(sp_rounds *rounds, const sp_design *design)
+{
+    const sp_search *search = rounds->search;
+    size_t count = search->sites->count * search->candidates->make_count;
+    double least = 0;
+    int threads = rounds->threads;
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 16) reduction(max : least)
+    for (size_t i = 0; i < count; i++) {
+        const sp_round_best *best = &rounds->best[i];
+        if (best->merit <= 0)
+            continue;
+        const sp_make *make = &search->candidates->makes[best->pose.make];
+        if (design->flow + make->flow > rounds->budget ||
+            !sp_design_has_place(search, design, search->sites->items[best->pose.site].mount))
+            continue;
+        sp_sweeper *sweeper = &rounds->sweepers[omp_get_thread_num()];
+        double gain = sp_score_pose(sweeper, search, design->wet, best->pose).gain;
+        least = fmax(least, gain / pow(make->flow, rounds->power));
+    }
+    return least;
+}
+
+static void scan(sp_rounds *rounds, const sp_design *design)
+{
+    double least = rounds->started ? round_floor(rounds, design) : 0;
+    rounds->started = true;
+    size_t sites = rounds->search->sites->count;
+    int threads = rounds->threads;
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+    for (size_t i = 0; i < sites; i++)
+        scan_site(rounds, design, &rounds->sweepers[omp_get_thread_num()], (uint32_t)i, least);
+    sp_sweepers_forget(rounds->sweepers, rounds->threads);
+}
+
+static int compare_merit(const void *a, const void *b)
+{
+    const sp_round_best *p = a, *q = b;
+    if (p->merit != q->merit)
+        return p->merit > q->merit ? -1 : 1;
+    return compare_poses(&p->pose, &q->pose);
+}
+
+/* Of the first round every site's and make's best is remembered, of later ones the best few. */
+static bool remember(const sp_rounds *rounds, bool first, sp_pool *pool, sp_error *error)
+{
+    size_t count = rounds->search->sites->count * rounds->search->candidates->make_count;
+    sp_round_best *sorted = malloc(count * sizeof *sorted);
+    if (!sorted)
+        return sp_fail_memory(error);
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++)
+        if (rounds->best[i].merit > 0)
+            sorted[found++] = rounds->best[i];
+    qsort(sorted, found, sizeof *sorted, compare_merit);
+    bool done = true;
+    for (size_t i = 0; done && i < found && (first || i < POOL_PER_ROUND); i++)
+        done = sp_pool_add(pool, sorted[i].pose, error);
+    free(sorted);
+    return done;
+}
+
+static const sp_round_best *round_best(const sp_rounds *rounds)
+{
+    size_t count = rounds->search->sites->count * rounds->search->candidates->make_count;
+    const sp_round_best *best = &rounds->best[0];
+    for (size_t i = 1; i < count; i++)
+        if (rounds->best[i].merit > best->merit)
+            best = &rounds->best[i];
+    return best;
+}
+
+bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_watch *watch, sp_design *design,
+               sp_pool *pool, sp_error *error)
+{
+    sp_rounds rounds;
+    double least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
+    bool done = rounds_create(search, power, budget, &rounds, error);
+    bool first = true;
+    sp_search exact = *search;
+    exact.credit = 0;
+    /* out of time there is at least one nozzle to show */
+    while (done && design->covered < target &&
+           (sp_watch_goes_on(watch, "greedy", fmin(1, design->covered / target)) ||
+            (first && !design->count && !watch->cancelled))) {
+        if (is_last(search, design) && rounds.search != &exact) {
+            rounds.search = &exact;
+            forget_rooms(&rounds);
+        }
+        scan(&rounds, design);
+        const sp_round_best *best = round_best(&rounds);
+        if (best->merit <= 0 || best->gain < least)
+            break;
+        done = remember(&rounds, first, pool, error) && sp_design_add_pose(search, design, best->pose, error);
+        first = false;
+    }
+    rounds_free(&rounds);
+    sp_pool_settle(pool);
+    return done;
+}
+
+bool sp_bench_create(const sp_search *search, const sp_pool *pool, sp_bench *bench, sp_error *error)
+{
+    *bench = (sp_bench){.threads = sp_sweeper_threads(search)};
+    bench->scores = malloc((pool->count ? pool->count : 1) * sizeof *bench->scores);
+    if (!bench->scores)
+        return sp_fail_memory(error);
+    bench->sweepers = sp_sweepers_create(search, bench->threads, error);
+    if (!bench->sweepers)
+        sp_bench_free(bench);
+    return bench->sweepers;
+}
+
+void sp_bench_free(sp_bench *bench)
+{
+    free(bench->scores);
+    sp_sweepers_destroy(bench->sweepers, bench->threads);
+    *bench = (sp_bench){0};
+}
+
+double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_design *design, double power, double budget,
+                    sp_bench *bench, sp_pose *best)
+{
+    double *scores = bench->scores;
+#pragma omp parallel for num_threads(bench->threads) schedule(dynamic, 32)
+    for (size_t i = 0; i < pool->count; i++) {
+        sp_pose pose = pool->items[i];
+        bool allowed = design->flow + search->candidates->makes[pose.make].flow <= budget &&
+                       sp_design_has_place(search, design, search->sites->items[pose.site].mount);
+        sp_sweeper *sweeper = &bench->sweepers[omp_get_thread_num()];
+        scores[i] = allowed ? sp_score_pose(sweeper, search, design->wet, pose).gain : 0;
+    }
+    sp_sweepers_forget(bench->sweepers, bench->threads);
+    double merit = 0, gain = 0;
+    for (size_t i = 0; i < pool->count; i++) {
+        double candidate = scores[i] / pow(search->candidates->makes[pool->items[i].make].flow, power);
+        if (candidate > merit) {
+            merit = candidate;
+            gain = scores[i];
+            *best = pool->items[i];
+        }
+    }
+    return gain;
+}
+
+bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, double target, double budget,
+                    sp_bench *bench, sp_design *design, sp_error *error)
+{
+    double least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
+    bool done = true;
+    while (done && design->covered < target) {
+        sp_pose pose;
+        if (sp_pool_best(search, pool, design, power, budget, bench, &pose) < least)
+            break;
+        done = sp_design_add_pose(search, design, pose, error);
+    }
+    return done;
+}

@@ -1,0 +1,40 @@
+/* Greedy next-best-view placement over all candidate poses, and the pool of poses worth another look. */
+#ifndef OPTIMIZER_GREEDY_H
+#define OPTIMIZER_GREEDY_H
+
+#include "scoring/scoring.h"
+
+/* Poses that were among the best of their mounting point and make at some moment of the search; ascending, distinct. */
+typedef struct {
+    size_t count, capacity;
+    sp_pose *items;
+} sp_pool;
+
+bool sp_pool_add(sp_pool *pool, sp_pose pose, sp_error *error);
+/* Sorts and drops duplicates. */
+void sp_pool_settle(sp_pool *pool);
+void sp_pool_free(sp_pool *pool);
+
+/* What scoring a pool takes. */
+typedef struct {
+    double *scores; /* [pool->count] */
+    int threads;
+    sp_sweeper *sweepers; /* [threads] */
+} sp_bench;
+
+bool sp_bench_create(const sp_search *search, const sp_pool *pool, sp_bench *bench, sp_error *error);
+void sp_bench_free(sp_bench *bench);
+
+/* Adds nozzles to the design, each the pose of most gain per water^power, until it covers `target` (m² of coarse
+ * patches) or nothing more is gained or allowed within `budget` (m³/s). The poses that came near go to `pool`. */
+bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_watch *watch, sp_design *design,
+               sp_pool *pool, sp_error *error);
+/* The same over the pool's poses alone. */
+bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, double target, double budget,
+                    sp_bench *bench, sp_design *design, sp_error *error);
+/* The pool's pose of most gain per water^power that the design may still take within the budget; its gain in m², 0 for
+ * none. */
+double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_design *design, double power, double budget,
+                    sp_bench *bench, sp_pose *best);
+
+#endif

@@ -1,0 +1,271 @@
+#include "search/guess.h"
+
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FIRST_MOST 300     /* first nozzles that have their turn */
+#define SECOND_MOST 48     /* second ones of each first that proved good */
+#define STARTS 4           /* of each amount of water, that are improved */
+#define PATHS_WORK 2e9     /* terms of sums that all greedy orders may take */
+#define REGROUP_WORK 1.5e9 /* the same for regrouping at one amount of water */
+
+/* A greedy order: what its first so many nozzles take and cover. */
+typedef struct {
+    size_t guessed, count;
+    double power;
+    uint32_t row[SP_LINEUP_MOST];
+    double flow[SP_LINEUP_MOST], covered[SP_LINEUP_MOST];
+} path;
+
+/* The first nozzles of a path. */
+typedef struct {
+    uint32_t row[SP_LINEUP_MOST];
+    size_t count;
+    double flow, covered;
+} start;
+
+typedef struct {
+    const sp_table *table;
+    const double *budgets;
+    size_t count;
+    sp_watch *watch;
+    int threads;
+    sp_lineup *scratch; /* [2 x threads] */
+    path *paths;
+    size_t path_count;
+    start *starts; /* [count x SP_LINEUP_MOST], the best of each number of nozzles, less one */
+    double most;   /* of the budgets */
+} guessing;
+
+static void guessing_free(guessing *g)
+{
+    for (int i = 0; g->scratch && i < 2 * g->threads; i++)
+        sp_lineup_free(&g->scratch[i]);
+    free(g->scratch);
+    free(g->paths);
+    free(g->starts);
+}
+
+static bool guessing_create(guessing *g, sp_error *error)
+{
+    size_t paths = 2 * (FIRST_MOST + (g->count + 1) * SECOND_MOST + 1);
+    g->threads = sp_threads(&g->table->search->options->run);
+    g->scratch = calloc(2 * (size_t)g->threads, sizeof *g->scratch);
+    g->paths = calloc(paths, sizeof *g->paths);
+    g->starts = calloc(g->count * SP_LINEUP_MOST + 1, sizeof *g->starts);
+    if (!g->scratch || !g->paths || !g->starts)
+        return sp_fail_memory(error);
+    for (int i = 0; i < 2 * g->threads; i++)
+        if (!sp_lineup_create(g->table, &g->scratch[i], error))
+            return false;
+    for (size_t i = 0; i < g->count; i++)
+        g->most = fmax(g->most, g->budgets[i]);
+    return true;
+}
+
+/* Puts the guessed nozzles in and goes on greedily. */
+static void follow(const guessing *g, sp_lineup *lineup, path *p)
+{
+    sp_lineup_set(lineup, NULL, 0);
+    for (size_t i = 0;; i++) {
+        double gain = INFINITY;
+        uint32_t row =
+            i < p->guessed ? p->row[i] : sp_lineup_best(lineup, p->power, g->table->search->credit, g->most, &gain);
+        if (i == SP_LINEUP_MOST || gain <= 0)
+            break;
+        sp_lineup_add(lineup, row);
+        p->row[i] = row;
+        p->flow[i] = lineup->flow;
+        p->covered[i] = lineup->covered;
+        p->count = i + 1;
+    }
+}
+
+/* Keeps the path's longest beginning within each amount of water where no other of as many nozzles covers more. */
+static void enter(guessing *g, const path *p)
+{
+    for (size_t b = 0; b < g->count; b++) {
+        size_t n = 0;
+        while (n < p->count && p->flow[n] <= g->budgets[b])
+            n++;
+        start *own = &g->starts[b * SP_LINEUP_MOST + n - (n > 0)];
+        if (!n || p->covered[n - 1] <= own->covered)
+            continue;
+        *own = (start){.count = n, .covered = p->covered[n - 1], .flow = p->flow[n - 1]};
+        memcpy(own->row, p->row, n * sizeof *own->row);
+    }
+}
+
+/* What a beginning promises: what it covers, and of the water left half as much as of the water used. */
+static double promise(const guessing *g, size_t b, size_t i)
+{
+    const start *s = &g->starts[b * SP_LINEUP_MOST + i];
+    double used = s->flow - g->table->search->kept_flow;
+    return s->count ? s->covered * (1 + 0.5 * (g->budgets[b] - s->flow) / used) : 0;
+}
+
+/* Beginning number `rank` by promise; NULL for none. */
+static const start *promising(const guessing *g, size_t b, size_t rank)
+{
+    for (size_t i = 0; i < SP_LINEUP_MOST; i++) {
+        size_t before = 0;
+        double own = promise(g, b, i);
+        for (size_t k = 0; k < SP_LINEUP_MOST && own > 0; k++)
+            before += promise(g, b, k) > own || (k < i && promise(g, b, k) == own);
+        if (own > 0 && before == rank)
+            return &g->starts[b * SP_LINEUP_MOST + i];
+    }
+    return NULL;
+}
+
+static void follow_all(guessing *g, size_t from)
+{
+#pragma omp parallel for num_threads(g->threads) schedule(dynamic, 1)
+    for (size_t i = from; i < g->path_count; i++)
+        if (sp_watch_goes_on(g->watch, "front", 0))
+            follow(g, &g->scratch[omp_get_thread_num()], &g->paths[i]);
+    for (size_t i = from; i < g->path_count; i++)
+        enter(g, &g->paths[i]);
+}
+
+typedef struct {
+    double merit;
+    uint32_t row;
+} ranked;
+
+static int by_merit(const void *a, const void *b)
+{
+    const ranked *p = a, *q = b;
+    if (p->merit != q->merit)
+        return p->merit > q->merit ? -1 : 1;
+    return (p->row > q->row) - (p->row < q->row);
+}
+
+/* Adds paths that begin with the lineup's nozzles and one more, of those that gain most per root of the water, by
+ * either weight of water. */
+static bool add_guesses(guessing *g, const sp_lineup *lineup, size_t most, sp_error *error)
+{
+    size_t rows = g->table->row_count, found = 0;
+    ranked *list = malloc((rows + 1) * sizeof *list);
+    if (!list)
+        return sp_fail_memory(error);
+    for (size_t r = 0; r < rows; r++) {
+        double gain = sp_lineup_gain(lineup, (uint32_t)r, g->most);
+        if (gain > 0)
+            list[found++] = (ranked){gain / sqrt(sp_table_flow(g->table, r)), (uint32_t)r};
+    }
+    qsort(list, found, sizeof *list, by_merit);
+    for (size_t i = 0; i < found && i < most; i++)
+        for (int way = 0; way < 2; way++) {
+            path *p = &g->paths[g->path_count++];
+            p->guessed = lineup->count + 1;
+            p->power = way ? 0.5 : 1;
+            memcpy(p->row, lineup->row, lineup->count * sizeof *p->row);
+            p->row[lineup->count] = list[i].row;
+        }
+    free(list);
+    return true;
+}
+
+/* Terms of the sums that a row of `count` nozzles takes to be found greedily. */
+static double work_of(const guessing *g, size_t count)
+{
+    return (double)g->table->start[g->table->row_count] * (double)(count + 1);
+}
+
+/* The first nozzles, then second ones to those that made the best beginnings. */
+static bool guess(guessing *g, sp_error *error)
+{
+    sp_lineup *lineup = &g->scratch[0];
+    g->paths[g->path_count++].power = 1;
+    follow_all(g, 0);
+    double work = work_of(g, g->paths[0].count), all = PATHS_WORK / work;
+    size_t firsts = (size_t)fmin(FIRST_MOST, fmax(1, 0.25 * all));
+    sp_lineup_set(lineup, NULL, 0);
+    if (!add_guesses(g, lineup, firsts, error))
+        return false;
+    follow_all(g, 1);
+    size_t second = g->path_count;
+    size_t seconds = (size_t)fmin(SECOND_MOST, 0.25 * all / (double)(g->count + 1));
+    for (size_t b = 0; b < g->count; b++) {
+        const start *best = promising(g, b, 0);
+        bool known = !best || !seconds;
+        for (size_t i = second; !known && i < g->path_count; i++)
+            known = g->paths[i].row[0] == best->row[0];
+        if (known)
+            continue;
+        sp_lineup_set(lineup, best->row, 1);
+        if (!add_guesses(g, lineup, seconds, error))
+            return false;
+    }
+    follow_all(g, second);
+    return true;
+}
+
+/* What the beginnings for one amount of water become. */
+static void improve(const guessing *g, size_t b, sp_lineup *own, sp_lineup *scratch, sp_lineup *best)
+{
+    for (size_t k = 0; k < STARTS && sp_watch_goes_on(g->watch, "front", 0); k++) {
+        const start *from = promising(g, b, k);
+        if (!from)
+            break;
+        sp_lineup_set(own, from->row, from->count);
+        sp_lineup_improve(own, g->budgets[b]);
+        if (own->covered > best->covered)
+            sp_lineup_set(best, own->row, own->count);
+    }
+    if (6 * (double)best->count * work_of(g, best->count) <= REGROUP_WORK)
+        sp_lineup_regroup(best, g->budgets[b], scratch);
+}
+
+bool sp_guess(const sp_table *table, const double *budgets, size_t count, sp_watch *watch, sp_lineup *lineups,
+              sp_error *error)
+{
+    guessing g = {.table = table, .budgets = budgets, .count = count, .watch = watch};
+    size_t created = 0;
+    bool done = guessing_create(&g, error);
+    while (done && created < count) {
+        done = sp_lineup_create(table, &lineups[created], error);
+        created += done;
+    }
+    done = done && guess(&g, error);
+    if (done) {
+#pragma omp parallel for num_threads(g.threads) schedule(dynamic, 1)
+        for (size_t b = 0; b < count; b++) {
+            sp_lineup *scratch = &g.scratch[2 * omp_get_thread_num()];
+            improve(&g, b, &scratch[0], &scratch[1], &lineups[b]);
+        }
+    }
+    guessing_free(&g);
+    for (size_t i = 0; !done && i < created; i++)
+        sp_lineup_free(&lineups[i]);
+    return done;
+}
+
+static bool add_copy(const sp_search *search, const sp_placed *from, sp_design *design, sp_error *error)
+{
+    sp_placed placed = *from;
+    placed.field = malloc((search->patch_count + 1) * sizeof *placed.field);
+    if (!placed.field)
+        return sp_fail_memory(error);
+    memcpy(placed.field, from->field, search->patch_count * sizeof *placed.field);
+    return sp_design_add(search, design, placed, error);
+}
+
+bool sp_lineup_design(const sp_lineup *lineup, sp_design *design, sp_error *error)
+{
+    const sp_table *table = lineup->table;
+    if (!sp_design_create(table->search, design, error))
+        return false;
+    bool done = true;
+    for (size_t i = 0; done && i < lineup->count; i++) {
+        size_t row = lineup->row[i];
+        done = row < table->pool->count
+                   ? sp_design_add_pose(table->search, design, table->pool->items[row], error)
+                   : add_copy(table->search, table->others[row - table->pool->count], design, error);
+    }
+    if (!done)
+        sp_design_free(design);
+    return done;
+}

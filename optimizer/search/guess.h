@@ -1,0 +1,17 @@
+/* Guesses: greedy orders that begin with a guessed nozzle or two, and what becomes of the best of them. Greedy by gain
+ * per water alone may be far off; that every first nozzle, or every two, have their turn is what bounds are proved for,
+ * where one nozzle alone must cover (Sviridenko, Operations Research Letters 32, 2004; Feldman, Nutov and Shoham,
+ * Practical budgeted submodular maximization, Algorithmica 85, 2023). Here those have that promise most. */
+#ifndef OPTIMIZER_GUESS_H
+#define OPTIMIZER_GUESS_H
+
+#include "search/lineup.h"
+
+/* For each amount of water (m³/s) the best lineup found on the table; lineups[count] are created by it, and freed by
+ * the caller. What is found does not depend on the number of threads. */
+bool sp_guess(const sp_table *table, const double *budgets, size_t count, sp_watch *watch, sp_lineup *lineups,
+              sp_error *error);
+/* The lineup as a design. */
+bool sp_lineup_design(const sp_lineup *lineup, sp_design *design, sp_error *error);
+
+#endif

@@ -1,0 +1,273 @@
+#include "search/lineup.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define GAIN_LEAST 1e-5 /* of the area: less is no reason for an exchange */
+#define SWEEPS_MOST 8
+#define ROUNDS_MOST 4
+
+bool sp_lineup_create(const sp_table *table, sp_lineup *lineup, sp_error *error)
+{
+    *lineup = (sp_lineup){.table = table,
+                          .wet = malloc((table->patch_count + 1) * sizeof *lineup->wet),
+                          .gain = malloc((table->row_count + 1) * sizeof *lineup->gain)};
+    if (!lineup->wet || !lineup->gain) {
+        sp_lineup_free(lineup);
+        return sp_fail_memory(error);
+    }
+    sp_lineup_set(lineup, NULL, 0);
+    return true;
+}
+
+void sp_lineup_free(sp_lineup *lineup)
+{
+    free(lineup->wet);
+    free(lineup->gain);
+    *lineup = (sp_lineup){0};
+}
+
+static void count_covered(sp_lineup *lineup)
+{
+    lineup->covered = 0;
+    for (size_t p = 0; p < lineup->table->patch_count; p++)
+        if (lineup->wet[p] >= 1)
+            lineup->covered += (double)lineup->table->area[p];
+}
+
+static void pour(sp_lineup *lineup, uint32_t row)
+{
+    const sp_table *table = lineup->table;
+    lineup->flow += sp_table_flow(table, row);
+    for (size_t i = table->start[row]; i < table->start[row + 1]; i++) {
+        float *wet = &lineup->wet[table->patch[i]];
+        *wet = table->search->single ? fmaxf(*wet, table->field[i]) : *wet + table->field[i];
+    }
+}
+
+void sp_lineup_set(sp_lineup *lineup, const uint32_t *rows, size_t count)
+{
+    const sp_table *table = lineup->table;
+    memcpy(lineup->wet, table->kept_wet, table->patch_count * sizeof *lineup->wet);
+    lineup->flow = table->search->kept_flow;
+    lineup->count = count;
+    for (size_t i = 0; i < count; i++) {
+        lineup->row[i] = rows[i];
+        pour(lineup, rows[i]);
+    }
+    count_covered(lineup);
+}
+
+void sp_lineup_add(sp_lineup *lineup, uint32_t row)
+{
+    lineup->row[lineup->count++] = row;
+    pour(lineup, row);
+    count_covered(lineup);
+}
+
+void sp_lineup_remove(sp_lineup *lineup, size_t i)
+{
+    /* poured anew: what is taken from a sum leaves rounding behind */
+    uint32_t rows[SP_LINEUP_MOST];
+    memcpy(rows, lineup->row, lineup->count * sizeof *rows);
+    memmove(&rows[i], &rows[i + 1], (lineup->count - i - 1) * sizeof *rows);
+    sp_lineup_set(lineup, rows, lineup->count - 1);
+}
+
+static bool has_place(const sp_lineup *lineup, size_t row)
+{
+    const sp_table *table = lineup->table;
+    const sp_place_options *options = table->search->options;
+    uint32_t mount = sp_table_mount(table, row);
+    if (options->mounts[mount].kind != SP_MOUNT_PORT)
+        return true;
+    if (table->search->port_taken[mount])
+        return false;
+    for (size_t i = 0; i < lineup->count; i++)
+        if (sp_table_mount(table, lineup->row[i]) == mount)
+            return false;
+    return true;
+}
+
+static bool has_number(const sp_lineup *lineup)
+{
+    size_t limit = lineup->table->search->options->max_nozzles;
+    return lineup->count < SP_LINEUP_MOST && (!limit || lineup->table->search->kept_count + lineup->count < limit);
+}
+
+static double gain_of(const sp_lineup *lineup, size_t row, float credit)
+{
+    const sp_table *table = lineup->table;
+    double gain = 0;
+    for (size_t i = table->start[row]; i < table->start[row + 1]; i++) {
+        uint32_t p = table->patch[i];
+        float had = lineup->wet[p], more = table->field[i];
+        if (had >= 1)
+            continue;
+        float has = table->search->single ? fmaxf(had, more) : had + more;
+        gain += (double)(table->area[p] * ((has >= 1 ? 1 : credit * has) - credit * had));
+    }
+    return gain;
+}
+
+double sp_lineup_gain(const sp_lineup *lineup, uint32_t row, double budget)
+{
+    bool fits =
+        has_number(lineup) && has_place(lineup, row) && lineup->flow + sp_table_flow(lineup->table, row) <= budget;
+    return fits ? gain_of(lineup, row, lineup->table->search->credit) : 0;
+}
+
+/* What every row gains. Patch by patch: most patches are wet already when the last rows are chosen. */
+static void set_gains(sp_lineup *lineup, float credit)
+{
+    const sp_table *table = lineup->table;
+    bool single = table->search->single;
+    memset(lineup->gain, 0, table->row_count * sizeof *lineup->gain);
+    for (size_t p = 0; p < table->patch_count; p++) {
+        float had = lineup->wet[p], area = table->area[p];
+        if (had >= 1)
+            continue;
+        for (size_t i = table->column_start[p]; i < table->column_start[p + 1]; i++) {
+            float more = table->column_field[i], has = single ? fmaxf(had, more) : had + more;
+            lineup->gain[table->column_row[i]] += (double)(area * ((has >= 1 ? 1 : credit * has) - credit * had));
+        }
+    }
+}
+
+uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double budget, double *gain)
+{
+    const sp_table *table = lineup->table;
+    uint32_t best = 0;
+    double merit = 0;
+    *gain = 0;
+    if (!has_number(lineup))
+        return 0;
+    set_gains(lineup, credit);
+    for (size_t r = 0; r < table->row_count; r++) {
+        double flow = sp_table_flow(table, r);
+        if (lineup->flow + flow > budget || !has_place(lineup, r))
+            continue;
+        double own = lineup->gain[r], per = power == 0 ? own : own / pow(flow, power);
+        if (per > merit) {
+            merit = per;
+            best = (uint32_t)r;
+            *gain = own;
+        }
+    }
+    return best;
+}
+
+static double least_gain(const sp_lineup *lineup)
+{
+    return GAIN_LEAST * sp_evaluator_patches(lineup->table->search->coarse)->total_area;
+}
+
+static void fill(sp_lineup *lineup, float credit, double budget)
+{
+    for (;;) {
+        double gain;
+        uint32_t row = sp_lineup_best(lineup, 1, credit, budget, &gain);
+        if (gain < least_gain(lineup))
+            return;
+        sp_lineup_add(lineup, row);
+    }
+}
+
+/* Exchanges every row in turn for the best in its place. */
+static bool exchange(sp_lineup *lineup, float credit, double budget)
+{
+    bool changed = false;
+    for (size_t k = 0; k < lineup->count; k++) {
+        uint32_t own = lineup->row[0];
+        double gain;
+        sp_lineup_remove(lineup, 0);
+        double had = gain_of(lineup, own, credit);
+        uint32_t row = sp_lineup_best(lineup, 0, credit, budget, &gain);
+        bool better = gain > had + least_gain(lineup);
+        sp_lineup_add(lineup, better ? row : own);
+        changed |= better;
+    }
+    return changed;
+}
+
+void sp_lineup_improve(sp_lineup *lineup, double budget)
+{
+    /* credit leads to where nozzles complete one another; in the end only what is covered counts */
+    const float credits[] = {lineup->table->search->credit, 0};
+    for (size_t i = lineup->table->search->credit > 0 ? 0 : 1; i < 2; i++)
+        for (int sweep = 0; sweep < SWEEPS_MOST; sweep++) {
+            fill(lineup, credits[i], budget);
+            if (!exchange(lineup, credits[i], budget))
+                break;
+        }
+}
+
+bool sp_lineup_merge(sp_lineup *lineup, size_t a, size_t b, double budget)
+{
+    uint32_t before[SP_LINEUP_MOST];
+    size_t count = lineup->count;
+    double gain, whole = lineup->flow;
+    memcpy(before, lineup->row, count * sizeof *before);
+    sp_lineup_remove(lineup, a > b ? a : b);
+    sp_lineup_remove(lineup, a > b ? b : a);
+    uint32_t row = sp_lineup_best(lineup, 0, 0, fmin(budget, whole * (1 + 1e-12)), &gain);
+    if (gain > 0)
+        sp_lineup_add(lineup, row);
+    else
+        sp_lineup_set(lineup, before, count);
+    return gain > 0;
+}
+
+/* The row whose liquid falls most where row i's does. */
+static size_t nearest(const sp_lineup *lineup, size_t i)
+{
+    const sp_table *table = lineup->table;
+    size_t near = i;
+    double most = -1;
+    for (size_t k = 0; k < lineup->count; k++) {
+        size_t a = table->start[lineup->row[i]], b = table->start[lineup->row[k]];
+        double shared = 0;
+        while (k != i && a < table->start[lineup->row[i] + 1] && b < table->start[lineup->row[k] + 1]) {
+            uint32_t p = table->patch[a], q = table->patch[b];
+            if (p == q)
+                shared += (double)(table->area[p] * fminf(1, fminf(table->field[a], table->field[b])));
+            a += p <= q;
+            b += q <= p;
+        }
+        if (k != i && shared > most) {
+            near = k;
+            most = shared;
+        }
+    }
+    return near;
+}
+
+/* One try from `lineup` as it is: false where there is nothing to try. */
+static bool place_anew(const sp_lineup *lineup, size_t i, bool merging, double budget, sp_lineup *trial)
+{
+    size_t other = nearest(lineup, i);
+    sp_lineup_set(trial, lineup->row, lineup->count);
+    if (merging) {
+        if (!sp_lineup_merge(trial, i, other, budget))
+            return false;
+    } else {
+        sp_lineup_remove(trial, i > other ? i : other);
+        sp_lineup_remove(trial, i > other ? other : i);
+    }
+    sp_lineup_improve(trial, budget);
+    return true;
+}
+
+void sp_lineup_regroup(sp_lineup *lineup, double budget, sp_lineup *trial)
+{
+    bool better = true;
+    for (int round = 0; better && round < ROUNDS_MOST; round++) {
+        better = false;
+        for (size_t i = 0; lineup->count > 1 && i < 2 * lineup->count; i++)
+            if (place_anew(lineup, i / 2, i % 2, budget, trial) &&
+                trial->covered > lineup->covered + least_gain(lineup)) {
+                sp_lineup_set(lineup, trial->row, trial->count);
+                better = true;
+            }
+    }
+}

@@ -1,0 +1,42 @@
+/* Layouts made of a table's rows, searched on its sample of the patches by the exact objective: greedy after guessed
+ * first nozzles, single exchanges, merges and neighbours placed anew. */
+#ifndef OPTIMIZER_LINEUP_H
+#define OPTIMIZER_LINEUP_H
+
+#include "search/table.h"
+
+#define SP_LINEUP_MOST 64 /* nozzles besides the kept ones; larger layouts are not looked for in tables */
+
+typedef struct {
+    const sp_table *table;
+    size_t count;
+    uint32_t row[SP_LINEUP_MOST];
+    double flow;    /* m³/s, kept nozzles included */
+    double covered; /* m² of the sample */
+    float *wet;     /* [table->patch_count] */
+    double *gain;   /* [table->row_count], scratch */
+} sp_lineup;
+
+bool sp_lineup_create(const sp_table *table, sp_lineup *lineup, sp_error *error);
+void sp_lineup_free(sp_lineup *lineup);
+/* Takes these rows, of the same table. */
+void sp_lineup_set(sp_lineup *lineup, const uint32_t *rows, size_t count);
+void sp_lineup_add(sp_lineup *lineup, uint32_t row);
+void sp_lineup_remove(sp_lineup *lineup, size_t i);
+/* What a row would add to what is covered, and the credit for what is on the way; 0 where it does not fit within the
+ * budget, the number or its port. */
+double sp_lineup_gain(const sp_lineup *lineup, uint32_t row, double budget);
+/* The row of most gain per water^power that fits within the budget, an uncovered patch being worth `credit` per share
+ * of what it needs; *gain in m², 0 for none. */
+uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double budget, double *gain);
+
+/* Puts one row, of no more water than the two together, in the place of two: the one that gains most there. False, and
+ * nothing changed, where there is none. */
+bool sp_lineup_merge(sp_lineup *lineup, size_t a, size_t b, double budget);
+/* Adds what the water allows and exchanges one row at a time, until neither helps. */
+void sp_lineup_improve(sp_lineup *lineup, double budget);
+/* Takes two that overlap most out, fills their place anew, by a merge or by gain per water, and improves what comes of
+ * it, as long as that helps. `trial` is scratch of the same table. */
+void sp_lineup_regroup(sp_lineup *lineup, double budget, sp_lineup *trial);
+
+#endif

@@ -1,0 +1,20 @@
+/* Candidates at flows that refinement may set and the candidates themselves do not hold. */
+#ifndef OPTIMIZER_TUNED_H
+#define OPTIMIZER_TUNED_H
+
+#include "search/greedy.h"
+
+/* The search over the pool's poses, those of adjustable makes at several flows each. What is built of them says its
+ * flows itself, so that it belongs to the original search as well. */
+typedef struct {
+    sp_candidates candidates; /* the original's makes first; poses are not numbered */
+    sp_search search;
+    sp_pool pool;
+} sp_tuned;
+
+bool sp_tuned_create(const sp_search *search, const sp_pool *pool, sp_tuned *tuned, sp_error *error);
+void sp_tuned_free(sp_tuned *tuned);
+/* Writes the flows of poses that were added to a design into their nozzles. */
+void sp_tuned_settle(const sp_tuned *tuned, sp_design *design);
+
+#endif

@@ -1,0 +1,140 @@
+#include "atlas/charts/judge.h"
+
+#include "atlas/charts/crossing.h"
+#include "atlas/charts/orient.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Twice the area of a triangle that counts as anticlockwise, over its longest edge and the size of the sheet: turning
+ * or moving the sheet as a whole cannot turn it over by round-off. */
+#define LEAST_HEIGHT 1e-13
+
+static double strain_of(const double shape[3], const double p[2], const double q[2], const double r[2], double *twice)
+{
+    double bx = q[0] - p[0], by = q[1] - p[1], cx = r[0] - p[0], cy = r[1] - p[1];
+    *twice = bx * cy - by * cx;
+    /* The map's matrix, and its singular values in closed form: mean ± difference. */
+    double a = bx / shape[0], b = by / shape[0];
+    double c = (cx - a * shape[1]) / shape[2], d = (cy - b * shape[1]) / shape[2];
+    double mean = 0.5 * sqrt((a + d) * (a + d) + (b - c) * (b - c));
+    double difference = 0.5 * sqrt((a - d) * (a - d) + (b + c) * (b + c));
+    return difference + fabs(mean - 1);
+}
+
+static void size_of(const sp_sheet *sheet, double size[2])
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (size_t v = 0; v < sheet->vertex_count; v++)
+        for (int k = 0; k < 2; k++) {
+            low[k] = sheet->at[v][k] < low[k] ? sheet->at[v][k] : low[k];
+            high[k] = sheet->at[v][k] > high[k] ? sheet->at[v][k] : high[k];
+        }
+    for (int k = 0; k < 2; k++)
+        size[k] = high[k] - low[k];
+}
+
+sp_strain sp_measure_strain(const sp_sheets *sheets, const sp_sheet *sheet)
+{
+    sp_strain found = {0};
+    double over = 0, size[2];
+    size_of(sheet, size);
+    double least = LEAST_HEIGHT * (size[0] + size[1]);
+    for (size_t i = 0; i < sheet->triangle_count; i++) {
+        const double *shape = sheets->shape[sheet->triangle[i]];
+        const uint32_t *c = sheet->corner[i];
+        double twice, strain = strain_of(shape, sheet->at[c[0]], sheet->at[c[1]], sheet->at[c[2]], &twice);
+        double longest = fmax(shape[0], hypot(shape[1], shape[2]));
+        found.flipped += !(twice > least * longest);
+        found.most = strain > found.most ? strain : found.most;
+        over += strain <= SP_STRAIN_BOUND ? 0 : 0.5 * shape[0] * shape[2];
+    }
+    found.share = over / sheet->area;
+    return found;
+}
+
+sp_verdict sp_judge_extent(const sp_sheet *sheet, double extent)
+{
+    double size[2];
+    size_of(sheet, size);
+    if (hypot(size[0], size[1]) <= extent)
+        return SP_SHEET_FITS;
+    sp_least_box box = sp_find_least_box(sheet, extent);
+    return !box.memory ? SP_SHEET_MEMORY : box.fits ? SP_SHEET_FITS : SP_SHEET_UNFIT;
+}
+
+/* Boundary edges of a sheet; NULL when memory runs out. */
+static sp_segment *boundary_of(const sp_sheets *sheets, const sp_sheet *sheet, size_t *count)
+{
+    size_t capacity = 64;
+    sp_segment *segments = malloc(capacity * sizeof *segments);
+    *count = 0;
+    for (size_t i = 0; segments && i < 3 * sheet->triangle_count; i++) {
+        uint32_t k = (uint32_t)(i % 3), h = 3 * sheet->triangle[i / 3] + k;
+        if (sp_across(sheets, h) != SP_NONE)
+            continue;
+        if (*count == capacity) {
+            capacity *= 2;
+            sp_segment *grown = realloc(segments, capacity * sizeof *segments);
+            if (!grown)
+                free(segments);
+            segments = grown;
+            if (!segments)
+                break;
+        }
+        uint32_t from = sheet->corner[i / 3][k], to = sheet->corner[i / 3][(k + 1) % 3];
+        segments[(*count)++] = (sp_segment){from, to, sheet->at[from], sheet->at[to]};
+    }
+    return segments;
+}
+
+/* How many of the closed chains run anticlockwise, those among them that enclose next to nothing; 2 where chains meet
+ * in a vertex, SIZE_MAX when memory runs out. */
+static size_t count_outlines(const sp_sheet *sheet, const sp_segment *segments, size_t count)
+{
+    uint32_t *from = malloc((sheet->vertex_count + 1) * sizeof *from); /* the segment that begins at each vertex */
+    if (!from)
+        return SIZE_MAX;
+    for (size_t v = 0; v < sheet->vertex_count; v++)
+        from[v] = SP_NONE;
+    size_t outlines = 0;
+    for (size_t i = 0; i < count; i++) {
+        outlines = from[segments[i].from] == SP_NONE ? outlines : 2;
+        from[segments[i].from] = (uint32_t)i;
+    }
+    double size[2];
+    size_of(sheet, size);
+    for (size_t i = 0; i < count && outlines < 2; i++) {
+        if (from[segments[i].from] == SP_NONE)
+            continue;
+        double twice = 0;
+        const double *o = segments[i].p;
+        for (uint32_t at = segments[i].from, next; (next = from[at]) != SP_NONE; at = segments[next].to) {
+            const double *p = segments[next].p, *q = segments[next].q;
+            twice += (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
+            from[at] = SP_NONE;
+        }
+        outlines += !(twice < -LEAST_HEIGHT * size[0] * size[1]);
+    }
+    free(from);
+    return outlines;
+}
+
+/* The sum of the outlines of anticlockwise triangles is the boundary, so a point lies in as many triangles as the
+ * boundary winds around it. Chains that touch neither each other nor themselves are simple closed curves, which wind
+ * once around what they enclose, forwards or backwards: where only one runs forwards, nothing is wound around more than
+ * once, and no two triangles overlap. */
+sp_verdict sp_judge_overlap(const sp_sheets *sheets, uint32_t number)
+{
+    const sp_sheet *sheet = &sheets->items[number];
+    size_t count;
+    sp_segment *segments = boundary_of(sheets, sheet, &count);
+    size_t outlines = segments ? count_outlines(sheet, segments, count) : SIZE_MAX;
+    sp_crossing found = {.memory = true};
+    if (outlines == 1)
+        found = sp_segments_cross(segments, count);
+    free(segments);
+    if (outlines == SIZE_MAX || !found.memory)
+        return SP_SHEET_MEMORY;
+    return outlines == 1 && !found.crossing ? SP_SHEET_FITS : SP_SHEET_UNFIT;
+}

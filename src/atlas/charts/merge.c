@@ -1,0 +1,224 @@
+/* Greedy merging: of all pairs of neighbours that one is tried next which promises least strain and the roundest chart.
+ * What failed is tried again only when the row of edges between the two has changed. */
+#include "atlas/charts/merge.h"
+
+#include "atlas/charts/cut.h"
+#include "atlas/charts/heap.h"
+#include "atlas/charts/join.h"
+#include "atlas/charts/orient.h"
+#include "atlas/charts/settle.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* The gap over the smaller sheet's size weighs this much against the share of its boundary that is not in the run. */
+#define GAP_WEIGHT 8.0
+#define WIDEST_GAP 0.12      /* over the smaller sheet's size */
+#define DEVELOPABLE_GAP 1e-4 /* over the length of the run */
+#define LEAST_SHARE 0.15     /* of the smaller sheet's boundary that the run must be */
+#define MOST_WASTE 1.137 /* box around the union over those around the two; no ratio that boxes are likely to have */
+#define PATCH_SHARE 0.05 /* of the area of developable surface, that a sheet may have which joins it with strain */
+
+typedef struct {
+    sp_run run;
+    uint32_t sheet, version, other_version;
+} candidate;
+
+typedef struct {
+    sp_sheets *sheets;
+    double extent;
+    sp_relaxer *relaxer;
+    size_t first_new; /* only sheets from here on are joined, to each other and to those before */
+    candidate *candidates;
+    size_t count, capacity;
+    sp_heap heap;
+    uint32_t *version; /* [sheets->count], how often it has changed */
+    double *perimeter; /* [sheets->count], m */
+    double *box;       /* [sheets->count], m², of the least box around each */
+    uint32_t *failed;  /* [3 triangle_count], how many edges the run from here had that could not be joined */
+    sp_runs runs;
+} merging;
+
+/* Scores are rounded like costs in regions.c. */
+static uint64_t key_of(double score, size_t candidate)
+{
+    double cell = fmin(fmax((score + 2) * 0x1p14 + 0.37, 0), 4294967295.0);
+    return (uint64_t)(uint32_t)cell << 32 | (uint32_t)candidate;
+}
+
+/* Scores the union along a run; false where it is not worth trying. */
+static bool promises(const merging *m, uint32_t sheet, const sp_run *run, double *score)
+{
+    const sp_sheet *a = &m->sheets->items[sheet], *b = &m->sheets->items[run->other];
+    double share = run->length / fmin(m->perimeter[sheet], m->perimeter[run->other]);
+    sp_fit fit = sp_join_fit(m->sheets, run);
+    double size = sqrt(fmin(a->area, b->area));
+    bool developable = fmax(a->strain, b->strain) <= SP_DEVELOPABLE_STRAIN && fit.gap <= DEVELOPABLE_GAP * run->length;
+    if (!developable && (share < LEAST_SHARE || fit.gap > WIDEST_GAP * size))
+        return false;
+    if (!developable && (b->area > PATCH_SHARE * a->kept && a->kept > 0))
+        return false;
+    if (!developable && (a->area > PATCH_SHARE * b->kept && b->kept > 0))
+        return false;
+    *score = 1 - share + (developable ? -2 : GAP_WEIGHT * fit.gap / size);
+    return true;
+}
+
+static bool add_candidate(merging *m, uint32_t sheet, const sp_run *run)
+{
+    if (m->failed[run->first] == run->count)
+        return true;
+    if (m->count == m->capacity) {
+        size_t capacity = m->capacity ? 2 * m->capacity : 256;
+        candidate *grown = capacity < SP_NONE ? realloc(m->candidates, capacity * sizeof *grown) : NULL;
+        if (!grown)
+            return false;
+        m->candidates = grown;
+        m->capacity = capacity;
+    }
+    double score;
+    if (!promises(m, sheet, run, &score))
+        return true;
+    m->candidates[m->count] = (candidate){*run, sheet, m->version[sheet], m->version[run->other]};
+    return sp_heap_push(&m->heap, key_of(score, m->count++));
+}
+
+/* Enters the runs of a sheet with all its neighbours, or with those of higher number, of which one must be new. */
+static bool add_candidates(merging *m, uint32_t sheet, bool higher_only)
+{
+    bool developable = m->sheets->items[sheet].strain <= SP_DEVELOPABLE_STRAIN;
+    for (sp_bend most = developable ? SP_BEND_NONE : SP_BEND_SMOOTH; most <= SP_BEND_SMOOTH; most++) {
+        if (!sp_runs_find(&m->runs, m->sheets, sheet, most))
+            return false;
+        m->perimeter[sheet] = m->runs.perimeter;
+        for (size_t i = 0; i < m->runs.count; i++)
+            if (!(higher_only && m->runs.items[i].other < sheet) &&
+                (sheet >= m->first_new || m->runs.items[i].other >= m->first_new) &&
+                !add_candidate(m, sheet, &m->runs.items[i]))
+                return false;
+    }
+    return true;
+}
+
+static void take_over(sp_sheets *sheets, const sp_sheet *from, uint32_t owner, uint32_t first_local)
+{
+    for (size_t i = 0; i < from->triangle_count; i++) {
+        sheets->owner[from->triangle[i]] = owner;
+        sheets->local[from->triangle[i]] = first_local + (uint32_t)i;
+    }
+}
+
+/* The run as seen from the other sheet. */
+static sp_run turned(const sp_sheets *sheets, uint32_t sheet, const sp_run *run)
+{
+    uint32_t last = run->first;
+    for (uint32_t i = 1; i < run->count; i++)
+        last = sp_boundary_next(sheets, last);
+    return (sp_run){sheet, sheets->twin[last], run->count, run->length};
+}
+
+/* Whether the box around the union, as it lies before it is settled, wastes little; sets its area. */
+static sp_verdict judge_waste(const merging *m, const sp_sheet *joined, double parts, double *area)
+{
+    sp_least_box box = sp_find_least_box(joined, m->extent);
+    *area = box.width * box.height;
+    if (!box.memory)
+        return SP_SHEET_MEMORY;
+    return box.fits && *area <= MOST_WASTE * parts ? SP_SHEET_FITS : SP_SHEET_UNFIT;
+}
+
+static sp_verdict try_join(merging *m, uint32_t sheet, const sp_run *run)
+{
+    sp_sheets *sheets = m->sheets;
+    sp_fit fit = sp_join_fit(sheets, run);
+    sp_sheet joined, a = sheets->items[sheet], b = sheets->items[run->other];
+    if (!sp_join(sheets, run, &fit, &joined))
+        return SP_SHEET_MEMORY;
+    double area;
+    sp_verdict verdict = judge_waste(m, &joined, m->box[sheet] + m->box[run->other], &area);
+    if (verdict != SP_SHEET_FITS) {
+        sp_sheet_free(&joined);
+        return verdict;
+    }
+    take_over(sheets, &b, sheet, (uint32_t)a.triangle_count);
+    sheets->items[sheet] = joined;
+    sheets->items[run->other] = (sp_sheet){0};
+    bool closed; /* what is left open here might overlap on the finer mesh */
+    if (sheets->coarse && fmax(a.strain, b.strain) > SP_DEVELOPABLE_STRAIN && !sp_close_ends(sheets, sheet, &closed))
+        verdict = SP_SHEET_MEMORY;
+    else
+        verdict = sp_settle(sheets, sheet, m->extent, m->relaxer);
+    if (verdict == SP_SHEET_FITS) {
+        sp_sheet_free(&a);
+        sp_sheet_free(&b);
+        m->box[sheet] = area;
+        return verdict;
+    }
+    sp_sheet_free(&sheets->items[sheet]);
+    sheets->items[sheet] = a;
+    sheets->items[run->other] = b;
+    take_over(sheets, &b, run->other, 0);
+    return verdict;
+}
+
+static bool attempt(merging *m, const candidate *c)
+{
+    sp_run run = c->run, back = turned(m->sheets, c->sheet, &run);
+    uint32_t sheet = c->sheet;
+    if (m->sheets->items[run.other].triangle_count > m->sheets->items[sheet].triangle_count) {
+        sp_run swap = run;
+        sheet = run.other;
+        run = back;
+        back = swap;
+    }
+    sp_verdict verdict = try_join(m, sheet, &run);
+    if (verdict == SP_SHEET_MEMORY)
+        return false;
+    if (verdict == SP_SHEET_UNFIT) {
+        m->failed[run.first] = m->failed[back.first] = run.count;
+        return true;
+    }
+    m->version[sheet]++;
+    m->version[run.other]++;
+    return add_candidates(m, sheet, false);
+}
+
+static bool is_current(const merging *m, const candidate *c)
+{
+    return m->version[c->sheet] == c->version && m->version[c->run.other] == c->other_version;
+}
+
+bool sp_merge(sp_sheets *sheets, size_t first_new, double extent, sp_relaxer *relaxer, sp_error *error)
+{
+    merging m = {.sheets = sheets, .extent = extent, .relaxer = relaxer, .first_new = first_new};
+    m.version = calloc(sheets->count + 1, sizeof *m.version);
+    m.perimeter = calloc(sheets->count + 1, sizeof *m.perimeter);
+    m.box = calloc(sheets->count + 1, sizeof *m.box);
+    m.failed = calloc(3 * sheets->mesh->triangle_count + 1, sizeof *m.failed);
+    bool good = m.version && m.perimeter && m.box && m.failed && sp_runs_create(&m.runs, sheets->mesh);
+    for (uint32_t i = 0; good && i < sheets->count; i++) {
+        if (sheets->items[i].triangle_count == 0)
+            continue;
+        good = sp_runs_find(&m.runs, sheets, i, SP_BEND_SMOOTH);
+        m.perimeter[i] = m.runs.perimeter;
+        sp_least_box box = sp_find_least_box(&sheets->items[i], INFINITY);
+        m.box[i] = box.width * box.height;
+        good = good && box.memory;
+    }
+    for (uint32_t i = 0; good && i < sheets->count; i++)
+        good = add_candidates(&m, i, true);
+    while (good && m.heap.count) {
+        candidate c = m.candidates[(uint32_t)sp_heap_pop(&m.heap)];
+        good = !is_current(&m, &c) || attempt(&m, &c);
+    }
+    sp_runs_destroy(&m.runs);
+    free(m.version);
+    free(m.perimeter);
+    free(m.box);
+    free(m.failed);
+    free(m.candidates);
+    free(m.heap.keys);
+    if (!good)
+        sp_fail_memory(error);
+    return good;
+}

@@ -1,0 +1,32 @@
+/* Where two sheets lie side by side on the surface. */
+#ifndef ATLAS_RUNS_H
+#define ATLAS_RUNS_H
+
+#include "atlas/charts/sheets.h"
+
+/* A run is an unbroken row of edges that two sheets share, with no vertex between them that is bent too much: `count`
+ * boundary half-edges of one sheet from `first` on, each followed by the next around its boundary, all with twins in
+ * sheet `other`. */
+typedef struct {
+    uint32_t other, first, count;
+    double length; /* m */
+} sp_run;
+
+typedef struct {
+    sp_run *items;
+    size_t count, capacity;
+    uint32_t *loop; /* scratch: one boundary */
+    size_t loop_capacity;
+    uint8_t *seen;    /* scratch: [3 triangle_count], zeros between calls */
+    double perimeter; /* of the sheet, m */
+    sp_bend most;
+} sp_runs;
+
+/* False when memory runs out. */
+bool sp_runs_create(sp_runs *runs, const sp_mesh *mesh);
+void sp_runs_destroy(sp_runs *runs);
+/* Lists the longest run of sheet `number` with each of its neighbours, by their numbers; vertices inside of a run are
+ * bent by at most `most`. False when memory runs out. */
+bool sp_runs_find(sp_runs *runs, const sp_sheets *sheets, uint32_t number, sp_bend most);
+
+#endif

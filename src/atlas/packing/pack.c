@@ -1,0 +1,64 @@
+#include "atlas/packing/pack.h"
+
+#include "atlas/packing/nest.h"
+#include "atlas/packing/skyline.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* The bounding boxes' places as spots. */
+static bool pack_boxes(const sp_shape *shapes, size_t count, uint32_t limit, sp_spot *spots, uint32_t *page_edge,
+                       size_t *page_count, sp_error *error)
+{
+    sp_rectangle *boxes = malloc((count + 1) * sizeof *boxes);
+    if (!boxes)
+        return sp_fail_memory(error);
+    for (size_t i = 0; i < count; i++)
+        boxes[i] = (sp_rectangle){.width = shapes[i].width, .height = shapes[i].height};
+    bool done = sp_skyline(boxes, count, limit, page_edge, page_count, error);
+    for (size_t i = 0; done && i < count; i++)
+        spots[i] = (sp_spot){boxes[i].page, boxes[i].x, boxes[i].y, 0};
+    free(boxes);
+    return done;
+}
+
+/* A point of a frame after the frame was turned and put on its spot. */
+static void place_point(const sp_shape *shape, const sp_spot *spot, const double point[2], double uv[2])
+{
+    double width = shape->width, height = shape->height;
+    double x = fmin(fmax(point[0], 0), width), y = fmin(fmax(point[1], 0), height);
+    const double turned[4][2] = {{x, y}, {height - y, x}, {width - x, height - y}, {y, width - x}};
+    const double size[2] = {spot->turns % 2 ? height : width, spot->turns % 2 ? width : height};
+    const double corner[2] = {spot->x, spot->y};
+    for (int k = 0; k < 2; k++) /* just inside the far sides, where round-off may have left no pixel */
+        uv[k] = fmin(corner[k] + turned[spot->turns][k], nextafter(corner[k] + size[k], 0));
+}
+
+static void place_triangles(sp_atlas *atlas, const sp_charts *charts, const sp_shape *shapes, const sp_spot *spots)
+{
+    for (size_t t = 0; t < charts->triangle_count; t++) {
+        const sp_shape *shape = &shapes[charts->chart[t]];
+        for (int i = 0; i < 3; i++) {
+            const double point[2] = {charts->flat[t][i][0] / atlas->texel + shape->left,
+                                     charts->flat[t][i][1] / atlas->texel + shape->low};
+            place_point(shape, &spots[charts->chart[t]], point, atlas->uv[t][i]);
+        }
+    }
+    for (size_t c = 0; c < charts->chart_count; c++)
+        atlas->chart_page[c] = spots[c].page;
+}
+
+bool sp_atlas_pack(sp_atlas *atlas, const sp_charts *charts, sp_packing packing, uint32_t limit, sp_error *error)
+{
+    size_t count = charts->chart_count;
+    sp_shape *shapes = sp_shapes_create(charts, atlas->texel, limit, error);
+    sp_spot *spots = malloc((count + 1) * sizeof *spots);
+    bool done = shapes && (spots || sp_fail_memory(error));
+    done = done && (packing == SP_PACKING_SKYLINE ? pack_boxes : sp_nest)(shapes, count, limit, spots,
+                                                                          &atlas->page_edge, &atlas->page_count, error);
+    if (done)
+        place_triangles(atlas, charts, shapes, spots);
+    sp_shapes_destroy(shapes, count);
+    free(spots);
+    return done;
+}

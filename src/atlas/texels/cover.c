@@ -1,0 +1,205 @@
+/* Exact areas by signed accumulation along the edges, as font rasterisers do: an edge gives every pixel that it passes
+ * what lies to the right of it there, and what it climbs to all further pixels of the row (S. Barrett, "How the
+ * stb_truetype anti-aliased software rasterizer v2 works", 2015). */
+#include "atlas/texels/cover.h"
+#include "atlas/least.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void sort_by_height(double corner[3][2])
+{
+    for (int i = 0; i < 3; i++) {
+        int j = i == 2 ? 0 : i, k = j + 1; /* 0 1, 1 2, 0 1 */
+        if (corner[k][1] < corner[j][1]) {
+            double swap[2];
+            memcpy(swap, corner[j], sizeof swap);
+            memcpy(corner[j], corner[k], sizeof swap);
+            memcpy(corner[k], swap, sizeof swap);
+        }
+    }
+}
+
+bool sp_cover_begin(sp_cover *cover, const double uv[3][2], sp_cover_kind kind)
+{
+    double slack = kind == SP_COVER_TOUCHED ? SP_COVER_SLACK : 0, low[2], high[2];
+    for (int k = 0; k < 2; k++) {
+        low[k] = floor(sp_least(uv[0][k], sp_least(uv[1][k], uv[2][k])) - slack);
+        for (int i = 0; i < 3; i++)
+            cover->corner[i][k] = uv[i][k] - low[k]; /* loses nothing */
+        high[k] = sp_most(cover->corner[0][k], sp_most(cover->corner[1][k], cover->corner[2][k]));
+    }
+    double(*c)[2] = cover->corner;
+    cover->kind = kind;
+    cover->width = high[0] - sp_least(c[0][0], sp_least(c[1][0], c[2][0]));
+    cover->base_x = (uint32_t)low[0];
+    cover->base_y = (uint32_t)low[1];
+    cover->columns = (uint32_t)sp_most(ceil(high[0] + slack), 1);
+    cover->rows = (uint32_t)sp_most(ceil(high[1] + slack), 1);
+    cover->row = 0;
+    cover->flat = 0.5 * ((c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[1][1] - c[0][1]) * (c[2][0] - c[0][0]));
+    sort_by_height(c);
+    cover->height = c[2][1] - c[0][1];
+    /* Above 0 where the middle corner lies right of the edge from the lowest to the highest. */
+    cover->turn = (c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[1][1] - c[0][1]) * (c[2][0] - c[0][0]);
+    size_t need = (size_t)cover->columns + 1;
+    if (kind == SP_COVER_AREAS && need > cover->capacity) {
+        double *area = realloc(cover->area, 2 * need * sizeof *area);
+        if (!area)
+            return false;
+        cover->area = area;
+        cover->capacity = 2 * need;
+    }
+    return true;
+}
+
+void sp_cover_free(sp_cover *cover)
+{
+    free(cover->area);
+    *cover = (sp_cover){0};
+}
+
+static double at_height(const double p[2], const double q[2], double y)
+{
+    if (y <= p[1])
+        return p[0];
+    if (y >= q[1])
+        return q[0];
+    double x = p[0] + (y - p[1]) / (q[1] - p[1]) * (q[0] - p[0]);
+    return sp_least(sp_most(x, sp_least(p[0], q[0])), sp_most(p[0], q[0]));
+}
+
+/* Where a row cuts the triangle: the long edge, and the two short ones, which meet at the middle corner. */
+typedef struct {
+    double low, high;           /* heights */
+    double long_low, long_high; /* x of the long edge there */
+    double short_low, short_high;
+    bool bent; /* the middle corner lies between them */
+} strip;
+
+static strip cut(const sp_cover *cover, double low, double high)
+{
+    const double(*c)[2] = (const double(*)[2])cover->corner;
+    strip s = {sp_most(low, c[0][1]), sp_least(high, c[2][1]), 0, 0, 0, 0, false};
+    s.long_low = at_height(c[0], c[2], s.low);
+    s.long_high = at_height(c[0], c[2], s.high);
+    s.short_low = s.low < c[1][1] ? at_height(c[0], c[1], s.low) : at_height(c[1], c[2], s.low);
+    s.short_high = s.high <= c[1][1] ? at_height(c[0], c[1], s.high) : at_height(c[1], c[2], s.high);
+    s.bent = c[1][1] > s.low && c[1][1] < s.high;
+    return s;
+}
+
+/* Adds what lies right of the edge from (xa, ya) up to (xb, yb), times `sign`, to area[0] and on, in such a way that
+ * the sums from area[0] to area[k] are the pixels' areas. */
+static void accumulate(double *area, double xa, double ya, double xb, double yb, double sign)
+{
+    double rise = sign * (yb - ya), left = sp_least(xa, xb), right = sp_most(xa, xb);
+    uint32_t first = (uint32_t)left, last = (uint32_t)right;
+    if (first == last) {
+        double here = rise * (first + 1 - 0.5 * (left + right));
+        area[first] += here;
+        area[first + 1] += rise - here;
+        return;
+    }
+    double slope = rise / (right - left), part = slope * (first + 1 - left);
+    double here = 0.5 * part * (first + 1 - left);
+    area[first] += here;
+    double carried = part - here; /* what goes to the pixel in hand from those before */
+    for (uint32_t k = first + 1; k < last; k++) {
+        area[k] += carried + 0.5 * slope;
+        carried = 0.5 * slope;
+    }
+    part = slope * (right - last);
+    here = part * (1 - 0.5 * (right - last));
+    area[last] += carried + here;
+    area[last + 1] += part - here;
+}
+
+static double within(double x, double low, double high)
+{
+    return sp_least(sp_most(x - low, 0), high - low);
+}
+
+/* `first` and `end` are the strip's columns. What was dropped as slivers beyond them goes to the outermost. */
+static void measure(sp_cover *cover, const strip *s, uint32_t first, uint32_t end)
+{
+    const double *middle = cover->corner[1];
+    double sign = cover->turn >= 0 ? 1 : -1, width_low = sign * (s->short_low - s->long_low),
+           width_high = sign * (s->short_high - s->long_high);
+    if (end - first == 1) { /* trapezes from their widths, which keeps needles exact */
+        if (!s->bent) {
+            cover->area[0] = 0.5 * (s->high - s->low) * (width_low + width_high);
+            return;
+        }
+        double bend = sign * (middle[0] - at_height(cover->corner[0], cover->corner[2], middle[1]));
+        cover->area[0] =
+            0.5 * ((middle[1] - s->low) * (width_low + bend) + (s->high - middle[1]) * (bend + width_high));
+        return;
+    }
+    memset(cover->area, 0, (end - first + 1) * sizeof *cover->area);
+    double a = first, b = nextafter(end, 0);
+    accumulate(cover->area, within(s->long_low, a, b), s->low, within(s->long_high, a, b), s->high, sign);
+    if (s->bent) {
+        double x = within(middle[0], a, b);
+        accumulate(cover->area, within(s->short_low, a, b), s->low, x, middle[1], -sign);
+        accumulate(cover->area, x, middle[1], within(s->short_high, a, b), s->high, -sign);
+    } else {
+        accumulate(cover->area, within(s->short_low, a, b), s->low, within(s->short_high, a, b), s->high, -sign);
+    }
+    for (uint32_t k = 1; k < end - first; k++)
+        cover->area[k] += cover->area[k - 1];
+}
+
+/* The strip's columns; false where the row holds but a sliver. */
+static bool take_row(sp_cover *cover, uint32_t row)
+{
+    double slack = cover->kind == SP_COVER_TOUCHED ? SP_COVER_SLACK : 0;
+    strip s = cut(cover, row - slack, row + 1 + slack);
+    if (s.high - s.low < (slack > 0 ? 0 : SP_SLIVER * sp_least(1, cover->height)))
+        return false;
+    double left = sp_least(sp_least(s.long_low, s.long_high), sp_least(s.short_low, s.short_high));
+    double right = sp_most(sp_most(s.long_low, s.long_high), sp_most(s.short_low, s.short_high));
+    if (s.bent) {
+        left = sp_least(left, cover->corner[1][0]);
+        right = sp_most(right, cover->corner[1][0]);
+    }
+    double shrink = slack > 0 ? -slack : SP_SLIVER * sp_least(1, cover->width);
+    double first = floor(left + shrink), end = ceil(right - shrink);
+    if (!(end > first)) {
+        first = floor(0.5 * (left + right));
+        end = first + 1;
+    }
+    first = sp_least(first, cover->columns - 1.0);
+    end = sp_most(sp_least(end, cover->columns), first + 1);
+    cover->y = cover->base_y + row;
+    cover->x = cover->base_x + (uint32_t)first;
+    cover->count = (uint32_t)(end - first);
+    if (cover->kind == SP_COVER_AREAS)
+        measure(cover, &s, (uint32_t)first, (uint32_t)end);
+    return true;
+}
+
+/* A triangle that rounding left without area lies in the pixel of its middle. */
+static bool take_middle(sp_cover *cover)
+{
+    const double(*c)[2] = (const double(*)[2])cover->corner;
+    double x = (c[0][0] + c[1][0] + c[2][0]) / 3, y = (c[0][1] + c[1][1] + c[2][1]) / 3;
+    cover->x = cover->base_x + (uint32_t)sp_least(x, cover->columns - 1.0);
+    cover->y = cover->base_y + (uint32_t)sp_least(y, cover->rows - 1.0);
+    cover->count = 1;
+    if (cover->kind == SP_COVER_AREAS)
+        cover->area[0] = 0;
+    cover->row = cover->rows;
+    return true;
+}
+
+bool sp_cover_next(sp_cover *cover)
+{
+    if (!(cover->flat > 0) && cover->kind != SP_COVER_TOUCHED && cover->row == 0)
+        return take_middle(cover);
+    while (cover->row < cover->rows)
+        if (take_row(cover, cover->row++))
+            return true;
+    return false;
+}

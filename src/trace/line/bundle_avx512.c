@@ -1,0 +1,2 @@
+#define SP_KERNEL(name) name##_avx512
+#include "trace/line/bundle_kernel.h"

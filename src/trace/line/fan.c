@@ -1,0 +1,138 @@
+/* Rays of one origin: put in the order of their directions, then traced in bundles of neighbours. */
+#include "trace/line/bundle.h"
+#include "trace/bvh/direction_order.h"
+#include "trace/line.h"
+#include "trace/line/line_bvh.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Origins farther away are left to single lines, which begin near the mesh. */
+#define NEAR_ENOUGH 7.0
+
+static const sp_bundle_kernel *const kernels[] = {&sp_bundle_portable, &sp_bundle_avx2, &sp_bundle_avx512};
+
+sp_hit sp_bundle_ask(const sp_bundle *b, int lane, uint32_t triangle, uint32_t other)
+{
+    const sp_ray *ray = &b->rays[b->ray[lane]];
+    sp_search search = sp_search_start(ray, false);
+    sp_line line;
+    uint32_t candidates[2] = {triangle, other};
+    bool good = sp_line_start(&line, ray);
+    for (int i = 0; good && i < 2 && candidates[i] != SP_NONE; i++) {
+        sp_corners corners;
+        sp_bvh_corners(b->bvh, candidates[i], corners);
+        sp_line_test(&line, (const double(*)[3])corners, candidates[i], &search);
+    }
+    return search.best;
+}
+
+void sp_bundle_settle(sp_bundle *b, int lane, uint32_t triangle)
+{
+    sp_hit hit = sp_bundle_ask(b, lane, triangle, b->triangle[lane]);
+    if (hit.triangle == SP_NONE)
+        return;
+    float depth = (float)(hit.t * fabs(b->velocity[2][lane]) * b->bvh->scale);
+    b->triangle[lane] = hit.triangle;
+    b->low[lane] = depth - SP_BVH_PAD;
+    b->high[lane] = b->any ? -1 : depth + SP_BVH_PAD;
+}
+
+/* Where the origin is in the hierarchy's space; false where that is too far away. */
+static bool place_origin(sp_fan *f)
+{
+    double origin[3], reach = 0;
+    sp_to_array(f->rays[0].origin, origin);
+    for (int axis = 0; axis < 3; axis++) {
+        double place = (origin[axis] - f->bvh->centre[axis]) * f->bvh->scale;
+        f->place[axis] = place;
+        reach = sp_greater(reach, fabs(place) + 1);
+        if (!(fabs(place) <= NEAR_ENOUGH))
+            return false;
+    }
+    f->blur = 13 * 0x1p-24f * (float)reach;
+    return true;
+}
+
+void sp_fan_room_clear(sp_fan_room *room)
+{
+    free(room->order);
+    *room = (sp_fan_room){0};
+}
+
+static bool make_room(sp_fan_room *room, size_t count)
+{
+    if (count <= room->count)
+        return true;
+    sp_fan_room_clear(room);
+    if (count > SIZE_MAX / (2 * sizeof *room->order))
+        return false;
+    room->order = malloc(2 * count * sizeof *room->order);
+    if (!room->order)
+        return false;
+    room->count = count;
+    return true;
+}
+
+/* Sends for the corners of the triangles that were hit. */
+static void fetch_corners(const sp_bundle *b)
+{
+    const sp_mesh *mesh = b->bvh->mesh;
+    for (int i = 0; i < b->count; i++)
+        for (int k = 0; b->triangle[i] != SP_NONE && k < 3; k++)
+            __builtin_prefetch(&mesh->vertices[mesh->triangles[b->triangle[i]][k]]);
+}
+
+/* The hits of a bundle are computed when the next one has been searched, as their corners have to come from memory. */
+static void trace_bundles(const sp_fan *f, const sp_bundle_kernel *kernel, sp_hit *hits, bool *occluded)
+{
+    sp_bundle bundles[2];
+    int at = 0;
+    bundles[1].count = 0;
+    for (size_t i = 0; i < f->count; at = !at) {
+        sp_bundle *b = &bundles[at];
+        b->bvh = f->bvh;
+        b->rays = f->rays;
+        b->blur = f->blur;
+        b->any = !hits;
+        i += kernel->fill(f, i, b);
+        kernel->search(b);
+        for (int k = 0; !hits && k < b->count; k++)
+            occluded[b->ray[k]] = b->triangle[k] != SP_NONE;
+        if (hits) {
+            fetch_corners(b);
+            kernel->answer(&bundles[!at], hits);
+        }
+    }
+    if (hits)
+        kernel->answer(&bundles[!at], hits);
+}
+
+bool sp_fan_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count, sp_fan_room *room,
+                  sp_hit *hits, bool *occluded)
+{
+    sp_fan f = {.bvh = bvh, .rays = rays, .count = count};
+    if (bvh->node_count == 0 || count == 0 || !place_origin(&f))
+        return false;
+    if (!make_room(room, count))
+        return false;
+    f.order[0] = room->order;
+    f.order[1] = f.order[0] + count;
+    if (!kernels[instructions]->keys(bvh, rays, count, f.order[0]))
+        return false;
+    sp_direction_sort(f.order, count);
+    trace_bundles(&f, kernels[instructions], hits, occluded);
+    return true;
+}
+
+bool sp_fan_stream(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count, sp_fan_room *room,
+                   sp_hit *hits, bool *occluded)
+{
+    if (!make_room(room, count))
+        return false;
+    sp_direction_entry *order[2] = {room->order, room->order + count};
+    kernels[instructions]->keys(bvh, rays, count, order[0]);
+    sp_direction_sort(order, count);
+    sp_bvh_trace_lines(bvh, instructions, rays, order[0], count, hits, occluded);
+    return true;
+}

@@ -1,0 +1,2 @@
+#define SP_KERNEL(name) name##_portable
+#include "trace/parabola/parabola_hits_kernel.h"
