@@ -73,22 +73,6 @@ static bool measure_strain(const sp_atlas *atlas, const sp_mesh *mesh, sp_atlas_
     return true;
 }
 
-/* True where the two sides of an edge do not lie on each other. */
-static bool is_cut(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t a, uint32_t b)
-{
-    if (atlas->chart[a / 3] != atlas->chart[b / 3])
-        return true;
-    uint32_t start_a = a % 3, end_a = (start_a + 1) % 3, start_b = b % 3, end_b = (start_b + 1) % 3;
-    if (mesh->triangles[a / 3][start_a] != mesh->triangles[b / 3][start_b]) {
-        start_b = end_b;
-        end_b = b % 3;
-    }
-    const double(*p)[2] = (const double(*)[2])atlas->uv[a / 3], (*q)[2] = (const double(*)[2])atlas->uv[b / 3];
-    double gap = fmax(hypot(p[start_a][0] - q[start_b][0], p[start_a][1] - q[start_b][1]),
-                      hypot(p[end_a][0] - q[end_b][0], p[end_a][1] - q[end_b][1]));
-    return gap > SP_OVERLAP_TOLERANCE * hypot(p[end_a][0] - p[start_a][0], p[end_a][1] - p[start_a][1]);
-}
-
 static bool measure_seams(const sp_atlas *atlas, const sp_mesh *mesh, double surface, sp_atlas_figures *figures,
                           sp_error *error)
 {
@@ -101,32 +85,23 @@ static bool measure_seams(const sp_atlas *atlas, const sp_mesh *mesh, double sur
         uint32_t a = edges.order[i];
         double edge = sp_distance(mesh->vertices[sp_half_edge_from(mesh, a)], mesh->vertices[sp_half_edge_to(mesh, a)]);
         for (size_t k = 1; k < of_edge; k++)
-            length += is_cut(atlas, mesh, edges.order[i + k - 1], edges.order[i + k]) ? edge : 0;
+            length += sp_edge_is_cut(atlas, mesh, edges.order[i + k - 1], edges.order[i + k]) ? edge : 0;
     }
     sp_half_edges_destroy(&edges);
     figures->seam_over_sqrt_area = surface > 0 ? length / sqrt(surface) : 0;
     return true;
 }
 
-/* Texels of more than one connected patch, and pairs of triangles that overlap on their page: charts lie apart, so both
- * are of one chart. */
+/* Texels of more than one connected patch, those that two charts share among them, and pairs of triangles that overlap
+ * in a chart. */
 static bool measure_conflicts(const sp_atlas *atlas, const sp_mesh *mesh, sp_atlas_figures *figures, sp_error *error)
 {
-    if (!sp_atlas_count_shared(atlas, mesh, &figures->shared_texels, error))
+    sp_overlaps found;
+    if (!sp_atlas_count_shared(atlas, mesh, &figures->shared_texels, error) ||
+        !sp_find_overlaps(atlas, mesh, SIZE_MAX, &found, error))
         return false;
-    sp_plane *plane = sp_plane_create((const double(*)[3][2])atlas->uv, atlas->triangle_count, error);
-    bool done = plane;
-    for (uint32_t page = 0; done && page < atlas->page_count; page++) {
-        sp_plane_clear(plane);
-        for (uint32_t t = 0; done && t < atlas->triangle_count; t++) {
-            if (atlas->chart_page[atlas->chart[t]] != page)
-                continue;
-            figures->overlaps += sp_plane_overlaps(plane, (const double(*)[2])atlas->uv[t], SIZE_MAX);
-            done = sp_plane_add(plane, t, error);
-        }
-    }
-    sp_plane_destroy(plane);
-    return done;
+    figures->overlaps = found.count;
+    return true;
 }
 
 static bool count_small_charts(const sp_atlas *atlas, sp_atlas_figures *figures)

@@ -1,207 +1,159 @@
-/* A loose quadtree: a triangle hangs in the smallest square that is as wide as its bounding box and holds the box's
- * centre, so it reaches at most half a square beyond. Triangles of any mix of sizes are found in logarithmic time.
- * Follows T. Ulrich, "Loose Octrees", Game Programming Gems (2000). */
+/* A chart whose outline is simple has no overlaps; only in others is every triangle held against those around it. */
 #include "atlas/overlap.h"
 
-#include <sprayplan/mesh.h>
+#include "atlas/charts/outline.h"
+#include "atlas/charts/sheets.h"
+#include "atlas/plane.h"
+#include "mesh/half_edge.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct {
-    double x, y, half;
-    uint32_t child[4]; /* SP_NONE where there is none */
-    uint32_t first;    /* triangle, SP_NONE where there is none */
-} node;
+    const sp_atlas *atlas;
+    sp_half_edges edges;
+    uint32_t *list;       /* [triangle_count], the triangles by chart */
+    size_t *start;        /* [chart_count + 2], where each chart's begin */
+    uint32_t *link;       /* [3 triangle_count], corners that are one point of a chart are linked */
+    uint32_t *number;     /* [3 triangle_count], of the points of the chart in hand, else SP_NONE */
+    sp_segment *segments; /* [3 times the triangles of the largest chart], of the chart in hand */
+    sp_plane *plane;
+} search;
 
-struct sp_plane {
-    const double (*flat)[3][2];
-    uint32_t *next; /* [triangle_count], the next triangle in the same node */
-    node *nodes;
-    size_t count, capacity;
-    uint32_t root;
-};
-
-typedef struct {
-    double low[2], high[2];
-} box;
-
-static box box_around(const double t[3][2])
+static const double *corner(const search *s, uint32_t at)
 {
-    box b;
-    for (int k = 0; k < 2; k++) {
-        b.low[k] = fmin(t[0][k], fmin(t[1][k], t[2][k]));
-        b.high[k] = fmax(t[0][k], fmax(t[1][k], t[2][k]));
+    return s->atlas->uv[at / 3][at % 3];
+}
+
+/* Whether an edge's two sides are one edge of the chart, to the last bit. */
+static bool is_whole(const search *s, uint32_t half_edge)
+{
+    uint32_t other = s->edges.opposite[half_edge];
+    return other != SP_NONE && s->atlas->chart[half_edge / 3] == s->atlas->chart[other / 3] &&
+           memcmp(corner(s, half_edge), corner(s, sp_around(other)), 2 * sizeof(double)) == 0 &&
+           memcmp(corner(s, sp_around(half_edge)), corner(s, other), 2 * sizeof(double)) == 0;
+}
+
+/* Returns the largest chart's number of triangles. */
+static size_t list_by_chart(const search *s)
+{
+    const sp_atlas *atlas = s->atlas;
+    size_t most = 0;
+    memset(s->start, 0, (atlas->chart_count + 2) * sizeof *s->start);
+    for (size_t t = 0; t < atlas->triangle_count; t++)
+        s->start[atlas->chart[t] + 2]++;
+    for (size_t c = 2; c < atlas->chart_count + 2; c++) {
+        most = s->start[c] > most ? s->start[c] : most;
+        s->start[c] += s->start[c - 1];
     }
-    return b;
+    for (uint32_t t = 0; t < atlas->triangle_count; t++)
+        s->list[s->start[atlas->chart[t] + 1]++] = t;
+    return most;
 }
 
-/* The longest edge and the height above it. */
-static void edge_and_height(const double t[3][2], double *edge, double *height)
+static void link_corners(const search *s)
 {
-    double longest = 0;
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3;
-        longest = fmax(longest, hypot(t[j][0] - t[i][0], t[j][1] - t[i][1]));
+    size_t corners = 3 * s->atlas->triangle_count;
+    for (uint32_t h = 0; h < corners; h++) {
+        s->link[h] = h;
+        s->number[h] = SP_NONE;
     }
-    double twice = (t[1][0] - t[0][0]) * (t[2][1] - t[0][1]) - (t[1][1] - t[0][1]) * (t[2][0] - t[0][0]);
-    *edge = longest;
-    *height = longest > 0 ? fabs(twice) / longest : 0;
-}
-
-/* Round-off grows with the length of the edges, however thin the triangles are. */
-static double tolerance_of(const double a[3][2], const double b[3][2])
-{
-    double edge_a, height_a, edge_b, height_b;
-    edge_and_height(a, &edge_a, &height_a);
-    edge_and_height(b, &edge_b, &height_b);
-    return SP_OVERLAP_TOLERANCE * fmin(height_a, height_b) + 1e-9 * fmin(edge_a, edge_b);
-}
-
-/* True where an edge of `a` has all of `b` on its outer side, but for `tolerance`. */
-static bool separated_by_edge(const double a[3][2], const double b[3][2], double tolerance)
-{
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3;
-        double dx = a[j][0] - a[i][0], dy = a[j][1] - a[i][1];
-        double bound = -tolerance * sqrt(dx * dx + dy * dy);
-        int outside = 0;
-        for (int k = 0; k < 3; k++)
-            outside += dy * (b[k][0] - a[i][0]) - dx * (b[k][1] - a[i][1]) >= bound;
-        if (outside == 3)
-            return true;
-    }
-    return false;
-}
-
-bool sp_triangles_overlap(const double a[3][2], const double b[3][2])
-{
-    /* Separating axes: two convex polygons are apart where an edge of one has the other outside (Ericson 5.2.1). */
-    double tolerance = tolerance_of(a, b);
-    return !separated_by_edge(a, b, tolerance) && !separated_by_edge(b, a, tolerance);
-}
-
-sp_plane *sp_plane_create(const double (*flat)[3][2], size_t triangle_count, sp_error *error)
-{
-    sp_plane *plane = calloc(1, sizeof *plane);
-    if (!plane)
-        return sp_fail_memory(error);
-    plane->flat = flat;
-    plane->root = SP_NONE;
-    plane->next = malloc((triangle_count + !triangle_count) * sizeof *plane->next);
-    if (!plane->next) {
-        sp_plane_destroy(plane);
-        return sp_fail_memory(error);
-    }
-    return plane;
-}
-
-void sp_plane_destroy(sp_plane *plane)
-{
-    if (!plane)
-        return;
-    free(plane->next);
-    free(plane->nodes);
-    free(plane);
-}
-
-void sp_plane_clear(sp_plane *plane)
-{
-    plane->count = 0;
-    plane->root = SP_NONE;
-}
-
-static uint32_t add_node(sp_plane *plane, double x, double y, double half)
-{
-    if (plane->count == plane->capacity) {
-        size_t capacity = plane->capacity ? 2 * plane->capacity : 256;
-        node *nodes = capacity < SP_NONE ? realloc(plane->nodes, capacity * sizeof *nodes) : NULL;
-        if (!nodes)
-            return SP_NONE;
-        plane->nodes = nodes;
-        plane->capacity = capacity;
-    }
-    plane->nodes[plane->count] = (node){x, y, half, {SP_NONE, SP_NONE, SP_NONE, SP_NONE}, SP_NONE};
-    return (uint32_t)plane->count++;
-}
-
-/* Doubles the root towards (x, y) until it holds that point and a box of `size`. */
-static bool grow_root(sp_plane *plane, double x, double y, double size)
-{
-    if (plane->root == SP_NONE) {
-        plane->root = add_node(plane, x, y, size);
-        return plane->root != SP_NONE;
-    }
-    for (;;) {
-        node old = plane->nodes[plane->root];
-        if (fabs(x - old.x) <= old.half && fabs(y - old.y) <= old.half && size <= 2 * old.half)
-            return true;
-        int right = x >= old.x, up = y >= old.y;
-        uint32_t root =
-            add_node(plane, old.x + (right ? old.half : -old.half), old.y + (up ? old.half : -old.half), 2 * old.half);
-        if (root == SP_NONE)
-            return false;
-        plane->nodes[root].child[(right ? 0 : 1) + (up ? 0 : 2)] = plane->root;
-        plane->root = root;
-    }
-}
-
-bool sp_plane_add(sp_plane *plane, uint32_t triangle, sp_error *error)
-{
-    box b = box_around(plane->flat[triangle]);
-    double x = 0.5 * (b.low[0] + b.high[0]), y = 0.5 * (b.low[1] + b.high[1]);
-    double size = fmax(fmax(b.high[0] - b.low[0], b.high[1] - b.low[1]), 1e-12 * (fabs(x) + fabs(y)) + 1e-300);
-    if (!grow_root(plane, x, y, size)) {
-        sp_fail_memory(error);
-        return false;
-    }
-    uint32_t at = plane->root;
-    while (plane->nodes[at].half >= size) {
-        node here = plane->nodes[at];
-        int right = x >= here.x, up = y >= here.y, quarter = right + 2 * up;
-        uint32_t child = here.child[quarter];
-        if (child == SP_NONE) {
-            double half = 0.5 * here.half;
-            child = add_node(plane, here.x + (right ? half : -half), here.y + (up ? half : -half), half);
-            if (child == SP_NONE) {
-                sp_fail_memory(error);
-                return false;
-            }
-            plane->nodes[at].child[quarter] = child;
+    for (uint32_t h = 0; h < corners; h++)
+        if (is_whole(s, h)) {
+            sp_link(s->link, h, sp_around(s->edges.opposite[h]));
+            sp_link(s->link, sp_around(h), s->edges.opposite[h]);
         }
-        at = child;
+}
+
+static uint32_t number_of(const search *s, uint32_t at, uint32_t *count)
+{
+    uint32_t *number = &s->number[sp_linked(s->link, at)];
+    if (*number == SP_NONE)
+        *number = (*count)++;
+    return *number;
+}
+
+static bool is_anticlockwise(const double uv[3][2])
+{
+    return (uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) > (uv[1][1] - uv[0][1]) * (uv[2][0] - uv[0][0]);
+}
+
+static sp_outline outline_of(const search *s, const uint32_t *list, size_t count)
+{
+    size_t segments = 0;
+    uint32_t points = 0;
+    for (size_t i = 0; i < count; i++)
+        if (!is_anticlockwise((const double(*)[2])s->atlas->uv[list[i]]))
+            return (sp_outline){.memory = true};
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t h = 3 * list[i]; h < 3 * list[i] + 3; h++)
+            if (!is_whole(s, h))
+                s->segments[segments++] = (sp_segment){number_of(s, h, &points), number_of(s, sp_around(h), &points),
+                                                       corner(s, h), corner(s, sp_around(h))};
+    sp_outline outline = sp_find_outline(s->segments, segments, points);
+    for (size_t i = 0; i < count; i++)
+        for (uint32_t h = 3 * list[i]; h < 3 * list[i] + 3; h++)
+            s->number[sp_linked(s->link, h)] = SP_NONE;
+    return outline;
+}
+
+static bool try_pairs(const search *s, const uint32_t *list, size_t count, sp_overlaps *found, sp_error *error)
+{
+    bool done = true;
+    sp_plane_clear(s->plane);
+    for (size_t i = 0; done && i < count; i++) {
+        size_t more = sp_plane_overlaps(s->plane, (const double(*)[2])s->atlas->uv[list[i]], SIZE_MAX, &found->tests);
+        found->triangle = more && !found->count ? list[i] : found->triangle;
+        found->count += more;
+        done = sp_plane_add(s->plane, list[i], error);
     }
-    plane->next[triangle] = plane->nodes[at].first;
-    plane->nodes[at].first = triangle;
+    return done;
+}
+
+static bool look_through(const search *s, size_t most, sp_overlaps *found, sp_error *error)
+{
+    for (size_t c = 0; c < s->atlas->chart_count && found->count < most; c++) {
+        const uint32_t *list = s->list + s->start[c];
+        size_t count = s->start[c + 1] - s->start[c];
+        if (count < 2)
+            continue;
+        sp_outline outline = outline_of(s, list, count);
+        found->tests += outline.tests;
+        if (!outline.memory)
+            return sp_fail_memory(error);
+        if (!outline.simple && !try_pairs(s, list, count, found, error))
+            return false;
+    }
     return true;
 }
 
-static size_t overlaps_below(const sp_plane *plane, uint32_t at, const double triangle[3][2], const box *b,
-                             size_t limit)
+bool sp_find_overlaps(const sp_atlas *atlas, const sp_mesh *mesh, size_t most, sp_overlaps *found, sp_error *error)
 {
-    const node *here = &plane->nodes[at];
-    double reach = 2.000001 * here->half;
-    if (b->low[0] > here->x + reach || b->high[0] < here->x - reach || b->low[1] > here->y + reach ||
-        b->high[1] < here->y - reach)
-        return 0;
-    size_t count = 0;
-    for (uint32_t t = here->first; t != SP_NONE && count < limit; t = plane->next[t]) {
-        box other = box_around(plane->flat[t]);
-        if (b->low[0] < other.high[0] && b->high[0] > other.low[0] && b->low[1] < other.high[1] &&
-            b->high[1] > other.low[1])
-            count += sp_triangles_overlap(triangle, plane->flat[t]);
+    search s = {.atlas = atlas};
+    *found = (sp_overlaps){.triangle = SP_NONE};
+    if (!sp_half_edges_create(mesh, &s.edges, error))
+        return false;
+    size_t triangles = atlas->triangle_count;
+    s.list = malloc((triangles + 1) * sizeof *s.list);
+    s.start = malloc((atlas->chart_count + 2) * sizeof *s.start);
+    s.link = malloc((3 * triangles + 1) * sizeof *s.link);
+    s.number = malloc((3 * triangles + 1) * sizeof *s.number);
+    s.plane = sp_plane_create((const double(*)[3][2])atlas->uv, triangles, error);
+    bool done = s.list && s.start && s.link && s.number && s.plane;
+    s.segments = done ? malloc((3 * list_by_chart(&s) + 1) * sizeof *s.segments) : NULL;
+    if (!s.segments) {
+        sp_fail_memory(error);
+    } else {
+        link_corners(&s);
+        done = look_through(&s, most, found, error);
     }
-    for (int k = 0; k < 4 && count < limit; k++)
-        if (here->child[k] != SP_NONE)
-            count += overlaps_below(plane, here->child[k], triangle, b, limit - count);
-    return count;
-}
-
-size_t sp_plane_overlaps(const sp_plane *plane, const double triangle[3][2], size_t limit)
-{
-    if (plane->root == SP_NONE)
-        return 0;
-    box b = box_around(triangle);
-    return overlaps_below(plane, plane->root, triangle, &b, limit);
+    done = done && s.segments;
+    sp_half_edges_destroy(&s.edges);
+    sp_plane_destroy(s.plane);
+    free(s.list);
+    free(s.start);
+    free(s.link);
+    free(s.number);
+    free(s.segments);
+    return done;
 }

@@ -1,29 +1,18 @@
-/* Triangles laid in one plane, to be asked which of them a further one would overlap. */
+/* Triangles of an atlas that lie over each other. */
 #ifndef ATLAS_OVERLAP_H
 #define ATLAS_OVERLAP_H
 
-#include <sprayplan/error.h>
+#include <sprayplan/atlas.h>
 
-#include <stddef.h>
-#include <stdint.h>
+typedef struct {
+    size_t count;      /* pairs of triangles of one chart that overlap on their page */
+    uint32_t triangle; /* the second of the first pair found, SP_NONE where there is none */
+    size_t tests;      /* pairs of edges and of triangles that were looked at */
+} sp_overlaps;
 
-/* How deep two triangles must lie in each other to overlap, in parts of the lower of their least heights. Below it lie
- * the rounding of coordinates in files and the slight excess of angle around a vertex of a saddle. */
-#define SP_OVERLAP_TOLERANCE 1e-2
-
-/* True where the interiors of two anticlockwise triangles overlap by more than the tolerance. */
-bool sp_triangles_overlap(const double a[3][2], const double b[3][2]);
-
-typedef struct sp_plane sp_plane;
-
-/* For triangles whose corners stand in `flat` [triangle_count], which is borrowed. NULL when memory runs out. */
-sp_plane *sp_plane_create(const double (*flat)[3][2], size_t triangle_count, sp_error *error);
-void sp_plane_destroy(sp_plane *plane);
-/* Takes all triangles away. */
-void sp_plane_clear(sp_plane *plane);
-/* Lays a triangle where `flat` says. Returns false when memory runs out. */
-bool sp_plane_add(sp_plane *plane, uint32_t triangle, sp_error *error);
-/* How many of the laid triangles overlap this one, counting up to `limit`. */
-size_t sp_plane_overlaps(const sp_plane *plane, const double triangle[3][2], size_t limit);
+/* Looks through each chart; what lies on another chart shares a pixel with it. Needs chart and uv. Stops after the
+ * chart in which `most` are found. A chart without overlaps takes time about linear in its triangles, however they are
+ * shaped. Returns false when memory runs out. */
+bool sp_find_overlaps(const sp_atlas *atlas, const sp_mesh *mesh, size_t most, sp_overlaps *found, sp_error *error);
 
 #endif

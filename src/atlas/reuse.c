@@ -175,21 +175,10 @@ static bool check_lengths(const reuse *r)
 
 static bool check_overlaps(const reuse *r)
 {
-    const sp_atlas *atlas = r->atlas;
-    sp_plane *plane = sp_plane_create((const double(*)[3][2])atlas->uv, atlas->triangle_count, r->error);
-    bool done = plane;
-    for (uint32_t page = 0; done && page < atlas->page_count; page++) {
-        sp_plane_clear(plane);
-        for (uint32_t t = 0; done && t < atlas->triangle_count; t++) {
-            if (atlas->chart_page[atlas->chart[t]] != page)
-                continue;
-            done = sp_plane_overlaps(plane, (const double(*)[2])atlas->uv[t], 1) == 0
-                       ? sp_plane_add(plane, t, r->error)
-                       : refuse(r, t, "a triangle that overlaps another on its page");
-        }
-    }
-    sp_plane_destroy(plane);
-    return done;
+    sp_overlaps found;
+    if (!sp_find_overlaps(r->atlas, r->mesh, 1, &found, r->error))
+        return false;
+    return !found.count || refuse(r, found.triangle, "a triangle that overlaps another of its chart");
 }
 
 /* Whether other charts than `chart` are painted on [x, end) of a row. */
@@ -217,7 +206,7 @@ static bool check_page(const reuse *r, uint32_t page, uint32_t *paint, sp_cover 
             end = end < edge ? end : edge;
             for (size_t y = cover->y ? cover->y - 1 : 0; y < cover->y + 2 && y < edge; y++)
                 if (is_foreign(paint + y * edge, from, end, chart))
-                    return refuse(r, t, "a chart without a pixel between it and another");
+                    return refuse(r, t, "a chart that lies on another or without a pixel between");
             for (size_t x = cover->x; x < (size_t)cover->x + cover->count; x++)
                 paint[cover->y * edge + x] = chart;
         }
@@ -267,7 +256,7 @@ static bool build(reuse *r, double texel)
     if (!check_corners(r) || !choose_texel(r, texel))
         return false;
     take_coordinates(r);
-    return find_charts(r) && check_pages(r) && check_lengths(r) && check_overlaps(r) && check_gaps(r) &&
+    return find_charts(r) && check_pages(r) && check_lengths(r) && check_gaps(r) && check_overlaps(r) &&
            sp_atlas_cut(atlas, mesh, r->error);
 }
 

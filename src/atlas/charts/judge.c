@@ -1,7 +1,7 @@
 #include "atlas/charts/judge.h"
 
-#include "atlas/charts/crossing.h"
 #include "atlas/charts/orient.h"
+#include "atlas/charts/outline.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -88,53 +88,14 @@ static sp_segment *boundary_of(const sp_sheets *sheets, const sp_sheet *sheet, s
     return segments;
 }
 
-/* How many of the closed chains run anticlockwise, those among them that enclose next to nothing; 2 where chains meet
- * in a vertex, SIZE_MAX when memory runs out. */
-static size_t count_outlines(const sp_sheet *sheet, const sp_segment *segments, size_t count)
-{
-    uint32_t *from = malloc((sheet->vertex_count + 1) * sizeof *from); /* the segment that begins at each vertex */
-    if (!from)
-        return SIZE_MAX;
-    for (size_t v = 0; v < sheet->vertex_count; v++)
-        from[v] = SP_NONE;
-    size_t outlines = 0;
-    for (size_t i = 0; i < count; i++) {
-        outlines = from[segments[i].from] == SP_NONE ? outlines : 2;
-        from[segments[i].from] = (uint32_t)i;
-    }
-    double size[2];
-    size_of(sheet, size);
-    for (size_t i = 0; i < count && outlines < 2; i++) {
-        if (from[segments[i].from] == SP_NONE)
-            continue;
-        double twice = 0;
-        const double *o = segments[i].p;
-        for (uint32_t at = segments[i].from, next; (next = from[at]) != SP_NONE; at = segments[next].to) {
-            const double *p = segments[next].p, *q = segments[next].q;
-            twice += (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
-            from[at] = SP_NONE;
-        }
-        outlines += !(twice < -LEAST_HEIGHT * size[0] * size[1]);
-    }
-    free(from);
-    return outlines;
-}
-
-/* The sum of the outlines of anticlockwise triangles is the boundary, so a point lies in as many triangles as the
- * boundary winds around it. Chains that touch neither each other nor themselves are simple closed curves, which wind
- * once around what they enclose, forwards or backwards: where only one runs forwards, nothing is wound around more than
- * once, and no two triangles overlap. */
 sp_verdict sp_judge_overlap(const sp_sheets *sheets, uint32_t number)
 {
     const sp_sheet *sheet = &sheets->items[number];
     size_t count;
     sp_segment *segments = boundary_of(sheets, sheet, &count);
-    size_t outlines = segments ? count_outlines(sheet, segments, count) : SIZE_MAX;
-    sp_crossing found = {.memory = true};
-    if (outlines == 1)
-        found = sp_segments_cross(segments, count);
+    sp_outline outline = segments ? sp_find_outline(segments, count, sheet->vertex_count) : (sp_outline){0};
     free(segments);
-    if (outlines == SIZE_MAX || !found.memory)
+    if (!outline.memory)
         return SP_SHEET_MEMORY;
-    return outlines == 1 && !found.crossing ? SP_SHEET_FITS : SP_SHEET_UNFIT;
+    return outline.simple ? SP_SHEET_FITS : SP_SHEET_UNFIT;
 }
