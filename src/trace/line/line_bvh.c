@@ -3,6 +3,8 @@
 /* For origins farther away, in the hierarchy's space, single precision will not do even where the line comes near. */
 #define FAR 0x1p15
 
+enum { FEW = 4 }; /* fewer lines are faster one after another */
+
 /* A walk in double precision, for whatever the fast one does not take. */
 typedef struct {
     uint32_t node;
@@ -128,7 +130,9 @@ sp_hit sp_bvh_line_ask(const sp_bvh *bvh, const sp_ray *ray, uint32_t triangle)
 void sp_bvh_trace_lines(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays,
                         const sp_direction_entry *order, size_t count, sp_hit *hits, bool *occluded)
 {
-    static void (*const kernels[])(sp_bvh_stream *) = {sp_bvh_lines_portable, sp_bvh_lines_avx2, sp_bvh_lines_avx512};
+    static void (*const together[])(sp_bvh_stream *) = {sp_bvh_lines_portable, sp_bvh_lines_avx2, sp_bvh_lines_avx512};
+    static void (*const alone[])(sp_bvh_stream *) = {sp_bvh_lines_alone_portable, sp_bvh_lines_alone_avx2,
+                                                     sp_bvh_lines_alone_avx512};
     sp_bvh_stream stream = {
         .bvh = bvh, .rays = rays, .order = order, .count = count, .hits = hits, .occluded = occluded};
     for (size_t i = 0; bvh->node_count == 0 && i < count; i++) {
@@ -138,5 +142,5 @@ void sp_bvh_trace_lines(const sp_bvh *bvh, sp_instructions instructions, const s
             occluded[i] = false;
     }
     if (bvh->node_count > 0)
-        kernels[instructions](&stream);
+        (count < FEW ? alone : together)[instructions](&stream);
 }

@@ -74,9 +74,12 @@ void sp_bvh_flight_settle(const sp_bvh_stream *stream, sp_bvh_flight *flight, ui
 void sp_bvh_trace_lines(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays,
                         const sp_direction_entry *order, size_t count, sp_hit *hits, bool *occluded);
 
-/* The kernel, one for each set of instructions. */
+/* The kernels, one for each set of instructions: sixteen lines at a time, and one at a time. */
 void sp_bvh_lines_portable(sp_bvh_stream *stream);
 void sp_bvh_lines_avx2(sp_bvh_stream *stream);
 void sp_bvh_lines_avx512(sp_bvh_stream *stream);
+void sp_bvh_lines_alone_portable(sp_bvh_stream *stream);
+void sp_bvh_lines_alone_avx2(sp_bvh_stream *stream);
+void sp_bvh_lines_alone_avx512(sp_bvh_stream *stream);
 
 #endif

@@ -2,82 +2,7 @@
  * SP_KERNEL(name) naming its functions. */
 #include "trace/line/answer.h"
 #include "trace/line/line_prepare.h"
-#include "trace/bvh/wide.h"
-
-/* Which children the line passes, and where it enters each.
- *
- * Nothing that a hit is in is left out. Say the origin is at most 7 and the box at most 1 away from 0 along every axis,
- * so that planes are at most R = 8 away from the origin. Let e = 2^-24. Rounding moves: the origin by e 7; origin -
- * node's corner by e R; the inverse, its own rounding and that of the direction, by a change of direction of 2 e, that
- * is 2 e R of the plane; the corner's product by e R; the step's by e R (without fma another e R); the sum by e R. Then
- * the double precision test's notion of where the line is differs by up to 2^-40 of at most 2^16, another e. All are
- * less than 64 e = SP_BVH_PAD = 2^-18, by which the boxes are wider than what they hold, along every axis, so that a
- * line that hits a triangle enters its boxes before the hit and leaves them after it. An inverse that is cut to 2^60
- * turns the line by 2^-60. Bounds are finite, so that no infinity or NaN arises. */
-static inline void enter_children(const sp_bvh_node *node, const sp_bvh_line *ray, wide *enters, wide *leaves)
-{
-    const uint8_t *bytes = (const uint8_t *)node->low;
-    wide from = wide_set(ray->first), to = wide_set(ray->last);
-    for (int axis = 0; axis < 3; axis++) {
-        wide corner = wide_set((node->origin[axis] - ray->origin[axis]) * ray->inverse[axis]);
-        wide step = wide_set(node->step[axis] * ray->inverse[axis]);
-        uint32_t near = ray->near[axis], far = (uint32_t)(24 + 16 * axis) - near;
-        from = wide_greater(from, wide_multiply_add(wide_bytes(bytes + near), step, corner));
-        to = wide_lesser(to, wide_multiply_add(wide_bytes(bytes + far), step, corner));
-    }
-    *enters = from;
-    *leaves = to;
-}
-
-/* The watertight test of line.c in single precision, with a bound on what that may change.
- *
- * R and e as above, here R = 1 + the origin's largest coordinate. A corner's difference from the origin is off by e for
- * the corner, e R for the origin and e R for the difference; times the shear (at most 1, itself off by e), subtracted
- * and rounded: |x - x'| <= e (3 R + 3 R + R + R + 2 R) = 10 e R, and blur is 13 e R. A weight x2 y1 - y2 x1 of numbers
- * of at most M then is off by 4 M blur + 2 blur^2, and by rounding of its own 4 e M^2. The weights in double precision,
- * scaled alike, are off by far less, which the difference between 10 and 13 covers: a weight that is below -error here
- * is below zero there. The way to a hit lies between those to the nearest and farthest corner. */
-static inline void test_block(const sp_bvh_block *block, const sp_bvh_line *ray, sp_bvh_verdict *found)
-{
-    wide x[3], y[3], z[3], sign = wide_set(ray->sign);
-    for (int i = 0; i < 3; i++) {
-        z[i] = wide_multiply(wide_subtract(wide_load(block->corner[i][ray->z]), wide_set(ray->origin[ray->z])), sign);
-        x[i] = wide_subtract(wide_load(block->corner[i][ray->x]), wide_set(ray->origin[ray->x]));
-        y[i] = wide_subtract(wide_load(block->corner[i][ray->y]), wide_set(ray->origin[ray->y]));
-        x[i] = wide_subtract_product(x[i], wide_set(ray->direction[ray->x]), z[i]);
-        y[i] = wide_subtract_product(y[i], wide_set(ray->direction[ray->y]), z[i]);
-    }
-    wide u = wide_subtract_product(wide_multiply(x[2], y[1]), y[2], x[1]);
-    wide v = wide_subtract_product(wide_multiply(x[0], y[2]), y[0], x[2]);
-    wide w = wide_subtract_product(wide_multiply(x[1], y[0]), y[1], x[0]);
-    wide most =
-        wide_greater_amount(wide_greater_amount(wide_greater_amount(x[0], y[0]), wide_greater_amount(x[1], y[1])),
-                            wide_greater_amount(x[2], y[2]));
-    float blur = ray->blur;
-    wide error = wide_multiply_add(most, wide_multiply_add(most, wide_set(5 * 0x1p-24f), wide_set(4 * blur)),
-                                   wide_set(2 * blur * blur + 0x1p-120f));
-    wide least = wide_lesser(wide_lesser(u, v), w), largest = wide_greater(wide_greater(u, v), w);
-    wide minus = wide_subtract(wide_set(0), error);
-    uint32_t inside = wide_at_most(minus, least) | wide_at_most(largest, error);
-    found->maybe = found->surely = 0;
-    if (!inside)
-        return;
-    wide nearest = wide_lesser(wide_lesser(z[0], z[1]), z[2]), farthest = wide_greater(wide_greater(z[0], z[1]), z[2]);
-    wide pad = wide_set(SP_BVH_PAD);
-    found->maybe = inside & wide_at_most(nearest, wide_add(wide_set(ray->last), pad)) &
-                   wide_at_most(wide_subtract(wide_set(ray->first), pad), farthest);
-    if (!found->maybe)
-        return;
-    wide sum = wide_add(wide_add(u, v), w), inverse = wide_divide(wide_set(1), sum);
-    wide way = wide_multiply_add(u, z[0], wide_multiply_add(v, z[1], wide_multiply(w, z[2])));
-    wide spread = wide_multiply(wide_multiply(error, wide_set(16)), wide_greater_amount(nearest, farthest));
-    spread = wide_multiply_add(spread, wide_absolute(inverse), wide_set(blur));
-    way = wide_multiply(way, inverse);
-    found->surely = found->maybe & (wide_at_most(error, least) | wide_at_most(largest, minus)) &
-                    wide_at_most(wide_multiply(error, wide_set(8)), wide_absolute(sum));
-    wide_store(found->low, wide_subtract(way, spread));
-    wide_store(found->high, wide_add(way, spread));
-}
+#include "trace/line/line_step.h"
 
 /* What comes next for a line, as the two highest bits of what is on its stack say. */
 enum {
@@ -104,7 +29,8 @@ typedef struct {
     /* Where what comes next is, and its bytes: looked up, as a branch would be guesswork. */
     const char *base[WAITING];
     size_t size[WAITING];
-    ready_lines ready;
+    sp_bvh_line ready[SP_LINES];
+    int ready_count, ready_next; /* those from the latter on have not begun */
     answers answers;
     sp_bvh_flight flights[FLIGHTS];
 } work;
@@ -130,11 +56,8 @@ static inline void visit_node(work *w, waiting *waiting, uint32_t number)
     int height = flight->height;
     wide enters, leaves;
     enter_children(node, &flight->ray, &enters, &leaves);
-    uint32_t diagonal = flight->ray.diagonal;
-    uint64_t order = wide_order(node->order[diagonal >> 1]), back = __builtin_bswap64(order);
-    order = diagonal & 1 ? back : order;
-    flight->height =
-        height + wide_pack(node->child, enters, leaves, order, flight->child + height, flight->way + height);
+    flight->height = height + wide_pack(node->child, enters, leaves, children_order(node, &flight->ray),
+                                        flight->child + height, flight->way + height);
     go_on(w, waiting, number);
 }
 
@@ -160,33 +83,11 @@ static inline void cull(sp_bvh_flight *flight)
     flight->height = kept;
 }
 
-/* Takes a hit that is sure in single precision, or asks double precision. */
-static inline void take(work *w, sp_bvh_flight *flight, uint32_t triangle, bool sure, float low, float high)
-{
-    sp_bvh_line *ray = &flight->ray;
-    bool any = !w->stream->hits;
-    if (triangle == ray->skip || (sure && (low > ray->last || high < ray->first)))
-        return;
-    if (!sure || low < ray->surely_first || high > ray->surely_last || (high >= flight->low && !any)) {
-        sp_bvh_flight_settle(w->stream, flight, triangle);
-    } else {
-        flight->triangle = triangle;
-        flight->low = low;
-        ray->last = high;
-        __builtin_prefetch(&w->bvh->mesh->triangles[triangle]);
-    }
-}
-
 static inline void decide(work *w, waiting *waiting, uint32_t number)
 {
     sp_bvh_flight *flight = &w->flights[number];
-    const sp_bvh_verdict *found = &flight->found;
-    const sp_bvh_block *block = &w->bvh->blocks[flight->current];
     float last = flight->ray.last;
-    for (uint32_t rest = found->maybe; rest; rest &= rest - 1) {
-        int i = __builtin_ctz(rest);
-        take(w, flight, block->triangle[i], found->surely >> i & 1, found->low[i], found->high[i]);
-    }
+    take_found(w->stream, flight, &w->bvh->blocks[flight->current]);
     if (!w->stream->hits && flight->triangle != SP_NONE)
         flight->height = 1;
     else if (flight->ray.last != last)
@@ -198,12 +99,13 @@ static inline void decide(work *w, waiting *waiting, uint32_t number)
 static inline void begin(work *w, waiting *waiting, uint32_t number)
 {
     sp_bvh_flight *flight = &w->flights[number];
-    while (w->ready.next == w->ready.count) {
+    while (w->ready_next == w->ready_count) {
         if (w->stream->next == w->stream->count)
             return;
-        make_ready(w->stream, &w->ready);
+        w->ready_count = make_ready(w->stream, SP_LINES, w->ready);
+        w->ready_next = 0;
     }
-    flight->ray = w->ready.lines[w->ready.next++];
+    flight->ray = w->ready[w->ready_next++];
     flight->triangle = SP_NONE;
     flight->low = INFINITY;
     flight->in_doubt = false;
@@ -236,7 +138,7 @@ void SP_KERNEL(sp_bvh_lines)(sp_bvh_stream *stream)
     w.base[TO_BLOCK] = (const char *)w.bvh->blocks;
     w.size[TO_NODE] = w.size[TO_HIT] = w.size[TO_END] = sizeof *w.bvh->nodes;
     w.size[TO_BLOCK] = sizeof *w.bvh->blocks;
-    w.ready.count = w.ready.next = 0;
+    w.ready_count = w.ready_next = 0;
     start_answers(&w.answers, stream->bvh, stream->rays, stream->hits);
     waiting waiting = {0, 0, 0, 0};
     for (uint32_t i = 0; i < FLIGHTS; i++)

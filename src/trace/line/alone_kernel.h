@@ -1,0 +1,67 @@
+/* Lines through the hierarchy one after another, where there are too few to wait for each other. Included once by each
+ * file that is compiled for a set of instructions, with SP_KERNEL(name) naming its functions. */
+#include "trace/line/line_prepare.h"
+#include "trace/line/line_step.h"
+
+/* Sends for the corners of the best triangle so far: most often it stays the best. */
+static inline void fetch_corners(const sp_bvh *bvh, const sp_bvh_flight *flight)
+{
+    const sp_mesh *mesh = bvh->mesh;
+    if (flight->triangle != SP_NONE)
+        for (int k = 0; k < 3; k++)
+            __builtin_prefetch(&mesh->vertices[mesh->triangles[flight->triangle][k]]);
+}
+
+/* Visits all that the line passes, the near before the far. */
+static inline void walk_alone(const sp_bvh_stream *stream, sp_bvh_flight *flight)
+{
+    const sp_bvh *bvh = stream->bvh;
+    const sp_bvh_line *ray = &flight->ray;
+    uint32_t child = 0;
+    int height = 0;
+    for (;;) {
+        if (child & SP_BVH_LEAF) {
+            const sp_bvh_block *block = &bvh->blocks[child - SP_BVH_LEAF];
+            test_block(block, ray, &flight->found);
+            if (flight->found.maybe) {
+                take_found(stream, flight, block);
+                if (!stream->hits && flight->triangle != SP_NONE)
+                    return;
+                fetch_corners(bvh, flight);
+            }
+        } else {
+            const sp_bvh_node *node = &bvh->nodes[child];
+            wide enters, leaves;
+            enter_children(node, ray, &enters, &leaves);
+            height += wide_pack(node->child, enters, leaves, children_order(node, ray), flight->child + height,
+                                flight->way + height);
+        }
+        do
+            if (height-- == 0)
+                return;
+        while (flight->way[height] > ray->last);
+        child = flight->child[height];
+        if (height > 0)
+            sp_bvh_fetch(bvh, flight->child[height - 1]);
+    }
+}
+
+void SP_KERNEL(sp_bvh_lines_alone)(sp_bvh_stream *stream)
+{
+    sp_bvh_flight flight;
+    while (stream->next < stream->count) {
+        if (make_ready(stream, 1, &flight.ray) == 0)
+            continue;
+        flight.triangle = SP_NONE;
+        flight.low = INFINITY;
+        flight.in_doubt = false;
+        walk_alone(stream, &flight);
+        uint32_t number = flight.ray.number;
+        if (!stream->hits)
+            stream->occluded[number] = flight.triangle != SP_NONE;
+        else if (flight.triangle == SP_NONE)
+            stream->hits[number] = (sp_hit){INFINITY, 0, 0, SP_NONE};
+        else
+            stream->hits[number] = sp_bvh_line_ask(stream->bvh, &stream->rays[number], flight.triangle);
+    }
+}
