@@ -16,14 +16,15 @@ typedef struct {
     float depth; /* along the forward axis, m */
 } sighting;
 
-/* Rows of samples that are looked at together: lines from one eye, side by side, are traced faster than one by one. */
+/* Rows of samples that one thread looks at together: lines from one eye, side by side, are traced faster than one by
+ * one. */
 typedef struct {
     const sp_layers *layers;
     const sp_camera *camera;
-    int columns, team;
+    size_t columns;
     sp_ray *rays;      /* [BAND columns] */
     sp_hit *hits;      /* the same */
-    uint32_t *number;  /* the same: the sample that a ray belongs to, SP_NONE once it is done */
+    uint32_t *number;  /* the same: the sample that a ray belongs to */
     sp_sample *sample; /* of the band's first sample */
     sighting *seen;    /* the same */
 } band;
@@ -56,13 +57,12 @@ static bool looks_on(const band *b, size_t i)
     return true;
 }
 
-static void aim(const band *b, int y, size_t count)
+static void aim(const band *b, size_t y, size_t count)
 {
     const sp_camera *camera = b->camera;
     double from = camera->cut ? sp_dot(sp_sub(camera->centre, camera->eye), camera->forward) : 0;
-#pragma omp parallel for num_threads(b->team) schedule(static)
     for (size_t i = 0; i < count; ++i) {
-        double column = (double)(i % (size_t)b->columns), row = (double)y + (double)(i / (size_t)b->columns);
+        double column = (double)(i % b->columns), row = (double)(y + i / b->columns);
         sp_vec3 direction = sp_camera_direction(camera, 0.5 * (column + 0.5), 0.5 * (row + 0.5));
         b->rays[i] = (sp_ray){camera->eye, direction, from, INFINITY, SP_NONE};
         b->number[i] = (uint32_t)i;
@@ -72,20 +72,15 @@ static void aim(const band *b, int y, size_t count)
 }
 
 /* The first surfaces that show their wet sides, `rows` rows from y on. */
-static void look(const band *b, int y, int rows)
+static void look(const band *b, size_t y, size_t rows)
 {
-    size_t count = (size_t)rows * (size_t)b->columns;
+    size_t count = rows * b->columns;
     aim(b, y, count);
     for (int i = 0; count && i < LOOK_THROUGH_MOST; ++i) {
-        sp_trace_nearest_many(sp_evaluator_tracer(b->layers->evaluator), b->rays, count, sp_v(0, 0, 0), b->team,
-                              b->hits);
-#pragma omp parallel for num_threads(b->team) schedule(static)
-        for (size_t k = 0; k < count; ++k)
-            if (!looks_on(b, k))
-                b->number[k] = SP_NONE;
+        sp_trace_nearest_many(sp_evaluator_tracer(b->layers->evaluator), b->rays, count, sp_v(0, 0, 0), 1, b->hits);
         size_t kept = 0;
         for (size_t k = 0; k < count; ++k)
-            if (b->number[k] != SP_NONE) {
+            if (looks_on(b, k)) {
                 b->rays[kept] = b->rays[k];
                 b->number[kept++] = b->number[k];
             }
@@ -128,29 +123,45 @@ static void ink_edges(sp_shot *shot, const sp_mesh *mesh, const sp_camera *camer
         }
 }
 
+/* Bands are shared out among the threads, each with buffers of its own. */
+static bool look_at_all(sp_shot *shot, const sp_layers *layers, const sp_camera *camera, sighting *seen, int team)
+{
+    size_t columns = 2 * (size_t)camera->width, rows = 2 * (size_t)camera->height, at_once = BAND * columns;
+    sp_ray *rays = malloc((size_t)team * at_once * sizeof *rays);
+    sp_hit *hits = malloc((size_t)team * at_once * sizeof *hits);
+    uint32_t *number = malloc((size_t)team * at_once * sizeof *number);
+    bool done = rays && hits && number;
+    if (done) {
+#pragma omp parallel for num_threads(team) schedule(dynamic)
+        for (size_t y = 0; y < rows; y += BAND) {
+            size_t own = (size_t)omp_get_thread_num() * at_once;
+            band b = {layers,
+                      camera,
+                      columns,
+                      &rays[own],
+                      &hits[own],
+                      &number[own],
+                      &shot->samples[y * columns],
+                      &seen[y * columns]};
+            look(&b, y, rows - y < BAND ? rows - y : BAND);
+        }
+    }
+    free(rays);
+    free(hits);
+    free(number);
+    return done;
+}
+
 bool sp_shot_create(sp_shot *shot, const sp_layers *layers, const sp_camera *camera, int threads, sp_error *error)
 {
-    int columns = 2 * camera->width, rows = 2 * camera->height;
-    size_t count = (size_t)columns * (size_t)rows, at_once = BAND * (size_t)columns;
-    band b = {.layers = layers, .camera = camera, .columns = columns};
-    b.team = threads > 0 ? threads : omp_get_max_threads();
+    size_t count = 4 * (size_t)camera->width * (size_t)camera->height;
+    int team = threads > 0 ? threads : omp_get_max_threads();
     *shot = (sp_shot){camera->width, camera->height, malloc(count * sizeof *shot->samples)};
     sighting *seen = malloc(count * sizeof *seen);
-    b.rays = malloc(at_once * sizeof *b.rays);
-    b.hits = malloc(at_once * sizeof *b.hits);
-    b.number = malloc(at_once * sizeof *b.number);
-    bool done = shot->samples && seen && b.rays && b.hits && b.number;
-    for (int y = 0; done && y < rows; y += BAND) {
-        b.sample = shot->samples + (size_t)y * (size_t)columns;
-        b.seen = seen + (size_t)y * (size_t)columns;
-        look(&b, y, rows - y < BAND ? rows - y : BAND);
-    }
+    bool done = shot->samples && seen && look_at_all(shot, layers, camera, seen, team);
     if (done)
-        ink_edges(shot, sp_evaluator_setup(layers->evaluator)->mesh, camera, seen, b.team);
+        ink_edges(shot, sp_evaluator_setup(layers->evaluator)->mesh, camera, seen, team);
     free(seen);
-    free(b.rays);
-    free(b.hits);
-    free(b.number);
     if (done)
         return true;
     sp_shot_free(shot);
