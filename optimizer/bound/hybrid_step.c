@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-#define SHARES_A_THREAD 30000 /* fewer are added up sooner than another thread wakes */
+#define SHARES_A_THREAD                                                                                                \
+    300000 /* with fewer, threads wait for each other longer than they work where others use the cores */
 
 /* A step is short and there are thousands: no more threads than have enough to do. */
 static int threads_for(const sp_hybrid *h)
