@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-#define SHARES_A_THREAD                                                                                                \
-    300000 /* with fewer, threads wait for each other longer than they work where others use the cores */
+#define SHARES_A_THREAD 300000
 
-/* A step is short and there are thousands: no more threads than have enough to do. */
+/* A step is short and there are thousands: no more threads than have enough to do. With less, where others use the
+ * cores too, they wait for each other longer than they work. */
 static int threads_for(const sp_hybrid *h)
 {
     double shares = (double)h->rows->used + (double)h->dual->texels;
