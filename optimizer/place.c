@@ -5,6 +5,10 @@
 
 #include <stdlib.h>
 
+/* Of the time limit, at most, for all that goes before the certificate; the second with --prove. */
+#define SEARCH 0.75
+#define SEARCH_PROVING 0.6
+
 /* What a placement makes on its way, in the order in which it comes about. */
 typedef struct {
     const sp_evaluator *fine;
@@ -83,12 +87,19 @@ static bool set_target(sp_placement *placement, sp_proposal *proposal, sp_error 
     return sp_watch_stage(&placement->watch, "attainable", error);
 }
 
-/* The best design so far as a layout with its coverage. */
+/* The best draft so far as a layout with its coverage. */
 static bool write_down(const sp_placement *placement, sp_layout **layout, sp_coverage **coverage, sp_error *error)
 {
-    *layout = sp_design_layout(&placement->search, &placement->front.best, error);
+    *layout = sp_draft_layout(&placement->search, &placement->front.best, error);
     *coverage = *layout ? sp_evaluate(placement->fine, *layout, error) : NULL;
     return *coverage != NULL;
+}
+
+/* How near to the best all that is, in the time that is left. */
+static bool certify(sp_placement *placement, sp_proposal *proposal, sp_error *error)
+{
+    sp_watch_allow(&placement->watch, 1);
+    return sp_certify(&placement->search, &placement->watch, &placement->front, &proposal->certificate, error);
 }
 
 static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *error)
@@ -121,6 +132,7 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
     if (!proposal)
         return sp_fail_memory(error);
     sp_placement placement = {.fine = evaluator, .options = options, .watch = sp_watch_start(&options->run)};
+    sp_watch_allow(&placement.watch, options->prove ? SEARCH_PROVING : SEARCH);
     bool done = look_around(&placement, error) && set_target(&placement, proposal, error) &&
                 sp_find(&placement.search, &placement.watch, &placement.front, &placement.pool, error) &&
                 write_down(&placement, &proposal->greedy, &proposal->greedy_coverage, error) &&
@@ -128,8 +140,7 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
                 sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
                 sp_visibility_sound(&placement.visibility, error) &&
                 write_down(&placement, &proposal->layout, &proposal->coverage, error) &&
-                sp_watch_stage(&placement.watch, "refine", error) &&
-                sp_certify(&placement.search, &placement.watch, &placement.front, &proposal->certificate, error) &&
+                sp_watch_stage(&placement.watch, "refine", error) && certify(&placement, proposal, error) &&
                 sp_visibility_sound(&placement.visibility, error) &&
                 sp_watch_stage(&placement.watch, "certificate", error) && conclude(&placement, proposal, error);
     placement_free(&placement);

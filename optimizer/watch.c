@@ -1,5 +1,8 @@
 #include "watch.h"
 
+#include "grow.h"
+
+#include <math.h>
 #include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +19,7 @@ static double now(void)
 sp_watch sp_watch_start(const sp_run *run)
 {
     double start = now();
-    return (sp_watch){.run = *run, .start = start, .stage_start = start};
+    return (sp_watch){.run = *run, .start = start, .share = 1, .stage_start = start};
 }
 
 double sp_watch_elapsed(const sp_watch *watch)
@@ -24,19 +27,41 @@ double sp_watch_elapsed(const sp_watch *watch)
     return now() - watch->start;
 }
 
-bool sp_watch_goes_on(sp_watch *watch, const char *stage, double done)
+void sp_watch_allow(sp_watch *watch, double share)
 {
-    bool goes_on;
+    watch->share = share;
+}
+
+double sp_watch_left(const sp_watch *watch)
+{
+    double limit = watch->run.time_limit;
+    return limit > 0 ? watch->share * limit - sp_watch_elapsed(watch) : INFINITY;
+}
+
+/* `loses`: being out of time leaves something out. */
+static bool goes_on(sp_watch *watch, const char *stage, double done, bool loses)
+{
+    bool on;
 #pragma omp critical(sp_watch)
     {
         if (!watch->cancelled && watch->run.progress && !watch->run.progress(watch->run.user, stage, done))
             watch->cancelled = watch->interrupted = true;
-        bool over = watch->run.time_limit > 0 && sp_watch_elapsed(watch) > watch->run.time_limit;
-        if (over)
+        bool over = sp_watch_left(watch) < 0;
+        if (over && loses)
             watch->interrupted = true;
-        goes_on = !watch->cancelled && !over;
+        on = !watch->cancelled && !over;
     }
-    return goes_on;
+    return on;
+}
+
+bool sp_watch_goes_on(sp_watch *watch, const char *stage, double done)
+{
+    return goes_on(watch, stage, done, true);
+}
+
+bool sp_watch_has_time(sp_watch *watch, const char *stage, double done)
+{
+    return goes_on(watch, stage, done, false);
 }
 
 bool sp_watch_stage(sp_watch *watch, const char *name, sp_error *error)
@@ -48,14 +73,8 @@ bool sp_watch_stage(sp_watch *watch, const char *name, sp_error *error)
             watch->stages[i].seconds += seconds;
             return true;
         }
-    if (watch->stage_count == watch->stage_capacity) {
-        size_t capacity = watch->stage_capacity ? 2 * watch->stage_capacity : 8;
-        sp_stage *stages = realloc(watch->stages, capacity * sizeof *stages);
-        if (!stages)
-            return sp_fail_memory(error);
-        watch->stages = stages;
-        watch->stage_capacity = capacity;
-    }
+    if (!sp_grow(&watch->stages, &watch->stage_capacity, watch->stage_count + 1, sizeof *watch->stages))
+        return sp_fail_memory(error);
     sp_stage *stage = &watch->stages[watch->stage_count++];
     snprintf(stage->name, sizeof stage->name, "%s", name);
     stage->seconds = seconds;

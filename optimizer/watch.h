@@ -9,6 +9,7 @@
 typedef struct {
     sp_run run;
     double start;     /* s, of a monotonic clock */
+    double share;     /* of the time limit, if there is one, that may be spent by now */
     bool cancelled;   /* the progress callback said so */
     bool interrupted; /* cancelled, or something was left out for want of time */
     size_t stage_count, stage_capacity;
@@ -19,8 +20,14 @@ typedef struct {
 sp_watch sp_watch_start(const sp_run *run);
 /* Seconds since the start. */
 double sp_watch_elapsed(const sp_watch *watch);
+/* From now on this share of the time limit may be spent. */
+void sp_watch_allow(sp_watch *watch, double share);
+/* Seconds until that is spent, negative afterwards; INFINITY without a limit. */
+double sp_watch_left(const sp_watch *watch);
 /* Reports progress; false once cancelled or out of time. Safe to call from many threads. */
 bool sp_watch_goes_on(sp_watch *watch, const char *stage, double done);
+/* The same for what may end anywhere, so that being out of time leaves nothing out. */
+bool sp_watch_has_time(sp_watch *watch, const char *stage, double done);
 /* Books the time since the last stage's end, or the start, under `name`; stages of equal name add up. */
 bool sp_watch_stage(sp_watch *watch, const char *name, sp_error *error);
 

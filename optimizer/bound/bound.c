@@ -79,9 +79,16 @@ static bool prove(sp_bound *bound, size_t water, sp_error *error)
 {
     const sp_cover *cover = bound->cover;
     size_t row = cover->water + 1;
+    bound->complete = false;
+    if (!sp_cover_goes_on(cover))
+        return true;
     if (!bound->pricer->price(bound->pricer->user, &bound->dual.price, bound->needed, true, &bound->offers,
                               &bound->rows, error))
         return false;
+    if (!sp_cover_goes_on(cover))
+        return true;
+    bound->complete = true;
+    bound->proofs++;
     sp_knapsack(&bound->offers, cover->nozzles, cover->water, bound->table);
     double rest = (cover->base + sp_cover_rest(cover, &bound->dual.price)) * (1 + 1e-12);
     size_t nozzles = bound->dual.price.lifts ? bound->lifts.nozzles : cover->nozzles;
@@ -157,12 +164,13 @@ bool sp_bound_lower(sp_bound *bound, size_t water, sp_error *error)
     const sp_cover *cover = bound->cover;
     if (water < bound->lightest) {
         bound->proved = bound->by_water[water];
-        bound->closed = true;
+        bound->closed = bound->complete = true;
         return true;
     }
     if (!solve(bound, water, error) || !prove(bound, water, error))
         return false;
-    bound->closed = (bound->lifting || cover->whole) && bound->proved <= bound->dual.bound * (1 + bound->tolerance);
+    bound->closed = bound->complete && (bound->lifting || cover->whole) &&
+                    bound->proved <= bound->dual.bound * (1 + bound->tolerance);
     bound->lifting = !cover->whole;
     return true;
 }

@@ -28,6 +28,8 @@ typedef struct {
     uint32_t lightest; /* of the tiers */
     double proved;     /* the bound at the last water by the last prices alone */
     bool closed;       /* which is as low as these lifts go: all candidates bring no more than the few */
+    bool complete;     /* the last pricing of all was not broken off; else `proved` and `closed` say nothing new */
+    size_t proofs;     /* complete pricings of all */
     size_t iterations; /* of a solve, at most; may be set */
     double tolerance;  /* at which a solve ends, as a share of the bound; may be set */
     sp_lifts lifts;    /* of the last task */

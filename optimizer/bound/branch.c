@@ -1,7 +1,9 @@
 #include "bound/branch.h"
 
+#include "ranking.h"
+
 #include "bound/branch_work.h"
-#include "bound/grow.h"
+#include "grow.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -189,21 +191,9 @@ static bool seek_prices(sp_branching *b, const sp_tree *tree, const sp_branch *b
     return done;
 }
 
-typedef struct {
-    double excess; /* of its price over the best of the few */
-    size_t at;
-} entry;
-
-static int by_excess(const void *a, const void *b)
-{
-    const entry *p = a, *q = b;
-    if (p->excess != q->excess)
-        return p->excess > q->excess ? -1 : 1;
-    return (p->at > q->at) - (p->at < q->at);
-}
-
 /* Lists the best of each of so many parts of a range that are worth more than all of the few there. */
-static void list_better(const sp_branching *b, size_t first, size_t end, size_t parts, entry *entries, size_t *count)
+static void list_better(const sp_branching *b, size_t first, size_t end, size_t parts, sp_ranked *entries,
+                        size_t *count)
 {
     const float *price = b->price.top + b->price.count;
     float needed = 0;
@@ -216,7 +206,7 @@ static void list_better(const sp_branching *b, size_t first, size_t end, size_t 
             continue;
         size_t at = sp_highest_at(&b->price, from, to);
         if (price[at] > needed * (1 + JOIN_LEAST) && !b->among[at])
-            entries[(*count)++] = (entry){needed > 0 ? (double)(price[at] / needed) : 1e30 * (double)price[at], at};
+            entries[(*count)++] = (sp_ranked){needed > 0 ? (double)(price[at] / needed) : 1e30 * (double)price[at], at};
     }
 }
 
@@ -224,7 +214,7 @@ static void list_better(const sp_branching *b, size_t first, size_t end, size_t 
 static bool join(sp_branching *b, const sp_branch *branch, size_t *joined, sp_error *error)
 {
     const sp_line *line = b->line;
-    entry *entries = malloc((branch->slot_count * BLOCKS + 2 * line->run_count + 1) * sizeof *entries);
+    sp_ranked *entries = malloc((branch->slot_count * BLOCKS + 2 * line->run_count + 1) * sizeof *entries);
     if (!entries)
         return sp_fail_memory(error);
     size_t count = 0;
@@ -233,7 +223,7 @@ static bool join(sp_branching *b, const sp_branch *branch, size_t *joined, sp_er
     if (sp_rest_fits(b, branch->rest, branch->nozzles, branch->water))
         for (size_t r = sp_line_run(line, line->kind_start[branch->rest]); r < line->run_count; r++)
             list_better(b, line->run_start[r], line->run_start[r + 1], 2, entries, &count);
-    qsort(entries, count, sizeof *entries, by_excess);
+    sp_rank_falling(entries, count);
     bool done = true;
     *joined = 0;
     for (size_t i = 0; done && i < count && i < ROWS_AT_A_TIME; i++) {
@@ -266,8 +256,15 @@ bool sp_tree_step(sp_branching *b, sp_tree *tree, sp_error *error)
     size_t solves = ++branch->solves;
     tree->steps++;
     sp_branching_count_alive(b, tree);
-    if (!seek_prices(b, tree, branch, error) || !sp_branching_price(b, tree, &b->dual.price, error) ||
-        !join(b, branch, &joined, error))
+    if (!seek_prices(b, tree, branch, error))
+        return false;
+    if (!sp_cover_goes_on(b->cover))
+        return true;
+    if (!sp_branching_price(b, tree, &b->dual.price, error))
+        return false;
+    if (!sp_cover_goes_on(b->cover))
+        return true;
+    if (!join(b, branch, &joined, error))
         return false;
     tree->rows_work = ROW_WORK * (double)b->solved;
     tree->work += tree->rows_work + (double)b->alive_before[b->line->count];

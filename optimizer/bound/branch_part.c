@@ -1,5 +1,5 @@
 #include "bound/branch_work.h"
-#include "bound/grow.h"
+#include "grow.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 #include "bound/cover.h"
 
-#include "bound/grow.h"
+#include "grow.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -78,6 +78,27 @@ void sp_rows_keep(sp_rows *rows, const bool *marked)
     rows->used = used;
     if (rows->start)
         rows->start[kept] = used;
+}
+
+static int by_key(const void *a, const void *b)
+{
+    uint64_t p = *(const uint64_t *)a, q = *(const uint64_t *)b;
+    return (p > q) - (p < q);
+}
+
+uint64_t *sp_rows_keys(const sp_rows *rows)
+{
+    uint64_t *keys = malloc((rows->count + 1) * sizeof *keys);
+    for (size_t i = 0; keys && i < rows->count; i++)
+        keys[i] = rows->key[i];
+    if (keys)
+        qsort(keys, rows->count, sizeof *keys, by_key);
+    return keys;
+}
+
+bool sp_keys_hold(const uint64_t *keys, size_t count, uint64_t key)
+{
+    return bsearch(&key, keys, count, sizeof *keys, by_key) != NULL;
 }
 
 void sp_rows_free(sp_rows *rows)

@@ -22,7 +22,16 @@ typedef struct {
     bool repeats;           /* a candidate without a port may be chosen more than once */
     bool whole;             /* every share is 1: nothing to lift */
     int threads;
+    /* Asked now and then, from any thread; once false always false: then solves and pricings break off, and what they
+     * were about proves nothing. NULL: go on. */
+    bool (*goes_on)(void *user);
+    void *user;
 } sp_cover;
+
+static inline bool sp_cover_goes_on(const sp_cover *cover)
+{
+    return !cover->goes_on || cover->goes_on(cover->user);
+}
 
 typedef struct {
     size_t count, capacity;
@@ -43,6 +52,10 @@ bool sp_rows_append(sp_rows *rows, const sp_rows *more, sp_error *error);
 /* Keeps the rows that are marked, in their order. */
 void sp_rows_keep(sp_rows *rows, const bool *marked);
 void sp_rows_free(sp_rows *rows);
+/* All keys, rising; malloc'd, NULL when memory runs out. And whether a key is among some. */
+uint64_t *sp_rows_keys(const sp_rows *rows);
+bool sp_keys_hold(const uint64_t *keys, size_t count, uint64_t key);
+
 /* Prices of texels, m²: of their shares, and of what one of the lifts makes of these. */
 typedef struct {
     const sp_lifts *lifts; /* NULL: only shares count */

@@ -1,6 +1,6 @@
 #include "bound/dual.h"
 
-#include "bound/grow.h"
+#include "grow.h"
 #include "bound/hybrid.h"
 
 #include <math.h>
@@ -78,7 +78,7 @@ bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task,
     dual->reached = -INFINITY;
     for (size_t i = 1; i <= task->iterations; i++) {
         sp_hybrid_step(&h);
-        if (i % LOOK == 0 && sp_hybrid_look(&h, i))
+        if (i % LOOK == 0 && (sp_hybrid_look(&h, i) || !sp_cover_goes_on(dual->cover)))
             break;
     }
     if (!task->slot_count)

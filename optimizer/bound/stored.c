@@ -1,40 +1,18 @@
 /* Candidates that lie in memory, priced one after the other. */
+
+#include "ranking.h"
 #include "bound/bound.h"
 
 #include <stdlib.h>
 
-typedef struct {
-    double excess; /* price above what is needed, as a share of that */
-    size_t row;
-} entry;
-
-static int by_excess(const void *a, const void *b)
-{
-    const entry *p = a, *q = b;
-    if (p->excess != q->excess)
-        return p->excess > q->excess ? -1 : 1;
-    return (p->row > q->row) - (p->row < q->row);
-}
-
-static int by_key(const void *a, const void *b)
-{
-    uint64_t p = *(const uint64_t *)a, q = *(const uint64_t *)b;
-    return (p > q) - (p < q);
-}
-
-static bool is_among(const uint64_t *keys, size_t count, uint64_t key)
-{
-    return bsearch(&key, keys, count, sizeof *keys, by_key) != NULL;
-}
-
 /* Appends the best of the entries. */
-static bool hand_out(const sp_stored *stored, entry *entries, size_t count, sp_rows *rows, sp_error *error)
+static bool hand_out(const sp_stored *stored, sp_ranked *entries, size_t count, sp_rows *rows, sp_error *error)
 {
     const sp_rows *all = stored->rows;
     bool done = true;
-    qsort(entries, count, sizeof *entries, by_excess);
+    sp_rank_falling(entries, count);
     for (size_t i = 0; done && i < count && i < stored->most; i++) {
-        size_t row = entries[i].row, first = all->start[row], size = all->start[row + 1] - first;
+        size_t row = entries[i].at, first = all->start[row], size = all->start[row + 1] - first;
         done = sp_rows_add(rows, all->key[row], all->port[row], all->tier[row], all->texel + first, all->share + first,
                            size, error);
     }
@@ -48,26 +26,22 @@ static bool price_stored(void *user, const sp_prices *u, const double *needed, b
     const sp_stored *stored = user;
     const sp_rows *all = stored->rows;
     double *price = malloc((all->count + 1) * sizeof *price);
-    entry *entries = malloc((all->count + 1) * sizeof *entries);
-    uint64_t *keys = malloc((rows->count + 1) * sizeof *keys);
+    sp_ranked *entries = malloc((all->count + 1) * sizeof *entries);
+    uint64_t *keys = sp_rows_keys(rows);
     bool done = price && entries && keys;
     if (!done)
         sp_fail_memory(error);
     size_t count = 0, had = rows->count;
-    for (size_t i = 0; done && i < had; i++)
-        keys[i] = rows->key[i];
-    if (done)
-        qsort(keys, had, sizeof *keys, by_key);
 #pragma omp parallel for num_threads(stored->cover->threads) schedule(dynamic, 16)
     for (size_t c = 0; c < (done ? all->count : 0); c++)
         price[c] = sp_rows_price(all, c, u);
     for (size_t c = 0; done && c < all->count; c++) {
         double need = needed[all->tier[c]];
-        if (is_among(keys, had, all->key[c]))
+        if (sp_keys_hold(keys, had, all->key[c]))
             continue;
         sp_offers_add(offers, all->port[c], all->tier[c], price[c]);
         if (price[c] > need)
-            entries[count++] = (entry){need > 0 ? price[c] / need : price[c] * 1e30, c};
+            entries[count++] = (sp_ranked){need > 0 ? price[c] / need : price[c] * 1e30, c};
     }
     done = done && hand_out(stored, entries, count, rows, error);
     free(price);

@@ -1,27 +1,16 @@
 #include "bound/line.h"
 
+#include "ranking.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct {
-    double side; /* how much more it has in common with one pivot than with the other */
-    size_t row;
-} entry;
-
-typedef struct {
     const sp_stored_line *stored;
     float *shares; /* [texels] of a pivot, times area */
-    entry *entries;
+    sp_ranked *entries;
 } ordering;
-
-static int by_side(const void *a, const void *b)
-{
-    const entry *p = a, *q = b;
-    if (p->side != q->side)
-        return p->side < q->side ? -1 : 1;
-    return (p->row > q->row) - (p->row < q->row);
-}
 
 /* m² that a row and the pivot have in common, as a share of the row's own. */
 static double in_common(const ordering *o, size_t row)
@@ -68,15 +57,15 @@ static void halve(ordering *o, size_t first, size_t end)
     size_t left = far_from(o, order[first], first, end), right = far_from(o, left, first, end);
     set_pivot(o, right, true);
     for (size_t i = first; i < end; i++)
-        o->entries[i] = (entry){in_common(o, order[i]), order[i]};
+        o->entries[i] = (sp_ranked){in_common(o, order[i]), order[i]};
     set_pivot(o, right, false);
     set_pivot(o, left, true);
     for (size_t i = first; i < end; i++)
-        o->entries[i].side -= in_common(o, order[i]);
+        o->entries[i].merit -= in_common(o, order[i]);
     set_pivot(o, left, false);
-    qsort(o->entries + first, end - first, sizeof *o->entries, by_side);
+    sp_rank_rising(o->entries + first, end - first);
     for (size_t i = first; i < end; i++)
-        order[i] = o->entries[i].row;
+        order[i] = o->entries[i].at;
     halve(o, first, first + (end - first) / 2);
     halve(o, first + (end - first) / 2, end);
 }
@@ -168,7 +157,7 @@ bool sp_stored_line_create(const sp_cover *cover, const sp_rows *rows, sp_stored
                              .cut = cut,
                              .price = price,
                              .row = row};
-    ordering o = {stored, calloc(cover->texel_count + 1, sizeof(float)), malloc(room * sizeof(entry))};
+    ordering o = {stored, calloc(cover->texel_count + 1, sizeof(float)), malloc(room * sizeof(sp_ranked))};
     bool done = fill(stored, &o);
     free(o.shares);
     free(o.entries);

@@ -1,5 +1,7 @@
 #include "candidates/mounts.h"
 
+#include "grow.h"
+
 #include "candidates/distance.h"
 #include "watch.h"
 
@@ -11,14 +13,8 @@
 
 static bool append(sp_sites *sites, const sp_site *site, sp_error *error)
 {
-    if (sites->count == sites->capacity) {
-        size_t capacity = sites->capacity ? 2 * sites->capacity : 64;
-        sp_site *items = realloc(sites->items, capacity * sizeof *items);
-        if (!items)
-            return sp_fail_memory(error);
-        sites->items = items;
-        sites->capacity = capacity;
-    }
+    if (!sp_grow(&sites->items, &sites->capacity, sites->count + 1, sizeof *sites->items))
+        return sp_fail_memory(error);
     sites->items[sites->count++] = *site;
     return true;
 }

@@ -43,9 +43,9 @@ static void aiming_free(aiming *a)
     sp_aim_kinds_free(&a->kinds);
 }
 
-static const sp_design *design_of(const sp_front *front, size_t i)
+static const sp_draft *draft_of(const sp_front *front, size_t i)
 {
-    return i < front->count ? &front->entries[i].design : &front->best;
+    return i < front->count ? &front->entries[i].draft : &front->best;
 }
 
 static bool list_flows(aiming *a, sp_error *error)
@@ -53,7 +53,7 @@ static bool list_flows(aiming *a, sp_error *error)
     const sp_candidates *candidates = a->task->search->candidates;
     size_t count = candidates->make_count;
     for (size_t i = 0; i <= a->front->count; i++)
-        count += design_of(a->front, i)->count;
+        count += draft_of(a->front, i)->count;
     for (size_t k = 0; k < a->kinds.count; k++)
         count += a->kinds.items[k].step_count;
     a->flows = malloc((count + 1) * sizeof *a->flows);
@@ -63,8 +63,8 @@ static bool list_flows(aiming *a, sp_error *error)
     for (size_t k = 0; k < candidates->make_count; k++)
         a->flows[a->flow_count++] = candidates->makes[k].flow;
     for (size_t i = 0; i <= a->front->count; i++)
-        for (size_t n = 0; n < design_of(a->front, i)->count; n++)
-            a->flows[a->flow_count++] = design_of(a->front, i)->items[n].flow;
+        for (size_t n = 0; n < draft_of(a->front, i)->count; n++)
+            a->flows[a->flow_count++] = draft_of(a->front, i)->items[n].flow;
     for (size_t k = 0; k < a->kinds.count; k++)
         for (size_t step = 0; step < a->kinds.items[k].step_count; step++)
             a->flows[a->flow_count++] = a->kinds.items[k].edge[step];
@@ -80,7 +80,7 @@ static bool set_limits(aiming *a)
     for (size_t i = 0; i < a->flow_count; i++)
         least = fmin(least, a->flows[i]);
     for (size_t i = 0; i <= a->front->count; i++)
-        most = fmax(most, design_of(a->front, i)->flow - search->kept_flow);
+        most = fmax(most, draft_of(a->front, i)->flow - search->kept_flow);
     if (!(most >= least))
         return false;
     a->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
@@ -129,8 +129,8 @@ static bool add_rows(aiming *a, sp_error *error)
 {
     const sp_rows *rows = a->task->rows;
     for (size_t i = 0; i <= a->front->count; i++)
-        for (size_t n = 0; n < design_of(a->front, i)->count; n++) {
-            const sp_placed *placed = &design_of(a->front, i)->items[n];
+        for (size_t n = 0; n < draft_of(a->front, i)->count; n++) {
+            const sp_placed *placed = &draft_of(a->front, i)->items[n];
             uint32_t tier = tier_of_weight(a, sp_water_weight(&a->units, placed->flow));
             if (!sp_pose_prices_row(a->poses, placed->field, SP_OWN_KEY, a->task->ports[placed->site.mount], tier,
                                     &a->bound.rows, error))
@@ -169,18 +169,10 @@ static size_t budget_of(const aiming *a, double flow)
     return budget < a->cover.water ? budget : a->cover.water;
 }
 
-/* True while there is time; that it ends here leaves the proposal as good as it is. */
-static bool goes_on(const aiming *a)
-{
-    sp_watch *watch = a->task->watch;
-    return (watch->run.time_limit <= 0 || sp_watch_elapsed(watch) < watch->run.time_limit) &&
-           sp_watch_goes_on(watch, "certificate", 1);
-}
-
 static bool lower(aiming *a, size_t water, size_t rounds, sp_error *error)
 {
     sp_aim_prices_seek(a->prices, water);
-    for (size_t round = 0; round < rounds && goes_on(a); round++)
+    for (size_t round = 0; round < rounds && sp_cover_goes_on(&a->cover); round++)
         if (!sp_bound_lower(&a->bound, water, error))
             return false;
     return true;
@@ -275,13 +267,11 @@ bool sp_aim_bound(const sp_aim_task *task, sp_front *front, sp_certificate *cert
         front->entries[i].point.every_aim_bound = NAN;
     if (!sp_watch_stage(task->watch, "certificate", error))
         return false;
-    if (!goes_on(&a))
-        return true;
     bool done = sp_aim_kinds_create(task->search, &a.kinds, error) && list_flows(&a, error);
     if (done && set_limits(&a)) {
         done = prepare(&a, error) && lower(&a, budget_of(&a, front->best.flow), ROUNDS_FIRST, error) &&
                lower_water(&a, certificate->counted, error) && lower_front(&a, error);
-        if (done)
+        if (done && a.bound.proofs)
             conclude(&a, front, certificate);
     }
     aiming_free(&a);

@@ -244,7 +244,8 @@ static void price_open(sp_aim_prices *prices, const sp_prices *u)
 #pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
     for (size_t g = 0; g < groups; g++) {
         size_t first = open->items[g].group, end = g + 1 < groups ? open->items[g + 1].group : open->count;
-        price_alike(prices, &prices->scratches[omp_get_thread_num()], &open->items[first], end - first, u);
+        if (sp_cover_goes_on(prices->cover))
+            price_alike(prices, &prices->scratches[omp_get_thread_num()], &open->items[first], end - first, u);
     }
     for (int i = 0; i < prices->threads; i++)
         sp_visibility_leave(prices->search->visibility, &prices->scratches[i].desk);
@@ -411,6 +412,8 @@ static bool price_aims(void *user, const sp_prices *u, const double *needed, boo
     read_offers(prices, offers);
     while (prices->open.count) {
         price_open(prices, u);
+        if (!sp_cover_goes_on(prices->cover))
+            return true;
         note_middles(prices);
         if (!split_open(prices, offers))
             return sp_fail_memory(error);

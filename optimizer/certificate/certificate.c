@@ -9,6 +9,7 @@
 
 #define NOZZLES_MOST 256   /* of a layout */
 #define ROUNDS_EXPLORING 4 /* of looking at some of the poses first */
+#define EXPLORING_MOST 0.2 /* of the time left, for those */
 #define ROUNDS_FIRST 2     /* of pricing all poses, at the proposal's water */
 #define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
 #define TRIALS_WATER 3     /* such waters */
@@ -49,6 +50,7 @@ typedef struct {
     sp_tree *trees; /* [front->count + 1], by points, then the proposal's; empty where it takes no water */
     bool *begun;    /* the same, whether all candidates were priced for it */
     double *found;  /* the same, m² that a layout found with no more water covers */
+    double done;    /* how far it all is, 0 to 1 */
 } certifying;
 
 static void certifying_free(certifying *c)
@@ -79,17 +81,17 @@ static double least_of(const double *values, size_t count)
     return least;
 }
 
-/* Designs of the front, and the best. */
-static const sp_design *design_of(const sp_front *front, size_t i)
+/* Drafts of the front, and the best. */
+static const sp_draft *draft_of(const sp_front *front, size_t i)
 {
-    return i < front->count ? &front->entries[i].design : &front->best;
+    return i < front->count ? &front->entries[i].draft : &front->best;
 }
 
 static bool list_flows(certifying *c, sp_error *error)
 {
     const sp_candidates *candidates = c->search->candidates;
     for (size_t i = 0; i <= c->front->count; i++)
-        c->own += design_of(c->front, i)->count;
+        c->own += draft_of(c->front, i)->count;
     c->flows = malloc((candidates->make_count + c->own + 1) * sizeof *c->flows);
     if (!c->flows)
         return sp_fail_memory(error);
@@ -97,8 +99,8 @@ static bool list_flows(certifying *c, sp_error *error)
     for (size_t k = 0; k < candidates->make_count; k++)
         c->flows[count++] = candidates->makes[k].flow;
     for (size_t i = 0; i <= c->front->count; i++)
-        for (size_t n = 0; n < design_of(c->front, i)->count; n++)
-            c->flows[count++] = design_of(c->front, i)->items[n].flow;
+        for (size_t n = 0; n < draft_of(c->front, i)->count; n++)
+            c->flows[count++] = draft_of(c->front, i)->items[n].flow;
     return true;
 }
 
@@ -120,7 +122,7 @@ static bool set_limits(certifying *c)
     size_t makes = search->candidates->make_count, limit = search->options->max_nozzles;
     double most = 0, least = least_of(c->flows, makes + c->own);
     for (size_t i = 0; i <= c->front->count; i++)
-        most = fmax(most, design_of(c->front, i)->flow - search->kept_flow);
+        most = fmax(most, draft_of(c->front, i)->flow - search->kept_flow);
     if (!(most >= least) || (limit && limit <= search->kept_count))
         return false;
     c->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
@@ -151,6 +153,13 @@ static bool set_tiers(certifying *c, sp_error *error)
     return true;
 }
 
+/* False once cancelled or out of time, which leaves the proposal as good as it is. */
+static bool goes_on(void *user)
+{
+    const certifying *c = user;
+    return sp_watch_has_time(c->watch, "certificate", c->done);
+}
+
 /* What every texel still needs besides the kept nozzles. */
 static bool set_texels(certifying *c, sp_error *error)
 {
@@ -172,15 +181,17 @@ static bool set_texels(certifying *c, sp_error *error)
     c->cover.repeats = true;
     c->cover.whole = search->single || search->threshold <= 0;
     c->cover.threads = sp_threads(&search->options->run);
+    c->cover.goes_on = goes_on;
+    c->cover.user = c;
     return true;
 }
 
 static bool add_own(certifying *c, sp_error *error)
 {
     for (size_t i = 0; i <= c->front->count; i++) {
-        const sp_design *design = design_of(c->front, i);
-        for (size_t n = 0; n < design->count; n++) {
-            const sp_placed *placed = &design->items[n];
+        const sp_draft *draft = draft_of(c->front, i);
+        for (size_t n = 0; n < draft->count; n++) {
+            const sp_placed *placed = &draft->items[n];
             if (!sp_pose_prices_row(c->prices, placed->field, SP_OWN_KEY, c->ports[placed->site.mount],
                                     tier_for(c, placed->flow), &c->nozzles, error))
                 return false;
@@ -189,11 +200,11 @@ static bool add_own(certifying *c, sp_error *error)
     return true;
 }
 
-static double counted_area(const sp_search *search, const sp_design *design)
+static double counted_area(const sp_search *search, const sp_draft *draft)
 {
     double area = 0;
     for (size_t p = 0; p < search->patch_count; p++)
-        area += design->wet[p] >= 1 ? (double)search->area[p] : 0;
+        area += draft->wet[p] >= 1 ? (double)search->area[p] : 0;
     return area;
 }
 
@@ -208,8 +219,8 @@ static double found_within(const certifying *c, size_t water)
 {
     double most = c->cover.base;
     for (size_t i = 0; i <= c->front->count; i++)
-        if (budget_of(c, design_of(c->front, i)->flow) <= water)
-            most = fmax(most, counted_area(c->search, design_of(c->front, i)));
+        if (budget_of(c, draft_of(c->front, i)->flow) <= water)
+            most = fmax(most, counted_area(c->search, draft_of(c->front, i)));
     return most;
 }
 
@@ -217,7 +228,7 @@ static double found_within(const certifying *c, size_t water)
 static bool plant_trees(certifying *c, sp_error *error)
 {
     for (size_t i = 0; i <= c->front->count; i++) {
-        size_t water = budget_of(c, design_of(c->front, i)->flow);
+        size_t water = budget_of(c, draft_of(c->front, i)->flow);
         c->found[i] = found_within(c, water);
         if (water && !sp_tree_create(&c->branching, water, c->bound.by_water[water], c->found[i], &c->trees[i], error))
             return false;
@@ -248,18 +259,17 @@ static bool prepare(certifying *c, sp_error *error)
            sp_branching_create(&c->cover, &c->line, &c->branching, error) && plant_trees(c, error);
 }
 
-/* True while there is time; that it ends here leaves the proposal as good as it is. */
-static bool goes_on(certifying *c, double done)
+static bool has_time(certifying *c, double done)
 {
-    double limit = c->watch->run.time_limit;
-    return (limit <= 0 || sp_watch_elapsed(c->watch) < limit) && sp_watch_goes_on(c->watch, "certificate", done);
+    c->done = done;
+    return goes_on(c);
 }
 
 /* Tells the trees of the prices that the bound was last proved with, those of about as much water: to others they say
  * little. */
 static bool tell_trees(certifying *c, size_t water, sp_error *error)
 {
-    for (size_t i = 0; i <= c->front->count; i++)
+    for (size_t i = 0; i <= c->front->count && c->bound.complete; i++)
         if ((double)c->trees[i].water * WATER_LIKE > (double)water &&
             (double)c->trees[i].water < WATER_LIKE * (double)water &&
             !sp_tree_hear(&c->branching, &c->trees[i], &c->bound.dual.price, sp_pose_prices_last(c->prices), error))
@@ -270,7 +280,7 @@ static bool tell_trees(certifying *c, size_t water, sp_error *error)
 /* Lowers the bound at this water. `done`: how far the certificate is. */
 static bool lower(certifying *c, size_t water, size_t rounds, double done, sp_error *error)
 {
-    for (size_t round = 0; round < rounds && goes_on(c, done); round++) {
+    for (size_t round = 0; round < rounds && has_time(c, done); round++) {
         if (!sp_bound_lower(&c->bound, water, error) || !tell_trees(c, water, error))
             return false;
         if (c->bound.closed && round >= ROUNDS_LIFTED)
@@ -312,7 +322,7 @@ static size_t next_point(const certifying *c)
     double most = 0;
     for (size_t i = 0; i <= c->front->count; i++) {
         const sp_tree *tree = &c->trees[i];
-        size_t water = budget_of(c, design_of(c->front, i)->flow);
+        size_t water = budget_of(c, draft_of(c->front, i)->flow);
         double open = 1 - c->found[i] / c->bound.by_water[water];
         double next = begins_anew(c, i) ? WORK_FIRST * (double)c->line.count : tree->next_work;
         double score = open / (next + WORK_PAST * tree->work);
@@ -329,7 +339,7 @@ static size_t next_point(const certifying *c)
 static bool grow_tree(certifying *c, size_t i, sp_error *error)
 {
     sp_tree *tree = &c->trees[i];
-    size_t water = budget_of(c, design_of(c->front, i)->flow);
+    size_t water = budget_of(c, draft_of(c->front, i)->flow);
     if (begins_anew(c, i)) {
         c->begun[i] = true;
         tree->work += WORK_FIRST * (double)c->line.count;
@@ -351,7 +361,7 @@ static bool lower_front(certifying *c, double work, sp_error *error)
         return false;
     for (double done = 0; done < work;) {
         size_t i = next_point(c);
-        if (i > c->front->count || !goes_on(c, 0.6 + 0.4 * done / work))
+        if (i > c->front->count || !has_time(c, 0.6 + 0.4 * done / work))
             break;
         double before = c->trees[i].work;
         if (!grow_tree(c, i, error))
@@ -375,19 +385,20 @@ static bool prove(certifying *c, size_t water, double area, sp_error *error)
     return done && lower_front(c, WORK_PROVING, error);
 }
 
-static bool lower_all(certifying *c, sp_error *error)
+/* What is proved without being asked for more: the proposal's water, one nozzle's, less water, then the front. */
+static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
 {
-    size_t water = budget_of(c, c->front->best.flow);
-    double area = counted_area(c->search, &c->front->best);
-    for (size_t round = 0; round < ROUNDS_EXPLORING && goes_on(c, 0.02 * (double)round); round++)
-        if (!sp_bound_explore(&c->bound, water, error))
+    double left = sp_watch_left(c->watch);
+    for (size_t round = 0; round < ROUNDS_EXPLORING && has_time(c, 0.02 * (double)round); round++)
+        if (sp_watch_left(c->watch) < left * (1 - EXPLORING_MOST))
+            break;
+        else if (!sp_bound_explore(&c->bound, water, error))
             return false;
     return sp_bound_lower(&c->bound, water, error) && tell_trees(c, water, error) &&
            sp_bound_lower_single(&c->bound, error) && tell_trees(c, c->bound.lightest, error) &&
            lower(c, water, ROUNDS_FIRST - 1, 0.1, error) &&
            lower_water(c, area, water, TRIALS_WATER, ROUNDS_WATER, error) &&
-           lower_front(c, WORK_LEAST + WORK_EACH * (double)c->line.count, error) &&
-           (!c->search->options->prove || prove(c, water, area, error));
+           lower_front(c, WORK_LEAST + WORK_EACH * (double)c->line.count, error);
 }
 
 /* Poses that were priced: those of mounting points that were traced, not in ports that kept nozzles take. */
@@ -405,6 +416,7 @@ static size_t count_poses(const certifying *c)
     return count;
 }
 
+/* Notes the bounds of the candidates. */
 static void conclude(const certifying *c, sp_front *front, sp_certificate *certificate)
 {
     double whole = 0, counted = counted_area(c->search, &front->best);
@@ -412,21 +424,40 @@ static void conclude(const certifying *c, sp_front *front, sp_certificate *certi
         whole += (double)c->search->area[p];
     for (size_t i = 0; i < front->count; i++) {
         sp_front_point *point = &front->entries[i].point;
-        point->counted = counted_area(c->search, &front->entries[i].design);
+        point->counted = counted_area(c->search, &front->entries[i].draft);
         point->bound = fmin(whole, c->bound.by_water[budget_of(c, point->flow)]);
     }
     size_t water = sp_bound_water(&c->bound, counted);
-    *certificate = (sp_certificate){
-        .computed = true,
-        .texels = c->search->patch_count,
-        .candidates = count_poses(c),
-        .own = c->own,
-        .whole = whole,
-        .counted = counted,
-        .area_bound = fmin(whole, c->bound.by_water[budget_of(c, front->best.flow)]),
-        .water_bound = fmin(front->best.flow, c->search->kept_flow + c->units.unit * (double)water),
-    };
+    certificate->computed = true;
+    certificate->texels = c->search->patch_count;
+    certificate->candidates = count_poses(c);
+    certificate->own = c->own;
+    certificate->whole = whole;
+    certificate->counted = counted;
+    certificate->area_bound = fmin(whole, c->bound.by_water[budget_of(c, front->best.flow)]);
+    certificate->water_bound = fmin(front->best.flow, c->search->kept_flow + c->units.unit * (double)water);
     certificate->gap = certificate->area_bound > 0 ? (certificate->area_bound - counted) / certificate->area_bound : 0;
+}
+
+/* All bounds, as far as time allows; nothing is noted where it did not allow the first. Goes on proving after what is
+ * bounded whichever way nozzles are aimed, which a proof that is not closed in time would leave none for. */
+static bool certify(certifying *c, sp_front *front, sp_certificate *certificate, sp_error *error)
+{
+    size_t water = budget_of(c, front->best.flow);
+    double area = counted_area(c->search, &front->best);
+    if (!lower_all(c, water, area, error))
+        return false;
+    if (!c->bound.proofs)
+        return true;
+    conclude(c, front, certificate);
+    const sp_aim_task task = {c->search, c->watch, &c->cover, &c->units, c->need, c->ports, &c->bound.rows};
+    if (!sp_aim_bound(&task, front, certificate, error))
+        return false;
+    if (!c->search->options->prove)
+        return true;
+    bool done = prove(c, water, area, error);
+    conclude(c, front, certificate);
+    return done;
 }
 
 bool sp_certify(const sp_search *search, sp_watch *watch, sp_front *front, sp_certificate *certificate, sp_error *error)
@@ -437,16 +468,8 @@ bool sp_certify(const sp_search *search, sp_watch *watch, sp_front *front, sp_ce
         front->entries[i].point.counted = front->entries[i].point.bound = front->entries[i].point.every_aim_bound = NAN;
     if (watch->cancelled || !front->found)
         return true;
-    if (!list_flows(&c, error))
-        return false;
-    bool done = true;
-    if (set_limits(&c)) {
-        done = prepare(&c, error) && lower_all(&c, error);
-        if (done)
-            conclude(&c, front, certificate);
-        const sp_aim_task task = {search, watch, &c.cover, &c.units, c.need, c.ports, &c.bound.rows};
-        done = done && sp_aim_bound(&task, front, certificate, error);
-    }
+    bool done =
+        list_flows(&c, error) && (!set_limits(&c) || (prepare(&c, error) && certify(&c, front, certificate, error)));
     certifying_free(&c);
     return done;
 }

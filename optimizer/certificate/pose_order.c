@@ -1,19 +1,8 @@
 #include "certificate/pose_order.h"
 
+#include "ranking.h"
+
 #include <stdlib.h>
-
-typedef struct {
-    double along;
-    uint32_t at;
-} entry;
-
-static int by_place(const void *a, const void *b)
-{
-    const entry *p = a, *q = b;
-    if (p->along != q->along)
-        return p->along < q->along ? -1 : 1;
-    return (p->at > q->at) - (p->at < q->at);
-}
 
 static double along(sp_vec3 v, int axis)
 {
@@ -21,7 +10,7 @@ static double along(sp_vec3 v, int axis)
 }
 
 /* Halves the points across their widest extent, and so on, in the middle of what is left each time. */
-static void halve(const sp_vec3 *points, entry *entries, size_t count)
+static void halve(const sp_vec3 *points, sp_ranked *entries, size_t count)
 {
     double widest = -1;
     int axis = 0;
@@ -39,8 +28,8 @@ static void halve(const sp_vec3 *points, entry *entries, size_t count)
         }
     }
     for (size_t i = 0; i < count; i++)
-        entries[i].along = along(points[entries[i].at], axis);
-    qsort(entries, count, sizeof *entries, by_place);
+        entries[i].merit = along(points[entries[i].at], axis);
+    sp_rank_rising(entries, count);
     halve(points, entries, count / 2);
     halve(points, entries + count / 2, count - count / 2);
 }
@@ -49,13 +38,13 @@ static void halve(const sp_vec3 *points, entry *entries, size_t count)
 static uint32_t *order_points(const sp_vec3 *points, size_t count)
 {
     uint32_t *order = malloc((count + 1) * sizeof *order);
-    entry *entries = malloc((count + 1) * sizeof *entries);
+    sp_ranked *entries = malloc((count + 1) * sizeof *entries);
     for (size_t i = 0; entries && i < count; i++)
-        entries[i] = (entry){0, (uint32_t)i};
+        entries[i] = (sp_ranked){0, i};
     if (order && entries) {
         halve(points, entries, count);
         for (size_t i = 0; i < count; i++)
-            order[i] = entries[i].at;
+            order[i] = (uint32_t)entries[i].at;
     }
     free(entries ? entries : (void *)order);
     return entries ? order : NULL;

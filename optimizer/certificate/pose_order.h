@@ -3,7 +3,7 @@
 #ifndef OPTIMIZER_POSE_ORDER_H
 #define OPTIMIZER_POSE_ORDER_H
 
-#include "scoring/design.h"
+#include "scoring/draft.h"
 #include "bound/line.h"
 
 /* The poses of one make at one site, or found nozzles of one weight in one port. */

@@ -1,5 +1,7 @@
 #include "certificate/pose_prices.h"
 
+#include "ranking.h"
+
 #include "scoring/scoring.h"
 
 #include <omp.h>
@@ -214,49 +216,26 @@ bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *row
                               rows, error);
 }
 
-typedef struct {
-    double excess;
-    size_t at;
-} entry;
-
-static int by_excess(const void *a, const void *b)
-{
-    const entry *p = a, *q = b;
-    if (p->excess != q->excess)
-        return p->excess > q->excess ? -1 : 1;
-    return (p->at > q->at) - (p->at < q->at);
-}
-
-static int by_key(const void *a, const void *b)
-{
-    uint64_t p = *(const uint64_t *)a, q = *(const uint64_t *)b;
-    return (p > q) - (p < q);
-}
-
 /* Appends the best of the bests that are worth more than needed. */
 static bool hand_out(const sp_pose_prices *prices, const double *needed, sp_rows *rows, sp_error *error)
 {
     size_t count = prices->search->sites->count * prices->search->candidates->make_count, found = 0, had = rows->count;
-    entry *entries = malloc((count + 1) * sizeof *entries);
-    uint64_t *keys = malloc((had + 1) * sizeof *keys);
+    sp_ranked *entries = malloc((count + 1) * sizeof *entries);
+    uint64_t *keys = sp_rows_keys(rows);
     bool done = entries && keys;
     if (!done)
         sp_fail_memory(error);
     for (size_t i = 0; done && i < count; i++) {
         double need = needed[prices->tier_of[prices->bests[i].pose.make]], price = prices->bests[i].price;
         if (price > need)
-            entries[found++] = (entry){need > 0 ? price / need : price * 1e30, i};
+            entries[found++] = (sp_ranked){need > 0 ? price / need : price * 1e30, i};
     }
-    for (size_t i = 0; done && i < had; i++)
-        keys[i] = rows->key[i];
-    if (done) {
-        qsort(keys, had, sizeof *keys, by_key);
-        qsort(entries, found, sizeof *entries, by_excess);
-    }
+    if (done)
+        sp_rank_falling(entries, found);
     for (size_t i = 0, given = 0; done && i < found && given < ROWS_AT_A_TIME; i++) {
         sp_pose pose = prices->bests[entries[i].at].pose;
         uint64_t key = sp_pose_order_position(prices->order, pose);
-        if (bsearch(&key, keys, had, sizeof *keys, by_key))
+        if (sp_keys_hold(keys, had, key))
             continue;
         done = sp_pose_prices_add(prices, pose, rows, error);
         given++;
@@ -288,9 +267,13 @@ static bool price_poses(void *user, const sp_prices *u, const double *needed, bo
     price_found(prices->order, u, NULL, prices->last);
 #pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
-        price_site(prices, &prices->scratches[omp_get_thread_num()], (uint32_t)i, u, needed, all ? 1 : STRIDE, offers);
+        if (sp_cover_goes_on(prices->cover))
+            price_site(prices, &prices->scratches[omp_get_thread_num()], (uint32_t)i, u, needed, all ? 1 : STRIDE,
+                       offers);
     for (int i = 0; i < prices->threads; i++)
         sp_visibility_leave(search->visibility, &prices->scratches[i].desk);
+    if (!sp_cover_goes_on(prices->cover))
+        return true;
     for (size_t i = 0; i < sites * makes; i++)
         if (prices->bests[i].price > 0)
             sp_offers_add(offers, prices->ports[search->sites->items[i / makes].mount], prices->tier_of[i % makes],
@@ -329,7 +312,7 @@ static bool price_line(void *user, const sp_prices *u, const uint8_t *alive, flo
     size_t makes = prices->search->candidates->make_count, sites = prices->search->sites->count;
 #pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
     for (size_t site = 0; site < sites; site++)
-        for (size_t k = 0; k < makes; k++)
+        for (size_t k = 0; k < makes && sp_cover_goes_on(prices->cover); k++)
             if (order->block_of[site * makes + k] != SIZE_MAX)
                 price_block(prices, &prices->scratches[omp_get_thread_num()], order->block_of[site * makes + k], u,
                             alive, price);

@@ -4,7 +4,7 @@
 #define OPTIMIZER_POSE_PRICES_H
 
 #include "bound/bound.h"
-#include "scoring/design.h"
+#include "scoring/draft.h"
 #include "certificate/pose_order.h"
 
 /* Fields rounded in single precision, and those of some 300 nozzles added up so, lie off by less than this share. */

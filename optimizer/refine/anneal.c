@@ -23,67 +23,67 @@ double sp_least_flow(const sp_search *search, const sp_placed *placed)
     return high > low * (1 + 1e-9) ? fmin(low, placed->flow) : placed->flow;
 }
 
-void sp_turn_down(const sp_search *search, sp_design *design, double budget)
+void sp_turn_down(const sp_search *search, sp_draft *draft, double budget)
 {
     double total = search->kept_flow, spare = 0;
-    for (size_t i = 0; i < design->count; i++) {
-        total += design->items[i].flow;
-        spare += design->items[i].flow - sp_least_flow(search, &design->items[i]);
+    for (size_t i = 0; i < draft->count; i++) {
+        total += draft->items[i].flow;
+        spare += draft->items[i].flow - sp_least_flow(search, &draft->items[i]);
     }
     if (total <= budget || spare <= 0)
         return;
     double share = fmin(1, (total - budget) / spare * (1 + 1e-12));
-    for (size_t i = 0; i < design->count; i++) {
-        sp_placed *placed = &design->items[i];
+    for (size_t i = 0; i < draft->count; i++) {
+        sp_placed *placed = &draft->items[i];
         double low = sp_least_flow(search, placed);
         if (low < placed->flow)
             placed->nozzle.flow = placed->flow = placed->flow - share * (placed->flow - low);
     }
 }
 
-bool sp_design_look(sp_sights *sights, sp_design *design, sp_error *error)
+bool sp_draft_look(sp_sights *sights, sp_draft *draft, sp_error *error)
 {
-    for (size_t i = 0; i < design->count; i++)
-        if (!sp_sights_field(sights, &design->items[i], design->items[i].field, error))
+    for (size_t i = 0; i < draft->count; i++)
+        if (!sp_sights_field(sights, &draft->items[i], draft->items[i].field, error))
             return false;
-    sp_design_refresh(sights->search, design);
+    sp_draft_refresh(sights->search, draft);
     return true;
 }
 
 /* Takes over a share of the way from each freedom's start to its values, and looks again. */
 static bool go(const sp_annealing *annealing, const sp_freedom *freedoms, double (*values)[SP_UNKNOWNS], double share,
-               sp_design *design)
+               sp_draft *draft)
 {
     const sp_search *search = annealing->sights->search;
-    for (size_t i = 0; i < design->count; i++) {
+    for (size_t i = 0; i < draft->count; i++) {
         double part[SP_UNKNOWNS];
         for (size_t k = 0; k < freedoms[i].count; k++)
             part[k] = freedoms[i].value[k] + share * (values[i][k] - freedoms[i].value[k]);
-        sp_placed_move(search, &design->items[i], &freedoms[i], part);
+        sp_placed_move(search, &draft->items[i], &freedoms[i], part);
     }
-    sp_turn_down(search, design, annealing->budget);
-    return sp_design_look(annealing->sights, design, annealing->error);
+    sp_turn_down(search, draft, annealing->budget);
+    return sp_draft_look(annealing->sights, draft, annealing->error);
 }
 
 /* Goes the whole way; where `careful`, half or a quarter of it if that is what is worth more than before, or stays. */
 static bool line_search(const sp_annealing *annealing, const sp_freedom *freedoms, double (*values)[SP_UNKNOWNS],
-                        bool careful, sp_design *design)
+                        bool careful, sp_draft *draft)
 {
     const sp_search *search = annealing->sights->search;
     if (!careful)
-        return go(annealing, freedoms, values, 1, design);
+        return go(annealing, freedoms, values, 1, draft);
     for (double share = 1; share >= SHARE_LEAST; share /= 2) {
-        sp_design trial;
-        if (!sp_design_copy(search, design, &trial, annealing->error))
+        sp_draft trial;
+        if (!sp_draft_copy(search, draft, &trial, annealing->error))
             return false;
         if (!go(annealing, freedoms, values, share, &trial)) {
-            sp_design_free(&trial);
+            sp_draft_free(&trial);
             return false;
         }
-        bool better = trial.value > design->value;
-        sp_design_free(better ? design : &trial);
+        bool better = trial.value > draft->value;
+        sp_draft_free(better ? draft : &trial);
         if (better) {
-            *design = trial;
+            *draft = trial;
             return true;
         }
     }
@@ -91,24 +91,24 @@ static bool line_search(const sp_annealing *annealing, const sp_freedom *freedom
 }
 
 /* One outer step: solve with visibility frozen, apply, look again. */
-static bool step(const sp_annealing *annealing, size_t width, sp_design *design)
+static bool step(const sp_annealing *annealing, size_t width, sp_draft *draft)
 {
     const sp_search *search = annealing->sights->search;
-    sp_freedom *freedoms = malloc(design->count * sizeof *freedoms);
-    const sp_sight **views = malloc(design->count * sizeof *views);
-    double(*values)[SP_UNKNOWNS] = malloc(design->count * sizeof *values);
+    sp_freedom *freedoms = malloc(draft->count * sizeof *freedoms);
+    const sp_sight **views = malloc(draft->count * sizeof *views);
+    double(*values)[SP_UNKNOWNS] = malloc(draft->count * sizeof *values);
     bool done = (freedoms && values && views) || sp_fail_memory(annealing->error);
-    for (size_t i = 0; done && i < design->count; i++) {
-        freedoms[i] = sp_freedom_create(search, &design->items[i]);
+    for (size_t i = 0; done && i < draft->count; i++) {
+        freedoms[i] = sp_freedom_create(search, &draft->items[i]);
         for (size_t k = 0; k < freedoms[i].count; k++)
             values[i][k] = freedoms[i].value[k];
-        views[i] = sp_sights_look(annealing->sights, &design->items[i], annealing->error);
+        views[i] = sp_sights_look(annealing->sights, &draft->items[i], annealing->error);
         done = views[i] != NULL;
     }
     done = done &&
-           sp_soft_solve(search, freedoms, views, design->count, widths[width], annealing->budget, values,
+           sp_soft_solve(search, freedoms, views, draft->count, widths[width], annealing->budget, values,
                          annealing->error) &&
-           line_search(annealing, freedoms, values, width >= SP_CAREFUL, design);
+           line_search(annealing, freedoms, values, width >= SP_CAREFUL, draft);
     free(freedoms);
     free(views);
     free(values);
@@ -116,30 +116,30 @@ static bool step(const sp_annealing *annealing, size_t width, sp_design *design)
 }
 
 /* Takes the copy over where it covers more with no more water. */
-static void keep_better(sp_design *design, sp_design *copy, double budget)
+static void keep_better(sp_draft *draft, sp_draft *copy, double budget)
 {
-    bool better = copy->covered > design->covered && copy->flow <= budget * (1 + SP_ROUNDING);
-    sp_design_free(better ? design : copy);
+    bool better = copy->covered > draft->covered && copy->flow <= budget * (1 + SP_ROUNDING);
+    sp_draft_free(better ? draft : copy);
     if (better)
-        *design = *copy;
+        *draft = *copy;
 }
 
-bool sp_anneal(sp_sights *sights, size_t start, size_t end, double budget, sp_watch *watch, sp_design *design,
+bool sp_anneal(sp_sights *sights, size_t start, size_t end, double budget, sp_watch *watch, sp_draft *draft,
                sp_error *error)
 {
     sp_annealing annealing = {sights, budget, error};
-    sp_design moving;
-    if (!design->count)
+    sp_draft moving;
+    if (!draft->count)
         return true;
-    if (!sp_sights_reserve(sights, design->count, error) || !sp_design_copy(sights->search, design, &moving, error))
+    if (!sp_sights_reserve(sights, draft->count, error) || !sp_draft_copy(sights->search, draft, &moving, error))
         return false;
     bool done = true;
     for (size_t w = start; done && w < end && sp_watch_goes_on(watch, "refine", (double)w / SP_WIDTHS); w++) {
-        sp_design copy;
-        done = step(&annealing, w, &moving) && sp_design_copy(sights->search, &moving, &copy, error);
+        sp_draft copy;
+        done = step(&annealing, w, &moving) && sp_draft_copy(sights->search, &moving, &copy, error);
         if (done)
-            keep_better(design, &copy, budget);
+            keep_better(draft, &copy, budget);
     }
-    sp_design_free(&moving);
+    sp_draft_free(&moving);
     return done;
 }

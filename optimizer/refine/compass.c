@@ -9,11 +9,11 @@
 #define SWEEPS_MOST 4    /* at one size of step */
 #define GAIN_LEAST 1e-6  /* of the area, for a step to count */
 
-/* The nozzle in hand, and the design without it. */
+/* The nozzle in hand, and the draft without it. */
 typedef struct {
     const sp_search *search; /* without credit */
     sp_sights *sights;
-    sp_design *design; /* without the nozzle */
+    sp_draft *draft; /* without the nozzle */
     double budget, least;
     sp_placed placed;
     double gain;  /* of its field, exact, m² */
@@ -33,14 +33,14 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
         return true;
     sp_placed trial = needle->placed;
     sp_placed_move(needle->search, &trial, &freedom, values);
-    if (needle->design->flow + trial.flow > needle->budget * (1 + 1e-12))
+    if (needle->draft->flow + trial.flow > needle->budget * (1 + 1e-12))
         return true;
     bool elsewhere = sp_distance(trial.nozzle.position, needle->placed.nozzle.position) > 0;
     if (freedom.kind[k] == SP_UNKNOWN_PLACE && !elsewhere)
         return true;
     if (!sp_sights_field(needle->sights, &trial, needle->trial, needle->error))
         return false;
-    double gain = sp_field_gain(needle->search, needle->design->wet, needle->trial);
+    double gain = sp_field_gain(needle->search, needle->draft->wet, needle->trial);
     if (gain <= needle->gain + needle->least)
         return true;
     trial.field = needle->trial;
@@ -51,21 +51,21 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
     return true;
 }
 
-/* Both ways along every unknown of the design's first nozzle, which then stands last. */
-static bool try_nozzle(const sp_search *search, sp_sights *sights, double budget, double step, sp_design *design,
+/* Both ways along every unknown of the draft's first nozzle, which then stands last. */
+static bool try_nozzle(const sp_search *search, sp_sights *sights, double budget, double step, sp_draft *draft,
                        bool *moved, sp_error *error)
 {
     sp_needle needle = {.search = search,
                         .sights = sights,
-                        .design = design,
+                        .draft = draft,
                         .budget = budget,
                         .error = error,
                         .least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area};
-    needle.placed = sp_design_take(search, design, 0);
+    needle.placed = sp_draft_take(search, draft, 0);
     needle.trial = malloc(search->patch_count * sizeof *needle.trial);
     bool done = needle.trial || sp_fail_memory(error);
     if (done)
-        needle.gain = sp_field_gain(search, design->wet, needle.placed.field);
+        needle.gain = sp_field_gain(search, draft->wet, needle.placed.field);
     sp_freedom freedom = sp_freedom_create(search, &needle.placed);
     for (size_t k = 0; done && k < freedom.count; k++) {
         if (freedom.kind[k] == SP_UNKNOWN_PLACE && step < PLACE_LEAST)
@@ -75,10 +75,10 @@ static bool try_nozzle(const sp_search *search, sp_sights *sights, double budget
         *moved |= forth;
     }
     free(needle.trial);
-    return sp_design_add(search, design, needle.placed, error) && done;
+    return sp_draft_add(search, draft, needle.placed, error) && done;
 }
 
-bool sp_compass(sp_sights *sights, double first, double least, double budget, sp_watch *watch, sp_design *design,
+bool sp_compass(sp_sights *sights, double first, double least, double budget, sp_watch *watch, sp_draft *draft,
                 sp_error *error)
 {
     sp_search exact = *sights->search;
@@ -90,13 +90,13 @@ bool sp_compass(sp_sights *sights, double first, double least, double budget, sp
         if (!sp_watch_goes_on(watch, "refine", 1))
             break;
         /* after all turns the first nozzle is the first again */
-        for (size_t i = 0; done && i < design->count; i++)
-            done = try_nozzle(&exact, sights, budget, step, design, &moved, error);
+        for (size_t i = 0; done && i < draft->count; i++)
+            done = try_nozzle(&exact, sights, budget, step, draft, &moved, error);
         if (moved && ++sweeps < SWEEPS_MOST)
             continue;
         step /= 2;
         sweeps = 0;
     }
-    sp_design_refresh(sights->search, design);
+    sp_draft_refresh(sights->search, draft);
     return done;
 }

@@ -13,7 +13,7 @@
 #define STEP_LEAST 0.006
 #define SHARP_START 4   /* width at which the last polish starts */
 #define KEEPS_UP 0.002  /* of what is covered, by which few patches may mislead */
-#define TURNS 4         /* of kicks and new designs, two that are annealed first */
+#define TURNS 4         /* of kicks and new drafts, two that are annealed first */
 #define GAIN_LEAST 1e-5 /* of what is covered: less is no improvement */
 #define BEHIND_MOST                                                                                                    \
     0.005 /* of what was covered before a kick: with more to make up for, annealing is the end of it                   \
@@ -69,9 +69,9 @@ bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_
 }
 
 /* The same nozzles on other patches, or on the same ones looked at anew. */
-static bool transfer(sp_sights *sights, const sp_design *from, sp_design *to, sp_error *error)
+static bool transfer(sp_sights *sights, const sp_draft *from, sp_draft *to, sp_error *error)
 {
-    if (!sp_design_create(sights->search, to, error))
+    if (!sp_draft_create(sights->search, to, error))
         return false;
     bool done = true;
     for (size_t i = 0; done && i < from->count; i++) {
@@ -80,45 +80,45 @@ static bool transfer(sp_sights *sights, const sp_design *from, sp_design *to, sp
         if (!placed.field)
             done = sp_fail_memory(error);
         else if (sp_sights_field(sights, &placed, placed.field, error))
-            done = sp_design_add(sights->search, to, placed, error);
+            done = sp_draft_add(sights->search, to, placed, error);
         else {
             free(placed.field);
             done = false;
         }
     }
     if (!done)
-        sp_design_free(to);
+        sp_draft_free(to);
     return done;
 }
 
 /* Within the budget by turning nozzles down; false in *fits where that is not enough. */
-static bool fit(sp_sights *sights, double budget, sp_design *design, bool *fits, sp_error *error)
+static bool fit(sp_sights *sights, double budget, sp_draft *draft, bool *fits, sp_error *error)
 {
-    if (design->flow > budget) {
-        sp_turn_down(sights->search, design, budget);
-        if (!sp_design_look(sights, design, error))
+    if (draft->flow > budget) {
+        sp_turn_down(sights->search, draft, budget);
+        if (!sp_draft_look(sights, draft, error))
             return false;
     }
-    *fits = design->flow <= budget * (1 + SP_ROUNDING);
+    *fits = draft->flow <= budget * (1 + SP_ROUNDING);
     return true;
 }
 
 /* Anneals from ever wider starts: a narrow one keeps what is there; a wide one forgets it, and may find better. By
  * turns, one of them or none: compass finds as much where there is little to forget. */
-static bool anneal(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, sp_design *design,
+static bool anneal(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, sp_draft *draft,
                    sp_error *error)
 {
     static const size_t starts[] = {3, 0};
     for (size_t i = 0; i < sizeof starts / sizeof *starts; i++)
         if ((trial->kind == SP_TRIAL_ANNEAL || i == trial->seed % TURNS) &&
-            !sp_anneal(sights, starts[i], SP_WIDTHS, trial->budget, polishing->watch, design, error))
+            !sp_anneal(sights, starts[i], SP_WIDTHS, trial->budget, polishing->watch, draft, error))
             return false;
     return true;
 }
 
 /* What `start` becomes on few patches, if it keeps up with `before`. */
 static bool refine(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, double before,
-                   const sp_design *start, sp_design *refined, sp_error *error)
+                   const sp_draft *start, sp_draft *refined, sp_error *error)
 {
     bool fits;
     if (!transfer(sights, start, refined, error))
@@ -129,60 +129,60 @@ static bool refine(const sp_polishing *polishing, sp_sights *sights, const sp_tr
                (refined->covered < before * (1 - BEHIND_MOST) ||
                 sp_compass(sights, STEP_FIRST, STEP_LEAST, trial->budget, polishing->watch, refined, error));
     if (!done)
-        sp_design_free(refined);
+        sp_draft_free(refined);
     return done;
 }
 
 /* What the trial covers on few patches before anything is done to it, within its budget; 0 where it cannot be that. */
 static bool cover_before(sp_sights *sights, const sp_trial *trial, double *covered, sp_error *error)
 {
-    sp_design design;
+    sp_draft draft;
     bool fits;
-    if (!transfer(sights, &trial->design, &design, error))
+    if (!transfer(sights, &trial->draft, &draft, error))
         return false;
-    bool done = fit(sights, trial->budget, &design, &fits, error);
-    *covered = done && fits ? design.covered : 0;
-    sp_design_free(&design);
+    bool done = fit(sights, trial->budget, &draft, &fits, error);
+    *covered = done && fits ? draft.covered : 0;
+    sp_draft_free(&draft);
     return done;
 }
 
 /* What the trial starts from. */
-static bool begin(const sp_polishing *polishing, const sp_trial *trial, sp_design *start, sp_error *error)
+static bool begin(const sp_polishing *polishing, const sp_trial *trial, sp_draft *start, sp_error *error)
 {
     const sp_tuned *tuned = &polishing->tuned;
-    const sp_design *from = trial->kind == SP_TRIAL_OTHER ? &trial->other : &trial->design;
-    if (!sp_design_copy(polishing->search, from, start, error))
+    const sp_draft *from = trial->kind == SP_TRIAL_OTHER ? &trial->other : &trial->draft;
+    if (!sp_draft_copy(polishing->search, from, start, error))
         return false;
     if (trial->kind == SP_TRIAL_KICK &&
         !sp_kick(&tuned->search, &tuned->pool, trial->budget, trial->seed, start, error)) {
-        sp_design_free(start);
+        sp_draft_free(start);
         return false;
     }
     sp_tuned_settle(tuned, start);
     return true;
 }
 
-/* The refined design on the search's own patches, turned a little more on these, becomes the trial's. */
+/* The refined draft on the search's own patches, turned a little more on these, becomes the trial's. */
 static bool take_over(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
 {
     sp_sights *sights = &polishing->sights[thread];
-    sp_design design;
+    sp_draft draft;
     sp_sights_forget(sights);
-    if (!transfer(sights, &trial->refined, &design, error))
+    if (!transfer(sights, &trial->refined, &draft, error))
         return false;
-    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, trial->budget, polishing->watch, &design, error)) {
-        sp_design_free(&design);
+    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, trial->budget, polishing->watch, &draft, error)) {
+        sp_draft_free(&draft);
         return false;
     }
-    sp_design_free(&trial->design);
-    trial->design = design;
+    sp_draft_free(&trial->draft);
+    trial->draft = draft;
     return true;
 }
 
 static bool polish(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
 {
     sp_sights *sights = &polishing->rough_sights[thread];
-    sp_design start;
+    sp_draft start;
     double before;
     if (!sp_watch_goes_on(polishing->watch, "refine", 0))
         return true;
@@ -191,7 +191,7 @@ static bool polish(const sp_polishing *polishing, int thread, sp_trial *trial, s
     if (!cover_before(sights, trial, &before, error) || !begin(polishing, trial, &start, error))
         return false;
     bool done = refine(polishing, sights, trial, before, &start, &trial->refined, error);
-    sp_design_free(&start);
+    sp_draft_free(&start);
     if (!done)
         return false;
     trial->covered = trial->refined.covered;
@@ -243,20 +243,20 @@ bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error
     free(keeps);
     done = done && for_each(polishing, trials, count, true, take_over, error);
     for (size_t i = 0; i < count; i++)
-        sp_design_free(&trials[i].refined);
+        sp_draft_free(&trials[i].refined);
     return done;
 }
 
-bool sp_sharpen(sp_polishing *polishing, double budget, sp_design *design, sp_error *error)
+bool sp_sharpen(sp_polishing *polishing, double budget, sp_draft *draft, sp_error *error)
 {
     sp_sights *sights = &polishing->sights[0];
     sp_sights_forget(sights);
-    return sp_anneal(sights, SHARP_START, SP_WIDTHS, budget, polishing->watch, design, error) &&
-           sp_compass(sights, STEP_SHARP, STEP_LEAST, budget, polishing->watch, design, error);
+    return sp_anneal(sights, SHARP_START, SP_WIDTHS, budget, polishing->watch, draft, error) &&
+           sp_compass(sights, STEP_SHARP, STEP_LEAST, budget, polishing->watch, draft, error);
 }
 
-bool sp_look_anew(sp_polishing *polishing, sp_design *design, sp_error *error)
+bool sp_look_anew(sp_polishing *polishing, sp_draft *draft, sp_error *error)
 {
     sp_sights_forget(&polishing->sights[0]);
-    return sp_design_look(&polishing->sights[0], design, error);
+    return sp_draft_look(&polishing->sights[0], draft, error);
 }

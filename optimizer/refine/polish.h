@@ -1,4 +1,4 @@
-/* Polishing: refining many designs at once, each annealed and then improved by compass. */
+/* Polishing: refining many drafts at once, each annealed and then improved by compass. */
 #ifndef OPTIMIZER_POLISH_H
 #define OPTIMIZER_POLISH_H
 
@@ -7,22 +7,22 @@
 #include "search/tuned.h"
 
 typedef enum {
-    SP_TRIAL_ANNEAL, /* the design as it is, annealed from every start */
+    SP_TRIAL_ANNEAL, /* the draft as it is, annealed from every start */
     SP_TRIAL_POLISH, /* the same, annealed by turns as all that follow */
     SP_TRIAL_KICK,   /* after a kick */
     SP_TRIAL_OTHER,  /* another in its place */
 } sp_trial_kind;
 
-/* One design to polish at equal water. */
+/* One draft to polish at equal water. */
 typedef struct {
     sp_trial_kind kind;
-    sp_design design;  /* what comes out takes its place, if better, and no other of the same water much more so */
-    sp_design other;   /* of the tuned search, where that kind asks for it */
-    double budget;     /* m³/s */
-    uint64_t seed;     /* of the kick */
-    bool better;       /* it came to cover more on few patches; the search's and the final ones may see it otherwise */
-    sp_design refined; /* on few patches */
-    double covered;    /* m² of these */
+    sp_draft draft;   /* what comes out takes its place, if better, and no other of the same water much more so */
+    sp_draft other;   /* of the tuned search, where that kind asks for it */
+    double budget;    /* m³/s */
+    uint64_t seed;    /* of the kick */
+    bool better;      /* it came to cover more on few patches; the search's and the final ones may see it otherwise */
+    sp_draft refined; /* on few patches */
+    double covered;   /* m² of these */
 } sp_trial;
 
 typedef struct {
@@ -31,7 +31,7 @@ typedef struct {
     sp_watch *watch;
     sp_evaluator *rough_evaluator; /* NULL: the search's patches are few enough */
     sp_search rough;
-    sp_tuned tuned; /* where kicks and other designs are drawn from */
+    sp_tuned tuned; /* where kicks and other drafts are drawn from */
     int threads;
     sp_sights *sights, *rough_sights; /* [threads] */
 } sp_polishing;
@@ -43,9 +43,9 @@ void sp_polishing_free(sp_polishing *polishing);
 /* Polishes every trial on few patches, and the best for each amount of water on the search's own. What comes out does
  * not depend on the number of threads. */
 bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error);
-/* Polishes one design sharply on the search's own patches, where it never gets worse. */
-bool sp_sharpen(sp_polishing *polishing, double budget, sp_design *design, sp_error *error);
+/* Polishes one draft sharply on the search's own patches, where it never gets worse. */
+bool sp_sharpen(sp_polishing *polishing, double budget, sp_draft *draft, sp_error *error);
 /* Looks anew on the search's own patches. */
-bool sp_look_anew(sp_polishing *polishing, sp_design *design, sp_error *error);
+bool sp_look_anew(sp_polishing *polishing, sp_draft *draft, sp_error *error);
 
 #endif

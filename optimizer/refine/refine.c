@@ -1,5 +1,7 @@
 #include "refine/refine.h"
 
+#include "grow.h"
+
 #include "search/guess.h"
 #include "refine/polish.h"
 
@@ -8,11 +10,11 @@
 #define FLOW_TRIALS 7     /* measurements to find how far the flow can be turned down */
 #define GAIN_LEAST 1e-4   /* of area or water: less is no improvement */
 #define MISSING_MOST 0.03 /* of the target: more, refinement is not expected to make up for */
-#define BATCH 8           /* kicks of one design at a time; fixed, so that the answer does not depend on the threads */
+#define BATCH 8           /* kicks of one draft at a time; fixed, so that the answer does not depend on the threads */
 #define BATCHES 2         /* before less water is given up */
 #define SAVINGS 3
-#define SAVING 0.015 /* less water than the best design, so many times, for another */
-#define BETWEEN 0.05 /* less water than a design of the front, for another */
+#define SAVING 0.015 /* less water than the best draft, so many times, for another */
+#define BETWEEN 0.05 /* less water than a draft of the front, for another */
 #define APART 0.02   /* share by which waters must differ for that */
 
 typedef struct {
@@ -34,28 +36,21 @@ typedef struct {
 static void trials_free(sp_trials *trials)
 {
     for (size_t i = 0; i < trials->count; i++) {
-        sp_design_free(&trials->items[i].design);
-        sp_design_free(&trials->items[i].other);
+        sp_draft_free(&trials->items[i].draft);
+        sp_draft_free(&trials->items[i].other);
     }
     free(trials->items);
     *trials = (sp_trials){0};
 }
 
-static bool try_also(sp_refining *refining, sp_trials *trials, const sp_design *design, double budget,
-                     sp_trial_kind kind)
+static bool try_also(sp_refining *refining, sp_trials *trials, const sp_draft *draft, double budget, sp_trial_kind kind)
 {
-    if (trials->count == trials->capacity) {
-        size_t capacity = trials->capacity ? 2 * trials->capacity : 16;
-        sp_trial *items = realloc(trials->items, capacity * sizeof *items);
-        if (!items)
-            return sp_fail_memory(refining->error);
-        trials->items = items;
-        trials->capacity = capacity;
-    }
+    if (!sp_grow(&trials->items, &trials->capacity, trials->count + 1, sizeof *trials->items))
+        return sp_fail_memory(refining->error);
     sp_trial *trial = &trials->items[trials->count];
     *trial = (sp_trial){
         .kind = kind, .seed = ++refining->seeds, .budget = fmin(budget, refining->search->options->max_water)};
-    if (!sp_design_copy(refining->search, design, &trial->design, refining->error))
+    if (!sp_draft_copy(refining->search, draft, &trial->draft, refining->error))
         return false;
     trials->count++;
     return true;
@@ -63,20 +58,20 @@ static bool try_also(sp_refining *refining, sp_trials *trials, const sp_design *
 
 /* Polishes the trials and lets the front have them. *best, where not NULL, becomes a copy of the one that covers most,
  * if that is more than it does itself. */
-static bool carry_out(sp_refining *refining, sp_trials *trials, sp_design *best)
+static bool carry_out(sp_refining *refining, sp_trials *trials, sp_draft *best)
 {
     const sp_search *search = refining->search;
     bool done = sp_polish(&refining->polishing, trials->items, trials->count, refining->error);
     for (size_t i = 0; done && i < trials->count; i++) {
-        sp_design *design = &trials->items[i].design;
+        sp_draft *draft = &trials->items[i].draft;
         if (!trials->items[i].better)
             continue;
-        done = sp_front_measure(refining->front, search, design, NULL, refining->error);
-        if (done && best && design->covered > best->covered) {
-            sp_design copy;
-            done = sp_design_copy(search, design, &copy, refining->error);
+        done = sp_front_measure(refining->front, search, draft, NULL, refining->error);
+        if (done && best && draft->covered > best->covered) {
+            sp_draft copy;
+            done = sp_draft_copy(search, draft, &copy, refining->error);
             if (done) {
-                sp_design_free(best);
+                sp_draft_free(best);
                 *best = copy;
             }
         }
@@ -84,29 +79,29 @@ static bool carry_out(sp_refining *refining, sp_trials *trials, sp_design *best)
     return done;
 }
 
-/* Every design of the front once more. */
+/* Every draft of the front once more. */
 static bool try_front(sp_refining *refining, sp_trials *trials, sp_trial_kind kind)
 {
     const sp_front *front = refining->front;
     for (size_t i = 0; i < front->count; i++)
         if (sp_front_counts(front, i) &&
-            !try_also(refining, trials, &front->entries[i].design, front->entries[i].point.flow, kind))
+            !try_also(refining, trials, &front->entries[i].draft, front->entries[i].point.flow, kind))
             return false;
     return true;
 }
 
-/* A trial of another design for so much water, to be better than what the front has for no more. */
+/* A trial of another draft for so much water, to be better than what the front has for no more. */
 static bool ask_other(sp_refining *refining, sp_trials *trials, double flow)
 {
     const sp_front *front = refining->front;
     size_t i = 0;
     while (i + 1 < front->count && front->entries[i + 1].point.flow <= flow * (1 + SP_ROUNDING))
         i++;
-    return try_also(refining, trials, &front->entries[i].design, flow, SP_TRIAL_OTHER);
+    return try_also(refining, trials, &front->entries[i].draft, flow, SP_TRIAL_OTHER);
 }
 
-/* Trials of other designs for the water of every design of the front, `between` also for a little less, where the front
- * has none, and for that of the scene's own layout, with which the proposal will be compared. The designs are still to
+/* Trials of other drafts for the water of every draft of the front, `between` also for a little less, where the front
+ * has none, and for that of the scene's own layout, with which the proposal will be compared. The drafts are still to
  * be found. */
 static bool ask_others(sp_refining *refining, sp_trials *trials, bool between)
 {
@@ -117,7 +112,7 @@ static bool ask_others(sp_refining *refining, sp_trials *trials, bool between)
         double flow = front->entries[i].point.flow, less = flow * (1 - BETWEEN);
         if (!sp_front_counts(front, i))
             continue;
-        if (between && front->entries[i].design.count > 1 && less > front->entries[i - 1].point.flow * (1 + APART) &&
+        if (between && front->entries[i].draft.count > 1 && less > front->entries[i - 1].point.flow * (1 + APART) &&
             !ask_other(refining, trials, less))
             return false;
         if (!ask_other(refining, trials, flow))
@@ -126,7 +121,7 @@ static bool ask_others(sp_refining *refining, sp_trials *trials, bool between)
     return own_flow <= 0 || ask_other(refining, trials, own_flow);
 }
 
-/* The same for a little less water than the best design takes. */
+/* The same for a little less water than the best draft takes. */
 static bool ask_savings(sp_refining *refining, sp_trials *trials)
 {
     for (int i = 1; i <= SAVINGS; i++)
@@ -135,21 +130,21 @@ static bool ask_savings(sp_refining *refining, sp_trials *trials)
     return true;
 }
 
-/* All nozzles of the front's designs; NULL when memory runs out. */
+/* All nozzles of the front's drafts; NULL when memory runs out. */
 static const sp_placed **list_nozzles(const sp_front *front, size_t *count)
 {
     size_t total = 0;
     for (size_t i = 0; i < front->count; i++)
-        total += front->entries[i].design.count;
+        total += front->entries[i].draft.count;
     const sp_placed **nozzles = malloc((total + 1) * sizeof *nozzles);
     *count = 0;
     for (size_t i = 0; nozzles && i < front->count; i++)
-        for (size_t n = 0; n < front->entries[i].design.count; n++)
-            nozzles[(*count)++] = &front->entries[i].design.items[n];
+        for (size_t n = 0; n < front->entries[i].draft.count; n++)
+            nozzles[(*count)++] = &front->entries[i].draft.items[n];
     return nozzles;
 }
 
-/* The trials' other designs: of the pool at the flows that refinement may set, and of nozzles that the front's designs
+/* The trials' other drafts: of the pool at the flows that refinement may set, and of nozzles that the front's drafts
  * have already, put together anew. */
 static bool find_others(sp_refining *refining, sp_trials *trials)
 {
@@ -165,7 +160,7 @@ static bool find_others(sp_refining *refining, sp_trials *trials)
     done = done && sp_table_create(&tuned->search, &tuned->pool, nozzles, nozzle_count, &table, refining->error) &&
            sp_guess(&table, budgets, count, refining->watch, lineups, refining->error);
     for (size_t i = 0; done && i < count; i++)
-        done = sp_lineup_design(&lineups[i], &trials->items[i].other, refining->error);
+        done = sp_lineup_draft(&lineups[i], &trials->items[i].other, refining->error);
     for (size_t i = 0; lineups && i < count; i++)
         sp_lineup_free(&lineups[i]);
     free(budgets);
@@ -175,23 +170,23 @@ static bool find_others(sp_refining *refining, sp_trials *trials)
     return done;
 }
 
-/* Drops the trials whose other design covers no more than what they hold. */
+/* Drops the trials whose other draft covers no more than what they hold. */
 static void drop_others(sp_trials *trials)
 {
     size_t kept = 0;
     for (size_t i = 0; i < trials->count; i++) {
         sp_trial *trial = &trials->items[i];
-        if (trial->other.covered > trial->design.covered * (1 + GAIN_LEAST)) {
+        if (trial->other.covered > trial->draft.covered * (1 + GAIN_LEAST)) {
             trials->items[kept++] = *trial;
             continue;
         }
-        sp_design_free(&trial->design);
-        sp_design_free(&trial->other);
+        sp_draft_free(&trial->draft);
+        sp_draft_free(&trial->other);
     }
     trials->count = kept;
 }
 
-/* Every design of the front, and others in their places and between. */
+/* Every draft of the front, and others in their places and between. */
 static bool polish_front(sp_refining *refining)
 {
     sp_trials trials = {0};
@@ -201,7 +196,7 @@ static bool polish_front(sp_refining *refining)
     return done;
 }
 
-/* What the designs of the front have in common, they give to one another. */
+/* What the drafts of the front have in common, they give to one another. */
 static bool recombine_front(sp_refining *refining)
 {
     sp_trials trials = {0};
@@ -235,59 +230,59 @@ static bool save_flow(sp_refining *refining)
     double high = front->best.flow, low = search->kept_flow;
     for (size_t i = 0; i < front->best.count; i++)
         low += sp_least_flow(search, &front->best.items[i]);
-    sp_design full;
+    sp_draft full;
     if (!(low < high * (1 - 1e-6)))
         return true;
-    if (!sp_design_copy(search, &front->best, &full, refining->error))
+    if (!sp_draft_copy(search, &front->best, &full, refining->error))
         return false;
     bool done = true;
     for (int trial = 0; done && trial < FLOW_TRIALS && sp_watch_goes_on(refining->watch, "refine", 1); trial++) {
-        sp_design design;
+        sp_draft draft;
         sp_front_point point;
         double middle = 0.5 * (low + high);
-        done = sp_design_copy(search, &full, &design, refining->error);
+        done = sp_draft_copy(search, &full, &draft, refining->error);
         if (!done)
             break;
-        sp_turn_down(search, &design, middle);
-        done = sp_look_anew(&refining->polishing, &design, refining->error) &&
-               sp_front_measure(front, search, &design, &point, refining->error);
-        sp_design_free(&design);
+        sp_turn_down(search, &draft, middle);
+        done = sp_look_anew(&refining->polishing, &draft, refining->error) &&
+               sp_front_measure(front, search, &draft, &point, refining->error);
+        sp_draft_free(&draft);
         if (done && point.area >= front->target)
             high = middle;
         else
             low = middle;
     }
-    sp_design_free(&full);
+    sp_draft_free(&full);
     return done;
 }
 
-/* Polishes and kicks a design until the front has one that takes less water than `before` and reaches the target, or
+/* Polishes and kicks a draft until the front has one that takes less water than `before` and reaches the target, or
  * it is given up. */
-static bool insist(sp_refining *refining, sp_design *design, double budget, const sp_front_point *before)
+static bool insist(sp_refining *refining, sp_draft *draft, double budget, const sp_front_point *before)
 {
     sp_front *front = refining->front;
     bool done = true;
     for (int batch = 0; done && batch <= BATCHES && same(before, &front->measured); batch++) {
-        double missing = front->target - front->bias - design->covered;
+        double missing = front->target - front->bias - draft->covered;
         if (missing > MISSING_MOST * front->target || !sp_watch_goes_on(refining->watch, "refine", 0))
             break;
         sp_trials trials = {0};
         for (size_t i = 0; done && i < (batch ? BATCH : 1); i++)
-            done = try_also(refining, &trials, design, budget, batch ? SP_TRIAL_KICK : SP_TRIAL_ANNEAL);
-        done = done && carry_out(refining, &trials, design);
+            done = try_also(refining, &trials, draft, budget, batch ? SP_TRIAL_KICK : SP_TRIAL_ANNEAL);
+        done = done && carry_out(refining, &trials, draft);
         trials_free(&trials);
     }
     return done;
 }
 
 /* Less water by the share given: exchange within it, then refine to make up for what is missing. *saved says whether
- * the best design got better. */
+ * the best draft got better. */
 static bool save_share(sp_refining *refining, double share, bool *saved)
 {
     sp_front *front = refining->front;
     sp_front_point before = front->measured;
     double budget = front->best.flow * (1 - share);
-    sp_design reduced;
+    sp_draft reduced;
     bool found;
     *saved = false;
     if (!sp_reduce(refining->search, refining->pool, &front->best, budget, front->target - front->bias, refining->watch,
@@ -297,7 +292,7 @@ static bool save_share(sp_refining *refining, double share, bool *saved)
         return true;
     bool done = sp_front_measure(front, refining->search, &reduced, NULL, refining->error) &&
                 insist(refining, &reduced, budget, &before);
-    sp_design_free(&reduced);
+    sp_draft_free(&reduced);
     *saved = done && !same(&before, &front->measured);
     return done;
 }
@@ -320,12 +315,12 @@ static bool save_water(sp_refining *refining)
 static bool sharpen_best(sp_refining *refining)
 {
     sp_front *front = refining->front;
-    sp_design design;
-    if (!sp_design_copy(refining->search, &front->best, &design, refining->error))
+    sp_draft draft;
+    if (!sp_draft_copy(refining->search, &front->best, &draft, refining->error))
         return false;
-    bool done = sp_sharpen(&refining->polishing, design.flow, &design, refining->error) &&
-                sp_front_measure(front, refining->search, &design, NULL, refining->error);
-    sp_design_free(&design);
+    bool done = sp_sharpen(&refining->polishing, draft.flow, &draft, refining->error) &&
+                sp_front_measure(front, refining->search, &draft, NULL, refining->error);
+    sp_draft_free(&draft);
     return done;
 }
 

@@ -1,4 +1,4 @@
-/* Refinement of a design's poses with Ceres, accepted only where the scene's own measure improves. */
+/* Refinement of a draft's poses with Ceres, accepted only where the scene's own measure improves. */
 #ifndef OPTIMIZER_REFINE_H
 #define OPTIMIZER_REFINE_H
 

@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_SIGHT_H
 #define OPTIMIZER_SIGHT_H
 
-#include "scoring/design.h"
+#include "scoring/draft.h"
 
 /* An arrival that passes the criterion's speed and incidence. */
 typedef struct {

@@ -1,4 +1,4 @@
-/* The smoothed coverage of a design as a least squares problem in what refinement may change. */
+/* The smoothed coverage of a draft as a least squares problem in what refinement may change. */
 #ifndef OPTIMIZER_SOFT_H
 #define OPTIMIZER_SOFT_H
 

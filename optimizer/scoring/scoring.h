@@ -1,12 +1,12 @@
-/* Scoring: what a pose would add to a design, by sweeping what its mounting point can reach. */
+/* Scoring: what a pose would add to a draft, by sweeping what its mounting point can reach. */
 #ifndef OPTIMIZER_SCORING_H
 #define OPTIMIZER_SCORING_H
 
-#include "scoring/design.h"
+#include "scoring/draft.h"
 
 typedef struct {
-    double gain; /* m² by which the design's value would rise */
-    double room; /* m² by which it could rise at most, whatever the flow: never grows while a design only grows */
+    double gain; /* m² by which the draft's value would rise */
+    double room; /* m² by which it could rise at most, whatever the flow: never grows while a draft only grows */
 } sp_score;
 
 /* The worth of a patch per m² at this flux over threshold. */
@@ -56,7 +56,7 @@ sp_region sp_sweeper_region(const sp_sweeper *sweeper, uint32_t axis, uint32_t r
 /* [patch_count], flux over threshold of a candidate pose; of any nozzle, traced anew. */
 void sp_field_pose(const sp_search *search, sp_pose pose, float *field);
 bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, float *field, sp_error *error);
-/* What a field adds to a design. */
+/* What a field adds to a draft. */
 double sp_field_gain(const sp_search *search, const float *wet, const float *field);
 
 #endif

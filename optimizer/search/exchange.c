@@ -7,36 +7,36 @@
 #define WATER_STEP 0.02 /* share of the water that a reduction must save */
 
 /* Replaces item i where the pool holds something better for its place. The item then stands last. */
-static bool replace(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_design *design,
+static bool replace(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_draft *draft,
                     size_t i, bool *changed, sp_error *error)
 {
-    sp_placed own = sp_design_take(search, design, i);
+    sp_placed own = sp_draft_take(search, draft, i);
     double least =
-        sp_field_gain(search, design->wet, own.field) + GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
+        sp_field_gain(search, draft->wet, own.field) + GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
     sp_pose pose;
-    if (sp_pool_best(search, pool, design, 0, budget, bench, &pose) <= least)
-        return sp_design_add(search, design, own, error);
+    if (sp_pool_best(search, pool, draft, 0, budget, bench, &pose) <= least)
+        return sp_draft_add(search, draft, own, error);
     free(own.field);
     *changed = true;
-    return sp_design_add_pose(search, design, pose, error);
+    return sp_draft_add_pose(search, draft, pose, error);
 }
 
 static bool sweep(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_watch *watch,
-                  sp_design *design, sp_error *error)
+                  sp_draft *draft, sp_error *error)
 {
     bool done = true, changed = true;
-    sp_design_refresh(search, design);
+    sp_draft_refresh(search, draft);
     for (int i = 0; done && changed && i < SWEEPS_MOST && sp_watch_goes_on(watch, "exchange", 0); i++) {
         changed = false;
-        done = sp_greedy_pool(search, pool, 1, INFINITY, budget, bench, design, error);
+        done = sp_greedy_pool(search, pool, 1, INFINITY, budget, bench, draft, error);
         /* what is replaced or put back goes to the end, so that the first is always the next */
-        for (size_t k = 0; done && k < design->count; k++)
-            done = replace(search, pool, budget, bench, design, 0, &changed, error);
+        for (size_t k = 0; done && k < draft->count; k++)
+            done = replace(search, pool, budget, bench, draft, 0, &changed, error);
     }
     return done;
 }
 
-bool sp_improve(const sp_search *search, const sp_pool *pool, double budget, sp_watch *watch, sp_design *design,
+bool sp_improve(const sp_search *search, const sp_pool *pool, double budget, sp_watch *watch, sp_draft *draft,
                 sp_error *error)
 {
     sp_bench bench;
@@ -45,31 +45,31 @@ bool sp_improve(const sp_search *search, const sp_pool *pool, double budget, sp_
     /* credit leads to where nozzles complete one another; in the end only what is covered counts */
     sp_search exact = *search;
     exact.credit = 0;
-    bool done = sweep(search, pool, budget, &bench, watch, design, error) &&
-                sweep(&exact, pool, budget, &bench, watch, design, error);
-    sp_design_refresh(search, design);
+    bool done = sweep(search, pool, budget, &bench, watch, draft, error) &&
+                sweep(&exact, pool, budget, &bench, watch, draft, error);
+    sp_draft_refresh(search, draft);
     sp_bench_free(&bench);
     return done;
 }
 
-/* Items in the order of what the design would lose with them, least first. The caller frees. */
-static size_t *by_loss(const sp_search *search, const sp_design *design, sp_error *error)
+/* Items in the order of what the draft would lose with them, least first. The caller frees. */
+static size_t *by_loss(const sp_search *search, const sp_draft *draft, sp_error *error)
 {
-    size_t *order = malloc((design->count ? design->count : 1) * sizeof *order);
-    double *loss = malloc((design->count ? design->count : 1) * sizeof *loss);
-    sp_design rest = {0};
+    size_t *order = malloc((draft->count ? draft->count : 1) * sizeof *order);
+    double *loss = malloc((draft->count ? draft->count : 1) * sizeof *loss);
+    sp_draft rest = {0};
     if (!order || !loss)
         sp_fail_memory(error);
-    if (!order || !loss || !sp_design_copy(search, design, &rest, error)) {
+    if (!order || !loss || !sp_draft_copy(search, draft, &rest, error)) {
         free(order);
         free(loss);
         return NULL;
     }
-    for (size_t i = 0; i < design->count; i++) {
+    for (size_t i = 0; i < draft->count; i++) {
         /* the first goes out and comes back last, so that after all turns the order is as before */
-        sp_placed placed = sp_design_take(search, &rest, 0);
-        loss[i] = design->value - rest.value;
-        if (!sp_design_add(search, &rest, placed, error)) {
+        sp_placed placed = sp_draft_take(search, &rest, 0);
+        loss[i] = draft->value - rest.value;
+        if (!sp_draft_add(search, &rest, placed, error)) {
             free(order);
             order = NULL;
             break;
@@ -79,62 +79,62 @@ static size_t *by_loss(const sp_search *search, const sp_design *design, sp_erro
             order[at] = order[at - 1];
         order[at] = i;
     }
-    sp_design_free(&rest);
+    sp_draft_free(&rest);
     free(loss);
     return order;
 }
 
-bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_design *design, double budget, double enough,
-               sp_watch *watch, sp_design *reduced, bool *found, sp_error *error)
+bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double budget, double enough,
+               sp_watch *watch, sp_draft *reduced, bool *found, sp_error *error)
 {
     *found = false;
-    size_t *order = by_loss(search, design, error);
+    size_t *order = by_loss(search, draft, error);
     bool done = order != NULL;
     for (size_t i = 0;
-         done && i < design->count && (!*found || reduced->covered < enough) && sp_watch_goes_on(watch, "exchange", 0);
+         done && i < draft->count && (!*found || reduced->covered < enough) && sp_watch_goes_on(watch, "exchange", 0);
          i++) {
-        sp_design trial;
-        done = sp_design_copy(search, design, &trial, error);
+        sp_draft trial;
+        done = sp_draft_copy(search, draft, &trial, error);
         if (!done)
             break;
-        sp_design_remove(search, &trial, order[i]);
+        sp_draft_remove(search, &trial, order[i]);
         /* one nozzle may not be enough to leave out: then the smallest remaining follow */
         while (trial.count && trial.flow > budget)
-            sp_design_remove(search, &trial, trial.count - 1);
+            sp_draft_remove(search, &trial, trial.count - 1);
         done = sp_improve(search, pool, budget, watch, &trial, error);
         if (done && trial.flow <= budget && (!*found || trial.covered > reduced->covered)) {
             if (*found)
-                sp_design_free(reduced);
+                sp_draft_free(reduced);
             *reduced = trial;
             *found = true;
         } else {
-            sp_design_free(&trial);
+            sp_draft_free(&trial);
         }
     }
     free(order);
     if (!done && *found) {
-        sp_design_free(reduced);
+        sp_draft_free(reduced);
         *found = false;
     }
     return done;
 }
 
-bool sp_shrink(const sp_search *search, const sp_pool *pool, double target, sp_watch *watch, sp_design *design,
+bool sp_shrink(const sp_search *search, const sp_pool *pool, double target, sp_watch *watch, sp_draft *draft,
                sp_error *error)
 {
     for (;;) {
-        sp_design reduced;
+        sp_draft reduced;
         bool found;
-        if (design->count == 0 || !sp_watch_goes_on(watch, "exchange", 0))
+        if (draft->count == 0 || !sp_watch_goes_on(watch, "exchange", 0))
             return true;
-        if (!sp_reduce(search, pool, design, design->flow * (1 - WATER_STEP), target, watch, &reduced, &found, error))
+        if (!sp_reduce(search, pool, draft, draft->flow * (1 - WATER_STEP), target, watch, &reduced, &found, error))
             return false;
         if (!found || reduced.covered < target) {
             if (found)
-                sp_design_free(&reduced);
+                sp_draft_free(&reduced);
             return true;
         }
-        sp_design_free(design);
-        *design = reduced;
+        sp_draft_free(draft);
+        *draft = reduced;
     }
 }

@@ -1,20 +1,20 @@
-/* Exchange: improving a design by taking nozzles out and putting better ones in. */
+/* Exchange: improving a draft by taking nozzles out and putting better ones in. */
 #ifndef OPTIMIZER_EXCHANGE_H
 #define OPTIMIZER_EXCHANGE_H
 
 #include "search/greedy.h"
 
-/* Raises the design's value within `budget` (m³/s): adds what the water left allows, then replaces one nozzle at a time
+/* Raises the draft's value within `budget` (m³/s): adds what the water left allows, then replaces one nozzle at a time
  * by the pool's best for its place, until nothing changes. */
-bool sp_improve(const sp_search *search, const sp_pool *pool, double budget, sp_watch *watch, sp_design *design,
+bool sp_improve(const sp_search *search, const sp_pool *pool, double budget, sp_watch *watch, sp_draft *draft,
                 sp_error *error);
-/* Lowers the design's water while it covers `target` (m² of coarse patches): leaves out one nozzle and improves the
+/* Lowers the draft's water while it covers `target` (m² of coarse patches): leaves out one nozzle and improves the
  * rest within less water than before. */
-bool sp_shrink(const sp_search *search, const sp_pool *pool, double target, sp_watch *watch, sp_design *design,
+bool sp_shrink(const sp_search *search, const sp_pool *pool, double target, sp_watch *watch, sp_draft *draft,
                sp_error *error);
-/* Of the designs that `design` without one nozzle improves to within `budget`, the one that covers most; *found is
+/* Of the drafts that `draft` without one nozzle improves to within `budget`, the one that covers most; *found is
  * false where there is none. The caller frees *reduced. */
-bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_design *design, double budget, double enough,
-               sp_watch *watch, sp_design *reduced, bool *found, sp_error *error);
+bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double budget, double enough,
+               sp_watch *watch, sp_draft *reduced, bool *found, sp_error *error);
 
 #endif

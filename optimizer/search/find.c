@@ -19,41 +19,41 @@ typedef struct {
 } sp_finding;
 
 /* Greedy over everything; where the fine measure falls short of the target, on with a higher coarse one. */
-static bool first_design(const sp_finding *finding, sp_design *design)
+static bool first_draft(const sp_finding *finding, sp_draft *draft)
 {
     double coarse = finding->target;
     sp_front_point point;
     for (int round = 0; round < ROUNDS_MOST; round++) {
-        size_t before = design->count;
-        if (!sp_greedy(finding->search, 1, coarse, finding->budget, finding->watch, design, finding->pool,
+        size_t before = draft->count;
+        if (!sp_greedy(finding->search, 1, coarse, finding->budget, finding->watch, draft, finding->pool,
                        finding->error) ||
-            !sp_front_measure(finding->front, finding->search, design, &point, finding->error))
+            !sp_front_measure(finding->front, finding->search, draft, &point, finding->error))
             return false;
-        if (point.area >= finding->target || (round && design->count == before))
+        if (point.area >= finding->target || (round && draft->count == before))
             return true;
-        coarse = design->covered + (finding->target - point.area);
+        coarse = draft->covered + (finding->target - point.area);
     }
     return true;
 }
 
 /* Greedy over the pool with another weight of water, improved within the water allowed. */
-static bool other_design(const sp_finding *finding, double power)
+static bool other_draft(const sp_finding *finding, double power)
 {
-    sp_design design;
+    sp_draft draft;
     sp_bench bench;
-    if (!sp_design_create(finding->search, &design, finding->error))
+    if (!sp_draft_create(finding->search, &draft, finding->error))
         return false;
     double coarse = finding->target - finding->front->bias;
     bool done = sp_bench_create(finding->search, finding->pool, &bench, finding->error);
     if (done) {
-        done = sp_greedy_pool(finding->search, finding->pool, power, coarse, finding->budget, &bench, &design,
+        done = sp_greedy_pool(finding->search, finding->pool, power, coarse, finding->budget, &bench, &draft,
                               finding->error);
         sp_bench_free(&bench);
     }
-    double budget = design.covered >= coarse ? design.flow : finding->budget;
-    done = done && sp_improve(finding->search, finding->pool, budget, finding->watch, &design, finding->error) &&
-           sp_front_measure(finding->front, finding->search, &design, NULL, finding->error);
-    sp_design_free(&design);
+    double budget = draft.covered >= coarse ? draft.flow : finding->budget;
+    done = done && sp_improve(finding->search, finding->pool, budget, finding->watch, &draft, finding->error) &&
+           sp_front_measure(finding->front, finding->search, &draft, NULL, finding->error);
+    sp_draft_free(&draft);
     return done;
 }
 
@@ -64,17 +64,17 @@ static bool shrink_best(const sp_finding *finding)
     for (int round = 0; done && round < ROUNDS_MOST; round++) {
         sp_front *front = finding->front;
         sp_front_point before = front->measured, point;
-        sp_design design;
-        if (!sp_design_copy(finding->search, &front->best, &design, finding->error))
+        sp_draft draft;
+        if (!sp_draft_copy(finding->search, &front->best, &draft, finding->error))
             return false;
         double target = before.area < finding->target ? before.area : finding->target;
         /* each round asks the coarse patches for a little more than the last one's miss */
         double coarse = target - front->bias + 0.001 * round * target;
-        done = sp_shrink(finding->search, finding->pool, coarse, finding->watch, &design, finding->error);
-        bool shrunk = done && design.flow < before.flow;
+        done = sp_shrink(finding->search, finding->pool, coarse, finding->watch, &draft, finding->error);
+        bool shrunk = done && draft.flow < before.flow;
         if (shrunk)
-            done = sp_front_measure(front, finding->search, &design, &point, finding->error);
-        sp_design_free(&design);
+            done = sp_front_measure(front, finding->search, &draft, &point, finding->error);
+        sp_draft_free(&draft);
         if (!shrunk || (done && point.area >= target))
             break;
     }
@@ -83,54 +83,54 @@ static bool shrink_best(const sp_finding *finding)
 
 /* Start number i of a search within a budget: the first of the greedy order, what was found by guessing, and the pool's
  * greedy by less regard for water. */
-static bool start_from(const sp_finding *finding, const sp_design *greedy, const sp_lineup *guessed, double budget,
-                       size_t i, sp_bench *bench, sp_design *design)
+static bool start_from(const sp_finding *finding, const sp_draft *greedy, const sp_lineup *guessed, double budget,
+                       size_t i, sp_bench *bench, sp_draft *draft)
 {
     static const double powers[] = {0.5, 0};
     const sp_search *search = finding->search;
     if (i == 1)
-        return sp_lineup_design(guessed, design, finding->error);
+        return sp_lineup_draft(guessed, draft, finding->error);
     if (i == 0) {
-        if (!sp_design_copy(search, greedy, design, finding->error))
+        if (!sp_draft_copy(search, greedy, draft, finding->error))
             return false;
-        while (design->count && design->flow > budget)
-            sp_design_remove(search, design, design->count - 1);
+        while (draft->count && draft->flow > budget)
+            sp_draft_remove(search, draft, draft->count - 1);
         return true;
     }
-    if (!sp_design_create(search, design, finding->error))
+    if (!sp_draft_create(search, draft, finding->error))
         return false;
-    if (sp_greedy_pool(search, finding->pool, powers[i - 2], INFINITY, budget, bench, design, finding->error))
+    if (sp_greedy_pool(search, finding->pool, powers[i - 2], INFINITY, budget, bench, draft, finding->error))
         return true;
-    sp_design_free(design);
+    sp_draft_free(draft);
     return false;
 }
 
 /* The best that four starts improve to within a budget. */
-static bool at_budget(const sp_finding *finding, const sp_design *greedy, const sp_lineup *guessed, double budget)
+static bool at_budget(const sp_finding *finding, const sp_draft *greedy, const sp_lineup *guessed, double budget)
 {
-    sp_design best;
+    sp_draft best;
     sp_bench bench;
     if (!sp_bench_create(finding->search, finding->pool, &bench, finding->error))
         return false;
-    if (!sp_design_create(finding->search, &best, finding->error)) {
+    if (!sp_draft_create(finding->search, &best, finding->error)) {
         sp_bench_free(&bench);
         return false;
     }
     bool done = true;
     for (size_t i = 0; done && i < 4 && sp_watch_goes_on(finding->watch, "front", 0); i++) {
-        sp_design design;
-        done = start_from(finding, greedy, guessed, budget, i, &bench, &design);
+        sp_draft draft;
+        done = start_from(finding, greedy, guessed, budget, i, &bench, &draft);
         if (!done)
             break;
-        done = sp_improve(finding->search, finding->pool, budget, finding->watch, &design, finding->error);
-        bool better = design.covered > best.covered;
-        sp_design_free(better ? &best : &design);
+        done = sp_improve(finding->search, finding->pool, budget, finding->watch, &draft, finding->error);
+        bool better = draft.covered > best.covered;
+        sp_draft_free(better ? &best : &draft);
         if (better)
-            best = design;
+            best = draft;
     }
     done = done && sp_front_measure(finding->front, finding->search, &best, NULL, finding->error);
     sp_bench_free(&bench);
-    sp_design_free(&best);
+    sp_draft_free(&best);
     return done;
 }
 
@@ -174,7 +174,7 @@ static double *densify(double *budgets, size_t *count)
 /* The water at which the front is searched: what the greedy order used as it went, what one nozzle of each make takes,
  * that of the scene's own layout, with which the proposal will be compared, and enough between. Rising; malloc'd, NULL
  * when memory runs out. */
-static double *list_budgets(const sp_finding *finding, const sp_design *greedy, size_t *count)
+static double *list_budgets(const sp_finding *finding, const sp_draft *greedy, size_t *count)
 {
     const sp_search *search = finding->search;
     const sp_candidates *candidates = search->candidates;
@@ -198,7 +198,7 @@ static double *list_budgets(const sp_finding *finding, const sp_design *greedy, 
 }
 
 /* The front besides the best. */
-static bool fill_front(const sp_finding *finding, const sp_design *greedy)
+static bool fill_front(const sp_finding *finding, const sp_draft *greedy)
 {
     size_t count = 0;
     double *budgets = list_budgets(finding, greedy, &count);
@@ -231,15 +231,15 @@ bool sp_find(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool 
                           .error = error,
                           .target = most ? INFINITY : front->target,
                           .budget = search->options->max_water * (1 + SP_ROUNDING)};
-    sp_design design;
-    if (!sp_design_create(search, &design, error))
+    sp_draft draft;
+    if (!sp_draft_create(search, &draft, error))
         return false;
-    bool done = sp_front_measure(front, search, &design, NULL, error) && first_design(&finding, &design) &&
+    bool done = sp_front_measure(front, search, &draft, NULL, error) && first_draft(&finding, &draft) &&
                 sp_watch_stage(watch, "greedy", error);
     for (int i = 0; done && i < 2 && sp_watch_goes_on(watch, "exchange", 0); i++)
-        done = other_design(&finding, i == 0 ? 0.5 : 0);
-    done = done && shrink_best(&finding) && sp_watch_stage(watch, "exchange", error) && fill_front(&finding, &design) &&
+        done = other_draft(&finding, i == 0 ? 0.5 : 0);
+    done = done && shrink_best(&finding) && sp_watch_stage(watch, "exchange", error) && fill_front(&finding, &draft) &&
            sp_watch_stage(watch, "front", error);
-    sp_design_free(&design);
+    sp_draft_free(&draft);
     return done;
 }

@@ -5,7 +5,7 @@
 #include "search/exchange.h"
 #include "search/front.h"
 
-/* Leaves the best design in front->best and the poses worth another look in `pool`. */
+/* Leaves the best draft in front->best and the poses worth another look in `pool`. */
 bool sp_find(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool *pool, sp_error *error);
 
 #endif

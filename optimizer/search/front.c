@@ -1,5 +1,7 @@
 #include "search/front.h"
 
+#include "grow.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,21 +20,8 @@ bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_fr
     return a->flow < b->flow || (a->flow == b->flow && a->area > b->area);
 }
 
-static bool grow(sp_front *front, sp_error *error)
-{
-    if (front->count < front->capacity)
-        return true;
-    size_t capacity = front->capacity ? 2 * front->capacity : 32;
-    sp_front_entry *entries = realloc(front->entries, capacity * sizeof *entries);
-    if (!entries)
-        return sp_fail_memory(error);
-    front->entries = entries;
-    front->capacity = capacity;
-    return true;
-}
-
-/* Enters the design at its place unless some entry covers as much with no more water, and drops what it betters. */
-static bool note(sp_front *front, const sp_search *search, const sp_design *design, const sp_front_point *point,
+/* Enters the draft at its place unless some entry covers as much with no more water, and drops what it betters. */
+static bool note(sp_front *front, const sp_search *search, const sp_draft *draft, const sp_front_point *point,
                  sp_error *error)
 {
     size_t at = 0;
@@ -40,24 +29,26 @@ static bool note(sp_front *front, const sp_search *search, const sp_design *desi
         at++;
     if (at > 0 && front->entries[at - 1].point.area >= point->area)
         return true;
-    sp_design copy;
-    if (!grow(front, error) || !sp_design_copy(search, design, &copy, error))
+    sp_draft copy;
+    if (!sp_grow(&front->entries, &front->capacity, front->count + 1, sizeof *front->entries))
+        return sp_fail_memory(error);
+    if (!sp_draft_copy(search, draft, &copy, error))
         return false;
     if (at > 0 && front->entries[at - 1].point.flow == point->flow)
         at--;
     size_t end = at;
     for (; end < front->count && front->entries[end].point.area <= point->area; end++)
-        sp_design_free(&front->entries[end].design);
+        sp_draft_free(&front->entries[end].draft);
     memmove(&front->entries[at + 1], &front->entries[end], (front->count - end) * sizeof *front->entries);
     front->entries[at] = (sp_front_entry){*point, copy};
     front->count += at + 1 - end;
     return true;
 }
 
-bool sp_front_measure(sp_front *front, const sp_search *search, const sp_design *design, sp_front_point *point,
+bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
                       sp_error *error)
 {
-    sp_layout *layout = sp_design_layout(search, design, error);
+    sp_layout *layout = sp_draft_layout(search, draft, error);
     sp_coverage *coverage = layout ? sp_evaluate(front->fine, layout, error) : NULL;
     sp_front_point measured = {0};
     if (coverage)
@@ -65,19 +56,19 @@ bool sp_front_measure(sp_front *front, const sp_search *search, const sp_design 
     bool done = coverage != NULL;
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
-    if (!done || !note(front, search, design, &measured, error))
+    if (!done || !note(front, search, draft, &measured, error))
         return false;
     if (point)
         *point = measured;
     if (front->found && !sp_front_better(front, &measured, &front->measured))
         return true;
-    sp_design copy;
-    if (!sp_design_copy(search, design, &copy, error))
+    sp_draft copy;
+    if (!sp_draft_copy(search, draft, &copy, error))
         return false;
-    sp_design_free(&front->best);
+    sp_draft_free(&front->best);
     front->best = copy;
     front->measured = measured;
-    front->bias = measured.area - design->covered;
+    front->bias = measured.area - draft->covered;
     front->found = true;
     return true;
 }
@@ -102,8 +93,8 @@ sp_front_point *sp_front_points(const sp_front *front, size_t *count, sp_error *
 void sp_front_free(sp_front *front)
 {
     for (size_t i = 0; i < front->count; i++)
-        sp_design_free(&front->entries[i].design);
-    sp_design_free(&front->best);
+        sp_draft_free(&front->entries[i].draft);
+    sp_draft_free(&front->best);
     free(front->entries);
     *front = (sp_front){0};
 }

@@ -1,12 +1,12 @@
-/* What the search has found: designs measured by the scene's own evaluator, and the front of coverage against water. */
+/* What the search has found: drafts measured by the scene's own evaluator, and the front of coverage against water. */
 #ifndef OPTIMIZER_FRONT_H
 #define OPTIMIZER_FRONT_H
 
-#include "scoring/design.h"
+#include "scoring/draft.h"
 
 typedef struct {
     sp_front_point point;
-    sp_design design;
+    sp_draft draft;
 } sp_front_entry;
 
 typedef struct {
@@ -17,15 +17,15 @@ typedef struct {
     sp_front_entry
         *entries; /* by rising flow, all areas rising too: what nothing measured betters with no more water */
     bool found;
-    sp_design best;          /* with what follows, the best measured yet by the objective */
+    sp_draft best;           /* with what follows, the best measured yet by the objective */
     sp_front_point measured; /* of it */
     double bias;             /* m² that the fine measure lies above the best one's coarse `covered` */
 } sp_front;
 
-/* True where a is better than b: by the objective among designs that reach the target, by area among others. */
+/* True where a is better than b: by the objective among drafts that reach the target, by area among others. */
 bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b);
-/* Measures the design, notes it, and keeps a copy where it is the best yet. *point may be NULL. */
-bool sp_front_measure(sp_front *front, const sp_search *search, const sp_design *design, sp_front_point *point,
+/* Measures the draft, notes it, and keeps a copy where it is the best yet. *point may be NULL. */
+bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
                       sp_error *error);
 /* False where the next entry covers more with hardly more water. */
 bool sp_front_counts(const sp_front *front, size_t i);

@@ -1,5 +1,7 @@
 #include "search/greedy.h"
 
+#include "grow.h"
+
 #include <omp.h>
 #include <stdlib.h>
 
@@ -8,14 +10,8 @@
 
 bool sp_pool_add(sp_pool *pool, sp_pose pose, sp_error *error)
 {
-    if (pool->count == pool->capacity) {
-        size_t capacity = pool->capacity ? 2 * pool->capacity : 256;
-        sp_pose *items = realloc(pool->items, capacity * sizeof *items);
-        if (!items)
-            return sp_fail_memory(error);
-        pool->items = items;
-        pool->capacity = capacity;
-    }
+    if (!sp_grow(&pool->items, &pool->capacity, pool->count + 1, sizeof *pool->items))
+        return sp_fail_memory(error);
     pool->items[pool->count++] = pose;
     return true;
 }
@@ -72,9 +68,9 @@ static void forget_rooms(sp_rounds *rounds)
 }
 
 /* Credit is for what later nozzles complete: the last one gets none. */
-static bool is_last(const sp_search *search, const sp_design *design)
+static bool is_last(const sp_search *search, const sp_draft *draft)
 {
-    return search->options->max_nozzles && search->kept_count + design->count + 1 >= search->options->max_nozzles;
+    return search->options->max_nozzles && search->kept_count + draft->count + 1 >= search->options->max_nozzles;
 }
 
 static bool rounds_create(const sp_search *search, double power, double budget, sp_rounds *rounds, sp_error *error)
@@ -121,20 +117,20 @@ static void scan_make(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t make, siz
         }
 }
 
-static void scan_site(sp_rounds *rounds, const sp_design *design, sp_sweeper *sweeper, uint32_t site, double least)
+static void scan_site(sp_rounds *rounds, const sp_draft *draft, sp_sweeper *sweeper, uint32_t site, double least)
 {
     const sp_candidates *candidates = rounds->search->candidates;
     uint32_t mount = rounds->search->sites->items[site].mount;
     for (size_t k = 0; k < candidates->make_count; k++)
         rounds->best[site * candidates->make_count + k] = (sp_round_best){0};
-    if (!sp_design_has_place(rounds->search, design, mount))
+    if (!sp_draft_has_place(rounds->search, draft, mount))
         return;
     for (size_t s = 0; s < candidates->speed_count; s++) {
         size_t number = candidates->pose_start[site];
-        sp_sweeper_look(sweeper, rounds->search, design->wet, site, s);
+        sp_sweeper_look(sweeper, rounds->search, draft->wet, site, s);
         for (size_t k = 0; k < candidates->make_count; k++) {
             const sp_make *make = &candidates->makes[k];
-            if (make->speed_class == s && design->flow + make->flow <= rounds->budget)
+            if (make->speed_class == s && draft->flow + make->flow <= rounds->budget)
                 scan_make(rounds, sweeper, (uint32_t)k, number, least);
             number += sp_candidates_axes(candidates, mount, k)->count * make->roll_count;
         }
@@ -142,7 +138,7 @@ static void scan_site(sp_rounds *rounds, const sp_design *design, sp_sweeper *sw
 }
 
 /* A merit that this round surely reaches: that of the last round's best poses, scored again. */
-static double round_floor(sp_rounds *rounds, const sp_design *design)
+static double round_floor(sp_rounds *rounds, const sp_draft *draft)
 {
     const sp_search *search = rounds->search;
     size_t count = search->sites->count * search->candidates->make_count;
@@ -154,25 +150,25 @@ static double round_floor(sp_rounds *rounds, const sp_design *design)
         if (best->merit <= 0)
             continue;
         const sp_make *make = &search->candidates->makes[best->pose.make];
-        if (design->flow + make->flow > rounds->budget ||
-            !sp_design_has_place(search, design, search->sites->items[best->pose.site].mount))
+        if (draft->flow + make->flow > rounds->budget ||
+            !sp_draft_has_place(search, draft, search->sites->items[best->pose.site].mount))
             continue;
         sp_sweeper *sweeper = &rounds->sweepers[omp_get_thread_num()];
-        double gain = sp_score_pose(sweeper, search, design->wet, best->pose).gain;
+        double gain = sp_score_pose(sweeper, search, draft->wet, best->pose).gain;
         least = fmax(least, gain / pow(make->flow, rounds->power));
     }
     return least;
 }
 
-static void scan(sp_rounds *rounds, const sp_design *design)
+static void scan(sp_rounds *rounds, const sp_draft *draft)
 {
-    double least = rounds->started ? round_floor(rounds, design) : 0;
+    double least = rounds->started ? round_floor(rounds, draft) : 0;
     rounds->started = true;
     size_t sites = rounds->search->sites->count;
     int threads = rounds->threads;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
-        scan_site(rounds, design, &rounds->sweepers[omp_get_thread_num()], (uint32_t)i, least);
+        scan_site(rounds, draft, &rounds->sweepers[omp_get_thread_num()], (uint32_t)i, least);
     sp_sweepers_forget(rounds->sweepers, rounds->threads);
 }
 
@@ -213,7 +209,7 @@ static const sp_round_best *round_best(const sp_rounds *rounds)
     return best;
 }
 
-bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_watch *watch, sp_design *design,
+bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_watch *watch, sp_draft *draft,
                sp_pool *pool, sp_error *error)
 {
     sp_rounds rounds;
@@ -223,18 +219,18 @@ bool sp_greedy(const sp_search *search, double power, double target, double budg
     sp_search exact = *search;
     exact.credit = 0;
     /* out of time there is at least one nozzle to show */
-    while (done && design->covered < target &&
-           (sp_watch_goes_on(watch, "greedy", fmin(1, design->covered / target)) ||
-            (first && !design->count && !watch->cancelled))) {
-        if (is_last(search, design) && rounds.search != &exact) {
+    while (done && draft->covered < target &&
+           (sp_watch_goes_on(watch, "greedy", fmin(1, draft->covered / target)) ||
+            (first && !draft->count && !watch->cancelled))) {
+        if (is_last(search, draft) && rounds.search != &exact) {
             rounds.search = &exact;
             forget_rooms(&rounds);
         }
-        scan(&rounds, design);
+        scan(&rounds, draft);
         const sp_round_best *best = round_best(&rounds);
         if (best->merit <= 0 || best->gain < least)
             break;
-        done = remember(&rounds, first, pool, error) && sp_design_add_pose(search, design, best->pose, error);
+        done = remember(&rounds, first, pool, error) && sp_draft_add_pose(search, draft, best->pose, error);
         first = false;
     }
     rounds_free(&rounds);
@@ -261,17 +257,17 @@ void sp_bench_free(sp_bench *bench)
     *bench = (sp_bench){0};
 }
 
-double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_design *design, double power, double budget,
+double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
                     sp_bench *bench, sp_pose *best)
 {
     double *scores = bench->scores;
 #pragma omp parallel for num_threads(bench->threads) schedule(dynamic, 32)
     for (size_t i = 0; i < pool->count; i++) {
         sp_pose pose = pool->items[i];
-        bool allowed = design->flow + search->candidates->makes[pose.make].flow <= budget &&
-                       sp_design_has_place(search, design, search->sites->items[pose.site].mount);
+        bool allowed = draft->flow + search->candidates->makes[pose.make].flow <= budget &&
+                       sp_draft_has_place(search, draft, search->sites->items[pose.site].mount);
         sp_sweeper *sweeper = &bench->sweepers[omp_get_thread_num()];
-        scores[i] = allowed ? sp_score_pose(sweeper, search, design->wet, pose).gain : 0;
+        scores[i] = allowed ? sp_score_pose(sweeper, search, draft->wet, pose).gain : 0;
     }
     sp_sweepers_forget(bench->sweepers, bench->threads);
     double merit = 0, gain = 0;
@@ -287,15 +283,15 @@ double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_desig
 }
 
 bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, double target, double budget,
-                    sp_bench *bench, sp_design *design, sp_error *error)
+                    sp_bench *bench, sp_draft *draft, sp_error *error)
 {
     double least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
     bool done = true;
-    while (done && design->covered < target) {
+    while (done && draft->covered < target) {
         sp_pose pose;
-        if (sp_pool_best(search, pool, design, power, budget, bench, &pose) < least)
+        if (sp_pool_best(search, pool, draft, power, budget, bench, &pose) < least)
             break;
-        done = sp_design_add_pose(search, design, pose, error);
+        done = sp_draft_add_pose(search, draft, pose, error);
     }
     return done;
 }

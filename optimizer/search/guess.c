@@ -1,5 +1,7 @@
 #include "search/guess.h"
 
+#include "ranking.h"
+
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -129,40 +131,27 @@ static void follow_all(guessing *g, size_t from)
         enter(g, &g->paths[i]);
 }
 
-typedef struct {
-    double merit;
-    uint32_t row;
-} ranked;
-
-static int by_merit(const void *a, const void *b)
-{
-    const ranked *p = a, *q = b;
-    if (p->merit != q->merit)
-        return p->merit > q->merit ? -1 : 1;
-    return (p->row > q->row) - (p->row < q->row);
-}
-
 /* Adds paths that begin with the lineup's nozzles and one more, of those that gain most per root of the water, by
  * either weight of water. */
 static bool add_guesses(guessing *g, const sp_lineup *lineup, size_t most, sp_error *error)
 {
     size_t rows = g->table->row_count, found = 0;
-    ranked *list = malloc((rows + 1) * sizeof *list);
+    sp_ranked *list = malloc((rows + 1) * sizeof *list);
     if (!list)
         return sp_fail_memory(error);
     for (size_t r = 0; r < rows; r++) {
         double gain = sp_lineup_gain(lineup, (uint32_t)r, g->most);
         if (gain > 0)
-            list[found++] = (ranked){gain / sqrt(sp_table_flow(g->table, r)), (uint32_t)r};
+            list[found++] = (sp_ranked){gain / sqrt(sp_table_flow(g->table, r)), r};
     }
-    qsort(list, found, sizeof *list, by_merit);
+    sp_rank_falling(list, found);
     for (size_t i = 0; i < found && i < most; i++)
         for (int way = 0; way < 2; way++) {
             path *p = &g->paths[g->path_count++];
             p->guessed = lineup->count + 1;
             p->power = way ? 0.5 : 1;
             memcpy(p->row, lineup->row, lineup->count * sizeof *p->row);
-            p->row[lineup->count] = list[i].row;
+            p->row[lineup->count] = list[i].at;
         }
     free(list);
     return true;
@@ -243,29 +232,29 @@ bool sp_guess(const sp_table *table, const double *budgets, size_t count, sp_wat
     return done;
 }
 
-static bool add_copy(const sp_search *search, const sp_placed *from, sp_design *design, sp_error *error)
+static bool add_copy(const sp_search *search, const sp_placed *from, sp_draft *draft, sp_error *error)
 {
     sp_placed placed = *from;
     placed.field = malloc((search->patch_count + 1) * sizeof *placed.field);
     if (!placed.field)
         return sp_fail_memory(error);
     memcpy(placed.field, from->field, search->patch_count * sizeof *placed.field);
-    return sp_design_add(search, design, placed, error);
+    return sp_draft_add(search, draft, placed, error);
 }
 
-bool sp_lineup_design(const sp_lineup *lineup, sp_design *design, sp_error *error)
+bool sp_lineup_draft(const sp_lineup *lineup, sp_draft *draft, sp_error *error)
 {
     const sp_table *table = lineup->table;
-    if (!sp_design_create(table->search, design, error))
+    if (!sp_draft_create(table->search, draft, error))
         return false;
     bool done = true;
     for (size_t i = 0; done && i < lineup->count; i++) {
         size_t row = lineup->row[i];
         done = row < table->pool->count
-                   ? sp_design_add_pose(table->search, design, table->pool->items[row], error)
-                   : add_copy(table->search, table->others[row - table->pool->count], design, error);
+                   ? sp_draft_add_pose(table->search, draft, table->pool->items[row], error)
+                   : add_copy(table->search, table->others[row - table->pool->count], draft, error);
     }
     if (!done)
-        sp_design_free(design);
+        sp_draft_free(draft);
     return done;
 }

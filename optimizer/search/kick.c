@@ -52,7 +52,7 @@ static size_t dry_patch(const sp_search *search, const float *wet, uint64_t *sta
 
 /* Adds the pose that gains most where one dry patch, chosen at random, counts as much as all the rest. */
 static bool add_at_random(const sp_search *search, const sp_pool *poses, double budget, uint64_t *state,
-                          sp_bench *bench, sp_design *design, sp_error *error)
+                          sp_bench *bench, sp_draft *draft, sp_error *error)
 {
     sp_search drawn = *search;
     drawn.area = malloc(search->patch_count * sizeof *drawn.area);
@@ -62,15 +62,15 @@ static bool add_at_random(const sp_search *search, const sp_pool *poses, double 
     float all = (float)sp_evaluator_patches(search->coarse)->total_area;
     bool done = true;
     for (int i = 0; i < TRIES; i++) {
-        size_t patch = dry_patch(search, design->wet, state);
+        size_t patch = dry_patch(search, draft->wet, state);
         sp_pose pose;
         if (patch == search->patch_count)
             break;
         drawn.area[patch] += all;
-        double gain = sp_pool_best(&drawn, poses, design, 0, budget, bench, &pose);
+        double gain = sp_pool_best(&drawn, poses, draft, 0, budget, bench, &pose);
         drawn.area[patch] = search->area[patch];
         if (gain > 0 && (gain >= (double)all || i == TRIES - 1)) {
-            done = sp_design_add_pose(search, design, pose, error);
+            done = sp_draft_add_pose(search, draft, pose, error);
             break;
         }
     }
@@ -79,29 +79,29 @@ static bool add_at_random(const sp_search *search, const sp_pool *poses, double 
 }
 
 static bool fill(const sp_search *search, const sp_pool *poses, double budget, size_t most, sp_bench *bench,
-                 sp_design *design, sp_error *error)
+                 sp_draft *draft, sp_error *error)
 {
     double least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
     sp_pose pose;
-    while (design->count < most && sp_pool_best(search, poses, design, 0.5, budget, bench, &pose) > least)
-        if (!sp_design_add_pose(search, design, pose, error))
+    while (draft->count < most && sp_pool_best(search, poses, draft, 0.5, budget, bench, &pose) > least)
+        if (!sp_draft_add_pose(search, draft, pose, error))
             return false;
     return true;
 }
 
-bool sp_kick(const sp_search *search, const sp_pool *pool, double budget, uint64_t seed, sp_design *design,
+bool sp_kick(const sp_search *search, const sp_pool *pool, double budget, uint64_t seed, sp_draft *draft,
              sp_error *error)
 {
     uint64_t state = seed;
     sp_pool poses = {0};
-    size_t before = design->count, moved = 1 + (uniform(&state) < SECOND_SHARE);
+    size_t before = draft->count, moved = 1 + (uniform(&state) < SECOND_SHARE);
     sp_bench bench = {0};
     bool done = draw_poses(pool, &state, &poses, error) && sp_bench_create(search, &poses, &bench, error);
-    for (size_t i = 0; i < moved && design->count; i++)
-        sp_design_remove(search, design, (size_t)(uniform(&state) * (double)design->count));
-    for (size_t i = 0; done && i < moved && design->count < before; i++)
-        done = add_at_random(search, &poses, budget, &state, &bench, design, error);
-    done = done && fill(search, &poses, budget, before + 1, &bench, design, error);
+    for (size_t i = 0; i < moved && draft->count; i++)
+        sp_draft_remove(search, draft, (size_t)(uniform(&state) * (double)draft->count));
+    for (size_t i = 0; done && i < moved && draft->count < before; i++)
+        done = add_at_random(search, &poses, budget, &state, &bench, draft, error);
+    done = done && fill(search, &poses, budget, before + 1, &bench, draft, error);
     sp_pool_free(&poses);
     sp_bench_free(&bench);
     return done;

@@ -72,6 +72,50 @@ static void never_below_the_optimum(void **state)
     }
 }
 
+static bool runs_out(void *user)
+{
+    size_t *left = user;
+    bool on = *left > 0;
+    *left -= on;
+    return on;
+}
+
+/* Wherever it breaks off, what was proved stays true, and nothing else is. */
+static void breaking_off_proves_nothing_false(void **state)
+{
+    (void)state;
+    size_t broken = 0;
+    for (size_t asked = 0; asked < 12; asked++) {
+        sp_error error = {0};
+        size_t left = asked;
+        instance in;
+        every_layout t;
+        instance_create(&in, 12, 14, false, 4, 40, 1, 0.4, 4711);
+        every_layout_create(&in, &t);
+        in.cover.goes_on = runs_out;
+        in.cover.user = &left;
+        sp_stored stored = {&in.cover, &in.rows, 4};
+        sp_pricer pricer = sp_stored_pricer(&stored);
+        sp_bound bound;
+        assert_true(sp_bound_create(&in.cover, &pricer, &bound, &error));
+        for (int round = 0; round < 3; round++) {
+            double before = bound.by_water[40];
+            size_t proofs = bound.proofs;
+            assert_true(sp_bound_lower(&bound, 40, &error));
+            assert_int_equal(bound.proofs, proofs + bound.complete);
+            assert_true(bound.complete ? bound.proved >= t.by_water[40] : bound.by_water[40] == before);
+            broken += !bound.complete;
+        }
+        assert_true(left == 0 || bound.complete);
+        for (size_t w = 0; w <= 40; w++)
+            assert_true(bound.by_water[w] >= t.by_water[w]);
+        sp_bound_free(&bound);
+        every_layout_free(&t);
+        instance_free(&in);
+    }
+    assert_true(broken > 3 && broken < 36);
+}
+
 /* Discs that do not touch: the bound is the optimum. */
 static void tight_where_nothing_overlaps(void **state)
 {
@@ -205,6 +249,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_knapsack_is_the_best_choice),
         cmocka_unit_test(never_below_the_optimum),
+        cmocka_unit_test(breaking_off_proves_nothing_false),
         cmocka_unit_test(tight_where_nothing_overlaps),
         cmocka_unit_test(threads_do_not_matter),
     };

@@ -18,7 +18,7 @@ typedef struct {
     sp_watch watch;
     sp_search search;
     sp_sights sights;
-    sp_design design;
+    sp_draft draft;
 } bench;
 
 /* A floor with a wall behind it, and one nozzle of the pattern given aslant above them. */
@@ -66,13 +66,13 @@ static void bench_open(bench *b, sp_pattern pattern, sp_trajectory trajectory, d
     assert_true(sp_search_create(b->room.evaluator, &b->options, &b->sites, &b->candidates, &b->visibility, &b->search,
                                  &error));
     assert_true(sp_sights_create(&b->search, 4, &b->sights, &error));
-    assert_true(sp_design_create(&b->search, &b->design, &error));
-    assert_true(sp_design_add_pose(&b->search, &b->design, (sp_pose){1, 0, 2, 0}, &error));
+    assert_true(sp_draft_create(&b->search, &b->draft, &error));
+    assert_true(sp_draft_add_pose(&b->search, &b->draft, (sp_pose){1, 0, 2, 0}, &error));
 }
 
 static void bench_close(bench *b)
 {
-    sp_design_free(&b->design);
+    sp_draft_free(&b->draft);
     sp_sights_free(&b->sights);
     sp_search_free(&b->search);
     sp_visibility_free(&b->visibility);
@@ -121,10 +121,10 @@ static void slopes_are_differences(void **state)
         sp_trajectory trajectory = i / 3 % 2 ? SP_TRAJECTORY_PARABOLA : SP_TRAJECTORY_LINE;
         double flux = i < 6 ? 0 : 2 * LITRES_PER_MINUTE;
         bench_open(&b, patterns[i % 3], trajectory, flux, i < 12 ? SP_COMBINE_SUM : SP_COMBINE_SINGLE);
-        const sp_sight *sight = sp_sights_look(&b.sights, &b.design.items[0], &error);
+        const sp_sight *sight = sp_sights_look(&b.sights, &b.draft.items[0], &error);
         assert_non_null(sight);
         assert_true(sight->count > 300);
-        sp_freedom freedom = sp_freedom_create(&b.search, &b.design.items[0]);
+        sp_freedom freedom = sp_freedom_create(&b.search, &b.draft.items[0]);
         assert_int_equal(freedom.count, i % 3 == 2 ? 8 : 7);
         double values[SP_UNKNOWNS];
         for (size_t k = 0; k < freedom.count; k++)

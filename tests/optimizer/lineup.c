@@ -226,7 +226,7 @@ static void two_merge_into_the_best_one(void **state)
     job_close(&j);
 }
 
-/* Regrouping never loses, and a lineup is the same design on all patches. */
+/* Regrouping never loses, and a lineup is the same draft on all patches. */
 static void regrouping_never_loses(void **state)
 {
     (void)state;
@@ -246,11 +246,11 @@ static void regrouping_never_loses(void **state)
             double budget = lineup.flow * (1 + SP_ROUNDING), before = lineup.covered;
             sp_lineup_regroup(&lineup, budget, &scratch);
             assert_true(lineup.covered >= before && lineup.flow <= budget);
-            sp_design design;
-            assert_true(sp_lineup_design(&lineup, &design, &error));
-            assert_true(fabs(design.covered - lineup.covered) < 1e-5 * lineup.covered);
-            assert_true(fabs(design.flow - lineup.flow) < 1e-12);
-            sp_design_free(&design);
+            sp_draft draft;
+            assert_true(sp_lineup_draft(&lineup, &draft, &error));
+            assert_true(fabs(draft.covered - lineup.covered) < 1e-5 * lineup.covered);
+            assert_true(fabs(draft.flow - lineup.flow) < 1e-12);
+            sp_draft_free(&draft);
         }
         sp_lineup_free(&lineup);
         sp_lineup_free(&scratch);
@@ -266,7 +266,7 @@ static void tuned_poses_say_their_flow(void **state)
     job j;
     sp_error error = {0};
     sp_tuned tuned;
-    sp_design design;
+    sp_draft draft;
     job_open(&j, false);
     j.options.refine.flow = INFINITY;
     assert_true(sp_tuned_create(&j.search, &j.pool, &tuned, &error));
@@ -274,20 +274,20 @@ static void tuned_poses_say_their_flow(void **state)
     assert_true(tuned.pool.count > j.pool.count);
     for (size_t i = 0; i < tuned.pool.count; i++) {
         double flow = tuned.candidates.makes[tuned.pool.items[i].make].flow;
-        assert_true(sp_design_create(&tuned.search, &design, &error));
-        assert_true(sp_design_add_pose(&tuned.search, &design, tuned.pool.items[i], &error));
-        sp_tuned_settle(&tuned, &design);
-        const sp_placed *placed = &design.items[0];
+        assert_true(sp_draft_create(&tuned.search, &draft, &error));
+        assert_true(sp_draft_add_pose(&tuned.search, &draft, tuned.pool.items[i], &error));
+        sp_tuned_settle(&tuned, &draft);
+        const sp_placed *placed = &draft.items[0];
         assert_true(placed->flow == flow);
         assert_true(fabs(sp_nozzle_flow(&placed->nozzle, &j.room.setup.liquid) - flow) < 1e-9 * flow);
         assert_true(flow >= 0.999 * placed->nozzle.type->flow_min && flow <= 1.001 * placed->nozzle.type->flow_max);
         sp_layout *layout = sp_layout_create(&placed->nozzle, 1, &error);
         sp_coverage *coverage = sp_evaluate_inverse(j.room.evaluator, layout, &error);
         /* single precision may see two texels at the edge otherwise */
-        assert_true(fabs(coverage->covered_area - design.covered) < 2.1 * TEXEL * TEXEL);
+        assert_true(fabs(coverage->covered_area - draft.covered) < 2.1 * TEXEL * TEXEL);
         sp_coverage_destroy(coverage);
         sp_layout_destroy(layout);
-        sp_design_free(&design);
+        sp_draft_free(&draft);
     }
     sp_tuned_free(&tuned);
     job_close(&j);

@@ -135,6 +135,7 @@ static void out_of_time_there_is_one_nozzle(void **state)
     assert_true(proposal->interrupted);
     assert_int_equal(proposal->layout->count, 1);
     assert_int_equal(proposal->front_count, 1);
+    assert_false(proposal->certificate.computed);
     sp_proposal_destroy(proposal);
     room_close(&j.room);
 }

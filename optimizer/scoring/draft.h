@@ -1,6 +1,6 @@
 /* A layout during the search: nozzles with what each brings to the coarse patches. */
-#ifndef OPTIMIZER_DESIGN_H
-#define OPTIMIZER_DESIGN_H
+#ifndef OPTIMIZER_DRAFT_H
+#define OPTIMIZER_DRAFT_H
 
 #include "scoring/sweep.h"
 
@@ -42,28 +42,28 @@ typedef struct {
     double flow;      /* m³/s, kept nozzles included */
     double covered;   /* m² of coarse patches */
     double value;     /* covered, and the credit for what is on the way */
-} sp_design;
+} sp_draft;
 
 bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
                       const sp_candidates *candidates, const sp_visibility *visibility, sp_search *search,
                       sp_error *error);
 void sp_search_free(sp_search *search);
 
-/* A design of the kept nozzles alone. */
-bool sp_design_create(const sp_search *search, sp_design *design, sp_error *error);
-bool sp_design_copy(const sp_search *search, const sp_design *from, sp_design *to, sp_error *error);
-void sp_design_free(sp_design *design);
+/* A draft of the kept nozzles alone. */
+bool sp_draft_create(const sp_search *search, sp_draft *draft, sp_error *error);
+bool sp_draft_copy(const sp_search *search, const sp_draft *from, sp_draft *to, sp_error *error);
+void sp_draft_free(sp_draft *draft);
 /* Adds a nozzle and takes its field over, also on failure. */
-bool sp_design_add(const sp_search *search, sp_design *design, sp_placed placed, sp_error *error);
-bool sp_design_add_pose(const sp_search *search, sp_design *design, sp_pose pose, sp_error *error);
-void sp_design_remove(const sp_search *search, sp_design *design, size_t i);
+bool sp_draft_add(const sp_search *search, sp_draft *draft, sp_placed placed, sp_error *error);
+bool sp_draft_add_pose(const sp_search *search, sp_draft *draft, sp_pose pose, sp_error *error);
+void sp_draft_remove(const sp_search *search, sp_draft *draft, size_t i);
 /* Removes item i and hands it over. */
-sp_placed sp_design_take(const sp_search *search, sp_design *design, size_t i);
+sp_placed sp_draft_take(const sp_search *search, sp_draft *draft, size_t i);
 /* Draws wet, flow, covered and value from the items. */
-void sp_design_refresh(const sp_search *search, sp_design *design);
-/* True where the design may take one more nozzle at the site: number and ports, not water. */
-bool sp_design_has_place(const sp_search *search, const sp_design *design, uint32_t mount);
+void sp_draft_refresh(const sp_search *search, sp_draft *draft);
+/* True where the draft may take one more nozzle at the site: number and ports, not water. */
+bool sp_draft_has_place(const sp_search *search, const sp_draft *draft, uint32_t mount);
 /* Named nozzles, the kept ones first. */
-sp_layout *sp_design_layout(const sp_search *search, const sp_design *design, sp_error *error);
+sp_layout *sp_draft_layout(const sp_search *search, const sp_draft *draft, sp_error *error);
 
 #endif

@@ -1,4 +1,6 @@
-#include "scoring/design.h"
+#include "scoring/draft.h"
+
+#include "grow.h"
 
 #include "scoring/scoring.h"
 
@@ -86,66 +88,60 @@ void sp_search_free(sp_search *search)
     *search = (sp_search){0};
 }
 
-void sp_design_refresh(const sp_search *search, sp_design *design)
+void sp_draft_refresh(const sp_search *search, sp_draft *draft)
 {
-    memcpy(design->wet, search->kept_wet, search->patch_count * sizeof *design->wet);
-    design->flow = search->kept_flow;
-    for (size_t i = 0; i < design->count; i++) {
-        const float *field = design->items[i].field;
-        design->flow += design->items[i].flow;
+    memcpy(draft->wet, search->kept_wet, search->patch_count * sizeof *draft->wet);
+    draft->flow = search->kept_flow;
+    for (size_t i = 0; i < draft->count; i++) {
+        const float *field = draft->items[i].field;
+        draft->flow += draft->items[i].flow;
         if (search->single)
             for (size_t p = 0; p < search->patch_count; p++)
-                design->wet[p] = fmaxf(design->wet[p], field[p]);
+                draft->wet[p] = fmaxf(draft->wet[p], field[p]);
         else
             for (size_t p = 0; p < search->patch_count; p++)
-                design->wet[p] += field[p];
+                draft->wet[p] += field[p];
     }
-    design->covered = design->value = 0;
+    draft->covered = draft->value = 0;
     for (size_t p = 0; p < search->patch_count; p++) {
-        design->value += (double)(search->area[p] * sp_worth(search, design->wet[p]));
-        if (design->wet[p] >= 1)
-            design->covered += (double)search->area[p];
+        draft->value += (double)(search->area[p] * sp_worth(search, draft->wet[p]));
+        if (draft->wet[p] >= 1)
+            draft->covered += (double)search->area[p];
     }
 }
 
-bool sp_design_create(const sp_search *search, sp_design *design, sp_error *error)
+bool sp_draft_create(const sp_search *search, sp_draft *draft, sp_error *error)
 {
-    *design = (sp_design){0};
-    design->wet = malloc(search->patch_count * sizeof *design->wet);
-    if (!design->wet)
+    *draft = (sp_draft){0};
+    draft->wet = malloc(search->patch_count * sizeof *draft->wet);
+    if (!draft->wet)
         return sp_fail_memory(error);
-    sp_design_refresh(search, design);
+    sp_draft_refresh(search, draft);
     return true;
 }
 
-void sp_design_free(sp_design *design)
+void sp_draft_free(sp_draft *draft)
 {
-    for (size_t i = 0; i < design->count; i++)
-        free(design->items[i].field);
-    free(design->items);
-    free(design->wet);
-    *design = (sp_design){0};
+    for (size_t i = 0; i < draft->count; i++)
+        free(draft->items[i].field);
+    free(draft->items);
+    free(draft->wet);
+    *draft = (sp_draft){0};
 }
 
-static bool append(sp_design *design, sp_placed placed, sp_error *error)
+static bool append(sp_draft *draft, sp_placed placed, sp_error *error)
 {
-    if (design->count == design->capacity) {
-        size_t capacity = design->capacity ? 2 * design->capacity : 16;
-        sp_placed *items = realloc(design->items, capacity * sizeof *items);
-        if (!items) {
-            free(placed.field);
-            return sp_fail_memory(error);
-        }
-        design->items = items;
-        design->capacity = capacity;
+    if (!sp_grow(&draft->items, &draft->capacity, draft->count + 1, sizeof *draft->items)) {
+        free(placed.field);
+        return sp_fail_memory(error);
     }
-    design->items[design->count++] = placed;
+    draft->items[draft->count++] = placed;
     return true;
 }
 
-bool sp_design_copy(const sp_search *search, const sp_design *from, sp_design *to, sp_error *error)
+bool sp_draft_copy(const sp_search *search, const sp_draft *from, sp_draft *to, sp_error *error)
 {
-    if (!sp_design_create(search, to, error))
+    if (!sp_draft_create(search, to, error))
         return false;
     for (size_t i = 0; i < from->count; i++) {
         sp_placed placed = from->items[i];
@@ -155,23 +151,23 @@ bool sp_design_copy(const sp_search *search, const sp_design *from, sp_design *t
         else
             sp_fail_memory(error);
         if (!placed.field || !append(to, placed, error)) {
-            sp_design_free(to);
+            sp_draft_free(to);
             return false;
         }
     }
-    sp_design_refresh(search, to);
+    sp_draft_refresh(search, to);
     return true;
 }
 
-bool sp_design_add(const sp_search *search, sp_design *design, sp_placed placed, sp_error *error)
+bool sp_draft_add(const sp_search *search, sp_draft *draft, sp_placed placed, sp_error *error)
 {
-    if (!append(design, placed, error))
+    if (!append(draft, placed, error))
         return false;
-    sp_design_refresh(search, design);
+    sp_draft_refresh(search, draft);
     return true;
 }
 
-bool sp_design_add_pose(const sp_search *search, sp_design *design, sp_pose pose, sp_error *error)
+bool sp_draft_add_pose(const sp_search *search, sp_draft *draft, sp_pose pose, sp_error *error)
 {
     sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, sp_evaluator_setup(search->coarse)->up);
     sp_placed placed = {.nozzle = nozzle,
@@ -182,33 +178,33 @@ bool sp_design_add_pose(const sp_search *search, sp_design *design, sp_pose pose
     if (!placed.field)
         return sp_fail_memory(error);
     sp_field_pose(search, pose, placed.field);
-    return sp_design_add(search, design, placed, error);
+    return sp_draft_add(search, draft, placed, error);
 }
 
-sp_placed sp_design_take(const sp_search *search, sp_design *design, size_t i)
+sp_placed sp_draft_take(const sp_search *search, sp_draft *draft, size_t i)
 {
-    sp_placed taken = design->items[i];
-    design->count--;
-    memmove(&design->items[i], &design->items[i + 1], (design->count - i) * sizeof *design->items);
-    sp_design_refresh(search, design);
+    sp_placed taken = draft->items[i];
+    draft->count--;
+    memmove(&draft->items[i], &draft->items[i + 1], (draft->count - i) * sizeof *draft->items);
+    sp_draft_refresh(search, draft);
     return taken;
 }
 
-void sp_design_remove(const sp_search *search, sp_design *design, size_t i)
+void sp_draft_remove(const sp_search *search, sp_draft *draft, size_t i)
 {
-    free(sp_design_take(search, design, i).field);
+    free(sp_draft_take(search, draft, i).field);
 }
 
-bool sp_design_has_place(const sp_search *search, const sp_design *design, uint32_t mount)
+bool sp_draft_has_place(const sp_search *search, const sp_draft *draft, uint32_t mount)
 {
-    if (search->options->max_nozzles && search->kept_count + design->count >= search->options->max_nozzles)
+    if (search->options->max_nozzles && search->kept_count + draft->count >= search->options->max_nozzles)
         return false;
     if (search->options->mounts[mount].kind != SP_MOUNT_PORT)
         return true;
     if (search->port_taken[mount])
         return false;
-    for (size_t i = 0; i < design->count; i++)
-        if (design->items[i].site.mount == mount)
+    for (size_t i = 0; i < draft->count; i++)
+        if (draft->items[i].site.mount == mount)
             return false;
     return true;
 }
@@ -236,9 +232,9 @@ static void name_nozzle(const sp_layout *layout, size_t i, const char *port, siz
     while (name_taken(layout, i, name));
 }
 
-sp_layout *sp_design_layout(const sp_search *search, const sp_design *design, sp_error *error)
+sp_layout *sp_draft_layout(const sp_search *search, const sp_draft *draft, sp_error *error)
 {
-    sp_layout *layout = sp_layout_create(NULL, search->kept_count + design->count, error);
+    sp_layout *layout = sp_layout_create(NULL, search->kept_count + draft->count, error);
     if (!layout)
         return NULL;
     for (size_t i = 0; i < search->kept_count; i++)
@@ -246,12 +242,12 @@ sp_layout *sp_design_layout(const sp_search *search, const sp_design *design, sp
     size_t number = 0;
     /* ports first, so that no P1 takes the name of a port P1 */
     for (int ports = 1; ports >= 0; ports--)
-        for (size_t i = 0; i < design->count; i++) {
-            const sp_mount *mount = &search->options->mounts[design->items[i].site.mount];
+        for (size_t i = 0; i < draft->count; i++) {
+            const sp_mount *mount = &search->options->mounts[draft->items[i].site.mount];
             size_t at = search->kept_count + i;
             if ((mount->kind == SP_MOUNT_PORT) != ports)
                 continue;
-            layout->nozzles[at] = design->items[i].nozzle;
+            layout->nozzles[at] = draft->items[i].nozzle;
             layout->nozzles[at].name[0] = 0;
             name_nozzle(layout, at, ports ? mount->name : NULL, &number);
         }

@@ -1,0 +1,72 @@
+/* Time and cancelling of a placement. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <cmocka.h>
+
+#include "watch.h"
+
+static void only_its_share_of_the_limit_may_be_spent(void **state)
+{
+    (void)state;
+    sp_run run = {.time_limit = 1e6};
+    sp_watch watch = sp_watch_start(&run);
+    assert_true(sp_watch_left(&watch) > 9e5);
+    sp_watch_allow(&watch, 0.25);
+    assert_true(sp_watch_left(&watch) <= 2.5e5);
+    assert_true(sp_watch_goes_on(&watch, "a", 0));
+    sp_watch_allow(&watch, 0);
+    assert_true(sp_watch_left(&watch) < 0);
+    assert_false(sp_watch_has_time(&watch, "a", 0));
+    assert_false(watch.interrupted);
+    assert_false(sp_watch_goes_on(&watch, "a", 0));
+    assert_true(watch.interrupted);
+    assert_false(watch.cancelled);
+    /* what comes next has the rest */
+    sp_watch_allow(&watch, 1);
+    assert_true(sp_watch_goes_on(&watch, "b", 0));
+    assert_true(watch.interrupted);
+}
+
+static void without_a_limit_there_is_always_time(void **state)
+{
+    (void)state;
+    sp_run run = {0};
+    sp_watch watch = sp_watch_start(&run);
+    sp_watch_allow(&watch, 0);
+    assert_true(isinf(sp_watch_left(&watch)));
+    assert_true(sp_watch_goes_on(&watch, "a", 0));
+    assert_false(watch.interrupted);
+}
+
+static bool cancel(void *user, const char *stage, double done)
+{
+    (void)stage, (void)done;
+    ++*(size_t *)user;
+    return false;
+}
+
+static void cancelled_once_it_stays_so(void **state)
+{
+    (void)state;
+    size_t calls = 0;
+    sp_run run = {.progress = cancel, .user = &calls};
+    sp_watch watch = sp_watch_start(&run);
+    assert_false(sp_watch_has_time(&watch, "a", 0));
+    assert_true(watch.cancelled && watch.interrupted);
+    assert_false(sp_watch_goes_on(&watch, "b", 0));
+    assert_int_equal(calls, 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(only_its_share_of_the_limit_may_be_spent),
+        cmocka_unit_test(without_a_limit_there_is_always_time),
+        cmocka_unit_test(cancelled_once_it_stays_so),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
