@@ -202,11 +202,12 @@ static void a_criterion_met_to_the_last_bit(void **state)
         *criterion = (sp_criterion){0, 0, M_PI / 2, SP_COMBINE_SUM};
         sp_evaluator *evaluator = scene_evaluator(&st.s);
         sp_coverage *free_of = sound_cover(evaluator, st.nozzles, 1, k == 0);
+        const double *counted = free_of->deposits.counted, some = 0.45 * free_of->flux_max;
         size_t patch = 0;
-        while (!(free_of->deposits.counted[patch] > 0.3 * free_of->flux_max &&
-                 free_of->deposits.counted[patch] < 0.6 * free_of->flux_max))
-            patch++;
-        const double flux = free_of->deposits.counted[patch], speed = free_of->deposits.speed_max[patch];
+        for (size_t i = 1; i < free_of->deposits.count; i++)
+            patch = fabs(counted[i] - some) < fabs(counted[patch] - some) ? i : patch;
+        assert_true(counted[patch] > 0);
+        const double flux = counted[patch], speed = free_of->deposits.speed_max[patch];
         for (int i = 0; i < 4; i++) {
             double asked = i % 2 ? nextafter(i < 2 ? flux : speed, INFINITY) : i < 2 ? flux : speed;
             *criterion = (sp_criterion){i < 2 ? asked : 0, i < 2 ? 0 : asked, M_PI / 2, SP_COMBINE_SUM};

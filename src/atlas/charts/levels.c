@@ -68,7 +68,7 @@ static bool carry_over(levels *l)
         memcpy(owner_before, fine->owner, bytes);
     fine->items = NULL;
     fine->count = fine->capacity = 0;
-    bool good = owner_before && sp_refine(&l->coarse, &l->rough->sheets, fine);
+    bool good = owner_before && sp_refine_sheets(&l->coarse, &l->rough->sheets, fine);
     l->fits = good ? calloc(fine->count + 1, 1) : NULL;
     good = good && l->fits;
     if (good && before)

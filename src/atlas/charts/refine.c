@@ -264,7 +264,7 @@ static bool carry(const carrying *c)
     return good;
 }
 
-bool sp_refine(const sp_coarse *coarse, const sp_sheets *rough, sp_sheets *fine)
+bool sp_refine_sheets(const sp_coarse *coarse, const sp_sheets *rough, sp_sheets *fine)
 {
     size_t count = fine->mesh->triangle_count;
     carrying c = {.coarse = coarse, .rough = rough, .fine = fine};
