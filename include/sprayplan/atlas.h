@@ -19,10 +19,10 @@ typedef struct {
 } sp_charts;
 
 /* Grows regions that face one way (variational shape approximation), lays each flat (study 3.3.2.1, then as rigidly as
- * possible), and joins neighbours while at most 5 % of a chart's area has more than 5 % strain, no two triangles overlap
- * and no side of a box around the chart is longer than `extent` (m, INFINITY for no limit). Developable surface is laid
- * without strain but for round-off. Cuts at non-manifold, open and flipped edges. Deterministic; size, place and
- * attitude do not matter but for their round-off. */
+ * possible), and joins neighbours while at most 5 % of a chart's area has more than 5 % strain, no two triangles
+ * overlap and no side of a box around the chart is longer than `extent` (m, INFINITY for no limit). Developable surface
+ * is laid without strain but for round-off. Cuts at non-manifold, open and flipped edges. Deterministic; size, place
+ * and attitude do not matter but for their round-off. */
 sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error);
 void sp_charts_destroy(sp_charts *charts);
 
@@ -41,10 +41,12 @@ typedef struct {
     uint32_t texel; /* to which this triangle belongs there */
 } sp_shared_pixel;
 
-/* Two texels that touch across a cut, and along which length on the surface, m. */
+/* Two texels that touch across a cut. */
 typedef struct {
     uint32_t texel, other;
-    double length;
+    uint32_t edge, across; /* the edge of the mesh along which they do most, as half-edge of either's side:
+                              3 triangle + its first corner there */
+    float length;          /* m on the surface, along all edges */
 } sp_seam;
 
 /* A texel is one connected patch of one chart inside one pixel of a page. Nearly always it is all that the pixel holds;
@@ -87,9 +89,9 @@ typedef struct {
  * with an extent of page_edge texels that happens only to single triangles. charts and mesh are only read. */
 sp_atlas *sp_atlas_create(const sp_mesh *mesh, const sp_charts *charts, const sp_atlas_options *options,
                           sp_error *error);
-/* The atlas that an OBJ file already holds as texture coordinates, `mesh` being what sp_mesh_load made of that file. The
- * coordinates are in units of a page's edge, the pages named by usemtl page_0, ...; they are kept
- * as they are. `texel` (m) 0: the file's own where sp_atlas_obj wrote it, else one of 2^20 of the surface. Fails with
+/* The atlas that an OBJ file already holds as texture coordinates, `mesh` being what sp_mesh_load made of that file.
+ * The coordinates are in units of a page's edge, the pages named by usemtl page_0, ...; they are kept as they are.
+ * `texel` (m) 0: the file's own where sp_atlas_obj wrote it, else one of 2^20 of the surface. Fails with
  * SP_ERROR_INPUT, at the face's line, for what breaks what every atlas keeps: corners without coordinates or off the
  * page, triangles that are turned over, overlaps, lengths (more than 5 % of the area strained by more than 5 %), charts
  * without a pixel between them. */
@@ -108,6 +110,10 @@ sp_texel_place sp_atlas_place(const sp_atlas *atlas, uint32_t texel);
 uint32_t sp_atlas_pixel(const sp_atlas *atlas, uint32_t page, uint32_t x, uint32_t y);
 /* The seams of a texel: *count of them, from the result on. */
 const sp_seam *sp_atlas_seams(const sp_atlas *atlas, uint32_t texel, size_t *count);
+/* Where a point at `place` on the page of a seam's texel would lie on that of the other (both in pixels), if the
+ * surface went on there as it does beyond the seam: turned and moved, or mirrored where the two face opposite ways. */
+void sp_atlas_across(const sp_atlas *atlas, const sp_mesh *mesh, const sp_seam *seam, const double place[2],
+                     double there[2]);
 
 /* Which triangles a texel consists of. What the evaluators need beyond the atlas; 16 bytes a piece. */
 typedef struct {

@@ -1,23 +1,19 @@
 /* The forward evaluator: jets are traced from the nozzles through their reflections, and leave their liquid on the
  * patches that they hit (study 3.2.3 and 3.3.1). */
-#include "state.h"
+#include "splat.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #define BATCH 65536 /* jets in flight at once */
-#define CORNERS 4   /* pixels whose centres are around a point */
-#define SHARES 8    /* patches that one jet's liquid goes to at most: those, and as many across a seam */
 /* Texels that a jet flies before anything stops it: on which side of the wall it stands in a nozzle is, is round-off.
  */
 #define MOUTH 1e-7
 
 /* What one jet does where it hits. */
 typedef struct {
-    uint32_t patch[SHARES];
-    double share[SHARES]; /* of the flow; they sum to 1 */
-    int shares;           /* 0: a dry side, an obstacle or a miss */
-    double flow;          /* m³/s */
+    sp_shares shares; /* of the flow; none: a dry side, an obstacle or a miss */
+    double flow;      /* m³/s */
     double speed, incidence;
     bool passes;  /* the criterion's speed and incidence */
     bool goes_on; /* is reflected */
@@ -33,71 +29,6 @@ typedef struct {
     jet_impact *impacts; /* [BATCH] */
     int threads;
 } jet_flight;
-
-/* Adds a share in proportion to the patch's area; false where that texel has no patch on the side that was hit. */
-static bool add_share(const sp_evaluator *evaluator, uint32_t texel, bool back, double weight, jet_impact *impact)
-{
-    uint32_t patch = evaluator->texel_patch[texel][evaluator->setup.cavity != SP_CAVITY_NONE && back];
-    if (patch == SP_NONE || impact->shares == SHARES)
-        return false;
-    impact->patch[impact->shares] = patch;
-    impact->share[impact->shares++] = weight * evaluator->patches.area[patch];
-    return true;
-}
-
-/* What lies beyond the chart goes to the texels across the seams of the texel that was hit, by the lengths along which
- * they touch it. */
-static void share_across(const sp_evaluator *evaluator, uint32_t own, bool back, double weight, jet_impact *impact)
-{
-    size_t count;
-    const sp_seam *seams = sp_atlas_seams(evaluator->atlas, own, &count);
-    double length = 0;
-    count = count < SHARES - CORNERS ? count : SHARES - CORNERS;
-    for (size_t i = 0; i < count; i++)
-        length += seams[i].length;
-    for (size_t i = 0; i < count; i++)
-        add_share(evaluator, seams[i].other, back, weight * seams[i].length / length, impact);
-}
-
-/* Shares an impact among the patches whose texels' centres are nearest, the nearer the more (the study's weighted
- * average, 3.3.1), and in proportion to their area: an even flux stays even at the rim of a chart. */
-static void share_linearly(const sp_evaluator *evaluator, const sp_hit *hit, bool back, jet_impact *impact)
-{
-    const sp_atlas *atlas = evaluator->atlas;
-    const double(*uv)[2] = (const double(*)[2])atlas->uv[hit->triangle];
-    uint32_t only = impact->patch[0], own = sp_atlas_texel(atlas, hit->triangle, hit->u, hit->v);
-    sp_texel_place home = sp_atlas_place(atlas, own);
-    double w = 1 - hit->u - hit->v, place[2], corner[2], beyond = 0, sum = 0;
-    for (int axis = 0; axis < 2; axis++) {
-        place[axis] = w * uv[0][axis] + hit->u * uv[1][axis] + hit->v * uv[2][axis] - 0.5;
-        corner[axis] = floor(place[axis]);
-    }
-    impact->shares = 0;
-    for (int i = 0; i < CORNERS; i++) {
-        double x = corner[0] + i % 2, y = corner[1] + i / 2;
-        double weight = (1 - fabs(place[0] - x)) * (1 - fabs(place[1] - y));
-        uint32_t texel = x < 0 || y < 0 ? SP_NONE : sp_atlas_pixel(atlas, home.page, (uint32_t)x, (uint32_t)y);
-        if (texel != SP_NONE && x == home.x && y == home.y)
-            texel = own; /* of several patches in that pixel */
-        if (!(weight > 0))
-            continue;
-        if (texel == SP_NONE || sp_atlas_place(atlas, texel).chart != home.chart)
-            beyond += weight;
-        else
-            add_share(evaluator, texel, back, weight, impact);
-    }
-    if (beyond > 0)
-        share_across(evaluator, own, back, beyond, impact);
-    for (int i = 0; i < impact->shares; i++)
-        sum += impact->share[i];
-    if (!(sum > 0)) {
-        impact->patch[0] = only;
-        impact->share[0] = sum = 1;
-        impact->shares = 1;
-    }
-    for (int i = 0; i < impact->shares; i++)
-        impact->share[i] /= sum;
-}
 
 /* A parabola that leaves a triangle may come back to it, which its `skip` hides: of the two meetings with the
  * triangle's plane one is the start, so that the other follows without round-off. */
@@ -129,7 +60,7 @@ static void strike(jet_flight *flight, size_t i)
     jet_impact *impact = &flight->impacts[i];
     if (ray->skip != SP_NONE)
         return_to_start(mesh, ray, evaluator->gravity, hit);
-    impact->shares = 0;
+    impact->shares.count = 0;
     impact->goes_on = false;
     if (hit->triangle == SP_NONE)
         return;
@@ -141,11 +72,11 @@ static void strike(jet_flight *flight, size_t i)
     impact->speed = sp_length(velocity);
     impact->incidence = impact->speed > 0 ? acos(fmin(1, fabs(along_normal) / impact->speed)) : 0;
     impact->passes = impact->speed >= criterion->impact_speed && impact->incidence <= criterion->incidence;
-    impact->patch[0] = sp_patch_at(evaluator, hit->triangle, hit->u, hit->v, along_normal > 0);
-    impact->share[0] = 1;
-    impact->shares = impact->patch[0] != SP_NONE;
-    if (impact->shares && evaluator->fidelity.splat == SP_SPLAT_LINEAR)
-        share_linearly(evaluator, hit, along_normal > 0, impact);
+    uint32_t patch = sp_patch_at(evaluator, hit->triangle, hit->u, hit->v, along_normal > 0);
+    if (patch != SP_NONE && evaluator->fidelity.splat == SP_SPLAT_LINEAR)
+        sp_share_linearly(evaluator, hit, along_normal > 0, patch, &impact->shares);
+    else if (patch != SP_NONE)
+        impact->shares = (sp_shares){.patch = {patch}, .share = {1}, .count = 1};
 
     const sp_surface *surface = &evaluator->setup.surfaces[mesh->part[hit->triangle]];
     ray->origin = sp_triangle_point(mesh, hit->triangle, hit->u, hit->v);
@@ -168,12 +99,13 @@ static void settle(jet_flight *flight, size_t count)
         size_t first = patches->count * own / all, end = patches->count * (own + 1) / all;
         for (size_t i = 0; i < count; i++) {
             const jet_impact *impact = &flight->impacts[i];
-            for (int k = 0; k < impact->shares; k++) {
-                uint32_t patch = impact->patch[k];
+            for (int k = 0; k < impact->shares.count; k++) {
+                uint32_t patch = impact->shares.patch[k];
+                double share = impact->shares.share[k];
                 if (patch < first || patch >= end)
                     continue;
-                double flux = impact->flow * impact->share[k] / patches->area[patch];
-                sp_deposit(flight->deposits, patch, flux, impact->share[k], impact->speed, impact->incidence, density);
+                double flux = impact->flow * share / patches->area[patch];
+                sp_deposit(flight->deposits, patch, flux, share, impact->speed, impact->incidence, density);
                 if (impact->passes)
                     flight->counted[patch] += flux;
             }

@@ -10,12 +10,15 @@ typedef struct {
     size_t count, capacity;
 } seams;
 
-static bool add_seam(seams *s, uint32_t texel, uint32_t other, double length)
+/* Adds the piece of an edge that the walk is at. */
+static bool add_seam(seams *s, const sp_edge_walk *walk, double length)
 {
+    uint32_t texel = walk->texel_a, other = walk->texel_b;
     if (texel == other || !(length > 0))
         return true;
-    if (s->count && s->items[s->count - 1].texel == texel && s->items[s->count - 1].other == other) {
-        s->items[s->count - 1].length += length;
+    sp_seam *last = s->count ? &s->items[s->count - 1] : NULL;
+    if (last && last->texel == texel && last->other == other && last->edge == walk->a && last->across == walk->b) {
+        last->length += (float)length;
         return true;
     }
     if (s->count == s->capacity) {
@@ -26,7 +29,7 @@ static bool add_seam(seams *s, uint32_t texel, uint32_t other, double length)
         s->items = items;
         s->capacity = capacity;
     }
-    s->items[s->count++] = (sp_seam){texel, other, length};
+    s->items[s->count++] = (sp_seam){texel, other, walk->a, walk->b, (float)length};
     return true;
 }
 
@@ -81,34 +84,60 @@ static bool walk_cut(seams *s, sp_edge_walk *walk, const sp_atlas *atlas, const 
     if (!sp_edge_walk_begin(walk, atlas, mesh, a, b))
         return false;
     while (sp_edge_walk_next(walk, atlas))
-        if (!add_seam(s, walk->texel_a, walk->texel_b, (walk->to - walk->from) * length))
+        if (!add_seam(s, walk, (walk->to - walk->from) * length))
             return false;
     return true;
 }
 
-/* Sorts the seams, joins those of the same texels, and adds each the other way round. */
+/* Every second one is the one before it seen from the other side. */
+static sp_seam seam_at(const seams *s, size_t i)
+{
+    sp_seam seam = s->items[i / 2];
+    return i % 2 ? (sp_seam){seam.other, seam.texel, seam.across, seam.edge, seam.length} : seam;
+}
+
+/* The order of all seams, either way round, by texel and other; NULL when memory runs out. */
+static uint32_t *order_of(const seams *s)
+{
+    size_t count = 2 * s->count;
+    uint64_t *keys = malloc((count + 1) * sizeof *keys);
+    uint32_t *order = malloc((count + 1) * sizeof *order);
+    bool done = keys && order;
+    for (size_t i = 0; done && i < count; i++) {
+        sp_seam seam = seam_at(s, i);
+        keys[i] = (uint64_t)seam.texel << 32 | seam.other;
+    }
+    done = done && (count == 0 || sp_order_by_key(keys, count, order));
+    free(keys);
+    if (done)
+        return order;
+    free(order);
+    return NULL;
+}
+
+/* Joins the seams of the same texels, keeping the edge of the longest, and adds each the other way round. */
 static bool collect(sp_atlas *atlas, const seams *s)
 {
-    uint64_t *keys = malloc((2 * s->count + 1) * sizeof *keys);
-    uint32_t *order = malloc((2 * s->count + 1) * sizeof *order);
-    atlas->seams = malloc((2 * s->count + 1) * sizeof *atlas->seams);
-    bool done = keys && order && atlas->seams && s->count < SP_NONE / 2;
-    for (size_t i = 0; done && i < s->count; i++) {
-        keys[2 * i] = (uint64_t)s->items[i].texel << 32 | s->items[i].other;
-        keys[2 * i + 1] = (uint64_t)s->items[i].other << 32 | s->items[i].texel;
-    }
-    done = done && (s->count == 0 || sp_order_by_key(keys, 2 * s->count, order));
+    uint32_t *order = s->count < SP_NONE / 2 ? order_of(s) : NULL;
+    atlas->seams = order ? malloc((2 * s->count + 1) * sizeof *atlas->seams) : NULL;
+    bool done = atlas->seams;
     size_t count = 0;
+    float longest = 0;
     for (size_t i = 0; done && i < 2 * s->count; i++) {
-        uint64_t key = keys[order[i]];
-        double length = s->items[order[i] / 2].length;
-        if (i && key == keys[order[i - 1]])
-            atlas->seams[count - 1].length += length;
-        else
-            atlas->seams[count++] = (sp_seam){(uint32_t)(key >> 32), (uint32_t)key, length};
+        sp_seam piece = seam_at(s, order[i]), *last = count ? &atlas->seams[count - 1] : NULL;
+        if (!last || last->texel != piece.texel || last->other != piece.other) {
+            atlas->seams[count++] = piece;
+            longest = piece.length;
+            continue;
+        }
+        last->length += piece.length;
+        if (piece.length <= longest)
+            continue;
+        longest = piece.length;
+        last->edge = piece.edge;
+        last->across = piece.across;
     }
     atlas->seam_count = count;
-    free(keys);
     free(order);
     sp_seam *fitting = done ? realloc(atlas->seams, (count + 1) * sizeof *fitting) : NULL;
     if (fitting)
@@ -129,7 +158,28 @@ bool sp_atlas_find_seams(sp_atlas *atlas, const sp_mesh *mesh, const sp_half_edg
         }
     }
     sp_edge_walk_free(&walk);
+    sp_seam *fitting = done ? realloc(s.items, (s.count + 1) * sizeof *fitting) : NULL;
+    if (fitting)
+        s.items = fitting;
     done = done && collect(atlas, &s);
     free(s.items);
     return done || sp_fail_memory(error);
+}
+
+void sp_atlas_across(const sp_atlas *atlas, const sp_mesh *mesh, const sp_seam *seam, const double place[2],
+                     double there[2])
+{
+    bool opposite = sp_edge_is_opposite(mesh, seam->edge, seam->across);
+    double a[2], b[2], to[2], from[2];
+    sp_edge_point(atlas, seam->edge, 0, a);
+    sp_edge_point(atlas, seam->edge, 1, b);
+    sp_edge_point(atlas, seam->across, opposite ? 1 : 0, from);
+    sp_edge_point(atlas, seam->across, opposite ? 0 : 1, to);
+    double x = b[0] - a[0], y = b[1] - a[1], u = to[0] - from[0], v = to[1] - from[1];
+    double length = hypot(x, y), other = hypot(u, v), inverse = length > 0 ? 1 / length : 0;
+    double along = inverse * inverse * ((place[0] - a[0]) * x + (place[1] - a[1]) * y);
+    double beyond = inverse * ((place[0] - a[0]) * y - (place[1] - a[1]) * x); /* right of the edge, < 0 inside */
+    double away = other > 0 ? (opposite ? -beyond : beyond) / other : 0;       /* left of it, seen from there */
+    there[0] = from[0] + along * u - away * v;
+    there[1] = from[1] + along * v + away * u;
 }
