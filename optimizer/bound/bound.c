@@ -111,7 +111,7 @@ static bool thin_out(sp_bound *bound, sp_error *error)
         return sp_fail_memory(error);
     size_t excess = rows->count - ROWS_MOST;
     for (size_t c = 0; c < rows->count; c++) {
-        marked[c] = !excess || rows->key[c] == SP_OWN_KEY || bound->dual.choice[c] >= CHOICE_LEAST;
+        marked[c] = !excess || rows->key[c] == SP_OWN_KEY || sp_dual_choice(&bound->dual, c) >= CHOICE_LEAST;
         excess -= !marked[c];
     }
     size_t count = rows->count;

@@ -116,7 +116,7 @@ static bool thin_out(sp_branching *b, sp_error *error)
     if (!marked)
         return sp_fail_memory(error);
     for (size_t c = 0; c < count; c++) {
-        marked[c] = !excess || (c < b->dual.row_capacity && b->dual.choice[c] >= CHOICE_LEAST);
+        marked[c] = !excess || sp_dual_choice(&b->dual, c) >= CHOICE_LEAST;
         excess -= !marked[c];
         b->among[rows->key[c]] = marked[c];
     }

@@ -199,10 +199,10 @@ static double mass_of(const sp_branching *b, size_t first, size_t end, double *m
 {
     double mass = 0;
     *most = 0;
-    for (size_t c = 0; c < b->rows.count && c < b->dual.row_capacity; c++)
+    for (size_t c = 0; c < b->rows.count; c++)
         if (b->rows.key[c] >= first && b->rows.key[c] < end) {
-            mass += b->dual.choice[c];
-            *most = fmax(*most, b->dual.choice[c]);
+            mass += sp_dual_choice(&b->dual, c);
+            *most = fmax(*most, sp_dual_choice(&b->dual, c));
         }
     return mass;
 }

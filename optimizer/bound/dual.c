@@ -93,8 +93,8 @@ bool sp_dual_lift(sp_dual *dual, const sp_rows *rows, const sp_lifts *lifts, sp_
     float *sums = calloc(dual->texels * kinds + 1, sizeof *sums);
     if (!sums)
         return sp_fail_memory(error);
-    for (size_t c = 0; c < rows->count && c < dual->row_capacity; c++) {
-        float amount = (float)dual->choice[c];
+    for (size_t c = 0; c < rows->count; c++) {
+        float amount = (float)sp_dual_choice(dual, c);
         for (size_t i = rows->start[c]; amount > CHOICE_LEAST && i < rows->start[c + 1]; i++)
             for (size_t k = 0; k < kinds; k++)
                 sums[rows->texel[i] * kinds + k] += amount * sp_lift(lifts, k, rows->share[i]);

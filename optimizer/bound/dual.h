@@ -21,6 +21,12 @@ typedef struct {
     double weight;         /* primal weight: steps in price over steps in choice */
 } sp_dual;
 
+/* What the last solve chose of a row; nothing of rows that have come since. */
+static inline double sp_dual_choice(const sp_dual *dual, size_t row)
+{
+    return row < dual->row_capacity ? dual->choice[row] : 0;
+}
+
 bool sp_dual_create(const sp_cover *cover, sp_dual *dual, sp_error *error);
 void sp_dual_free(sp_dual *dual);
 
