@@ -83,6 +83,14 @@ static inline void sp_bvh_fetch(const sp_bvh *bvh, uint32_t child)
     }
 }
 
+/* Has a triangle's corners brought near. */
+static inline void sp_bvh_fetch_corners(const sp_bvh *bvh, uint32_t triangle)
+{
+    const sp_mesh *mesh = bvh->mesh;
+    for (int i = 0; i < 3; i++)
+        __builtin_prefetch(&mesh->vertices[mesh->triangles[triangle][i]]);
+}
+
 /* The power of two above a positive number, and its inverse. */
 static inline double sp_bvh_power_above(double a, double *inverse)
 {

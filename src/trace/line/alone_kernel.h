@@ -3,15 +3,6 @@
 #include "trace/line/line_prepare.h"
 #include "trace/line/line_step.h"
 
-/* Sends for the corners of the best triangle so far: most often it stays the best. */
-static inline void fetch_corners(const sp_bvh *bvh, const sp_bvh_flight *flight)
-{
-    const sp_mesh *mesh = bvh->mesh;
-    if (flight->triangle != SP_NONE)
-        for (int k = 0; k < 3; k++)
-            __builtin_prefetch(&mesh->vertices[mesh->triangles[flight->triangle][k]]);
-}
-
 /* Visits all that the line passes, the near before the far. */
 static inline void walk_alone(const sp_bvh_stream *stream, sp_bvh_flight *flight)
 {
@@ -27,7 +18,8 @@ static inline void walk_alone(const sp_bvh_stream *stream, sp_bvh_flight *flight
                 take_found(stream, flight, block);
                 if (!stream->hits && flight->triangle != SP_NONE)
                     return;
-                fetch_corners(bvh, flight);
+                if (flight->triangle != SP_NONE) /* most often it stays the best */
+                    sp_bvh_fetch_corners(bvh, flight->triangle);
             }
         } else {
             const sp_bvh_node *node = &bvh->nodes[child];

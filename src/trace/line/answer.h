@@ -33,17 +33,11 @@ static inline void start_answers(answers *a, const sp_bvh *bvh, const sp_ray *ra
     a->count = 0;
 }
 
-static inline void gather_answers(const answers *a, answer_lanes *l)
+static inline void gather_lines(const answers *a, answer_lanes *l)
 {
-    const sp_mesh *mesh = a->bvh->mesh;
-    for (int i = 0; i < a->count; i++)
-        for (int k = 0; k < 3; k++)
-            __builtin_prefetch(&mesh->vertices[mesh->triangles[a->triangle[i]][k]]);
-    for (int i = 0; i < (a->count + 7) / 8 * 8; i++) { /* idle lanes repeat the first */
-        int from = i < a->count ? i : 0;
-        const sp_ray *ray = &a->rays[a->ray[from]];
-        const uint32_t *vertex = mesh->triangles[a->triangle[from]];
-        uint32_t z = a->z[from], x = z == 2 ? 0 : z + 1, y = z == 0 ? 2 : z - 1;
+    for (int i = 0; i < a->count; i++) {
+        const sp_ray *ray = &a->rays[a->ray[i]];
+        uint32_t z = a->z[i], x = z == 2 ? 0 : z + 1, y = z == 0 ? 2 : z - 1;
         const double *origin = &ray->origin.x, *velocity = &ray->velocity.x;
         l->origin[0][i] = origin[x];
         l->origin[1][i] = origin[y];
@@ -51,6 +45,17 @@ static inline void gather_answers(const answers *a, answer_lanes *l)
         l->velocity[0][i] = velocity[x];
         l->velocity[1][i] = velocity[y];
         l->velocity[2][i] = velocity[z];
+    }
+}
+
+/* Idle lanes repeat the first. */
+static inline void gather_corners(const answers *a, answer_lanes *l)
+{
+    const sp_mesh *mesh = a->bvh->mesh;
+    for (int i = 0; i < (a->count + 7) / 8 * 8; i++) {
+        int from = i < a->count ? i : 0;
+        const uint32_t *vertex = mesh->triangles[a->triangle[from]];
+        uint32_t z = a->z[from], x = z == 2 ? 0 : z + 1, y = z == 0 ? 2 : z - 1;
         for (int k = 0; k < 3; k++) {
             const double *corner = &mesh->vertices[vertex[k]].x;
             l->corner[k][0][i] = corner[x];
@@ -58,6 +63,11 @@ static inline void gather_answers(const answers *a, answer_lanes *l)
             l->corner[k][2][i] = corner[z];
         }
     }
+    for (int i = a->count; i < (a->count + 7) / 8 * 8; i++)
+        for (int k = 0; k < 3; k++) {
+            l->origin[k][i] = l->origin[k][0];
+            l->velocity[k][i] = l->velocity[k][0];
+        }
 }
 
 static inline void compute_answers(answer_lanes *l, int count)
@@ -81,31 +91,37 @@ static inline void compute_answers(answer_lanes *l, int count)
     }
 }
 
-/* Writes the hits. */
-static inline void give_answers(answers *a)
+/* Writes the hits of lines that have been gathered. */
+static inline void finish_answers(answers *a, answer_lanes *l)
 {
-    answer_lanes l;
-    if (a->count == 0)
-        return;
-    gather_answers(a, &l);
-    compute_answers(&l, a->count);
+    gather_corners(a, l);
+    compute_answers(l, a->count);
     for (int i = 0; i < a->count; i++) {
         uint32_t ray = a->ray[i], triangle = a->triangle[i];
-        if (l.plain[i] != 0)
-            a->hits[ray] = (sp_hit){l.t[i], l.u[i], l.v[i], triangle};
+        if (l->plain[i] != 0)
+            a->hits[ray] = (sp_hit){l->t[i], l->u[i], l->v[i], triangle};
         else
             a->hits[ray] = sp_bvh_line_ask(a->bvh, &a->rays[ray], triangle);
     }
     a->count = 0;
 }
 
-static inline void add_answer(answers *a, uint32_t ray, uint32_t triangle, uint32_t z)
+static inline void give_answers(answers *a)
+{
+    answer_lanes l;
+    if (a->count == 0)
+        return;
+    for (int i = 0; i < a->count; i++)
+        sp_bvh_fetch_corners(a->bvh, a->triangle[i]);
+    gather_lines(a, &l);
+    finish_answers(a, &l);
+}
+
+static inline void note_answer(answers *a, uint32_t ray, uint32_t triangle, uint32_t z)
 {
     a->ray[a->count] = ray;
     a->triangle[a->count] = triangle;
     a->z[a->count++] = z;
-    if (a->count == SP_ANSWERS)
-        give_answers(a);
 }
 
 #endif

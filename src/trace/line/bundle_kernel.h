@@ -1,5 +1,6 @@
 /* A bundle through the hierarchy. Included once by each file that is compiled for a set of instructions, with
  * SP_KERNEL(name) naming its functions. */
+#include "trace/line/answer.h"
 #include "trace/line/bundle.h"
 #include "trace/line/fan_kernel.h"
 #include "trace/bvh/seen.h"
@@ -314,19 +315,6 @@ static inline void search_bundle_block(sp_bundle *b, const sp_bvh_block *block, 
         find_farthest(b);
 }
 
-static inline void fetch(const sp_bvh *bvh, uint32_t child)
-{
-    if (child & SP_BVH_LEAF) {
-        const char *block = (const char *)&bvh->blocks[child - SP_BVH_LEAF];
-        for (size_t line = 0; line < sizeof(sp_bvh_block); line += 64)
-            __builtin_prefetch(block + line);
-    } else {
-        const char *node = (const char *)&bvh->nodes[child];
-        __builtin_prefetch(node);
-        __builtin_prefetch(node + 64);
-    }
-}
-
 static inline int push_met(const sp_bvh *bvh, uint32_t parent, uint32_t mask, const float depths[8],
                            bundle_pending *stack)
 {
@@ -335,7 +323,7 @@ static inline int push_met(const sp_bvh *bvh, uint32_t parent, uint32_t mask, co
     for (; mask; mask &= mask - 1) {
         int i = __builtin_ctz(mask), place = count++;
         bundle_pending item = {node->child[i], depths[i], parent, (uint32_t)i};
-        fetch(bvh, item.child);
+        sp_bvh_fetch(bvh, item.child);
         for (; place > 0 && stack[place - 1].depth < item.depth; place--)
             stack[place] = stack[place - 1];
         stack[place] = item;
@@ -369,83 +357,29 @@ static void search(sp_bundle *b)
     }
 }
 
-/* What the test in line.c and weigh.h makes of a bundle's hits, all lanes at once: a compiler sees vectors in these
- * loops, and every operation is the one of line.c, so that the bits are. */
-typedef struct {
-    double velocity[3][SP_BUNDLE];  /* along x, y, z */
-    double corner[3][3][SP_BUNDLE]; /* [corner][x, y, z] */
-    double t[SP_BUNDLE], u[SP_BUNDLE], v[SP_BUNDLE];
-    uint32_t plain[SP_BUNDLE]; /* no sliver */
-    int lane[SP_BUNDLE];
-    int count;
-} bundle_hits;
-
-static void gather_hits(const sp_bundle *b, bundle_hits *h)
-{
-    h->count = 0;
-    for (int i = 0; i < b->count; i++) {
-        if (b->triangle[i] == SP_NONE)
-            continue;
-        int at = h->count++, axis[3] = {b->x, b->y, b->z};
-        sp_corners corners;
-        sp_bvh_corners(b->bvh, b->triangle[i], corners);
-        h->lane[at] = i;
-        for (int k = 0; k < 3; k++) {
-            h->velocity[k][at] = b->velocity[k][i];
-            for (int corner = 0; corner < 3; corner++)
-                h->corner[corner][k][at] = corners[corner][axis[k]];
-        }
-    }
-    for (int at = h->count; at < (h->count + 7) / 8 * 8; at++) /* idle lanes repeat the first */
-        for (int k = 0; k < 3; k++) {
-            h->velocity[k][at] = h->velocity[k][0];
-            for (int corner = 0; corner < 3; corner++)
-                h->corner[corner][k][at] = h->corner[corner][k][0];
-        }
-}
-
-static void compute_hits(const sp_bundle *b, bundle_hits *h)
-{
-    double place[3], origin[3];
-    sp_to_array(b->rays[b->ray[0]].origin, place);
-    origin[0] = place[b->x];
-    origin[1] = place[b->y];
-    origin[2] = place[b->z];
-    for (int i = 0; i < (h->count + 7) / 8 * 8; i++) {
-        double shear_x = h->velocity[0][i] / h->velocity[2][i], shear_y = h->velocity[1][i] / h->velocity[2][i];
-        double inverse_z = 1 / h->velocity[2][i], x[3], y[3], z[3];
-        for (int k = 0; k < 3; k++) {
-            z[k] = h->corner[k][2][i] - origin[2];
-            x[k] = h->corner[k][0][i] - origin[0] - shear_x * z[k];
-            y[k] = h->corner[k][1][i] - origin[1] - shear_y * z[k];
-        }
-        double w0 = x[2] * y[1] - y[2] * x[1], w1 = x[0] * y[2] - y[0] * x[2], w2 = x[1] * y[0] - y[1] * x[0];
-        double sum = w0 + w1 + w2;
-        double reach =
-            sp_greater(sp_greater(fabs(x[0]) + fabs(y[0]), fabs(x[1]) + fabs(y[1])), fabs(x[2]) + fabs(y[2]));
-        h->plain[i] = fabs(sum) > 0x1p-8 * reach * reach;
-        h->t[i] = (w0 * z[0] + w1 * z[1] + w2 * z[2]) / sum * inverse_z;
-        h->u[i] = w1 / sum;
-        h->v[i] = w2 / sum;
-    }
-}
-
 static void answer(const sp_bundle *b, sp_hit *hits)
 {
-    bundle_hits h;
-    for (int i = 0; i < b->count; i++)
-        if (b->triangle[i] == SP_NONE)
+    answers a;
+    answer_lanes l;
+    double place[3];
+    if (b->count == 0)
+        return;
+    start_answers(&a, b->bvh, b->rays, hits);
+    sp_to_array(b->rays[b->ray[0]].origin, place);
+    for (int i = 0; i < b->count; i++) {
+        if (b->triangle[i] == SP_NONE) {
             hits[b->ray[i]] = (sp_hit){INFINITY, 0, 0, SP_NONE};
-    gather_hits(b, &h);
-    if (h.count > 0)
-        compute_hits(b, &h);
-    for (int i = 0; i < h.count; i++) {
-        int lane = h.lane[i];
-        if (h.plain[i])
-            hits[b->ray[lane]] = (sp_hit){h.t[i], h.u[i], h.v[i], b->triangle[lane]};
-        else
-            hits[b->ray[lane]] = sp_bundle_ask(b, lane, b->triangle[lane], SP_NONE);
+            continue;
+        }
+        l.origin[0][a.count] = place[b->x];
+        l.origin[1][a.count] = place[b->y];
+        l.origin[2][a.count] = place[b->z];
+        for (int k = 0; k < 3; k++)
+            l.velocity[k][a.count] = b->velocity[k][i];
+        note_answer(&a, b->ray[i], b->triangle[i], (uint32_t)b->z);
     }
+    if (a.count > 0)
+        finish_answers(&a, &l);
 }
 
 const sp_bundle_kernel SP_KERNEL(sp_bundle) = {fan_keys, fill_bundle, search, answer};

@@ -74,15 +74,6 @@ static bool make_room(sp_fan_room *room, size_t count)
     return true;
 }
 
-/* Sends for the corners of the triangles that were hit. */
-static void fetch_corners(const sp_bundle *b)
-{
-    const sp_mesh *mesh = b->bvh->mesh;
-    for (int i = 0; i < b->count; i++)
-        for (int k = 0; b->triangle[i] != SP_NONE && k < 3; k++)
-            __builtin_prefetch(&mesh->vertices[mesh->triangles[b->triangle[i]][k]]);
-}
-
 /* The hits of a bundle are computed when the next one has been searched, as their corners have to come from memory. */
 static void trace_bundles(const sp_fan *f, const sp_bundle_kernel *kernel, sp_hit *hits, bool *occluded)
 {
@@ -100,7 +91,9 @@ static void trace_bundles(const sp_fan *f, const sp_bundle_kernel *kernel, sp_hi
         for (int k = 0; !hits && k < b->count; k++)
             occluded[b->ray[k]] = b->triangle[k] != SP_NONE;
         if (hits) {
-            fetch_corners(b);
+            for (int k = 0; k < b->count; k++)
+                if (b->triangle[k] != SP_NONE)
+                    sp_bvh_fetch_corners(b->bvh, b->triangle[k]);
             kernel->answer(&bundles[!at], hits);
         }
     }

@@ -126,7 +126,9 @@ static inline void end(work *w, uint32_t number)
     else if (flight->triangle == SP_NONE)
         stream->hits[ray] = (sp_hit){INFINITY, 0, 0, SP_NONE};
     else
-        add_answer(&w->answers, ray, flight->triangle, flight->ray.z);
+        note_answer(&w->answers, ray, flight->triangle, flight->ray.z);
+    if (w->answers.count == SP_ANSWERS)
+        give_answers(&w->answers);
 }
 
 void SP_KERNEL(sp_bvh_lines)(sp_bvh_stream *stream)

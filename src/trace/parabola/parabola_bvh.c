@@ -391,8 +391,7 @@ bool sp_bvh_jet_go_on(const sp_bvh_jets *jets, sp_bvh_jet *jet)
         return false;
     jet->ending = true;
     jet->height = 0;
-    for (int i = 0; i < 3; i++)
-        __builtin_prefetch(&jets->bvh->mesh->vertices[jets->bvh->mesh->triangles[jet->triangle][i]]);
+    sp_bvh_fetch_corners(jets->bvh, jet->triangle);
     return true;
 }
 
