@@ -4,6 +4,7 @@
 #include "trace/line/bundle.h"
 #include "trace/line/fan_kernel.h"
 #include "trace/bvh/seen.h"
+#include "trace/bvh/sheared.h"
 
 typedef struct {
     uint32_t child;
@@ -70,10 +71,11 @@ static inline uint32_t meet_lines(const sp_bvh_node *node, uint32_t slot, const 
     return mask;
 }
 
-/* What the lines need to know of a block. The weights of a line at (u, v) from the bundle's centre are
- * constant + by_u u + by_v v; its depth in the triangle's plane is volume over the sum of the weights. */
+/* What the lines need to know of a block. A line's depth in the triangle's plane is volume over the sum of the weights.
+ */
 typedef struct {
-    float constant[3][8], by_u[3][8], by_v[3][8], volume[8], error[8], nearest[8], depth_error[8];
+    weights weights;
+    float volume[8], error[8], nearest[8], depth_error[8];
 } bundle_block;
 
 /* Prepares a block, and returns which of its triangles some line may hit.
@@ -87,51 +89,26 @@ typedef struct {
  * |z|; where the sum is more than 8 errors, the depth is off by at most 16 errors Z over the sum, and by blur. */
 static inline uint32_t prepare_block(const sp_bvh_block *block, const sp_bundle *b, bundle_block *p)
 {
-    wide x[3], y[3], z[3], sign = wide_set(b->sign), half_u = wide_set(b->half[0]), half_v = wide_set(b->half[1]);
-    for (int i = 0; i < 3; i++) {
-        z[i] = wide_multiply(wide_subtract(wide_load(block->corner[i][b->z]), wide_set(b->origin[2])), sign);
-        x[i] = wide_subtract(wide_load(block->corner[i][b->x]), wide_set(b->origin[0]));
-        y[i] = wide_subtract(wide_load(block->corner[i][b->y]), wide_set(b->origin[1]));
-        x[i] = wide_subtract_product(x[i], wide_set(b->centre[0]), z[i]);
-        y[i] = wide_subtract_product(y[i], wide_set(b->centre[1]), z[i]);
-    }
-    wide nearest = wide_lesser(wide_lesser(z[0], z[1]), z[2]), farthest = wide_greater(wide_greater(z[0], z[1]), z[2]);
-    wide blur = wide_set(b->blur), minus_blur = wide_set(-b->blur);
-    uint32_t meets = wide_at_most(minus_blur, farthest) & wide_at_most(nearest, wide_set(b->farthest + b->blur));
-    wide left = wide_multiply_add(half_u, z[0], x[0]), right = wide_subtract_product(x[0], half_u, z[0]);
-    wide below = wide_multiply_add(half_v, z[0], y[0]), above = wide_subtract_product(y[0], half_v, z[0]);
-    for (int i = 1; i < 3; i++) {
-        left = wide_greater(left, wide_multiply_add(half_u, z[i], x[i]));
-        right = wide_lesser(right, wide_subtract_product(x[i], half_u, z[i]));
-        below = wide_greater(below, wide_multiply_add(half_v, z[i], y[i]));
-        above = wide_lesser(above, wide_subtract_product(y[i], half_v, z[i]));
-    }
-    meets &= wide_at_most(minus_blur, left) & wide_at_most(right, blur) & wide_at_most(minus_blur, below) &
-             wide_at_most(above, blur);
+    const float *origin = b->origin;
+    sheared seen = shear_block(
+        block, (view){b->x, b->y, b->z, {origin[0], origin[1], origin[2]}, {b->centre[0], b->centre[1]}, b->sign});
+    wide half_u = wide_set(b->half[0]), half_v = wide_set(b->half[1]), blur = wide_set(b->blur);
+    wide nearest = least_of(seen.z), farthest = largest_of(seen.z);
+    uint32_t meets =
+        wide_at_most(wide_set(-b->blur), farthest) & wide_at_most(nearest, wide_set(b->farthest + b->blur));
+    meets &= meet_breadth(&seen, half_u, half_v, b->blur);
     if (!meets)
         return 0;
 
-    wide size =
-        wide_greater_amount(wide_greater_amount(wide_greater_amount(x[0], y[0]), wide_greater_amount(x[1], y[1])),
-                            wide_greater_amount(x[2], y[2]));
     wide depth = wide_greater_amount(nearest, farthest);
-    size = wide_multiply_add(wide_set(b->half[0] > b->half[1] ? b->half[0] : b->half[1]), depth, size);
+    wide size =
+        wide_multiply_add(wide_set(b->half[0] > b->half[1] ? b->half[0] : b->half[1]), depth, breadth_of(&seen));
     wide error = wide_multiply_add(size, wide_multiply_add(size, wide_set(16 * 0x1p-24f), wide_set(4 * b->blur)),
                                    wide_set(2 * b->blur * b->blur + 0x1p-120f));
-    wide least = wide_set(INFINITY), largest = wide_set(-INFINITY), volume = wide_set(0);
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        wide constant = wide_subtract_product(wide_multiply(x[k], y[j]), y[k], x[j]);
-        wide by_u = wide_subtract_product(wide_multiply(y[k], z[j]), z[k], y[j]);
-        wide by_v = wide_subtract_product(wide_multiply(z[k], x[j]), x[k], z[j]);
-        wide spread = wide_multiply_add(half_u, wide_absolute(by_u), wide_multiply(half_v, wide_absolute(by_v)));
-        least = wide_lesser(least, wide_add(constant, spread));
-        largest = wide_greater(largest, wide_subtract(constant, spread));
-        volume = wide_multiply_add(constant, z[i], volume);
-        wide_store(p->constant[i], constant);
-        wide_store(p->by_u[i], by_u);
-        wide_store(p->by_v[i], by_v);
-    }
+    wide least, largest, volume = wide_set(0);
+    form_weights(&seen, half_u, half_v, &p->weights, &least, &largest);
+    for (int i = 0; i < 3; i++)
+        volume = wide_multiply_add(wide_load(p->weights.constant[i]), seen.z[i], volume);
     /* Some weight above 0 for all lines, and some below: none of them hits. */
     meets &= wide_at_most(wide_subtract(wide_set(0), error), least) | wide_at_most(largest, error);
     wide_store(p->volume, volume);
@@ -216,8 +193,8 @@ static inline meeting meet(wide weight[3], wide error, wide nearest, wide farthe
 {
     meeting m;
     wide minus = wide_subtract(wide_set(0), error);
-    m.least = wide_lesser(wide_lesser(weight[0], weight[1]), weight[2]);
-    m.largest = wide_greater(wide_greater(weight[0], weight[1]), weight[2]);
+    m.least = least_of(weight);
+    m.largest = largest_of(weight);
     m.maybe = (wide_at_most(minus, m.least) | wide_at_most(m.largest, error)) & wide_at_most(nearest, farthest);
     m.sum = wide_add(wide_add(weight[0], weight[1]), weight[2]);
     return m;
@@ -244,9 +221,7 @@ static inline bool test_triangle(sp_bundle *b, const bundle_block *p, uint32_t l
         if (!(lines >> group & 255))
             continue;
         wide u = wide_load(b->u + group), v = wide_load(b->v + group), weight[3];
-        for (int k = 0; k < 3; k++)
-            weight[k] = wide_multiply_add(u, wide_set(p->by_u[k][i]),
-                                          wide_multiply_add(v, wide_set(p->by_v[k][i]), wide_set(p->constant[k][i])));
+        weigh_ways(&p->weights, i, u, v, weight);
         meeting m = meet(weight, error, wide_set(p->nearest[i]), wide_load(b->high + group));
         if (!m.maybe)
             continue;
@@ -267,8 +242,9 @@ static inline bool test_line(sp_bundle *b, const bundle_block *p, uint32_t trian
 {
     wide u = wide_set(b->u[lane]), v = wide_set(b->v[lane]), error = wide_load(p->error), weight[3];
     for (int k = 0; k < 3; k++)
-        weight[k] = wide_multiply_add(u, wide_load(p->by_u[k]),
-                                      wide_multiply_add(v, wide_load(p->by_v[k]), wide_load(p->constant[k])));
+        weight[k] =
+            wide_multiply_add(u, wide_load(p->weights.by_u[k]),
+                              wide_multiply_add(v, wide_load(p->weights.by_v[k]), wide_load(p->weights.constant[k])));
     meeting m = meet(weight, error, wide_load(p->nearest), wide_set(b->high[lane]));
     m.maybe &= triangles;
     if (!m.maybe)

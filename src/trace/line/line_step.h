@@ -3,7 +3,7 @@
 #define SPRAYPLAN_TRACE_LINE_STEP_H
 
 #include "trace/line/line_bvh.h"
-#include "trace/bvh/wide.h"
+#include "trace/bvh/sheared.h"
 
 /* Which children the line passes, and where it enters each.
  *
@@ -47,42 +47,23 @@ static inline uint64_t children_order(const sp_bvh_node *node, const sp_bvh_line
  * is below zero there. The way to a hit lies between those to the nearest and farthest corner. */
 static inline void test_block(const sp_bvh_block *block, const sp_bvh_line *ray, sp_bvh_verdict *found)
 {
-    wide x[3], y[3], z[3], sign = wide_set(ray->sign);
-    for (int i = 0; i < 3; i++) {
-        z[i] = wide_multiply(wide_subtract(wide_load(block->corner[i][ray->z]), wide_set(ray->origin[ray->z])), sign);
-        x[i] = wide_subtract(wide_load(block->corner[i][ray->x]), wide_set(ray->origin[ray->x]));
-        y[i] = wide_subtract(wide_load(block->corner[i][ray->y]), wide_set(ray->origin[ray->y]));
-        x[i] = wide_subtract_product(x[i], wide_set(ray->direction[ray->x]), z[i]);
-        y[i] = wide_subtract_product(y[i], wide_set(ray->direction[ray->y]), z[i]);
-    }
-    wide u = wide_subtract_product(wide_multiply(x[2], y[1]), y[2], x[1]);
-    wide v = wide_subtract_product(wide_multiply(x[0], y[2]), y[0], x[2]);
-    wide w = wide_subtract_product(wide_multiply(x[1], y[0]), y[1], x[0]);
-    wide most =
-        wide_greater_amount(wide_greater_amount(wide_greater_amount(x[0], y[0]), wide_greater_amount(x[1], y[1])),
-                            wide_greater_amount(x[2], y[2]));
-    float blur = ray->blur;
-    wide error = wide_multiply_add(most, wide_multiply_add(most, wide_set(5 * 0x1p-24f), wide_set(4 * blur)),
-                                   wide_set(2 * blur * blur + 0x1p-120f));
-    wide least = wide_lesser(wide_lesser(u, v), w), largest = wide_greater(wide_greater(u, v), w);
-    wide minus = wide_subtract(wide_set(0), error);
-    uint32_t inside = wide_at_most(minus, least) | wide_at_most(largest, error);
+    int x = (int)ray->x, y = (int)ray->y, z = (int)ray->z;
+    const float *origin = ray->origin, *direction = ray->direction;
+    sheared seen =
+        shear_block(block, (view){x, y, z, {origin[x], origin[y], origin[z]}, {direction[x], direction[y]}, ray->sign});
+    weighed w = weigh_sheared(&seen, ray->blur);
     found->maybe = found->surely = 0;
-    if (!inside)
+    if (!w.inside)
         return;
-    wide nearest = wide_lesser(wide_lesser(z[0], z[1]), z[2]), farthest = wide_greater(wide_greater(z[0], z[1]), z[2]);
-    wide pad = wide_set(SP_BVH_PAD);
-    found->maybe = inside & wide_at_most(nearest, wide_add(wide_set(ray->last), pad)) &
+    wide nearest = least_of(seen.z), farthest = largest_of(seen.z), pad = wide_set(SP_BVH_PAD);
+    found->maybe = w.inside & wide_at_most(nearest, wide_add(wide_set(ray->last), pad)) &
                    wide_at_most(wide_subtract(wide_set(ray->first), pad), farthest);
     if (!found->maybe)
         return;
-    wide sum = wide_add(wide_add(u, v), w), inverse = wide_divide(wide_set(1), sum);
-    wide way = wide_multiply_add(u, z[0], wide_multiply_add(v, z[1], wide_multiply(w, z[2])));
-    wide spread = wide_multiply(wide_multiply(error, wide_set(16)), wide_greater_amount(nearest, farthest));
-    spread = wide_multiply_add(spread, wide_absolute(inverse), wide_set(blur));
-    way = wide_multiply(way, inverse);
-    found->surely = found->maybe & (wide_at_most(error, least) | wide_at_most(largest, minus)) &
-                    wide_at_most(wide_multiply(error, wide_set(8)), wide_absolute(sum));
+    wide way, inverse;
+    found->surely = found->maybe & meet_sheared(&seen, &w, &way, &inverse);
+    wide spread = wide_multiply(wide_multiply(w.error, wide_set(16)), wide_greater_amount(nearest, farthest));
+    spread = wide_multiply_add(spread, wide_absolute(inverse), wide_set(ray->blur));
     wide_store(found->low, wide_subtract(way, spread));
     wide_store(found->high, wide_add(way, spread));
 }

@@ -1,7 +1,7 @@
 /* One piece of a parabola through the hierarchy. Included once by each file that is compiled for a set of instructions,
  * with SP_KERNEL(name) naming its functions. */
 #include "trace/parabola/parabola_bvh.h"
-#include "trace/bvh/wide.h"
+#include "trace/bvh/sheared.h"
 
 /* The places of children in a node. */
 static const float places[8] = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -58,8 +58,7 @@ static inline void enter_children(const sp_bvh_node *node, const sp_bvh_arc *arc
 /* The flight where it passes a block: a line parallel to it in the middle of the span, from which it is never farther
  * than `blur`, rounding included. */
 typedef struct {
-    int x, y, z; /* axes, z the one of the largest component of direction */
-    float origin[3], shear_x, shear_y, sign;
+    view along; /* z is the axis of the largest component of direction */
     float blur;
     float first, last;               /* along z, from the origin: between these it may be hit */
     float middle, per_depth;         /* way = middle + depth along z per_depth */
@@ -86,29 +85,27 @@ static inline chord chord_of(const sp_bvh_arc *arc, float from, float to)
 {
     chord c;
     float spare = 0x1p-4f * (to - from) + 16 * SP_BVH_PAD, r = 0.5f * (to - from) + spare, middle = 0.5f * (from + to);
-    float direction[3], half = 0.5f * r * r, reach = 0;
+    float origin[3], direction[3], half = 0.5f * r * r, reach = 0;
     for (int k = 0; k < 3; k++) {
         direction[k] = arc->direction[k] + 2 * middle * arc->bend[k];
-        c.origin[k] = arc->origin[k] + (arc->direction[k] + arc->bend[k] * middle) * middle + arc->bend[k] * half;
-        reach = fabsf(c.origin[k]) > reach ? fabsf(c.origin[k]) : reach;
+        origin[k] = arc->origin[k] + (arc->direction[k] + arc->bend[k] * middle) * middle + arc->bend[k] * half;
+        reach = fabsf(origin[k]) > reach ? fabsf(origin[k]) : reach;
         reach = fabsf(arc->origin[k]) > reach ? fabsf(arc->origin[k]) : reach;
     }
-    c.z = fabsf(direction[0]) > fabsf(direction[1]) ? 0 : 1;
-    c.z = fabsf(direction[2]) > fabsf(direction[c.z]) ? 2 : c.z;
-    c.x = c.z == 2 ? 0 : c.z + 1;
-    c.y = c.z == 0 ? 2 : c.z - 1;
-    float speed = fabsf(direction[c.z]), inverse = 1 / direction[c.z];
+    int z = fabsf(direction[0]) > fabsf(direction[1]) ? 0 : 1;
+    z = fabsf(direction[2]) > fabsf(direction[z]) ? 2 : z;
+    int x = z == 2 ? 0 : z + 1, y = z == 0 ? 2 : z - 1;
+    float speed = fabsf(direction[z]), inverse = 1 / speed;
     if (!(speed > 0x1p-40f)) /* as it turns, upright: it is hardly anywhere else */
         inverse = 0;
-    c.shear_x = direction[c.x] * inverse;
-    c.shear_y = direction[c.y] * inverse;
-    c.sign = direction[c.z] > 0 ? 1 : -1;
+    c.along = (view){x, y, z, {origin[x], origin[y], origin[z]}, {direction[x] * inverse, direction[y] * inverse}, 0};
+    c.along.sign = direction[z] > 0 ? 1 : -1;
     c.blur = rounding_of(arc, reach, to + spare) + 1.001f * half * arc->sag;
     float slack = c.blur + 4 * SP_BVH_PAD;
     c.first = -r * speed - slack;
     c.last = (arc->last - middle) * speed + slack;
     c.middle = middle;
-    c.per_depth = fabsf(inverse);
+    c.per_depth = inverse;
     c.surely_first = speed > 0x1p-40f ? from - spare : INFINITY;
     c.surely_last = to + spare;
     return c;
@@ -127,44 +124,24 @@ typedef struct {
  * errors' share of its extent. */
 static inline void test_block(const sp_bvh_block *block, const chord *c, verdict *found)
 {
-    wide x[3], y[3], z[3], sign = wide_set(c->sign);
-    for (int i = 0; i < 3; i++) {
-        wide away = wide_subtract(wide_load(block->corner[i][c->z]), wide_set(c->origin[c->z]));
-        x[i] = wide_subtract(wide_load(block->corner[i][c->x]), wide_set(c->origin[c->x]));
-        y[i] = wide_subtract(wide_load(block->corner[i][c->y]), wide_set(c->origin[c->y]));
-        x[i] = wide_subtract_product(x[i], wide_set(c->shear_x), away);
-        y[i] = wide_subtract_product(y[i], wide_set(c->shear_y), away);
-        z[i] = wide_multiply(away, sign);
-    }
-    wide u = wide_subtract_product(wide_multiply(x[2], y[1]), y[2], x[1]);
-    wide v = wide_subtract_product(wide_multiply(x[0], y[2]), y[0], x[2]);
-    wide w = wide_subtract_product(wide_multiply(x[1], y[0]), y[1], x[0]);
-    wide most =
-        wide_greater_amount(wide_greater_amount(wide_greater_amount(x[0], y[0]), wide_greater_amount(x[1], y[1])),
-                            wide_greater_amount(x[2], y[2]));
-    wide error = wide_multiply_add(most, wide_multiply_add(most, wide_set(5 * 0x1p-24f), wide_set(4 * c->blur)),
-                                   wide_set(2 * c->blur * c->blur + 0x1p-120f));
-    wide least = wide_lesser(wide_lesser(u, v), w), largest = wide_greater(wide_greater(u, v), w);
-    wide minus = wide_subtract(wide_set(0), error);
-    uint32_t inside = wide_at_most(minus, least) | wide_at_most(largest, error);
+    sheared seen = shear_block(block, c->along);
+    weighed w = weigh_sheared(&seen, c->blur);
     found->maybe = found->surely = 0;
-    if (!inside)
+    if (!w.inside)
         return;
-    wide nearest = wide_lesser(wide_lesser(z[0], z[1]), z[2]), farthest = wide_greater(wide_greater(z[0], z[1]), z[2]);
-    found->maybe = inside & wide_at_most(nearest, wide_set(c->last)) & wide_at_most(wide_set(c->first), farthest);
+    wide nearest = least_of(seen.z), farthest = largest_of(seen.z);
+    found->maybe = w.inside & wide_at_most(nearest, wide_set(c->last)) & wide_at_most(wide_set(c->first), farthest);
     if (!found->maybe)
         return;
-    wide sum = wide_add(wide_add(u, v), w), inverse = wide_divide(wide_set(1), sum);
-    wide met = wide_multiply_add(u, z[0], wide_multiply_add(v, z[1], wide_multiply(w, z[2])));
-    wide unsure = wide_multiply(wide_set(4), wide_multiply(error, wide_subtract(farthest, nearest)));
+    wide met, inverse;
+    uint32_t surely = meet_sheared(&seen, &w, &met, &inverse);
+    wide unsure = wide_multiply(wide_set(4), wide_multiply(w.error, wide_subtract(farthest, nearest)));
     unsure = wide_multiply_add(unsure, wide_absolute(inverse), wide_set(c->blur + 2 * SP_BVH_PAD));
-    met = wide_multiply(met, inverse);
     wide per_depth = wide_set(c->per_depth), middle = wide_set(c->middle);
     wide low = wide_multiply_add(wide_subtract(met, unsure), per_depth, middle);
     wide high = wide_multiply_add(wide_add(met, unsure), per_depth, middle);
-    found->surely = found->maybe & (wide_at_most(error, least) | wide_at_most(largest, minus)) &
-                    wide_at_most(wide_multiply(error, wide_set(8)), wide_absolute(sum)) &
-                    wide_at_most(wide_set(c->surely_first), low) & wide_at_most(high, wide_set(c->surely_last));
+    found->surely = found->maybe & surely & wide_at_most(wide_set(c->surely_first), low) &
+                    wide_at_most(high, wide_set(c->surely_last));
     wide_store(found->low, low);
     wide_store(found->high, high);
 }

@@ -2,6 +2,7 @@
  * SP_KERNEL(name) naming its functions. */
 #include "trace/parabola/pending.h"
 #include "trace/bvh/seen.h"
+#include "trace/bvh/sheared.h"
 #include "trace/parabola/volley.h"
 
 static inline float inverse_of(float speed, float when_still)
@@ -131,25 +132,28 @@ static inline bool cut_to_block(const sp_bvh_block *block, const sp_volley *v, c
 /* The jets where they pass a block. Since way² there is 2 middle way - middle² but for at most r², r being half the
  * span, they are lines of one origin, from which they are never farther than half of bend r². */
 typedef struct {
-    int x, y, z;
-    float origin[3], sign;                                /* along x, y, z; of the motion along z */
+    view along;
     float u[SP_VOLLEY], v[SP_VOLLEY], inverse[SP_VOLLEY]; /* slopes from the centre; ways per depth along z */
-    float centre[2], half[2];
+    float half[2];
     float from, to; /* ways between which this is so */
     float blur;     /* how far rounding may move a sheared corner */
     float sag;      /* how far the bend may move a jet, sheared */
 } volley_lines;
 
-/* Slopes of the jets from their middle, where all move along l->z; `add` is what the bend adds to each direction. */
+/* Slopes of the jets from their middle, where all move along l->along.z; `add` is what the bend adds to each direction.
+ */
 static inline void take_slopes(const sp_volley *v, const float add[3], volley_lines *l)
 {
-    int z = l->z;
+    int z = l->along.z;
     wide low_u = wide_set(INFINITY), high_u = wide_set(-INFINITY), low_v = low_u, high_v = high_u;
     for (int i = 0; i < v->count; i += 8) {
-        wide inverse = wide_divide(
-            wide_set(1), wide_multiply(wide_add(wide_load(v->direction[z] + i), wide_set(add[z])), wide_set(l->sign)));
-        wide slope_u = wide_multiply(wide_add(wide_load(v->direction[l->x] + i), wide_set(add[l->x])), inverse);
-        wide slope_v = wide_multiply(wide_add(wide_load(v->direction[l->y] + i), wide_set(add[l->y])), inverse);
+        wide inverse =
+            wide_divide(wide_set(1), wide_multiply(wide_add(wide_load(v->direction[z] + i), wide_set(add[z])),
+                                                   wide_set(l->along.sign)));
+        wide slope_u =
+            wide_multiply(wide_add(wide_load(v->direction[l->along.x] + i), wide_set(add[l->along.x])), inverse);
+        wide slope_v =
+            wide_multiply(wide_add(wide_load(v->direction[l->along.y] + i), wide_set(add[l->along.y])), inverse);
         low_u = wide_lesser(low_u, slope_u);
         high_u = wide_greater(high_u, slope_u);
         low_v = wide_lesser(low_v, slope_v);
@@ -169,12 +173,12 @@ static inline void take_slopes(const sp_volley *v, const float add[3], volley_li
             low = bounds[2 * k][i] < low ? bounds[2 * k][i] : low;
             high = bounds[2 * k + 1][i] > high ? bounds[2 * k + 1][i] : high;
         }
-        l->centre[k] = 0.5f * (low + high);
+        l->along.slope[k] = 0.5f * (low + high);
         l->half[k] = 0.5f * (high - low) * 1.000001f + 0x1p-22f;
     }
     for (int i = 0; i < v->count; i += 8) {
-        wide_store(l->u + i, wide_subtract(wide_load(l->u + i), wide_set(l->centre[0])));
-        wide_store(l->v + i, wide_subtract(wide_load(l->v + i), wide_set(l->centre[1])));
+        wide_store(l->u + i, wide_subtract(wide_load(l->u + i), wide_set(l->along.slope[0])));
+        wide_store(l->v + i, wide_subtract(wide_load(l->v + i), wide_set(l->along.slope[1])));
     }
 }
 
@@ -208,22 +212,22 @@ static inline bool lines_of(const sp_volley *v, float from, float to, volley_lin
     }
     int z = fabsf(fastest[0]) > fabsf(fastest[1]) ? 0 : 1;
     z = fabsf(fastest[2]) > fabsf(fastest[z]) ? 2 : z;
-    l->z = z;
-    l->x = z == 2 ? 0 : z + 1;
-    l->y = z == 0 ? 2 : z - 1;
-    l->sign = fastest[z] > 0 ? 1 : -1;
+    l->along.z = z;
+    l->along.x = z == 2 ? 0 : z + 1;
+    l->along.y = z == 0 ? 2 : z - 1;
+    l->along.sign = fastest[z] > 0 ? 1 : -1;
     float half = 0.5f * (v->most[z] - v->least[z]);
     if (!(half < 0.4f * fabsf(fastest[z])))
         return false;
-    l->origin[0] = origin[l->x];
-    l->origin[1] = origin[l->y];
-    l->origin[2] = origin[z];
+    l->along.origin[0] = origin[l->along.x];
+    l->along.origin[1] = origin[l->along.y];
+    l->along.origin[2] = origin[z];
     l->from = from - spare;
     l->to = to + spare;
     take_slopes(v, add, l);
     float slope = 1, speed = 0;
     for (int k = 0; k < 2; k++)
-        slope = fabsf(l->centre[k]) + l->half[k] > slope ? fabsf(l->centre[k]) + l->half[k] : slope;
+        slope = fabsf(l->along.slope[k]) + l->half[k] > slope ? fabsf(l->along.slope[k]) + l->half[k] : slope;
     for (int k = 0; k < 3; k++) {
         float most = fabsf(v->least[k]) > fabsf(v->most[k]) ? fabsf(v->least[k]) : fabsf(v->most[k]);
         speed = most > speed ? most : speed;
@@ -233,10 +237,11 @@ static inline bool lines_of(const sp_volley *v, float from, float to, volley_lin
     return true;
 }
 
-/* What the jets need to know of a block, as in bundle_kernel.h. A jet that sees a corner at most m away sees all of
+/* What the jets need to know of a block. A jet that sees a corner at most m away sees all of
  * them at most m + across away; a weight then is off by error + 4 (m + across) blur. */
 typedef struct {
-    float constant[3][8], by_u[3][8], by_v[3][8], depth[3][8], x[8], y[8]; /* x, y: of the first corner */
+    weights weights;
+    float depth[3][8], x[8], y[8]; /* x, y: of the first corner */
     float error[8], across[8], range[8], nearest[8];
 } volley_block;
 
@@ -247,68 +252,32 @@ typedef struct {
  * their difference. */
 static inline uint32_t prepare_volley_block(const sp_bvh_block *block, const volley_lines *l, volley_block *p)
 {
-    wide x[3], y[3], z[3], sign = wide_set(l->sign), half_u = wide_set(l->half[0]), half_v = wide_set(l->half[1]);
-    for (int i = 0; i < 3; i++) {
-        z[i] = wide_multiply(wide_subtract(wide_load(block->corner[i][l->z]), wide_set(l->origin[2])), sign);
-        x[i] = wide_subtract(wide_load(block->corner[i][l->x]), wide_set(l->origin[0]));
-        y[i] = wide_subtract(wide_load(block->corner[i][l->y]), wide_set(l->origin[1]));
-        x[i] = wide_subtract_product(x[i], wide_set(l->centre[0]), z[i]);
-        y[i] = wide_subtract_product(y[i], wide_set(l->centre[1]), z[i]);
-    }
-    wide nearest = wide_lesser(wide_lesser(z[0], z[1]), z[2]), farthest = wide_greater(wide_greater(z[0], z[1]), z[2]);
-    wide blur = wide_set(l->blur + l->sag), minus_blur = wide_set(-l->blur - l->sag);
-    wide left = wide_multiply_add(half_u, wide_absolute(z[0]), x[0]);
-    wide right = wide_subtract_product(x[0], half_u, wide_absolute(z[0]));
-    wide below = wide_multiply_add(half_v, wide_absolute(z[0]), y[0]);
-    wide above = wide_subtract_product(y[0], half_v, wide_absolute(z[0]));
-    for (int i = 1; i < 3; i++) {
-        wide way = wide_absolute(z[i]);
-        left = wide_greater(left, wide_multiply_add(half_u, way, x[i]));
-        right = wide_lesser(right, wide_subtract_product(x[i], half_u, way));
-        below = wide_greater(below, wide_multiply_add(half_v, way, y[i]));
-        above = wide_lesser(above, wide_subtract_product(y[i], half_v, way));
-    }
-    uint32_t meets = wide_at_most(minus_blur, left) & wide_at_most(right, blur) & wide_at_most(minus_blur, below) &
-                     wide_at_most(above, blur);
+    sheared seen = shear_block(block, l->along);
+    wide half_u = wide_set(l->half[0]), half_v = wide_set(l->half[1]);
+    uint32_t meets = meet_breadth(&seen, half_u, half_v, l->blur + l->sag);
     if (!meets)
         return 0;
-    wide size =
-        wide_greater_amount(wide_greater_amount(wide_greater_amount(x[0], y[0]), wide_greater_amount(x[1], y[1])),
-                            wide_greater_amount(x[2], y[2]));
-    wide depth = wide_greater_amount(nearest, farthest);
-    size = wide_multiply_add(wide_set(l->half[0] > l->half[1] ? l->half[0] : l->half[1]), depth, size);
+    wide nearest = least_of(seen.z), farthest = largest_of(seen.z), range = wide_subtract(farthest, nearest);
+    wide size = wide_multiply_add(wide_set(l->half[0] > l->half[1] ? l->half[0] : l->half[1]),
+                                  wide_greater_amount(nearest, farthest), breadth_of(&seen));
     wide error = wide_multiply_add(wide_multiply(size, size), wide_set(16 * 0x1p-24f),
                                    wide_set(2 * l->blur * l->blur + 0x1p-120f));
-    wide range = wide_subtract(farthest, nearest);
     wide across = wide_multiply(wide_add(half_u, half_v), range);
-    across = wide_add(across, wide_subtract(wide_greater(wide_greater(x[0], x[1]), x[2]),
-                                            wide_lesser(wide_lesser(x[0], x[1]), x[2])));
-    across = wide_add(across, wide_subtract(wide_greater(wide_greater(y[0], y[1]), y[2]),
-                                            wide_lesser(wide_lesser(y[0], y[1]), y[2])));
+    across = wide_add(across, wide_subtract(largest_of(seen.x), least_of(seen.x)));
+    across = wide_add(across, wide_subtract(largest_of(seen.y), least_of(seen.y)));
     error = wide_multiply_add(across, wide_set(1.0001f * l->sag), error);
-    wide least = wide_set(INFINITY), largest = wide_set(-INFINITY);
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        wide constant = wide_subtract_product(wide_multiply(x[k], y[j]), y[k], x[j]);
-        wide by_u = wide_subtract_product(wide_multiply(y[k], z[j]), z[k], y[j]);
-        wide by_v = wide_subtract_product(wide_multiply(z[k], x[j]), x[k], z[j]);
-        wide spread = wide_multiply_add(half_u, wide_absolute(by_u), wide_multiply(half_v, wide_absolute(by_v)));
-        least = wide_lesser(least, wide_add(constant, spread));
-        largest = wide_greater(largest, wide_subtract(constant, spread));
-        wide_store(p->depth[i], z[i]);
-        wide_store(p->constant[i], constant);
-        wide_store(p->by_u[i], by_u);
-        wide_store(p->by_v[i], by_v);
-    }
-    wide_store(p->x, x[0]);
-    wide_store(p->y, y[0]);
+    wide least, largest;
+    form_weights(&seen, half_u, half_v, &p->weights, &least, &largest);
+    for (int i = 0; i < 3; i++)
+        wide_store(p->depth[i], seen.z[i]);
+    wide_store(p->x, seen.x[0]);
+    wide_store(p->y, seen.y[0]);
     wide_store(p->error, error);
     wide_store(p->across, across);
     wide_store(p->range, range);
-    wide_store(p->nearest, wide_subtract(nearest, blur));
+    wide_store(p->nearest, wide_subtract(nearest, wide_set(l->blur + l->sag)));
     error = wide_multiply_add(size, wide_set(4 * l->blur), error);
-    meets &= wide_at_most(wide_subtract(wide_set(0), error), least) | wide_at_most(largest, error);
-    return meets;
+    return meets & (wide_at_most(wide_subtract(wide_set(0), error), least) | wide_at_most(largest, error));
 }
 
 /* Takes the way of a sure hit, or asks double precision where that is not sure enough. */
@@ -346,11 +315,8 @@ static inline bool test_triangle(sp_volley *v, const volley_lines *l, const voll
         wide error = wide_multiply_add(wide_add(away, wide_set(p->across[i])), wide_set(4 * l->blur),
                                        wide_set(p->error[i])),
              minus = wide_subtract(wide_set(0), error);
-        for (int k = 0; k < 3; k++)
-            weight[k] = wide_multiply_add(u, wide_set(p->by_u[k][i]),
-                                          wide_multiply_add(w, wide_set(p->by_v[k][i]), wide_set(p->constant[k][i])));
-        wide least = wide_lesser(wide_lesser(weight[0], weight[1]), weight[2]);
-        wide largest = wide_greater(wide_greater(weight[0], weight[1]), weight[2]);
+        weigh_ways(&p->weights, i, u, w, weight);
+        wide least = least_of(weight), largest = largest_of(weight);
         uint32_t maybe = (wide_at_most(minus, least) | wide_at_most(largest, error)) &
                          wide_at_most(wide_multiply(wide_set(p->nearest[i]), per_depth), wide_load(v->high + group));
         if (!maybe)
