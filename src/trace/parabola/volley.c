@@ -68,17 +68,18 @@ static inline float leave_steep(float place, float speed, float bend)
 static inline bool see_jet(const sheaf *s, const sp_ray *ray, jet *j, uint32_t *key)
 {
     double velocity[3];
-    float last = INFINITY, fastest = 0;
-    int z = 0;
+    float last = INFINITY, amount[3];
     sp_to_array(ray->velocity, velocity);
     for (int k = 0; k < 3; k++) {
         float speed = (float)(velocity[k] * s->bvh->scale * s->span);
         float leave = k == s->steep ? leave_steep(s->origin[k], speed, s->bend) : leave_straight(s->origin[k], speed);
         j->direction[k] = speed;
         last = leave < last ? leave : last;
-        fastest = fabsf(speed) > fastest ? fabsf(speed) : fastest;
-        z = fabsf(speed) > fabsf(j->direction[z]) ? k : z;
+        amount[k] = fabsf(speed);
     }
+    /* without branches, which no processor could foresee */
+    float more = amount[1] > amount[0] ? amount[1] : amount[0], fastest = amount[2] > more ? amount[2] : more;
+    uint32_t is_z = amount[2] > more, z = 2 * is_z + ((amount[1] > amount[0]) & ~is_z);
     double end = ray->t_max * s->rate;
     last = end < last ? (float)end : last;
     j->first = (float)sp_lesser(ray->t_min * s->rate, 2 * LONGEST);
@@ -87,8 +88,8 @@ static inline bool see_jet(const sheaf *s, const sp_ray *ray, jet *j, uint32_t *
     if (!(ray->t_min >= 0 && ray->t_max > 0 && last <= LONGEST && fastest * last <= FARTHEST &&
           fabsf(s->bend) * last * last <= FARTHEST && fastest > 0x1p-20f))
         return false;
-    float inverse = 1 / fabsf(j->direction[z]);
-    *key = sp_direction_key((uint32_t)(2 * z) + (j->direction[z] < 0), j->direction[z == 2 ? 0 : z + 1] * inverse,
+    float inverse = 1 / fastest;
+    *key = sp_direction_key(2 * z + (j->direction[z] < 0), j->direction[z == 2 ? 0 : z + 1] * inverse,
                             j->direction[z == 0 ? 2 : z - 1] * inverse);
     return true;
 }
@@ -138,14 +139,20 @@ static bool begin(sheaf *s, const sp_pull *pull)
 static size_t fill(const sheaf *s, size_t from, sp_volley *v)
 {
     int count = 0;
+    for (int k = 0; k < 3; k++) {
+        v->least[k] = INFINITY;
+        v->most[k] = -INFINITY;
+    }
     for (; count < SP_VOLLEY && from + (size_t)count < s->taken; count++) {
         uint32_t number = s->order[0][from + (size_t)count].ray;
         const jet *j = &s->jets[number];
+        size_t ahead = from + (size_t)count + SP_VOLLEY;
         float least[3], most[3];
         bool close = true;
+        __builtin_prefetch(&s->jets[s->order[0][ahead < s->taken ? ahead : from].ray]);
         for (int k = 0; k < 3; k++) {
-            least[k] = count == 0 || j->direction[k] < v->least[k] ? j->direction[k] : v->least[k];
-            most[k] = count == 0 || j->direction[k] > v->most[k] ? j->direction[k] : v->most[k];
+            least[k] = j->direction[k] < v->least[k] ? j->direction[k] : v->least[k];
+            most[k] = j->direction[k] > v->most[k] ? j->direction[k] : v->most[k];
             close &= most[k] - least[k] <= breadth;
         }
         if (!close)
@@ -155,6 +162,8 @@ static size_t fill(const sheaf *s, size_t from, sp_volley *v)
             v->least[k] = least[k];
             v->most[k] = most[k];
         }
+        __builtin_prefetch(&s->rays[number].origin); /* for the answer */
+        __builtin_prefetch(&s->rays[number].t_max);
         v->first[count] = j->first;
         v->last[count] = j->last;
         v->low[count] = INFINITY;
@@ -186,6 +195,7 @@ static void answer(const sp_volley *v, sp_instructions instructions, sp_hit *hit
         } else if (triangle == SP_NONE) {
             hits[ray] = (sp_hit){INFINITY, 0, 0, SP_NONE};
         } else {
+            sp_bvh_fetch_corners(v->bvh, triangle);
             pairs.ray[pairs.count] = ray;
             pairs.triangle[pairs.count++] = triangle;
         }
