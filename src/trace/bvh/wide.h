@@ -94,31 +94,8 @@ static inline wide wide_where_at_most(wide a, wide b, wide one, wide other)
 #endif
 }
 
-/* Writes the numbers and ways of children whose span from..to is one, in the order of the bytes of `order`; up to eight
- * places are written over. Returns how many there are. */
-static inline int wide_pack(const uint32_t child[8], wide from, wide to, uint64_t order, uint32_t *children,
-                            float *ways)
-{
-    __m256i index = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)order));
-    __m256i number = _mm256_permutevar8x32_epi32(_mm256_loadu_si256((const __m256i *)(const void *)child), index);
-    from = _mm256_permutevar8x32_ps(from, index);
-    to = _mm256_permutevar8x32_ps(to, index);
-    uint32_t mask = wide_at_most(from, to);
-#ifdef __AVX512VL__
-    number = _mm256_maskz_compress_epi32((__mmask8)mask, number);
-    from = _mm256_maskz_compress_ps((__mmask8)mask, from);
-#else
-    uint64_t bytes = _pdep_u64(mask, 0x0101010101010101u) * 255;
-    index = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)_pext_u64(0x0706050403020100u, bytes)));
-    number = _mm256_permutevar8x32_epi32(number, index);
-    from = _mm256_permutevar8x32_ps(from, index);
-#endif
-    _mm256_storeu_si256((__m256i *)(void *)children, number);
-    _mm256_storeu_ps(ways, from);
-    return __builtin_popcount(mask);
-}
-
-/* As wide_pack, and where the spans end. */
+/* Writes the numbers of children whose span from..to is one, and these spans as ways and ends, in the order of the
+ * bytes of `order`; up to eight places are written over. Returns how many there are. */
 static inline int wide_pack_spans(const uint32_t child[8], wide from, wide to, uint64_t order, uint32_t *children,
                                   float *ways, float *ends)
 {
@@ -230,18 +207,6 @@ static inline wide wide_where_at_most(wide a, wide b, wide one, wide other)
     WIDE_EACH(a.lane[i] <= b.lane[i] ? one.lane[i] : other.lane[i]);
 }
 
-static inline int wide_pack(const uint32_t child[8], wide from, wide to, uint64_t order, uint32_t *children,
-                            float *ways)
-{
-    int count = 0;
-    for (int i = 0; i < 8; i++) {
-        unsigned slot = order >> 8 * i & 7;
-        children[count] = child[slot];
-        ways[count] = from.lane[slot];
-        count += from.lane[slot] <= to.lane[slot];
-    }
-    return count;
-}
 static inline int wide_pack_spans(const uint32_t child[8], wide from, wide to, uint64_t order, uint32_t *children,
                                   float *ways, float *ends)
 {
@@ -266,5 +231,13 @@ static inline uint64_t wide_order(uint32_t bits)
 #undef WIDE_EACH
 
 #endif
+
+/* As wide_pack_spans, but for the ends. */
+static inline int wide_pack(const uint32_t child[8], wide from, wide to, uint64_t order, uint32_t *children,
+                            float *ways)
+{
+    float ends[8];
+    return wide_pack_spans(child, from, to, order, children, ways, ends);
+}
 
 #endif

@@ -104,8 +104,6 @@ void sp_bvh_trace_parabolas(const sp_bvh *bvh, sp_instructions instructions, con
 
 /* Lets the next flight begin that has to; false where there is none. */
 bool sp_bvh_jets_begin(sp_bvh_jets *jets, sp_bvh_jet *jet);
-/* Makes number i of the starts an arc. */
-void sp_bvh_start_take(const sp_bvh_jets *jets, int i, sp_bvh_arc *arc);
 /* Called where nothing of this piece is left to visit. False where the flight is at its end. */
 bool sp_bvh_jet_go_on(const sp_bvh_jets *jets, sp_bvh_jet *jet);
 /* Answers for a flight that is at its end. */
@@ -119,10 +117,15 @@ typedef enum {
     SP_BVH_FAR, /* single precision will not do */
 } sp_bvh_fitness;
 
+/* The axes in order, gravity's largest component first. True where gravity is along that alone. */
+bool sp_bvh_order_axes(const sp_pull *pull, int axis[3]);
 /* Makes the flight ready and cuts from..to (s) to the box along the axes without gravity. */
 sp_bvh_fitness sp_bvh_jet_prepare(const sp_bvh *bvh, const sp_pull *pull, sp_bvh_jet *jet, double *from, double *to);
 /* Makes the piece of it from `from` to `to` ready, on which no coordinate turns, and cuts it to the box. */
 sp_bvh_fitness sp_bvh_arc_prepare(const sp_pull *pull, sp_bvh_jet *jet, double from, double to);
+
+/* Makes number i of the starts an arc. */
+void sp_bvh_start_take(const sp_bvh_jets *jets, int i, sp_bvh_arc *arc);
 
 /* Fills the starts in, whose rays are noted; one for each set of instructions. */
 void sp_bvh_prepare_starts_portable(const sp_bvh_jets *jets, sp_bvh_starts *starts);
