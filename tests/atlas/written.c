@@ -329,6 +329,33 @@ static void pages_are_used(void **state)
     sp_mesh_destroy(sphere);
 }
 
+static sp_vec3 on_thin_ring(double s, double t, double size)
+{
+    double around = 2 * acos(-1) * s, across = 2 * acos(-1) * t, from = size * (1 + 0.05 * cos(across));
+    return sp_v(from * cos(around), from * sin(around), 0.05 * size * sin(across));
+}
+
+/* Six equal squares leave a third of a page; a thin ring's strips are not strung together to rings as wide as it. */
+static void charts_suit_the_page(void **state)
+{
+    (void)state;
+    const struct {
+        sp_mesh *mesh;
+        double size, least;
+    } pieces[] = {{box(1, 1, 1), 2.45, 0.62}, {box(3, 2, 1), 4.7, 0.6}, {net(200, 16, on_thin_ring, 1), 1.4, 0.5}};
+    for (size_t i = 0; i < sizeof pieces / sizeof *pieces; i++) {
+        sp_charts *charts = charts_of(pieces[i].mesh, 1000);
+        sp_atlas *atlas =
+            sp_atlas_create(pieces[i].mesh, charts, &(sp_atlas_options){.texel = pieces[i].size / 500}, NULL);
+        double used = figures_of(atlas, pieces[i].mesh).utilisation;
+        print_message("%zu: %zu charts, %.3f used\n", i, charts->chart_count, used);
+        assert_true(used > pieces[i].least);
+        sp_atlas_destroy(atlas);
+        sp_charts_destroy(charts);
+        sp_mesh_destroy(pieces[i].mesh);
+    }
+}
+
 static const char *const two_triangles = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 5\nv 1 0 5\nv 0 1 5\n";
 
 /* The coordinates of two triangles with legs of 1 m on a page of 2.5 m, the faces, and what is wrong with them. */
@@ -389,8 +416,11 @@ static void refuses_what_breaks_an_atlas(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shapes_stand_sound_in_the_file),    cmocka_unit_test(beetle_stands_sound_in_the_file),
-        cmocka_unit_test(elephant_stands_sound_in_the_file), cmocka_unit_test(pages_are_used),
+        cmocka_unit_test(shapes_stand_sound_in_the_file),
+        cmocka_unit_test(beetle_stands_sound_in_the_file),
+        cmocka_unit_test(elephant_stands_sound_in_the_file),
+        cmocka_unit_test(pages_are_used),
+        cmocka_unit_test(charts_suit_the_page),
         cmocka_unit_test(refuses_what_breaks_an_atlas),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

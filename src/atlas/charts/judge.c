@@ -9,6 +9,8 @@
 /* Twice the area of a triangle that counts as anticlockwise, over its longest edge and the size of the sheet: turning
  * or moving the sheet as a whole cannot turn it over by round-off. */
 #define LEAST_HEIGHT 1e-13
+#define LEAST_FILLED 0.36 /* of its box, by a sheet that may be cut */
+#define SMALL 0.2         /* of the square's edge: what sheets leave empty that are smaller is of no account */
 
 static double strain_of(const double shape[3], const double p[2], const double q[2], const double r[2], double *twice)
 {
@@ -53,14 +55,20 @@ sp_strain sp_measure_strain(const sp_sheets *sheets, const sp_sheet *sheet)
     return found;
 }
 
-sp_verdict sp_judge_extent(const sp_sheet *sheet, double extent)
+sp_verdict sp_judge_box(const sp_sheets *sheets, const sp_sheet *sheet, double extent)
 {
-    double size[2];
+    bool strained = sheet->strain > SP_DEVELOPABLE_STRAIN;
+    double size[2], square = sheets->square;
     size_of(sheet, size);
-    if (hypot(size[0], size[1]) <= extent)
+    if (strained)
+        extent = fmin(extent, square);
+    if (hypot(size[0], size[1]) <= (strained ? fmin(extent, SMALL * square) : extent))
         return SP_SHEET_FITS;
     sp_least_box box = sp_find_least_box(sheet, extent);
-    return !box.memory ? SP_SHEET_MEMORY : box.fits ? SP_SHEET_FITS : SP_SHEET_UNFIT;
+    if (!box.memory)
+        return SP_SHEET_MEMORY;
+    bool filled = !strained || sheet->area >= LEAST_FILLED * box.width * box.height;
+    return box.fits && filled ? SP_SHEET_FITS : SP_SHEET_UNFIT;
 }
 
 /* Boundary edges of a sheet; NULL when memory runs out. */

@@ -20,8 +20,9 @@ sp_strain sp_measure_strain(const sp_sheets *sheets, const sp_sheet *sheet);
 
 typedef enum { SP_SHEET_FITS, SP_SHEET_UNFIT, SP_SHEET_MEMORY } sp_verdict;
 
-/* Whether some box around the sheet has no side longer than `extent`. */
-sp_verdict sp_judge_extent(const sp_sheet *sheet, double extent);
+/* Whether some box around the sheet has no side longer than `extent`. Where it has strain, and so may as well be cut,
+ * the box must besides be no longer than a square page needs to be, and not mostly empty. */
+sp_verdict sp_judge_box(const sp_sheets *sheets, const sp_sheet *sheet, double extent);
 /* Whether its triangles, all anticlockwise, lie apart from each other. */
 sp_verdict sp_judge_overlap(const sp_sheets *sheets, uint32_t number);
 

@@ -16,13 +16,19 @@
 #define WIDEST_GAP 0.12      /* over the smaller sheet's size */
 #define DEVELOPABLE_GAP 1e-4 /* over the length of the run */
 #define LEAST_SHARE 0.15     /* of the smaller sheet's boundary that the run must be */
-#define MOST_WASTE 1.137 /* box around the union over those around the two; no ratio that boxes are likely to have */
-#define PATCH_SHARE 0.05 /* of the area of developable surface, that a sheet may have which joins it with strain */
+#define MOST_WASTE 1.126     /* box around the union over those around the two; above 9/8, which boxes may have */
+#define CREASE 0.26          /* cosine of 75 degrees: an edge this sharp parts faces, as of a box */
+#define PATCH_SHARE 0.05     /* of the area of developable surface, that a sheet may have which joins it with strain */
 
 typedef struct {
     sp_run run;
     uint32_t sheet, version, other_version;
 } candidate;
+
+/* The least box around a sheet. */
+typedef struct {
+    double area, side; /* m², m: of its longer side */
+} room;
 
 typedef struct {
     sp_sheets *sheets;
@@ -34,7 +40,7 @@ typedef struct {
     sp_heap heap;
     uint32_t *version; /* [sheets->count], how often it has changed */
     double *perimeter; /* [sheets->count], m */
-    double *box;       /* [sheets->count], m², of the least box around each */
+    room *box;         /* [sheets->count] */
     uint32_t *failed;  /* [3 triangle_count], how many edges the run from here had that could not be joined */
     sp_runs runs;
 } merging;
@@ -117,14 +123,29 @@ static sp_run turned(const sp_sheets *sheets, uint32_t sheet, const sp_run *run)
     return (sp_run){sheet, sheets->twin[last], run->count, run->length};
 }
 
-/* Whether the box around the union, as it lies before it is settled, wastes little; sets its area. */
-static sp_verdict judge_waste(const merging *m, const sp_sheet *joined, double parts, double *area)
+static bool is_crease(const merging *m, const sp_run *run)
 {
-    sp_least_box box = sp_find_least_box(joined, m->extent);
-    *area = box.width * box.height;
-    if (!box.memory)
+    const sp_sheets *sheets = m->sheets;
+    uint32_t here = run->first;
+    for (uint32_t i = 0; i < run->count; i++, here = sp_boundary_next(sheets, here)) {
+        uint32_t there = sheets->twin[here];
+        if (sp_dot(sp_triangle_normal(sheets->mesh, here / 3), sp_triangle_normal(sheets->mesh, there / 3)) > CREASE)
+            return false;
+    }
+    return true;
+}
+
+/* Whether the box around the union, as it lies before it is settled, wastes little; sets it. Faces are not strung
+ * together to what is longer than a square page has to be: four sides of a cube in a row would leave most of it empty.
+ */
+static sp_verdict judge_waste(const merging *m, const sp_sheet *joined, room a, room b, bool crease, room *box)
+{
+    double extent = crease ? fmin(m->extent, fmax(m->sheets->square, fmax(a.side, b.side))) : m->extent;
+    sp_least_box least = sp_find_least_box(joined, extent);
+    *box = (room){least.width * least.height, fmax(least.width, least.height)};
+    if (!least.memory)
         return SP_SHEET_MEMORY;
-    return box.fits && *area <= MOST_WASTE * parts ? SP_SHEET_FITS : SP_SHEET_UNFIT;
+    return least.fits && box->area <= MOST_WASTE * (a.area + b.area) ? SP_SHEET_FITS : SP_SHEET_UNFIT;
 }
 
 static sp_verdict try_join(merging *m, uint32_t sheet, const sp_run *run)
@@ -132,10 +153,11 @@ static sp_verdict try_join(merging *m, uint32_t sheet, const sp_run *run)
     sp_sheets *sheets = m->sheets;
     sp_fit fit = sp_join_fit(sheets, run);
     sp_sheet joined, a = sheets->items[sheet], b = sheets->items[run->other];
+    bool crease = is_crease(m, run);
     if (!sp_join(sheets, run, &fit, &joined))
         return SP_SHEET_MEMORY;
-    double area;
-    sp_verdict verdict = judge_waste(m, &joined, m->box[sheet] + m->box[run->other], &area);
+    room box;
+    sp_verdict verdict = judge_waste(m, &joined, m->box[sheet], m->box[run->other], crease, &box);
     if (verdict != SP_SHEET_FITS) {
         sp_sheet_free(&joined);
         return verdict;
@@ -151,7 +173,7 @@ static sp_verdict try_join(merging *m, uint32_t sheet, const sp_run *run)
     if (verdict == SP_SHEET_FITS) {
         sp_sheet_free(&a);
         sp_sheet_free(&b);
-        m->box[sheet] = area;
+        m->box[sheet] = box;
         return verdict;
     }
     sp_sheet_free(&sheets->items[sheet]);
@@ -202,7 +224,7 @@ bool sp_merge(sp_sheets *sheets, size_t first_new, double extent, sp_relaxer *re
         good = sp_runs_find(&m.runs, sheets, i, SP_BEND_SMOOTH);
         m.perimeter[i] = m.runs.perimeter;
         sp_least_box box = sp_find_least_box(&sheets->items[i], INFINITY);
-        m.box[i] = box.width * box.height;
+        m.box[i] = (room){box.width * box.height, fmax(box.width, box.height)};
         good = good && box.memory;
     }
     for (uint32_t i = 0; good && i < sheets->count; i++)

@@ -95,6 +95,6 @@ sp_verdict sp_settle(sp_sheets *sheets, uint32_t number, double extent, sp_relax
     sheet->strain = strain.most;
     if (strain.most <= SP_DEVELOPABLE_STRAIN && is_a_surface(sheet))
         sheet->kept = sheet->area;
-    sp_verdict verdict = sp_judge_extent(sheet, extent);
+    sp_verdict verdict = sp_judge_box(sheets, sheet, extent);
     return verdict == SP_SHEET_FITS ? sp_judge_overlap(sheets, number) : verdict;
 }

@@ -75,7 +75,9 @@ bool sp_sheets_create(sp_sheets *sheets, const sp_mesh *mesh, const uint32_t *tw
     for (uint32_t t = 0; good && t < mesh->triangle_count; t++) {
         sheets->owner[t] = sheets->local[t] = SP_NONE;
         good = measure(sheets, t, error);
+        sheets->square += good ? 0.5 * sheets->shape[t][0] * sheets->shape[t][2] : 0;
     }
+    sheets->square = sqrt(sheets->square);
     if (good && !find_bends(sheets)) {
         sp_fail_memory(error);
         good = false;

@@ -27,6 +27,7 @@ typedef struct {
     float (*weight)[3]; /* [triangle_count], of edge k from corner k to the next: cotangent of the angle across */
     uint8_t *bend;      /* [vertex_count], sp_bend: how far the triangles around each vertex are from lying flat */
     double share;       /* of a sheet's area that may have much strain */
+    double square;      /* m, the edge of a square as large as the surface */
     bool coarse;        /* of a mesh that stands for a finer one */
     uint32_t *owner;    /* [triangle_count], the sheet of each triangle, SP_NONE before there is one */
     uint32_t *local;    /* [triangle_count], its number in that sheet */

@@ -14,15 +14,15 @@
 #define FIRST_GUESS 0.8 /* of the page taken */
 #define GROWTH 1.06     /* of the edge, while it is too small */
 #define HALVINGS 6
-#define ORDERS 12       /* tried to make the page smaller still */
+#define ORDERS 40       /* tried to make the page smaller still */
 #define SHRINKING 0.996 /* of the edge, at each success of an order */
-#define TOLERANCE 0.6   /* of the sizes, when they are ordered anew */
 /* What trying further orders may take, in pieces times their rows: not more time than all else. */
-#define MOST_WORK 100000
+#define MOST_WORK 600000
 
 /* A shape in one of its turns: the pixels it takes, those it must find free, and the order in which to ask. */
 typedef struct {
     sp_shape plain, grown;
+    double middle;       /* of the pixels that it must find free, above their lowest */
     sp_shape_run *asked; /* the runs of grown, most telling first */
 } pose;
 
@@ -47,6 +47,16 @@ typedef struct {
     page *pages;
     stretch *here, *next; /* [edge] */
 } pages;
+
+static void find_middle(pose *p)
+{
+    double pixels = 0, sum = 0;
+    for (uint32_t i = 0; i < p->grown.run_count; i++) {
+        pixels += p->grown.runs[i].length;
+        sum += (double)p->grown.runs[i].length * p->grown.runs[i].y;
+    }
+    p->middle = sum / pixels;
+}
 
 static bool order_runs(pose *p)
 {
@@ -95,6 +105,8 @@ static piece *cut_pieces(const sp_shape *shapes, size_t count)
             pose *p = &pieces[i].pose[t];
             done = (t == 0 || sp_shape_turn(&pieces[i].pose[t - 1].plain, &p->plain)) &&
                    sp_shape_grow(&p->plain, &p->grown) && order_runs(p);
+            if (done)
+                find_middle(p);
         }
     }
     if (done)
@@ -192,23 +204,23 @@ static bool fit_row(pages *p, const page *on, const pose *piece, uint32_t y, uin
     return true;
 }
 
-/* The pose whose top ends up lowest, and its place. */
+/* The pose whose middle ends up lowest, and its place. */
 static bool find_place(pages *p, const page *on, const piece *of, sp_spot *spot)
 {
-    uint32_t top = p->edge + 1;
+    double lowest = INFINITY;
     for (int t = 0; t < of->turns; t++) {
         const pose *pose = &of->pose[t];
         if (pose->grown.width > p->edge)
             continue;
-        for (uint32_t y = 0, x; y + pose->grown.height < top; y++)
+        for (uint32_t y = 0, x; y + pose->grown.height <= p->edge && y + pose->middle < lowest; y++)
             if (fit_row(p, on, pose, y, &x)) {
-                top = y + pose->grown.height;
+                lowest = y + pose->middle;
                 spot->x = x;
                 spot->y = y;
                 spot->turns = t;
             }
     }
-    return top <= p->edge;
+    return lowest < INFINITY;
 }
 
 static void occupy(pages *p, page *on, const sp_shape *shape, const sp_spot *spot)
@@ -227,16 +239,18 @@ static void occupy(pages *p, page *on, const sp_shape *shape, const sp_spot *spo
     }
 }
 
-/* Places all pieces on pages of this edge; *used becomes how many it took, or more than `most` where it gave up. */
+/* Places all pieces on pages of this edge; *used becomes how many it took, or more than `most` where it gave up, at the
+ * last piece of the order that *reached counts. */
 static bool place_all(const piece *pieces, const uint32_t *order, size_t count, uint32_t edge, size_t most,
-                      sp_spot *spots, size_t *used)
+                      sp_spot *spots, size_t *used, size_t *reached)
 {
     pages p = {.edge = edge + 2, .row_words = sp_bits_words(edge + 2)};
     p.here = malloc(p.edge * sizeof *p.here);
     p.next = malloc(p.edge * sizeof *p.next);
     bool memory = p.here && p.next;
-    *used = 0;
+    *used = *reached = 0;
     for (size_t i = 0; memory && *used <= most && i < count; i++) {
+        *reached = i + 1;
         sp_spot *spot = &spots[order[i]];
         for (spot->page = 0;; spot->page++) {
             if (spot->page == p.count && (*used = p.count + 1) > most)
@@ -253,19 +267,19 @@ static bool place_all(const piece *pieces, const uint32_t *order, size_t count, 
     return memory;
 }
 
-/* Largest first. After the first of the orders that are tried, sizes are taken with a tolerance. */
-static bool order_pieces(const sp_shape *shapes, size_t count, uint64_t *seed, uint64_t *keys, uint32_t *order)
+/* xorshift64*: Vigna, "An experimental exploration of Marsaglia's xorshift generators" (2016). */
+static double random_share(uint64_t *seed)
 {
-    for (size_t i = 0; i < count; i++) {
-        double size = (double)shapes[i].area;
-        if (*seed) { /* xorshift64*: Vigna, "An experimental exploration of Marsaglia's xorshift generators" (2016) */
-            *seed ^= *seed >> 12;
-            *seed ^= *seed << 25;
-            *seed ^= *seed >> 27;
-            size *= 1 + TOLERANCE * ((double)((*seed * 0x2545F4914F6CDD1Dull) >> 11) * 0x1p-53 - 0.5);
-        }
-        keys[i] = ~(uint64_t)(16 * size);
-    }
+    *seed ^= *seed >> 12;
+    *seed ^= *seed << 25;
+    *seed ^= *seed >> 27;
+    return (double)((*seed * 0x2545F4914F6CDD1Dull) >> 11) * 0x1p-53;
+}
+
+static bool order_by_size(const sp_shape *shapes, size_t count, uint64_t *keys, uint32_t *order)
+{
+    for (size_t i = 0; i < count; i++)
+        keys[i] = ~(uint64_t)shapes[i].area;
     return count == 0 || sp_order_by_key(keys, count, order);
 }
 
@@ -276,14 +290,14 @@ typedef struct {
     uint64_t *keys;  /* [count] */
     sp_spot *trial, *best;
     uint32_t best_edge;
-    size_t best_pages;
+    size_t best_pages, reached;
 } search;
 
 /* Tries pages of this edge, at most `most` of them, and keeps the outcome if it succeeds. */
 static bool try_edge(search *s, uint32_t edge, size_t most, bool *fits)
 {
     size_t used;
-    if (!place_all(s->pieces, s->order, s->count, edge, most, s->trial, &used))
+    if (!place_all(s->pieces, s->order, s->count, edge, most, s->trial, &used, &s->reached))
         return false;
     *fits = used <= most;
     if (*fits) {
@@ -341,6 +355,15 @@ static bool search_edge(search *s, const sp_shape *shapes, uint32_t limit)
     return true;
 }
 
+/* What would not fit goes earlier into the order, somewhere. */
+static void put_forward(search *s, uint64_t *seed)
+{
+    size_t from = s->reached - 1, to = (size_t)(random_share(seed) * (double)from);
+    uint32_t piece = s->order[from];
+    memmove(s->order + to + 1, s->order + to, (from - to) * sizeof *s->order);
+    s->order[to] = piece;
+}
+
 /* Tries other orders on ever smaller pages. */
 static bool search_order(search *s, const sp_shape *shapes)
 {
@@ -351,14 +374,14 @@ static bool search_order(search *s, const sp_shape *shapes)
         work += shapes[i].height;
     int orders = (int)fmin(ORDERS, MOST_WORK / fmax(1, work));
     for (int n = 0; s->count > 1 && n < orders; n++) {
-        if (!order_pieces(shapes, s->count, &seed, s->keys, s->order))
+        uint32_t edge = (uint32_t)(s->best_edge * SHRINKING);
+        bool fits;
+        if (edge < least)
+            break;
+        if (!try_edge(s, edge, s->best_pages, &fits))
             return false;
-        for (bool fits = true; fits;) {
-            uint32_t edge = (uint32_t)(s->best_edge * SHRINKING);
-            fits = edge >= least;
-            if (fits && !try_edge(s, edge, s->best_pages, &fits))
-                return false;
-        }
+        if (!fits)
+            put_forward(s, &seed);
     }
     return true;
 }
@@ -367,15 +390,13 @@ bool sp_nest(const sp_shape *shapes, size_t count, uint32_t limit, sp_spot *spot
              size_t *page_count, sp_error *error)
 {
     piece *pieces = cut_pieces(shapes, count);
-    uint64_t no_seed = 0;
     search s = {.pieces = pieces, .count = count};
     s.order = malloc((count + 1) * sizeof *s.order);
     s.keys = malloc((count + 1) * sizeof *s.keys);
     s.trial = malloc((count + 1) * sizeof *s.trial);
     s.best = malloc((count + 1) * sizeof *s.best);
-    bool done = pieces && s.order && s.keys && s.trial && s.best &&
-                order_pieces(shapes, count, &no_seed, s.keys, s.order) && search_edge(&s, shapes, limit) &&
-                search_order(&s, shapes);
+    bool done = pieces && s.order && s.keys && s.trial && s.best && order_by_size(shapes, count, s.keys, s.order) &&
+                search_edge(&s, shapes, limit) && search_order(&s, shapes);
     if (done) {
         memcpy(spots, s.best, count * sizeof *spots);
         *page_edge = s.best_edge;
