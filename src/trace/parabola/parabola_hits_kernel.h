@@ -75,6 +75,27 @@ static inline void look_at_corners(const sp_parabola_pairs *pairs, hit_lanes *h,
     }
 }
 
+/* Where an edge crosses the plane of the flight, and how far below the flight. */
+typedef struct {
+    double time, depth, below;
+} edge_crossing;
+
+/* The share of the way from b to c after which the flight crosses, c being the upper one where `upper` says so. */
+static inline double share_between(int64_t upper, edge_crossing b, edge_crossing c, double fall, double pull)
+{
+    double above = upper ? -c.below : -b.below, below = upper ? b.below : c.below;
+    double upper_time = upper ? c.time : b.time, lower_time = upper ? b.time : c.time;
+    double upper_depth = upper ? c.depth : b.depth, lower_depth = upper ? b.depth : c.depth;
+    double step = lower_time - upper_time, k = 0.5 * pull * step * step;
+    double slope = sqrt((k - above) * (k - above) + below * below + 2 * below * (k + above));
+    double share = 2 * above / (k + below + above + slope), inverse = 1 / slope;
+    double time = upper_time + share * step, depth = upper_depth + share * (lower_depth - upper_depth);
+    double rest = depth - time * (fall + 0.5 * pull * time), better = share - rest * inverse;
+    share = 2 * k * fabs(rest) < slope * slope ? better : share;
+    share = sp_lesser(sp_greater(share, 0), 1);
+    return upper ? 1 - share : share;
+}
+
 /* cut, cross_once and offer. The lone corner is a, the others b and c in the triangle's order. */
 static inline void cross_lanes(const sp_parabola_pairs *pairs, hit_lanes *h, int lanes)
 {
@@ -115,22 +136,12 @@ static inline void cross_lanes(const sp_parabola_pairs *pairs, hit_lanes *h, int
         int64_t upper = below_b >= 0; /* c is */
         plain &= upper != (below_c >= 0);
 
-        double above = upper ? -below_c : -below_b, below = upper ? below_b : below_c;
-        double upper_time = upper ? cross_time_c : cross_time_b, lower_time = upper ? cross_time_b : cross_time_c;
-        double upper_depth = upper ? cross_depth_c : cross_depth_b, lower_depth = upper ? cross_depth_b : cross_depth_c;
-        double step = lower_time - upper_time, k = 0.5 * pull * step * step;
-        double slope = sqrt((k - above) * (k - above) + below * below + 2 * below * (k + above));
-        double share = 2 * above / (k + below + above + slope), inverse = 1 / slope;
-        double time = upper_time + share * step, depth = upper_depth + share * (lower_depth - upper_depth);
-        double rest = depth - time * (fall + 0.5 * pull * time), better = share - rest * inverse;
-        share = 2 * k * fabs(rest) < slope * slope ? better : share;
-        share = sp_lesser(sp_greater(share, 0), 1);
-        share = upper ? 1 - share : share;
-
-        time = cross_time_b + share * (cross_time_c - cross_time_b);
-        depth = cross_depth_b + share * (cross_depth_c - cross_depth_b);
+        edge_crossing at_b = {cross_time_b, cross_depth_b, below_b}, at_c = {cross_time_c, cross_depth_c, below_c};
+        double share = share_between(upper, at_b, at_c, fall, pull);
+        double time = cross_time_b + share * (cross_time_c - cross_time_b);
+        double depth = cross_depth_b + share * (cross_depth_c - cross_depth_b);
         double speed = fall + pull * time, square = speed * speed;
-        rest = depth - time * (fall + 0.5 * pull * time);
+        double rest = depth - time * (fall + 0.5 * pull * time);
         double newton = time + rest / speed;
         int64_t flat = square <= across, near = pull * fabs(rest) <= 0x1p-26 * square;
         double t = flat ? time : newton;
