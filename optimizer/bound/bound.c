@@ -21,11 +21,10 @@ bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *b
     bound->by_water = malloc((cover->water + 1) * sizeof *bound->by_water);
     bound->by_nozzles = malloc((cover->nozzles + 1) * sizeof *bound->by_nozzles);
     bound->needed = malloc(cover->tier_count * sizeof *bound->needed);
-    if (cover->water < SIZE_MAX / sizeof(double) / (cover->nozzles + 1) - 1)
-        bound->table = malloc((cover->nozzles + 1) * (cover->water + 1) * sizeof *bound->table);
-    if (!bound->by_water || !bound->by_nozzles || !bound->needed || !bound->table) {
+    bool done = (bound->by_water && bound->by_nozzles && bound->needed) || sp_fail_memory(error);
+    if (!done || !sp_knapsack_create(cover->nozzles, cover->water, &bound->knapsack, error)) {
         sp_bound_free(bound);
-        return sp_fail_memory(error);
+        return false;
     }
     bound->lightest = UINT32_MAX;
     for (size_t k = 0; k < cover->tier_count; k++)
@@ -48,7 +47,7 @@ void sp_bound_free(sp_bound *bound)
     free(bound->by_water);
     free(bound->by_nozzles);
     free(bound->needed);
-    free(bound->table);
+    sp_knapsack_free(&bound->knapsack);
     *bound = (sp_bound){0};
 }
 
@@ -65,12 +64,12 @@ static void find_needed(sp_bound *bound, size_t water)
     const sp_cover *cover = bound->cover;
     sp_offers_clear(&bound->offers);
     offer_rows(bound);
-    sp_knapsack(&bound->offers, cover->nozzles, water, bound->table);
-    double most = bound->table[(cover->nozzles + 1) * (water + 1) - 1];
+    sp_knapsack_fill(&bound->knapsack, &bound->offers, water);
+    double most = sp_knapsack_value(&bound->knapsack, cover->nozzles, water);
     for (size_t k = 0; k < cover->tier_count; k++)
-        bound->needed[k] = cover->weight[k] > water
-                               ? INFINITY
-                               : most - bound->table[cover->nozzles * (water + 1) - 1 - cover->weight[k]];
+        bound->needed[k] = cover->weight[k] > water ? INFINITY
+                                                    : most - sp_knapsack_value(&bound->knapsack, cover->nozzles - 1,
+                                                                               water - cover->weight[k]);
 }
 
 /* Prices all candidates on top of the few and lowers every bound that these prices lower; `proved` is the one at
@@ -89,14 +88,14 @@ static bool prove(sp_bound *bound, size_t water, sp_error *error)
         return true;
     bound->complete = true;
     bound->proofs++;
-    sp_knapsack(&bound->offers, cover->nozzles, cover->water, bound->table);
+    sp_knapsack_fill(&bound->knapsack, &bound->offers, cover->water);
     double rest = (cover->base + sp_cover_rest(cover, &bound->dual.price)) * (1 + 1e-12);
     size_t nozzles = bound->dual.price.lifts ? bound->lifts.nozzles : cover->nozzles;
     for (size_t w = 0; w < row && (nozzles == cover->nozzles || w / bound->lightest <= nozzles); w++)
-        bound->by_water[w] = fmin(bound->by_water[w], rest + bound->table[cover->nozzles * row + w]);
+        bound->by_water[w] = fmin(bound->by_water[w], rest + sp_knapsack_value(&bound->knapsack, cover->nozzles, w));
     for (size_t n = 0; n <= nozzles; n++)
-        bound->by_nozzles[n] = fmin(bound->by_nozzles[n], rest + bound->table[n * row + cover->water]);
-    bound->proved = rest + bound->table[cover->nozzles * row + water];
+        bound->by_nozzles[n] = fmin(bound->by_nozzles[n], rest + sp_knapsack_value(&bound->knapsack, n, cover->water));
+    bound->proved = rest + sp_knapsack_value(&bound->knapsack, cover->nozzles, water);
     return true;
 }
 
@@ -150,7 +149,8 @@ static bool solve(sp_bound *bound, size_t water, sp_error *error)
                          .water = water,
                          .iterations = bound->iterations,
                          .tolerance = bound->tolerance,
-                         .lifts = bound->lifting ? &bound->lifts : NULL};
+                         .lifts = bound->lifting ? &bound->lifts : NULL,
+                         .coarse = bound->coarse};
     if (bound->lifting && !sp_dual_lift(&bound->dual, &bound->rows, &bound->lifts, error))
         return false;
     if (!thin_out(bound, error) || !sp_dual_solve(&bound->dual, &bound->rows, &task, error))

@@ -23,7 +23,8 @@ typedef struct {
     sp_dual dual;
     double *by_water;   /* [cover->water + 1], with all the nozzles; never falls */
     double *by_nozzles; /* [cover->nozzles + 1], with all the water */
-    double *table, *needed;
+    double *needed;
+    sp_knapsack knapsack;
     sp_offers offers;
     uint32_t lightest; /* of the tiers */
     double proved;     /* the bound at the last water by the last prices alone */
@@ -31,6 +32,7 @@ typedef struct {
     bool complete;     /* the last pricing of all was not broken off; else `proved` and `closed` say nothing new */
     size_t proofs;     /* complete pricings of all */
     size_t iterations; /* of a solve, at most; may be set */
+    size_t coarse;     /* of it on groups of texels, before these; may be set */
     double tolerance;  /* at which a solve ends, as a share of the bound; may be set */
     sp_lifts lifts;    /* of the last task */
     bool lifting;      /* they have come into use */

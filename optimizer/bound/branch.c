@@ -31,8 +31,8 @@ bool sp_branching_create(const sp_cover *cover, const sp_line *line, sp_branchin
     b->among = calloc(line->count + 1, sizeof *b->among);
     b->alive_before = calloc(line->count + 1, sizeof *b->alive_before);
     b->run_best = calloc(line->run_count + 1, sizeof *b->run_best);
-    b->rest_table = calloc(line->kind_count + 1, sizeof *b->rest_table);
-    if (b->among && b->alive_before && b->run_best && b->rest_table)
+    b->rest = calloc(line->kind_count + 1, sizeof *b->rest);
+    if (b->among && b->alive_before && b->run_best && b->rest)
         return true;
     sp_branching_free(b);
     return sp_fail_memory(error);
@@ -40,9 +40,9 @@ bool sp_branching_create(const sp_cover *cover, const sp_line *line, sp_branchin
 
 void sp_branching_free(sp_branching *b)
 {
-    for (size_t k = 0; b->rest_table && k <= b->line->kind_count; k++)
-        free(b->rest_table[k]);
-    free(b->rest_table);
+    for (size_t k = 0; b->rest && k <= b->line->kind_count; k++)
+        sp_knapsack_free(&b->rest[k]);
+    free(b->rest);
     sp_rows_free(&b->rows);
     sp_dual_free(&b->dual);
     sp_highest_free(&b->price);

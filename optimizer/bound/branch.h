@@ -41,9 +41,9 @@ typedef struct {
     sp_highest price, least; /* of the last prices; least: what a candidate must be worth to stay alive */
     uint32_t *alive_before;  /* [positions + 1], of the tree in hand */
     double *run_best;        /* [runs] */
-    double **rest_table; /* [kinds + 1], what nozzles of these kinds and lighter can be worth; NULL: not known yet */
-    double rest_area;    /* m² that the last prices leave, base included */
-    size_t valid;        /* nozzles of a layout that they hold for */
+    sp_knapsack *rest;       /* [kinds + 1], of nozzles of these kinds and lighter; empty: not filled yet */
+    double rest_area;        /* m² that the last prices leave, base included */
+    size_t valid;            /* nozzles of a layout that they hold for */
 } sp_branching;
 
 typedef struct {

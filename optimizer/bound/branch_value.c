@@ -24,10 +24,8 @@ size_t sp_branch_nozzles(const sp_branching *b, const sp_branch *branch)
 
 static void forget_tables(sp_branching *b)
 {
-    for (size_t k = 0; k <= b->line->kind_count; k++) {
-        free(b->rest_table[k]);
-        b->rest_table[k] = NULL;
-    }
+    for (size_t k = 0; k <= b->line->kind_count; k++)
+        sp_knapsack_free(&b->rest[k]);
 }
 
 /* After the candidates' prices at u are set. */
@@ -66,24 +64,22 @@ bool sp_tree_hear(sp_branching *b, sp_tree *tree, const sp_prices *u, const floa
 }
 
 /* The knapsack of nozzles of this kind and lighter. A candidate may be in it more than once. */
-static double *make_table(const sp_branching *b, size_t kind, sp_error *error)
+static bool fill_rest(const sp_branching *b, size_t kind, sp_knapsack *knapsack, sp_error *error)
 {
     const sp_line *line = b->line;
     const sp_cover *cover = b->cover;
     sp_offers offers;
     if (!sp_offers_create(line->kind_count - kind, line->weight + kind, cover->port_count, cover->nozzles, true,
                           &offers, error))
-        return NULL;
+        return false;
     for (size_t r = sp_line_run(line, line->kind_start[kind]); r < line->run_count; r++)
         if (b->run_best[r] > 0)
             sp_offers_add(&offers, line->run_port[r], sp_line_kind(line, line->run_start[r]) - kind, b->run_best[r]);
-    double *table = malloc((cover->nozzles + 1) * (cover->water + 1) * sizeof *table);
-    if (table)
-        sp_knapsack(&offers, cover->nozzles, cover->water, table);
-    else
-        sp_fail_memory(error);
+    bool done = sp_knapsack_create(cover->nozzles, cover->water, knapsack, error);
+    if (done)
+        sp_knapsack_fill(knapsack, &offers, cover->water);
     sp_offers_free(&offers);
-    return table;
+    return done;
 }
 
 /* What the nozzles in no slot can be worth; `nozzles` of them in so much water. */
@@ -92,9 +88,9 @@ static bool rest_value(sp_branching *b, size_t kind, size_t nozzles, size_t wate
     *value = 0;
     if (!sp_rest_fits(b, kind, nozzles, water))
         return true;
-    if (!b->rest_table[kind] && !(b->rest_table[kind] = make_table(b, kind, error)))
+    if (!b->rest[kind].value && !fill_rest(b, kind, &b->rest[kind], error))
         return false;
-    *value = b->rest_table[kind][nozzles * (b->cover->water + 1) + water];
+    *value = sp_knapsack_value(&b->rest[kind], nozzles, water);
     return true;
 }
 

@@ -1,6 +1,7 @@
 #include "bound/dual.h"
 
 #include "grow.h"
+#include "bound/coarse.h"
 #include "bound/hybrid.h"
 
 #include <math.h>
@@ -48,30 +49,22 @@ void sp_dual_keep(sp_dual *dual, size_t rows, const bool *marked)
         dual->x[kept] = dual->choice[kept] = 0;
 }
 
-static bool make_room(sp_dual *dual, size_t rows)
+bool sp_dual_make_room(sp_dual *dual, size_t rows, sp_error *error)
 {
     if (rows <= dual->row_capacity)
         return true;
     size_t capacity = 2 * rows;
     if (!sp_reallocate(&dual->x, capacity, sizeof *dual->x) ||
         !sp_reallocate(&dual->choice, capacity, sizeof *dual->choice))
-        return false;
+        return sp_fail_memory(error);
     for (; dual->row_capacity < capacity; dual->row_capacity++)
         dual->x[dual->row_capacity] = dual->choice[dual->row_capacity] = 0;
     return true;
 }
 
-bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_error *error)
+bool sp_dual_iterate(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_error *error)
 {
     sp_hybrid h;
-    if (!(dual->weight > 0)) {
-        double area = 0;
-        for (size_t t = 0; t < dual->texels; t++)
-            area += (double)dual->cover->area[t];
-        dual->weight = fmax(WEIGHT_FIRST * area / (double)(dual->texels ? dual->texels : 1), 1e-30);
-    }
-    if (!make_room(dual, rows->count))
-        return sp_fail_memory(error);
     if (!sp_hybrid_create(dual, rows, task, &h, error))
         return false;
     dual->bound = INFINITY;
@@ -85,6 +78,25 @@ bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task,
         memcpy(dual->dual_resource, h.dual_resource, h.resources * sizeof *h.dual_resource);
     sp_hybrid_free(&h);
     return true;
+}
+
+bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_error *error)
+{
+    if (!(dual->weight > 0)) {
+        double area = 0;
+        for (size_t t = 0; t < dual->texels; t++)
+            area += (double)dual->cover->area[t];
+        dual->weight = fmax(WEIGHT_FIRST * area / (double)(dual->texels ? dual->texels : 1), 1e-30);
+    }
+    if (!sp_dual_make_room(dual, rows->count, error))
+        return false;
+    if (task->coarse) {
+        sp_dual_task coarse = *task;
+        coarse.iterations = task->coarse;
+        if (!sp_coarse_solve(dual, rows, &coarse, error))
+            return false;
+    }
+    return sp_dual_iterate(dual, rows, task, error);
 }
 
 bool sp_dual_lift(sp_dual *dual, const sp_rows *rows, const sp_lifts *lifts, sp_error *error)

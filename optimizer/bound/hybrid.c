@@ -11,7 +11,7 @@ void sp_hybrid_free(sp_hybrid *h)
     free(h->lifted);
     sp_prices_free(&h->u_last);
     sp_prices_free(&h->u_mean);
-    free(h->table);
+    sp_knapsack_free(&h->knapsack);
     sp_offers_free(&h->offers);
 }
 
@@ -21,13 +21,12 @@ static bool allocate(sp_hybrid *h, sp_error *error)
     const sp_cover *cover = h->dual->cover;
     size_t rows = h->rows->count, texels = cover->texel_count;
     h->resources = 2 + cover->port_count + h->task->slot_count;
-    if (h->task->water + 1 > SIZE_MAX / sizeof(double) / (h->task->nozzles + 1))
-        return sp_fail_memory(error);
     h->tau = calloc(6 * rows + 6 * texels + 6 * h->resources + 1, sizeof *h->tau);
     h->cover = calloc(2 * texels + 1, sizeof *h->cover);
-    h->table = malloc((h->task->nozzles + 1) * (h->task->water + 1) * sizeof *h->table);
-    if (!h->tau || !h->cover || !h->table)
+    if (!h->tau || !h->cover)
         return sp_fail_memory(error);
+    if (!sp_knapsack_create(h->task->nozzles, h->task->water, &h->knapsack, error))
+        return false;
     h->price = h->tau + rows;
     h->price_sum = h->price + rows;
     h->x_sum = h->price_sum + rows;
@@ -64,7 +63,8 @@ static bool lift_rows(sp_hybrid *h, sp_error *error)
     if (!h->lifted)
         return sp_fail_memory(error);
     for (size_t i = 0; i < rows->used; i++)
-        h->lifted[i] = sp_lift(h->task->lifts, h->dual->u.kind[rows->texel[i]], rows->share[i]);
+        h->lifted[i] = h->task->lifted ? h->task->lifted[i]
+                                       : sp_lift(h->task->lifts, h->dual->u.kind[rows->texel[i]], rows->share[i]);
     return true;
 }
 

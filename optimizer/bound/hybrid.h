@@ -20,7 +20,7 @@ typedef struct {
     double *resource_sum;
     float *cover; /* [2 texels], Σ share x */
     double *x_start, *u_start;
-    double *table;     /* of the knapsack */
+    sp_knapsack knapsack;
     double *slot_best; /* [slots] */
     sp_offers offers;
     double scale; /* of the resource rows, so that their steps keep up with the texels' */

@@ -26,8 +26,8 @@ static double bound_of(sp_hybrid *h, const sp_prices *u, const double *price, do
     for (size_t i = 0; i < task->slot_count; i++)
         bound += task->slot_room[i] * h->slot_best[i];
     if (task->nozzles) {
-        sp_knapsack(&h->offers, task->nozzles, task->water, h->table);
-        bound += h->table[(task->nozzles + 1) * (task->water + 1) - 1];
+        sp_knapsack_fill(&h->knapsack, &h->offers, task->water);
+        bound += sp_knapsack_value(&h->knapsack, task->nozzles, task->water);
     }
     return bound;
 }

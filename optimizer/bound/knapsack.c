@@ -53,54 +53,102 @@ void sp_offers_add(sp_offers *offers, size_t port, size_t tier, double price)
         prices[at] = price;
 }
 
+bool sp_knapsack_create(size_t nozzles, size_t water, sp_knapsack *knapsack, sp_error *error)
+{
+    size_t rows = nozzles <= SP_KNAPSACK_COUNTED ? nozzles + 1 : 1;
+    *knapsack = (sp_knapsack){.nozzles = nozzles, .water = water, .rows = rows};
+    if (water < SIZE_MAX / sizeof(double) / rows - 1)
+        knapsack->value = malloc(rows * (water + 1) * sizeof *knapsack->value);
+    return knapsack->value || sp_fail_memory(error);
+}
+
+void sp_knapsack_free(sp_knapsack *knapsack)
+{
+    free(knapsack->value);
+    *knapsack = (sp_knapsack){0};
+}
+
+/* What is worth `value[w]` with n nozzles, from one fewer: where nozzles are not counted the same row. */
+static double *fewer(const sp_knapsack *knapsack, size_t n)
+{
+    return knapsack->value + (knapsack->rows > 1 ? n - 1 : 0) * (knapsack->water + 1);
+}
+
 /* One nozzle at most out of a choice of prices by tier, on top of `value`. Downwards, so that what is read is still
  * without it. */
-static void take_one(const sp_offers *offers, const double *prices, size_t nozzles, size_t water, double *value)
+static void take_one(sp_knapsack *knapsack, const sp_offers *offers, const double *prices, size_t water)
 {
-    size_t row = water + 1;
-    for (size_t n = nozzles + 1; n-- > 0;)
-        for (size_t w = row; w-- > 0;) {
-            double best = value[n * row + w];
-            for (size_t k = 0; n > 0 && k < offers->tier_count; k++)
+    for (size_t n = knapsack->rows; n-- > (knapsack->rows > 1);) {
+        double *value = knapsack->value + n * (knapsack->water + 1);
+        const double *less = fewer(knapsack, n);
+        for (size_t w = water + 1; w-- > 0;) {
+            double best = value[w];
+            for (size_t k = 0; k < offers->tier_count; k++)
                 if (prices[k] > 0 && offers->weight[k] <= w)
-                    best = fmax(best, prices[k] + value[(n - 1) * row + w - offers->weight[k]]);
-            value[n * row + w] = best;
+                    best = fmax(best, prices[k] + less[w - offers->weight[k]]);
+            value[w] = best;
         }
+    }
 }
 
-/* Up to `times` nozzles of one price, on top of `value`: upwards in n what is read already holds some of them, so that
- * one pass is as many as there is room for. */
-static void take_many(uint32_t weight, double price, size_t nozzles, size_t water, double *value)
+/* As many nozzles of one price as there is room for, on top of `value`: upwards what is read already holds some. */
+static void take_many(sp_knapsack *knapsack, uint32_t weight, double price, size_t water)
 {
-    size_t row = water + 1;
-    for (size_t n = 1; n <= nozzles; n++)
-        for (size_t w = weight; w < row; w++)
-            value[n * row + w] = fmax(value[n * row + w], price + value[(n - 1) * row + w - weight]);
+    for (size_t n = knapsack->rows > 1; n < knapsack->rows; n++) {
+        double *value = knapsack->value + n * (knapsack->water + 1);
+        const double *less = fewer(knapsack, n);
+        for (size_t w = weight; w <= water; w++)
+            value[w] = fmax(value[w], price + less[w - weight]);
+    }
 }
 
-static void take_once(uint32_t weight, double price, size_t nozzles, size_t water, double *value)
+/* One of them. */
+static void take_once(sp_knapsack *knapsack, uint32_t weight, double price, size_t water)
 {
-    size_t row = water + 1;
-    for (size_t n = nozzles; n > 0; n--)
-        for (size_t w = weight; w < row; w++)
-            value[n * row + w] = fmax(value[n * row + w], price + value[(n - 1) * row + w - weight]);
+    for (size_t n = knapsack->rows; n-- > (knapsack->rows > 1);) {
+        double *value = knapsack->value + n * (knapsack->water + 1);
+        const double *less = fewer(knapsack, n);
+        for (size_t w = water + 1; w-- > weight;)
+            value[w] = fmax(value[w], price + less[w - weight]);
+    }
 }
 
-void sp_knapsack(const sp_offers *offers, size_t nozzles, size_t water, double *value)
+static double best_of(const sp_offers *offers)
 {
-    memset(value, 0, (nozzles + 1) * (water + 1) * sizeof *value);
+    double best = 0;
+    for (size_t k = 0; k < offers->tier_count; k++)
+        best = fmax(best, offers->free[k * offers->most]);
+    for (size_t i = 0; i < offers->port_count * offers->tier_count; i++)
+        best = fmax(best, offers->port[i]);
+    return best;
+}
+
+void sp_knapsack_fill(sp_knapsack *knapsack, const sp_offers *offers, size_t water)
+{
+    size_t row = knapsack->water + 1;
+    for (size_t n = 0; n < knapsack->rows; n++)
+        memset(knapsack->value + n * row, 0, (water + 1) * sizeof *knapsack->value);
     for (size_t k = 0; k < offers->tier_count; k++) {
         const double *prices = &offers->free[k * offers->most];
         if (offers->repeats && prices[0] > 0)
-            take_many(offers->weight[k], prices[0], nozzles, water, value);
+            take_many(knapsack, offers->weight[k], prices[0], water);
         for (size_t i = 0; !offers->repeats && i < offers->most && prices[i] > 0; i++) {
             if ((i + 1) * offers->weight[k] > water)
                 break;
-            take_once(offers->weight[k], prices[i], nozzles, water, value);
+            take_once(knapsack, offers->weight[k], prices[i], water);
         }
     }
     for (size_t p = 0; p < offers->port_count; p++)
-        take_one(offers, &offers->port[p * offers->tier_count], nozzles, water, value);
-    for (size_t i = 0; i < (nozzles + 1) * (water + 1); i++)
-        value[i] *= UPWARDS;
+        take_one(knapsack, offers, &offers->port[p * offers->tier_count], water);
+    for (size_t n = 0; n < knapsack->rows; n++)
+        for (size_t w = 0; w <= water; w++)
+            knapsack->value[n * row + w] *= UPWARDS;
+    knapsack->best = best_of(offers) * UPWARDS;
+}
+
+double sp_knapsack_value(const sp_knapsack *knapsack, size_t nozzles, size_t water)
+{
+    if (knapsack->rows > 1)
+        return knapsack->value[nozzles * (knapsack->water + 1) + water];
+    return fmin(knapsack->value[water], (double)nozzles * knapsack->best);
 }

@@ -25,8 +25,24 @@ void sp_offers_clear(sp_offers *offers);
 /* One candidate's price; `port` SIZE_MAX: a free one. */
 void sp_offers_add(sp_offers *offers, size_t port, size_t tier, double price);
 
-/* value[n * (water + 1) + w], [nozzles + 1][water + 1]: the highest total price of at most n nozzles of weight at most
- * w, rounded upwards. Dynamic programming: Martello and Toth, Knapsack Problems, 1990, chapter 2. */
-void sp_knapsack(const sp_offers *offers, size_t nozzles, size_t water, double *value);
+#define SP_KNAPSACK_COUNTED 256 /* nozzles, up to which number and water are counted together */
+
+/* The highest total price of at most so many nozzles of so much weight, rounded upwards. Of more nozzles than are
+ * counted only the water is, and the best price times their number: no less, and the same where water is what limits
+ * them. */
+typedef struct {
+    size_t nozzles, water; /* at most */
+    size_t rows;           /* nozzles + 1, or 1 where they are not counted */
+    double best;           /* of all prices */
+    double *value;         /* [rows][water + 1] */
+} sp_knapsack;
+
+bool sp_knapsack_create(size_t nozzles, size_t water, sp_knapsack *knapsack, sp_error *error);
+void sp_knapsack_free(sp_knapsack *knapsack);
+/* Dynamic programming: Martello and Toth, Knapsack Problems, 1990, chapter 2. Up to `water`, no more than created for:
+ * less takes less time. */
+void sp_knapsack_fill(sp_knapsack *knapsack, const sp_offers *offers, size_t water);
+/* Of what was filled. */
+double sp_knapsack_value(const sp_knapsack *knapsack, size_t nozzles, size_t water);
 
 #endif

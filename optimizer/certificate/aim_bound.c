@@ -4,11 +4,10 @@
 
 #include <stdlib.h>
 
-#define NOZZLES_MOST 256 /* of a layout */
-#define ROUNDS_FIRST 2   /* of pricing all aims, at the proposal's water */
-#define ROUNDS_WATER 2   /* at a water that may be too little for the proposal's coverage */
-#define TRIALS_WATER 1   /* such waters */
-#define POINTS_MOST 2    /* of the front, that get rounds of their own */
+#define ROUNDS_FIRST 2 /* of pricing all aims, at the proposal's water */
+#define ROUNDS_WATER 2 /* at a water that may be too little for the proposal's coverage */
+#define TRIALS_WATER 1 /* such waters */
+#define POINTS_MOST 2  /* of the front, that get rounds of their own */
 #define ROUNDS_FRONT 2
 #define WORTH_LEAST 1e-3 /* of the whole, below which a bound must lie to say something */
 
@@ -86,7 +85,7 @@ static bool set_limits(aiming *a)
     a->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
     if (limit && limit - search->kept_count < a->cover.nozzles)
         a->cover.nozzles = limit - search->kept_count;
-    if (a->cover.nozzles > NOZZLES_MOST)
+    if (a->cover.nozzles > SP_NOZZLES_MOST)
         return false;
     a->units = sp_water_units_create(a->flows, search->candidates->make_count, least, a->cover.nozzles, most);
     a->cover.water = sp_water_budget(&a->units, most);

@@ -60,8 +60,8 @@ struct sp_aim_prices {
     double *known;      /* [ports + 1][tiers], the best price known, the last place being all that is no port */
     float *field;       /* [texels] */
     size_t water;       /* that a bound is sought for */
-    double *table;      /* of the knapsack */
-    double *fair;       /* [tiers], worth of a nozzle that does not raise the bound; INFINITY: it takes too much */
+    sp_knapsack knapsack;
+    double *fair; /* [tiers], worth of a nozzle that does not raise the bound; INFINITY: it takes too much */
     cell_list open, next;
     size_t looked_at; /* cells, by this pricing */
     uint64_t keys;    /* given out so far */
@@ -94,15 +94,15 @@ sp_aim_prices *sp_aim_prices_create(const sp_search *search, const sp_cover *cov
     prices->known = calloc((cover->port_count + 1) * cover->tier_count, sizeof *prices->known);
     prices->field = malloc((search->patch_count + 1) * sizeof *prices->field);
     prices->fair = malloc((cover->tier_count + 1) * sizeof *prices->fair);
-    if (cover->water < SIZE_MAX / sizeof(double) / (cover->nozzles + 1) - 1)
-        prices->table = malloc((cover->nozzles + 1) * (cover->water + 1) * sizeof *prices->table);
-    bool done = prices->scratches && prices->best && prices->known && prices->field && prices->fair && prices->table;
+    bool done =
+        (prices->scratches && prices->best && prices->known && prices->field && prices->fair) || sp_fail_memory(error);
+    done = done && sp_knapsack_create(cover->nozzles, cover->water, &prices->knapsack, error);
     for (int i = 0; done && i < prices->threads; i++)
-        done = scratch_create(search, &prices->scratches[i]);
+        done = scratch_create(search, &prices->scratches[i]) || sp_fail_memory(error);
     if (done)
         return prices;
     sp_aim_prices_destroy(prices);
-    return sp_fail_memory(error);
+    return NULL;
 }
 
 void sp_aim_prices_destroy(sp_aim_prices *prices)
@@ -117,7 +117,7 @@ void sp_aim_prices_destroy(sp_aim_prices *prices)
     free(prices->best);
     free(prices->known);
     free(prices->field);
-    free(prices->table);
+    sp_knapsack_free(&prices->knapsack);
     free(prices->fair);
     free(prices->open.items);
     free(prices->next.items);
@@ -360,8 +360,8 @@ static void read_offers(sp_aim_prices *prices, const sp_offers *offers)
 {
     const sp_cover *cover = prices->cover;
     size_t tiers = cover->tier_count, ports = cover->port_count, nozzles = cover->nozzles, water = prices->water;
-    sp_knapsack(offers, nozzles, water, prices->table);
-    double most = prices->table[(nozzles + 1) * (water + 1) - 1];
+    sp_knapsack_fill(&prices->knapsack, offers, water);
+    double most = sp_knapsack_value(&prices->knapsack, nozzles, water);
     for (size_t k = 0; k < tiers; k++) {
         for (size_t p = 0; p < ports; p++)
             prices->known[p * tiers + k] = offers->port[p * tiers + k];

@@ -7,26 +7,30 @@
 
 #include <stdlib.h>
 
-#define NOZZLES_MOST 256   /* of a layout */
 #define ROUNDS_EXPLORING 4 /* of looking at some of the poses first */
 #define EXPLORING_MOST 0.2 /* of the time left, for those */
 #define ROUNDS_FIRST 2     /* of pricing all poses, at the proposal's water */
 #define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
-#define TRIALS_WATER 3     /* such waters */
+#define TRIALS_WATER 2     /* such waters */
 #define STEP_WATER 0.4     /* of the way to the proposal's water, for the first of them */
 #define WORK_LEAST 1e6     /* of branch and bound at the front's points, see sp_tree */
-#define WORK_EACH 6        /* the same, besides, in pricings of all candidates */
+#define WORK_EACH 10       /* the same, besides, in pricings of all candidates */
 #define WORK_PROVING 1e10  /* with --prove, where no time limit ends it */
 #define WATER_LIKE 1.7     /* times more or less water still counts as about as much */
+#define WATER_SAME 1.1     /* the same, and need not be priced for again */
+#define WATER_NEAR 1.2     /* the same, of prices that are good for both */
 #define WORK_FIRST 1.5     /* of a point, in pricings of all candidates */
 #define ALIVE_FEW 0.5      /* of all candidates: fewer are alive than it takes to price all again */
-#define WORK_PAST 0.2      /* what a point has taken counts so much, beside what its next step takes */
+#define WORK_PAST 1.0      /* what a point has taken counts so much, beside what its next step takes */
 #define ROUNDS_LIFTED 3    /* at least, so that the lifts have settled */
 #define ROUNDS_PROVING 2   /* with --prove, at the proposal's water, and trials of water */
 #define ROUNDS_WATER_PROVING 1
 #define ITERATIONS_PROVING 500
 #define TOLERANCE_PROVING 2e-5
-#define OPEN_LEAST 1e-3 /* gap of a point of the front that is worth a turn */
+#define OPEN_WIDE 0.04        /* gap of a point, above which groups of texels see enough of it */
+#define ITERATIONS_COARSE 400 /* on these */
+#define ITERATIONS_FINE 50    /* after them */
+#define OPEN_LEAST 1e-3       /* gap of a point of the front that is worth a turn */
 
 typedef struct {
     const sp_search *search;
@@ -114,8 +118,7 @@ static uint32_t tier_for(certifying *c, double flow)
     return tier;
 }
 
-/* Water of the layouts, in units, and number; false where nothing can be placed, or too many nozzles at a time for the
- * knapsack's table. */
+/* Water of the layouts, in units, and number; false where nothing can be placed, or too many nozzles at a time. */
 static bool set_limits(certifying *c)
 {
     const sp_search *search = c->search;
@@ -128,7 +131,7 @@ static bool set_limits(certifying *c)
     c->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
     if (limit && limit - search->kept_count < c->cover.nozzles)
         c->cover.nozzles = limit - search->kept_count;
-    if (c->cover.nozzles > NOZZLES_MOST)
+    if (c->cover.nozzles > SP_NOZZLES_MOST)
         return false;
     c->units = sp_water_units_create(c->flows, makes, least, c->cover.nozzles, most);
     c->cover.water = sp_water_budget(&c->units, most);
@@ -166,12 +169,13 @@ static bool set_texels(certifying *c, sp_error *error)
     const sp_search *search = c->search;
     c->area = malloc((search->patch_count + 1) * sizeof *c->area);
     c->need = malloc((search->patch_count + 1) * sizeof *c->need);
+    double margin = sp_field_margin(search->kept_count + c->cover.nozzles);
     if (!c->area || !c->need)
         return sp_fail_memory(error);
     for (size_t t = 0; t < search->patch_count; t++) {
-        double had = (double)search->kept_wet[t] * (1 + SP_FIELD_MARGIN);
+        double had = (double)search->kept_wet[t] * (1 + margin);
         double need = had >= 1 ? 0 : search->single ? 1 : 1 - had;
-        c->need[t] = need > SP_FIELD_MARGIN ? (float)need : 0;
+        c->need[t] = need > margin ? (float)need : 0;
         c->area[t] = c->need[t] > 0 ? search->area[t] : 0;
         c->cover.base += c->need[t] > 0 ? 0 : (double)search->area[t];
     }
@@ -314,6 +318,23 @@ static bool begins_anew(const certifying *c, size_t i)
     return !c->begun[i] && !(tree->next_work > 0 && tree->next_work < ALIVE_FEW * (double)c->line.count);
 }
 
+/* What of the bound at a point nothing found comes up to. */
+static double open_at(const certifying *c, size_t i)
+{
+    return fmax(0, 1 - c->found[i] / c->bound.by_water[budget_of(c, draft_of(c->front, i)->flow)]);
+}
+
+/* The same of all points of about as much water, which prices for one of them are good for. */
+static double open_about(const certifying *c, size_t i)
+{
+    double open = 0, water = (double)c->trees[i].water;
+    for (size_t k = 0; k <= c->front->count; k++) {
+        double other = (double)c->trees[k].water;
+        open += other < WATER_NEAR * water && water < WATER_NEAR * other ? open_at(c, k) : 0;
+    }
+    return open;
+}
+
 /* Of the front's points and the proposal the one whose turn it is: the wider its gap and the less work
  * it takes and took, the sooner; front->count + 1 where none is left open. */
 static size_t next_point(const certifying *c)
@@ -322,10 +343,11 @@ static size_t next_point(const certifying *c)
     double most = 0;
     for (size_t i = 0; i <= c->front->count; i++) {
         const sp_tree *tree = &c->trees[i];
-        size_t water = budget_of(c, draft_of(c->front, i)->flow);
-        double open = 1 - c->found[i] / c->bound.by_water[water];
-        double next = begins_anew(c, i) ? WORK_FIRST * (double)c->line.count : tree->next_work;
-        double score = open / (next + WORK_PAST * tree->work);
+        double open = open_at(c, i), score;
+        if (begins_anew(c, i))
+            score = open_about(c, i) / (WORK_FIRST * (double)c->line.count + WORK_PAST * tree->work);
+        else
+            score = open / (tree->next_work + WORK_PAST * tree->work);
         if (!sp_tree_closed(tree) && open > OPEN_LEAST && score > most) {
             found = i;
             most = score;
@@ -334,22 +356,36 @@ static size_t next_point(const certifying *c)
     return found;
 }
 
-/* A first turn at a point of the front prices all candidates, which all trees hear of; each further one is a step of
- * its tree, which lowers all bounds up to its water. */
+/* Prices all candidates, which all trees hear of. Where the gap is wide prices are sought on groups of texels first:
+ * these get further in as much time, but do not see what a narrow gap is about. */
+static bool begin_tree(certifying *c, size_t i, sp_error *error)
+{
+    size_t water = budget_of(c, draft_of(c->front, i)->flow), iterations = c->bound.iterations;
+    for (size_t k = 0; k <= c->front->count; k++) {
+        double other = (double)c->trees[k].water;
+        c->begun[k] |= other < WATER_SAME * (double)water && (double)water < WATER_SAME * other;
+    }
+    c->trees[i].work += WORK_FIRST * (double)c->line.count;
+    if (open_at(c, i) > OPEN_WIDE) {
+        c->bound.coarse = ITERATIONS_COARSE;
+        c->bound.iterations = ITERATIONS_FINE;
+    }
+    bool done = sp_bound_lower(&c->bound, water, error);
+    c->bound.coarse = 0;
+    c->bound.iterations = iterations;
+    return done && tell_trees(c, water, error) && sp_branching_take(&c->branching, &c->bound.rows, error);
+}
+
+/* A turn at a point: after the first each is a step of its tree, which lowers all bounds up to its water. */
 static bool grow_tree(certifying *c, size_t i, sp_error *error)
 {
     sp_tree *tree = &c->trees[i];
-    size_t water = budget_of(c, draft_of(c->front, i)->flow);
-    if (begins_anew(c, i)) {
-        c->begun[i] = true;
-        tree->work += WORK_FIRST * (double)c->line.count;
-        return sp_bound_lower(&c->bound, water, error) && tell_trees(c, water, error) &&
-               sp_branching_take(&c->branching, &c->bound.rows, error);
-    }
+    if (begins_anew(c, i))
+        return begin_tree(c, i, error);
     if (!sp_tree_step(&c->branching, tree, error))
         return false;
     double bound = sp_tree_bound(tree);
-    for (size_t w = 0; w <= water; w++)
+    for (size_t w = 0; w <= tree->water; w++)
         c->bound.by_water[w] = fmin(c->bound.by_water[w], bound);
     return true;
 }

@@ -36,6 +36,7 @@ struct sp_pose_prices {
     best *bests;                /* [sites x makes] */
     int threads;
     scratch *scratches; /* [threads] */
+    float upwards;      /* more than a share may lie off */
     float *field;       /* [texels] */
     uint32_t *texels;
     float *shares;
@@ -71,6 +72,7 @@ sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *c
                                .tier_of = tier_of,
                                .need = need,
                                .ports = ports,
+                               .upwards = (float)(1 + sp_field_margin(search->kept_count + cover->nozzles)),
                                .threads = sp_sweeper_threads(search)};
     if (allocate(prices))
         return prices;
@@ -96,7 +98,7 @@ void sp_pose_prices_destroy(sp_pose_prices *prices)
 /* The share of what a texel needs that a flux brings, rounded upwards. */
 static inline float share_of(const sp_pose_prices *prices, uint32_t texel, float flux, bool twice)
 {
-    float ratio = flux / prices->need[texel] * (float)(1 + SP_FIELD_MARGIN);
+    float ratio = flux / prices->need[texel] * prices->upwards;
     if (ratio >= 1)
         return 1;
     if (!(ratio > 0))

@@ -7,8 +7,14 @@
 #include "scoring/draft.h"
 #include "certificate/pose_order.h"
 
-/* Fields rounded in single precision, and those of some 300 nozzles added up so, lie off by less than this share. */
-#define SP_FIELD_MARGIN 2e-5
+#include <math.h>
+
+/* Fields rounded in single precision, and those of so many nozzles added up so, lie off by less than this share: every
+ * sum by half a unit in the last place. */
+static inline double sp_field_margin(size_t nozzles)
+{
+    return fmax(2e-5, 0x1p-24 * ((double)nozzles + 40));
+}
 
 typedef struct sp_pose_prices sp_pose_prices;
 

@@ -7,6 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#define SP_NOZZLES_MOST 4096 /* of a layout that is bounded */
+
 /* Flows are rounded down to units and budgets up to the next that differs, so that what is within a budget in flows is
  * so in units. */
 typedef struct {

@@ -59,6 +59,15 @@ static int report(const cli_options *options, const cli_scene *opened, const pla
     return EXIT_SHORT;
 }
 
+/* Of the time limit, after what was done before; 0 where there is none. */
+static double time_left(const cli_options *options, const cli_clock *clock)
+{
+    double left = options->time_limit;
+    for (size_t i = 0; i < clock->count; i++)
+        left -= clock->stages[i].seconds;
+    return options->time_limit > 0 && left < 1e-3 ? 1e-3 : options->time_limit > 0 ? left : 0;
+}
+
 static int place(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error)
 {
     placement found = {0};
@@ -69,6 +78,7 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
         cli_clock_stage(clock, "simulate");
         sp_place_options how = sp_scene_place_options(opened->scene);
         how.run = cli_run(options);
+        how.run.time_limit = time_left(options, clock);
         how.memory = options->memory;
         how.prove = options->prove;
         found.proposal = sp_place(opened->evaluator, &how, error);

@@ -67,10 +67,15 @@ static void job_place(job *j)
     assert_true(j->area[SP_REASON_UNKNOWN] == 0);
 }
 
+static void job_run_coarse(job *j, double texel)
+{
+    room_open(&j->room, &j->builder, texel);
+    job_place(j);
+}
+
 static void job_run(job *j)
 {
-    room_open(&j->room, &j->builder, TEXEL);
-    job_place(j);
+    job_run_coarse(j, TEXEL);
 }
 
 static void job_end(job *j)
@@ -223,45 +228,6 @@ static void assert_same_layouts(const sp_layout *a, const sp_layout *b)
     }
 }
 
-/* Little memory means more work, not another answer; and too little is an error. */
-static void little_memory_is_enough(void **state)
-{
-    (void)state;
-    job j;
-    job_begin(&j, 60 * DEGREE);
-    j.mount.from = sp_v(-2, -2, HEIGHT);
-    j.mount.to = sp_v(2, 2, HEIGHT);
-    j.mount.spacing = 1;
-    j.mount.tilt = 20 * DEGREE;
-    j.options.max_nozzles = 4;
-    j.options.refine = sp_place_options_default().refine;
-    job_run(&j);
-    sp_proposal *first = j.proposal;
-    j.options.memory = 3e6;
-    for (int threads = 1; threads <= 2; threads++) {
-        j.options.run.threads = threads;
-        job_place(&j);
-        room_check(j.proposal, &j.options);
-        assert_same_layouts(first->layout, j.proposal->layout);
-        assert_same_layouts(first->greedy, j.proposal->greedy);
-        assert_memory_equal(j.proposal->coverage->deposits.counted, first->coverage->deposits.counted,
-                            first->coverage->deposits.count * sizeof(double));
-        assert_int_equal(j.proposal->front_count, first->front_count);
-        assert_memory_equal(j.proposal->front, first->front, first->front_count * sizeof *first->front);
-        assert_true(j.proposal->certificate.area_bound == first->certificate.area_bound);
-        assert_true(j.proposal->certificate.water_bound == first->certificate.water_bound);
-        assert_true(j.proposal->certificate.texels == first->certificate.texels);
-        sp_proposal_destroy(j.proposal);
-    }
-    j.proposal = first;
-    sp_error error = {0};
-    j.options.memory = 1e4;
-    assert_null(sp_place(j.room.evaluator, &j.options, &error));
-    assert_int_equal(error.kind, SP_ERROR_INPUT);
-    assert_non_null(strstr(error.message, "memory"));
-    job_end(&j);
-}
-
 typedef struct {
     sp_sites sites;
     sp_candidates candidates;
@@ -292,6 +258,49 @@ static void look_away(outlook *o)
     sp_sites_free(&o->sites);
 }
 
+/* Little memory means more work, not another answer, of two threads neither; and too little is an error. */
+static void little_memory_is_enough(void **state)
+{
+    (void)state;
+    job j;
+    job_begin(&j, 60 * DEGREE);
+    j.mount.from = sp_v(-2, -2, HEIGHT);
+    j.mount.to = sp_v(2, 2, HEIGHT);
+    j.mount.spacing = 1;
+    j.mount.tilt = 20 * DEGREE;
+    j.options.max_nozzles = 2;
+    j.options.refine = sp_place_options_default().refine;
+    job_run_coarse(&j, 0.1);
+    sp_proposal *first = j.proposal;
+    outlook plenty, scarce;
+    look_around(&j, &plenty);
+    j.options.memory = 0.5 * plenty.visibility.bytes;
+    look_around(&j, &scarce);
+    assert_true(scarce.kept < plenty.kept);
+    look_away(&scarce);
+    look_away(&plenty);
+    j.options.run.threads = 2;
+    job_place(&j);
+    room_check(j.proposal, &j.options);
+    assert_same_layouts(first->layout, j.proposal->layout);
+    assert_same_layouts(first->greedy, j.proposal->greedy);
+    assert_memory_equal(j.proposal->coverage->deposits.counted, first->coverage->deposits.counted,
+                        first->coverage->deposits.count * sizeof(double));
+    assert_int_equal(j.proposal->front_count, first->front_count);
+    assert_memory_equal(j.proposal->front, first->front, first->front_count * sizeof *first->front);
+    assert_true(j.proposal->certificate.area_bound == first->certificate.area_bound);
+    assert_true(j.proposal->certificate.water_bound == first->certificate.water_bound);
+    assert_true(j.proposal->certificate.texels == first->certificate.texels);
+    sp_proposal_destroy(j.proposal);
+    j.proposal = first;
+    sp_error error = {0};
+    j.options.memory = 1e4;
+    assert_null(sp_place(j.room.evaluator, &j.options, &error));
+    assert_int_equal(error.kind, SP_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "memory"));
+    job_end(&j);
+}
+
 /* Whatever does not fit is traced again when it is looked at, to the same bytes; and all takes what memory allows. */
 static void views_keep_within_memory(void **state)
 {
@@ -302,7 +311,7 @@ static void views_keep_within_memory(void **state)
     j.mount.to = sp_v(2, 2, HEIGHT);
     j.mount.spacing = 0.5;
     j.mount.tilt = 30 * DEGREE;
-    job_run(&j);
+    job_run_coarse(&j, 0.1);
     outlook plenty;
     look_around(&j, &plenty);
     size_t views = plenty.sites.count, kept[3] = {views, views, views};

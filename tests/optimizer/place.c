@@ -101,7 +101,7 @@ static void water_allowed_may_be_used_up(void **state)
     j.options.type_count = 1;
     j.options.objective = SP_OBJECTIVE_MAX_COVERAGE;
     double each = sp_type_flow(&j.types[1], j.types[1].flow, PRESSURE, &j.room.setup.liquid);
-    for (size_t count = 1; count < 6; count++) {
+    for (size_t count = 1; count < 4; count++) {
         j.options.max_water = nextafter(each * (double)count, 0);
         sp_proposal *proposal = job_place(&j);
         assert_int_equal(proposal->layout->count, count);
@@ -285,20 +285,20 @@ static void same_layout(const sp_layout *a, const sp_layout *b)
     }
 }
 
+/* Of search, refinement, certificate and branch and bound. */
 static void threads_do_not_matter(void **state)
 {
     (void)state;
     job j;
-    job_open(&j);
+    job_open_coarse(&j, 0.1);
     j.mounts[0].tilt = 40 * DEGREE;
     j.mounts[0].spacing = 0.8;
     j.types[0].angle_min = 80 * DEGREE;
     j.types[0].flow_min *= 0.8;
     j.types[0].flow_max *= 1.2;
     j.options.refine = sp_place_options_default().refine;
-    j.options.max_nozzles = 4;
+    j.options.max_nozzles = 3;
     j.options.coverage = 0.7;
-    j.options.run.threads = 1;
     sp_proposal *one = job_place(&j);
     j.options.run.threads = 3;
     sp_proposal *three = job_place(&j);
@@ -306,6 +306,11 @@ static void threads_do_not_matter(void **state)
     same_layout(one->greedy, three->greedy);
     assert_int_equal(one->front_count, three->front_count);
     assert_memory_equal(one->front, three->front, one->front_count * sizeof *one->front);
+    const sp_certificate *a = &one->certificate, *b = &three->certificate;
+    assert_true(a->computed && b->computed);
+    assert_true(a->area_bound == b->area_bound && a->water_bound == b->water_bound && a->gap == b->gap);
+    assert_true(a->every_aim.computed == b->every_aim.computed && a->every_aim.area_bound == b->every_aim.area_bound);
+    assert_true(a->area_bound < a->whole);
     assert_int_equal(one->coverage->deposits.count, three->coverage->deposits.count);
     assert_memory_equal(one->coverage->deposits.counted, three->coverage->deposits.counted,
                         one->coverage->deposits.count * sizeof(double));
