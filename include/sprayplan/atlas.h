@@ -21,8 +21,9 @@ typedef struct {
 /* Grows regions that face one way (variational shape approximation), lays each flat (study 3.3.2.1, then as rigidly as
  * possible), and joins neighbours while at most 5 % of a chart's area has more than 5 % strain, no two triangles
  * overlap and no side of a box around the chart is longer than `extent` (m, INFINITY for no limit). Developable surface
- * is laid without strain but for round-off. Cuts at non-manifold, open and flipped edges. Deterministic; size, place
- * and attitude do not matter but for their round-off. */
+ * is laid without strain but for round-off. Cuts at open and flipped edges; where more
+ * than two triangles meet, those two after two that go on in each other most smoothly stay together. Deterministic;
+ * size, place and attitude do not matter but for their round-off. */
 sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error);
 void sp_charts_destroy(sp_charts *charts);
 

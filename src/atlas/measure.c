@@ -1,4 +1,5 @@
 /* How good an atlas is: cuts, distortion, use of the pages, and checks that hold for every atlas. */
+#include "atlas/adjacent.h"
 #include "atlas/overlap.h"
 #include "atlas/texels/texels.h"
 
@@ -77,15 +78,19 @@ static bool measure_seams(const sp_atlas *atlas, const sp_mesh *mesh, double sur
                           sp_error *error)
 {
     sp_half_edges edges = {0};
-    if (!sp_half_edges_create(mesh, &edges, error))
+    if (!sp_adjacent_create(mesh, &edges, error))
         return false;
     double length = 0;
     for (size_t i = 0, of_edge; i < 3 * mesh->triangle_count; i += of_edge) {
         of_edge = sp_half_edges_of_edge(mesh, &edges, i);
         uint32_t a = edges.order[i];
         double edge = sp_distance(mesh->vertices[sp_half_edge_from(mesh, a)], mesh->vertices[sp_half_edge_to(mesh, a)]);
-        for (size_t k = 1; k < of_edge; k++)
-            length += sp_edge_is_cut(atlas, mesh, edges.order[i + k - 1], edges.order[i + k]) ? edge : 0;
+        size_t lips = of_edge;
+        for (size_t k = i; k < i + of_edge; k++) {
+            uint32_t h = edges.order[k], other = edges.opposite[h];
+            lips -= other != SP_NONE && h < other && !sp_edge_is_cut(atlas, mesh, h, other);
+        }
+        length += (double)(lips - 1) * edge;
     }
     sp_half_edges_destroy(&edges);
     figures->seam_over_sqrt_area = surface > 0 ? length / sqrt(surface) : 0;

@@ -4,7 +4,7 @@
 #include "atlas/charts/outline.h"
 #include "atlas/charts/sheets.h"
 #include "atlas/plane.h"
-#include "mesh/half_edge.h"
+#include "atlas/adjacent.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -131,7 +131,7 @@ bool sp_find_overlaps(const sp_atlas *atlas, const sp_mesh *mesh, size_t most, s
 {
     search s = {.atlas = atlas};
     *found = (sp_overlaps){.triangle = SP_NONE};
-    if (!sp_half_edges_create(mesh, &s.edges, error))
+    if (!sp_adjacent_create(mesh, &s.edges, error))
         return false;
     size_t triangles = atlas->triangle_count;
     s.list = malloc((triangles + 1) * sizeof *s.list);

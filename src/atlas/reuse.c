@@ -1,6 +1,7 @@
 /* Takes an atlas from a file, and believes nothing of it. */
 #include "atlas/reuse.h"
 
+#include "atlas/adjacent.h"
 #include "atlas/overlap.h"
 #include "atlas/texels/texels.h"
 #include "mesh/texture.h"
@@ -129,7 +130,7 @@ static bool find_charts(reuse *r)
     sp_atlas *atlas = r->atlas;
     const sp_mesh *mesh = r->mesh;
     uint32_t *root = malloc((atlas->triangle_count + 1) * sizeof *root);
-    bool done = root ? sp_half_edges_create(mesh, &edges, r->error) : (bool)sp_fail_memory(r->error);
+    bool done = root ? sp_adjacent_create(mesh, &edges, r->error) : (bool)sp_fail_memory(r->error);
     for (uint32_t t = 0; done && t < atlas->triangle_count; t++) {
         root[t] = t;
         atlas->chart[t] = r->texture.page[mesh->source[t]]; /* only what lies on one page can be joined */

@@ -89,7 +89,12 @@ static void cuts_at_edges_that_are_no_surface(void **state)
     const sp_vec3 vertices[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
     assert_int_equal(count_charts(mesh_of(vertices, 4, (const uint32_t[][3]){{0, 1, 2}, {0, 2, 3}}, 2)), 1);
     assert_int_equal(count_charts(mesh_of(vertices, 4, (const uint32_t[][3]){{0, 1, 2}, {0, 3, 2}}, 2)), 2);
-    assert_int_equal(count_charts(mesh_of(vertices, 5, (const uint32_t[][3]){{0, 1, 2}, {0, 2, 3}, {0, 2, 4}}, 3)), 3);
+    /* a sheet on a wall, which goes on behind it; two walls that cross; and three sheets of which none goes on */
+    assert_int_equal(count_charts(mesh_of(vertices, 5, (const uint32_t[][3]){{0, 1, 2}, {0, 2, 3}, {0, 2, 4}}, 3)), 2);
+    const sp_vec3 cross[] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
+    const uint32_t walls[][3] = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 0, 5}};
+    assert_int_equal(count_charts(mesh_of(cross, 6, walls, 4)), 2);
+    assert_int_equal(count_charts(mesh_of(cross, 6, (const uint32_t[][3]){{0, 1, 2}, {1, 0, 4}, {0, 1, 3}}, 3)), 3);
     assert_int_equal(count_charts(mesh_of(vertices, 4, (const uint32_t[][3]){{0, 1, 2}, {0, 1, 2}}, 2)), 2);
     const sp_vec3 apart[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {3, 0, 0}, {2, 1, 0}};
     assert_int_equal(count_charts(mesh_of(apart, 6, (const uint32_t[][3]){{0, 1, 2}, {3, 4, 5}}, 2)), 2);

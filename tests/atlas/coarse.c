@@ -1,36 +1,17 @@
 /* What the charts of large meshes rest on: the mesh put in order, made coarse, and sheets carried back to it. */
 #include "shapes.h"
 
+#include "atlas/adjacent.h"
 #include "atlas/charts/coarsen.h"
 #include "atlas/charts/making.h"
 #include "atlas/charts/refine.h"
 #include "atlas/charts/renumber.h"
-#include "mesh/half_edge.h"
 
 #ifdef SPRAYPLAN_SANITIZE
 enum { FINE = 40 };
 #else
 enum { FINE = 100 };
 #endif
-
-/* A strip that comes back turned over. */
-static sp_vec3 on_strip(double s, double t, double size)
-{
-    double turn = s == 1 ? 0 : s, across = (s == 1 ? 0.5 - t : t - 0.5) * 0.6;
-    double angle = 2 * M_PI * turn, bent = M_PI * turn;
-    double radius = size * (1 + across * cos(bent));
-    return sp_v(radius * cos(angle), radius * sin(angle), size * across * sin(bent));
-}
-
-/* Two bulging tubes that touch along a line, where four triangles meet at each edge. */
-static sp_vec3 on_two_tubes(double s, double t, double size)
-{
-    bool second = s > 0.5;
-    double turn = second ? 2 * s - 1 : 2 * s;
-    double angle = turn == 1 ? 0 : 2 * M_PI * turn, x = 1 - cos(angle);
-    double bulge = size * (1 + 0.3 * sin(M_PI * t));
-    return sp_v(second ? -bulge * x : bulge * x, bulge * sin(angle), size * t);
-}
 
 /* A drum, bent only at its rims, with a dent in its lid. */
 static sp_vec3 on_drum(double s, double t, double size)
@@ -75,7 +56,7 @@ static sp_mesh *shape(int which)
 static sp_half_edges edges_of(const sp_mesh *mesh)
 {
     sp_half_edges edges = {0};
-    assert_true(sp_half_edges_create(mesh, &edges, NULL));
+    assert_true(sp_adjacent_create(mesh, &edges, NULL));
     return edges;
 }
 

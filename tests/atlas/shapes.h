@@ -69,6 +69,25 @@ static inline sp_vec3 on_saddle(double s, double t, double size)
     return sp_v(size * x, size * y, size * (x * x - y * y));
 }
 
+/* A strip that comes back turned over. */
+static inline sp_vec3 on_strip(double s, double t, double size)
+{
+    double turn = s == 1 ? 0 : s, across = (s == 1 ? 0.5 - t : t - 0.5) * 0.6;
+    double angle = 2 * M_PI * turn, bent = M_PI * turn;
+    double radius = size * (1 + across * cos(bent));
+    return sp_v(radius * cos(angle), radius * sin(angle), size * across * sin(bent));
+}
+
+/* Two bulging tubes that touch along a line, where four triangles meet at each edge. */
+static inline sp_vec3 on_two_tubes(double s, double t, double size)
+{
+    bool second = s > 0.5;
+    double turn = second ? 2 * s - 1 : 2 * s;
+    double angle = turn == 1 ? 0 : 2 * M_PI * turn, x = 1 - cos(angle);
+    double bulge = size * (1 + 0.3 * sin(M_PI * t));
+    return sp_v(second ? -bulge * x : bulge * x, bulge * sin(angle), size * t);
+}
+
 static inline sp_mesh *one_triangle(double size)
 {
     const sp_vec3 vertices[] = {{0, 0, 0}, {3 * size, 0, 0}, {0, 0, 4 * size}};

@@ -272,8 +272,10 @@ static void shapes_stand_sound_in_the_file(void **state)
                          net(48, 12, on_cone, 1),
                          net(40, 20, on_sphere, 1),
                          net(24, 24, on_saddle, 1),
-                         net(40, 20, on_sphere, 1e-5)};
-    for (int i = 0; i < 6; i++) {
+                         net(40, 20, on_sphere, 1e-5),
+                         net(60, 12, on_strip, 1),
+                         net(60, 16, on_two_tubes, 0.5)};
+    for (int i = 0; i < 8; i++) {
         double size = i == 5 ? 1e-5 : 1;
         expect_sound_file(meshes[i], 0.02 * size, 0, SP_PACKING_PIXELS);
         expect_sound_file(meshes[i], 0.0173 * size, 0, SP_PACKING_SKYLINE);

@@ -7,7 +7,7 @@
 #include "atlas/charts/making.h"
 #include "atlas/charts/orient.h"
 #include "atlas/charts/renumber.h"
-#include "mesh/half_edge.h"
+#include "atlas/adjacent.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -86,7 +86,7 @@ static bool make_of(sp_charts *charts, const sp_mesh *mesh, sp_error *error)
 {
     sp_half_edges edges = {0};
     sp_renumbered ordered = {0};
-    bool done = sp_half_edges_create(mesh, &edges, error), large = mesh->triangle_count > LARGE;
+    bool done = sp_adjacent_create(mesh, &edges, error), large = mesh->triangle_count > LARGE;
     if (done && large) {
         done = sp_renumber(mesh, edges.opposite, &ordered);
         sp_half_edges_destroy(&edges);

@@ -21,17 +21,16 @@ typedef enum { SP_BEND_EXACT, SP_BEND_NONE, SP_BEND_SMOOTH, SP_BEND_SHARP } sp_b
 
 typedef struct {
     const sp_mesh *mesh;
-    const uint32_t
-        *twin;          /* [3 triangle_count], the half-edge across, or SP_NONE at open, non-manifold, flipped edges */
-    double (*shape)[3]; /* [triangle_count], each triangle in its plane: corners (0, 0), (s0, 0), (s1, s2), m */
-    float (*weight)[3]; /* [triangle_count], of edge k from corner k to the next: cotangent of the angle across */
-    uint8_t *bend;      /* [vertex_count], sp_bend: how far the triangles around each vertex are from lying flat */
-    double share;       /* of a sheet's area that may have much strain */
-    double square;      /* m, the edge of a square as large as the surface */
-    bool coarse;        /* of a mesh that stands for a finer one */
-    uint32_t *owner;    /* [triangle_count], the sheet of each triangle, SP_NONE before there is one */
-    uint32_t *local;    /* [triangle_count], its number in that sheet */
-    sp_sheet *items;    /* [count]; without triangles where a sheet has gone into another */
+    const uint32_t *twin; /* [3 triangle_count], the half-edge across, or SP_NONE where the surface does not go on */
+    double (*shape)[3];   /* [triangle_count], each triangle in its plane: corners (0, 0), (s0, 0), (s1, s2), m */
+    float (*weight)[3];   /* [triangle_count], of edge k from corner k to the next: cotangent of the angle across */
+    uint8_t *bend;        /* [vertex_count], sp_bend: how far the triangles around each vertex are from lying flat */
+    double share;         /* of a sheet's area that may have much strain */
+    double square;        /* m, the edge of a square as large as the surface */
+    bool coarse;          /* of a mesh that stands for a finer one */
+    uint32_t *owner;      /* [triangle_count], the sheet of each triangle, SP_NONE before there is one */
+    uint32_t *local;      /* [triangle_count], its number in that sheet */
+    sp_sheet *items;      /* [count]; without triangles where a sheet has gone into another */
     size_t count, capacity;
 } sp_sheets;
 

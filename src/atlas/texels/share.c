@@ -1,6 +1,7 @@
 /* Pixels that several patches cross. Only where a cut passes can a pixel hold more than one: elsewhere the chart goes
  * on in all directions. There the pixel's triangles are joined wherever they touch along an edge of the mesh inside the
  * pixel, which says what is one patch of the surface however the chart was cut. */
+#include "atlas/adjacent.h"
 #include "atlas/bits.h"
 #include "atlas/order.h"
 #include "atlas/texels/texels.h"
@@ -272,7 +273,7 @@ bool sp_atlas_count_shared(const sp_atlas *atlas, const sp_mesh *mesh, size_t *s
     group g = {0};
     pairs p = {0};
     *shared = 0;
-    bool done = sp_fragments_create(&fragments, atlas, mesh, error) && sp_half_edges_create(mesh, &edges, error);
+    bool done = sp_fragments_create(&fragments, atlas, mesh, error) && sp_adjacent_create(mesh, &edges, error);
     for (uint32_t texel = 0; done && texel < atlas->texel_count; texel++) {
         p.count = 0;
         for (uint32_t f = fragments.start[texel]; done && f < fragments.start[texel + 1]; f++)

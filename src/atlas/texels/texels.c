@@ -1,5 +1,6 @@
 /* Cuts the laid triangles by the pixels of the pages. */
 #include "atlas/texels/texels.h"
+#include "atlas/adjacent.h"
 
 #include <stdlib.h>
 
@@ -20,7 +21,7 @@ static bool add_areas(sp_atlas *atlas, const sp_mesh *mesh)
 bool sp_atlas_cut(sp_atlas *atlas, const sp_mesh *mesh, sp_error *error)
 {
     sp_half_edges edges = {0};
-    bool done = sp_atlas_find_pixels(atlas, error) && sp_half_edges_create(mesh, &edges, error) &&
+    bool done = sp_atlas_find_pixels(atlas, error) && sp_adjacent_create(mesh, &edges, error) &&
                 sp_atlas_share_pixels(atlas, mesh, &edges, error) && sp_atlas_find_seams(atlas, mesh, &edges, error);
     sp_half_edges_destroy(&edges);
     return done && (add_areas(atlas, mesh) || sp_fail_memory(error));
