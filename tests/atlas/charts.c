@@ -1,8 +1,6 @@
 /* Unfolding: what is developable stays whole and keeps its lengths; nothing overlaps; cuts are where they must be. */
 #include "shapes.h"
 
-#include <stdio.h>
-
 static void expect_isometric(const sp_mesh *mesh, const sp_charts *charts)
 {
     for (size_t t = 0; t < mesh->triangle_count; t++) {
@@ -159,32 +157,6 @@ static void refuses_what_makes_no_sense(void **state)
     sp_mesh_destroy(mesh);
 }
 
-/* A rotation by an arbitrary angle, a scale and a move, as the same mesh. */
-static sp_mesh *posed(const sp_mesh *mesh, double scale, double angle, sp_vec3 move)
-{
-    sp_error error = {0};
-    sp_transform pose = sp_transform_default();
-    sp_transform_rotation(&pose, sp_v(1, 2, -3), angle);
-    pose.scale = scale;
-    pose.translate = move;
-    sp_mesh *moved = sp_mesh_join(&mesh, &pose, 1, &error);
-    if (!moved)
-        fail_msg("%s", error.message);
-    return moved;
-}
-
-static sp_vec3 on_washer(double s, double t, double size)
-{
-    return on_circle(size * (1 + t), s, 0);
-}
-
-static sp_vec3 on_torus(double s, double t, double size)
-{
-    sp_vec3 ring = on_circle(size * (1 + 0.4 * (t == 1 ? 1 : cos(2 * M_PI * t))), s, 0);
-    ring.z = size * 0.4 * (t == 1 ? 0 : sin(2 * M_PI * t));
-    return ring;
-}
-
 /* Area-weighted share of triangles with more than 5 % strain; every triangle must lie anticlockwise in some chart. */
 static double strained_share(const sp_mesh *mesh, const sp_charts *charts)
 {
@@ -256,17 +228,6 @@ static void expect_no_overlap(const sp_mesh *mesh, const sp_charts *charts)
             }
     }
     free(sweep);
-}
-
-static sp_mesh *data_mesh(const char *name)
-{
-    char path[1024];
-    snprintf(path, sizeof path, DATA_DIR "/%s", name);
-    sp_error error = {0};
-    sp_mesh *mesh = sp_mesh_load(path, 1, &error);
-    if (!mesh)
-        print_message("skipped: %s\n", error.message);
-    return mesh;
 }
 
 static void strain_is_bounded_and_nothing_overlaps(void **state)

@@ -2,8 +2,6 @@
  * them. */
 #include "shapes.h"
 
-#include <stdio.h>
-
 static sp_vec3 on_plate(double s, double t, double size)
 {
     return sp_v(size * s, 0.7 * size * t, 0);
@@ -15,22 +13,10 @@ static sp_vec3 on_bend(double s, double t, double size)
     return on_circle(size * (1 + 0.4 * t), 0.25 * s, 0);
 }
 
-static sp_vec3 on_washer(double s, double t, double size)
-{
-    return on_circle(size * (1 + t), s, 0);
-}
-
 /* A sheet that has been corrugated: bent about parallel lines only. */
 static sp_vec3 on_corrugated(double s, double t, double size)
 {
     return sp_v(size * (s + 0.01 * sin(40 * s)), size * t, 0.03 * size * cos(40 * s));
-}
-
-static sp_vec3 on_torus(double s, double t, double size)
-{
-    sp_vec3 ring = on_circle(size * (1 + 0.4 * (t == 1 ? 1 : cos(2 * M_PI * t))), s, 0);
-    ring.z = size * 0.4 * (t == 1 ? 0 : sin(2 * M_PI * t));
-    return ring;
 }
 
 /* A shell with a torispherical end: the usual vessel. */
@@ -55,20 +41,6 @@ static sp_mesh *in_single(const sp_mesh *mesh)
     free(vertices);
     assert_int_equal(rounded->triangle_count, mesh->triangle_count);
     return rounded;
-}
-
-static sp_mesh *posed(const sp_mesh *mesh, double scale, double angle, sp_vec3 move)
-{
-    sp_error error = {0};
-    sp_transform pose = sp_transform_default();
-    sp_transform_rotation(&pose, sp_v(1, 2, -3), angle);
-    pose.scale = scale;
-    pose.translate = move;
-    sp_mesh *moved = sp_mesh_join(&mesh, &pose, 1, &error);
-    if (!moved)
-        fail_msg("%s", error.message);
-    assert_int_equal(moved->triangle_count, mesh->triangle_count);
-    return moved;
 }
 
 /* The most that a length between two corners of a triangle is off, in parts of `unit` or, where that is 0, of it. */
@@ -150,17 +122,6 @@ static void expect_same_charts(const sp_mesh *mesh, const sp_charts *charts, dou
     assert_true(worst < 1e-4);
     sp_charts_destroy(again);
     sp_mesh_destroy(other);
-}
-
-static sp_mesh *data_mesh(const char *name)
-{
-    char path[1024];
-    snprintf(path, sizeof path, DATA_DIR "/%s", name);
-    sp_error error = {0};
-    sp_mesh *mesh = sp_mesh_load(path, 1, &error);
-    if (!mesh)
-        print_message("skipped: %s\n", error.message);
-    return mesh;
 }
 
 static void neither_size_nor_pose_matters(void **state)

@@ -9,6 +9,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
@@ -88,6 +89,18 @@ static inline sp_vec3 on_two_tubes(double s, double t, double size)
     return sp_v(second ? -bulge * x : bulge * x, bulge * sin(angle), size * t);
 }
 
+static inline sp_vec3 on_washer(double s, double t, double size)
+{
+    return on_circle(size * (1 + t), s, 0);
+}
+
+static inline sp_vec3 on_torus(double s, double t, double size)
+{
+    sp_vec3 ring = on_circle(size * (1 + 0.4 * (t == 1 ? 1 : cos(2 * M_PI * t))), s, 0);
+    ring.z = size * 0.4 * (t == 1 ? 0 : sin(2 * M_PI * t));
+    return ring;
+}
+
 static inline sp_mesh *one_triangle(double size)
 {
     const sp_vec3 vertices[] = {{0, 0, 0}, {3 * size, 0, 0}, {0, 0, 4 * size}};
@@ -102,6 +115,33 @@ static inline sp_mesh *box(double x, double y, double z)
     const uint32_t triangles[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                                        {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
     return mesh_of(vertices, 8, triangles, 12);
+}
+
+/* A rotation by an arbitrary angle, a scale and a move, as the same mesh. */
+static inline sp_mesh *posed(const sp_mesh *mesh, double scale, double angle, sp_vec3 move)
+{
+    sp_error error = {0};
+    sp_transform pose = sp_transform_default();
+    sp_transform_rotation(&pose, sp_v(1, 2, -3), angle);
+    pose.scale = scale;
+    pose.translate = move;
+    sp_mesh *moved = sp_mesh_join(&mesh, &pose, 1, &error);
+    if (!moved)
+        fail_msg("%s", error.message);
+    assert_int_equal(moved->triangle_count, mesh->triangle_count);
+    return moved;
+}
+
+/* NULL, with a message, where it is not there. */
+static inline sp_mesh *data_mesh(const char *name)
+{
+    char path[1024];
+    snprintf(path, sizeof path, DATA_DIR "/%s", name);
+    sp_error error = {0};
+    sp_mesh *mesh = sp_mesh_load(path, 1, &error);
+    if (!mesh)
+        print_message("skipped: %s\n", error.message);
+    return mesh;
 }
 
 static inline sp_charts *charts_of(const sp_mesh *mesh, double extent)
