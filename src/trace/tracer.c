@@ -260,7 +260,7 @@ static void trace_many(const sp_tracer *tracer, const sp_ray *rays, size_t count
     sp_pull pull = sp_pull_of(gravity);
     threads = thread_count(threads);
     size_t size = chunk_size(count, threads), chunks = (count + size - 1) / size;
-    if (chunks == 1) { /* even a team of one costs as much as some rays */
+    if (chunks == 1 && count < CHUNK_LEAST) { /* a team, even of one, costs as much as some rays */
         sp_fan_room room = {0};
         trace_chunk(tracer, rays, count, &pull, &room, hits, occluded);
         sp_fan_room_clear(&room);
