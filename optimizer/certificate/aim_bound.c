@@ -42,17 +42,12 @@ static void aiming_free(aiming *a)
     sp_aim_kinds_free(&a->kinds);
 }
 
-static const sp_draft *draft_of(const sp_front *front, size_t i)
-{
-    return i < front->count ? &front->entries[i].draft : &front->best;
-}
-
 static bool list_flows(aiming *a, sp_error *error)
 {
     const sp_candidates *candidates = a->task->search->candidates;
     size_t count = candidates->make_count;
     for (size_t i = 0; i <= a->front->count; i++)
-        count += draft_of(a->front, i)->count;
+        count += sp_front_draft(a->front, i)->count;
     for (size_t k = 0; k < a->kinds.count; k++)
         count += a->kinds.items[k].step_count;
     a->flows = malloc((count + 1) * sizeof *a->flows);
@@ -62,8 +57,8 @@ static bool list_flows(aiming *a, sp_error *error)
     for (size_t k = 0; k < candidates->make_count; k++)
         a->flows[a->flow_count++] = candidates->makes[k].flow;
     for (size_t i = 0; i <= a->front->count; i++)
-        for (size_t n = 0; n < draft_of(a->front, i)->count; n++)
-            a->flows[a->flow_count++] = draft_of(a->front, i)->items[n].flow;
+        for (size_t n = 0; n < sp_front_draft(a->front, i)->count; n++)
+            a->flows[a->flow_count++] = sp_front_draft(a->front, i)->items[n].flow;
     for (size_t k = 0; k < a->kinds.count; k++)
         for (size_t step = 0; step < a->kinds.items[k].step_count; step++)
             a->flows[a->flow_count++] = a->kinds.items[k].edge[step];
@@ -79,7 +74,7 @@ static bool set_limits(aiming *a)
     for (size_t i = 0; i < a->flow_count; i++)
         least = fmin(least, a->flows[i]);
     for (size_t i = 0; i <= a->front->count; i++)
-        most = fmax(most, draft_of(a->front, i)->flow - search->kept_flow);
+        most = fmax(most, sp_front_draft(a->front, i)->flow - search->kept_flow);
     if (!(most >= least))
         return false;
     a->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
@@ -128,8 +123,8 @@ static bool add_rows(aiming *a, sp_error *error)
 {
     const sp_rows *rows = a->task->rows;
     for (size_t i = 0; i <= a->front->count; i++)
-        for (size_t n = 0; n < draft_of(a->front, i)->count; n++) {
-            const sp_placed *placed = &draft_of(a->front, i)->items[n];
+        for (size_t n = 0; n < sp_front_draft(a->front, i)->count; n++) {
+            const sp_placed *placed = &sp_front_draft(a->front, i)->items[n];
             uint32_t tier = tier_of_weight(a, sp_water_weight(&a->units, placed->flow));
             if (!sp_pose_prices_row(a->poses, placed->field, SP_OWN_KEY, a->task->ports[placed->site.mount], tier,
                                     &a->bound.rows, error))

@@ -1,10 +1,10 @@
 #include "certificate/certificate.h"
 
-#include "certificate/aim_bound.h"
 #include "bound/branch.h"
-#include "certificate/pose_prices.h"
-#include "certificate/water_units.h"
+#include "certificate/aim_bound.h"
+#include "certificate/problem.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #define ROUNDS_EXPLORING 4 /* of looking at some of the poses first */
@@ -33,22 +33,8 @@
 #define OPEN_LEAST 1e-3       /* gap of a point of the front that is worth a turn */
 
 typedef struct {
-    const sp_search *search;
+    sp_problem problem;
     sp_watch *watch;
-    const sp_front *front;
-    sp_cover cover;
-    sp_water_units units;
-    float *area, *need; /* [patches] */
-    uint32_t *weight;   /* [tiers] */
-    uint32_t *tier_of;  /* [makes] */
-    size_t *ports;      /* [mounts] */
-    double *flows;      /* [makes], then one for each nozzle of the front */
-    size_t own;         /* nozzles of the front */
-    sp_pose_prices *prices;
-    sp_rows nozzles; /* of the front */
-    sp_pose_order order;
-    sp_line line;
-    sp_pricer pricer;
     sp_bound bound;
     sp_branching branching;
     sp_tree *trees; /* [front->count + 1], by points, then the proposal's; empty where it takes no water */
@@ -59,101 +45,14 @@ typedef struct {
 
 static void certifying_free(certifying *c)
 {
-    for (size_t i = 0; c->trees && i <= c->front->count; i++)
+    for (size_t i = 0; c->trees && i <= c->problem.front->count; i++)
         sp_tree_free(&c->trees[i]);
     free(c->trees);
     free(c->found);
     free(c->begun);
     sp_branching_free(&c->branching);
     sp_bound_free(&c->bound);
-    sp_pose_order_free(&c->order);
-    sp_rows_free(&c->nozzles);
-    sp_pose_prices_destroy(c->prices);
-    free(c->area);
-    free(c->need);
-    free(c->weight);
-    free(c->tier_of);
-    free(c->ports);
-    free(c->flows);
-}
-
-static double least_of(const double *values, size_t count)
-{
-    double least = INFINITY;
-    for (size_t i = 0; i < count; i++)
-        least = fmin(least, values[i]);
-    return least;
-}
-
-/* Drafts of the front, and the best. */
-static const sp_draft *draft_of(const sp_front *front, size_t i)
-{
-    return i < front->count ? &front->entries[i].draft : &front->best;
-}
-
-static bool list_flows(certifying *c, sp_error *error)
-{
-    const sp_candidates *candidates = c->search->candidates;
-    for (size_t i = 0; i <= c->front->count; i++)
-        c->own += draft_of(c->front, i)->count;
-    c->flows = malloc((candidates->make_count + c->own + 1) * sizeof *c->flows);
-    if (!c->flows)
-        return sp_fail_memory(error);
-    size_t count = 0;
-    for (size_t k = 0; k < candidates->make_count; k++)
-        c->flows[count++] = candidates->makes[k].flow;
-    for (size_t i = 0; i <= c->front->count; i++)
-        for (size_t n = 0; n < draft_of(c->front, i)->count; n++)
-            c->flows[count++] = draft_of(c->front, i)->items[n].flow;
-    return true;
-}
-
-static uint32_t tier_for(certifying *c, double flow)
-{
-    uint32_t weight = sp_water_weight(&c->units, flow), tier = 0;
-    while (tier < c->cover.tier_count && c->weight[tier] != weight)
-        tier++;
-    if (tier == c->cover.tier_count)
-        c->weight[c->cover.tier_count++] = weight;
-    return tier;
-}
-
-/* Water of the layouts, in units, and number; false where nothing can be placed, or too many nozzles at a time. */
-static bool set_limits(certifying *c)
-{
-    const sp_search *search = c->search;
-    size_t makes = search->candidates->make_count, limit = search->options->max_nozzles;
-    double most = 0, least = least_of(c->flows, makes + c->own);
-    for (size_t i = 0; i <= c->front->count; i++)
-        most = fmax(most, draft_of(c->front, i)->flow - search->kept_flow);
-    if (!(most >= least) || (limit && limit <= search->kept_count))
-        return false;
-    c->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
-    if (limit && limit - search->kept_count < c->cover.nozzles)
-        c->cover.nozzles = limit - search->kept_count;
-    if (c->cover.nozzles > SP_NOZZLES_MOST)
-        return false;
-    c->units = sp_water_units_create(c->flows, makes, least, c->cover.nozzles, most);
-    c->cover.water = sp_water_budget(&c->units, most);
-    return true;
-}
-
-static bool set_tiers(certifying *c, sp_error *error)
-{
-    const sp_search *search = c->search;
-    size_t makes = search->candidates->make_count, mounts = search->options->mount_count;
-    c->weight = malloc((makes + c->own + 1) * sizeof *c->weight);
-    c->tier_of = malloc((makes + 1) * sizeof *c->tier_of);
-    c->ports = malloc((mounts + 1) * sizeof *c->ports);
-    if (!c->weight || !c->tier_of || !c->ports)
-        return sp_fail_memory(error);
-    for (size_t k = 0; k < makes; k++)
-        c->tier_of[k] = tier_for(c, c->flows[k]);
-    for (size_t i = 0; i < c->own; i++)
-        tier_for(c, c->flows[makes + i]);
-    for (size_t m = 0; m < mounts; m++)
-        c->ports[m] = search->options->mounts[m].kind == SP_MOUNT_PORT ? c->cover.port_count++ : SP_NO_PORT;
-    return true;
+    sp_problem_free(&c->problem);
 }
 
 /* False once cancelled or out of time, which leaves the proposal as good as it is. */
@@ -163,76 +62,21 @@ static bool goes_on(void *user)
     return sp_watch_has_time(c->watch, "certificate", c->done);
 }
 
-/* What every texel still needs besides the kept nozzles. */
-static bool set_texels(certifying *c, sp_error *error)
-{
-    const sp_search *search = c->search;
-    c->area = malloc((search->patch_count + 1) * sizeof *c->area);
-    c->need = malloc((search->patch_count + 1) * sizeof *c->need);
-    double margin = sp_field_margin(search->kept_count + c->cover.nozzles);
-    if (!c->area || !c->need)
-        return sp_fail_memory(error);
-    for (size_t t = 0; t < search->patch_count; t++) {
-        double had = (double)search->kept_wet[t] * (1 + margin);
-        double need = had >= 1 ? 0 : search->single ? 1 : 1 - had;
-        c->need[t] = need > margin ? (float)need : 0;
-        c->area[t] = c->need[t] > 0 ? search->area[t] : 0;
-        c->cover.base += c->need[t] > 0 ? 0 : (double)search->area[t];
-    }
-    c->cover.texel_count = search->patch_count;
-    c->cover.area = c->area;
-    c->cover.weight = c->weight;
-    c->cover.repeats = true;
-    c->cover.whole = search->single || search->threshold <= 0;
-    c->cover.threads = sp_threads(&search->options->run);
-    c->cover.goes_on = goes_on;
-    c->cover.user = c;
-    return true;
-}
-
-static bool add_own(certifying *c, sp_error *error)
-{
-    for (size_t i = 0; i <= c->front->count; i++) {
-        const sp_draft *draft = draft_of(c->front, i);
-        for (size_t n = 0; n < draft->count; n++) {
-            const sp_placed *placed = &draft->items[n];
-            if (!sp_pose_prices_row(c->prices, placed->field, SP_OWN_KEY, c->ports[placed->site.mount],
-                                    tier_for(c, placed->flow), &c->nozzles, error))
-                return false;
-        }
-    }
-    return true;
-}
-
-static double counted_area(const sp_search *search, const sp_draft *draft)
-{
-    double area = 0;
-    for (size_t p = 0; p < search->patch_count; p++)
-        area += draft->wet[p] >= 1 ? (double)search->area[p] : 0;
-    return area;
-}
-
-static size_t budget_of(const certifying *c, double flow)
-{
-    size_t budget = sp_water_budget(&c->units, flow - c->search->kept_flow);
-    return budget < c->cover.water ? budget : c->cover.water;
-}
-
 /* The most that a layout found with so much water covers, as counted here. */
 static double found_within(const certifying *c, size_t water)
 {
-    double most = c->cover.base;
-    for (size_t i = 0; i <= c->front->count; i++)
-        if (budget_of(c, draft_of(c->front, i)->flow) <= water)
-            most = fmax(most, counted_area(c->search, draft_of(c->front, i)));
+    double most = c->problem.cover.base;
+    for (size_t i = 0; i <= c->problem.front->count; i++)
+        if (sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->flow) <= water)
+            most = fmax(most, sp_draft_counted(c->problem.search, sp_front_draft(c->problem.front, i)));
     return most;
 }
 
 /* One for every point of the front and the proposal, where water for a nozzle is. */
 static bool plant_trees(certifying *c, sp_error *error)
 {
-    for (size_t i = 0; i <= c->front->count; i++) {
-        size_t water = budget_of(c, draft_of(c->front, i)->flow);
+    for (size_t i = 0; i <= c->problem.front->count; i++) {
+        size_t water = sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->flow);
         c->found[i] = found_within(c, water);
         if (water && !sp_tree_create(&c->branching, water, c->bound.by_water[water], c->found[i], &c->trees[i], error))
             return false;
@@ -242,25 +86,18 @@ static bool plant_trees(certifying *c, sp_error *error)
 
 static bool prepare(certifying *c, sp_error *error)
 {
-    if (!set_tiers(c, error) || !set_texels(c, error))
-        return false;
-    c->prices = sp_pose_prices_create(c->search, &c->cover, c->tier_of, c->need, c->ports, error);
-    if (!c->prices)
-        return false;
-    if (!add_own(c, error) ||
-        !sp_pose_order_create(c->search, &c->cover, c->tier_of, c->ports, &c->nozzles, &c->order, error))
-        return false;
-    if (!sp_pose_line(c->prices, &c->order, &c->line, error))
-        return false;
-    c->pricer = sp_pose_pricer(c->prices);
-    c->trees = calloc(c->front->count + 1, sizeof *c->trees);
-    c->found = malloc((c->front->count + 1) * sizeof *c->found);
-    c->begun = calloc(c->front->count + 1, sizeof *c->begun);
+    sp_problem *problem = &c->problem;
+    size_t count = problem->front->count + 1;
+    problem->cover.goes_on = goes_on;
+    problem->cover.user = c;
+    c->trees = calloc(count, sizeof *c->trees);
+    c->found = malloc(count * sizeof *c->found);
+    c->begun = calloc(count, sizeof *c->begun);
     if (!c->trees || !c->found || !c->begun)
         return sp_fail_memory(error);
-    return sp_bound_create(&c->cover, &c->pricer, &c->bound, error) &&
-           sp_rows_append(&c->bound.rows, &c->nozzles, error) &&
-           sp_branching_create(&c->cover, &c->line, &c->branching, error) && plant_trees(c, error);
+    return sp_bound_create(&problem->cover, &problem->pricer, &c->bound, error) &&
+           sp_rows_append(&c->bound.rows, &problem->nozzles, error) &&
+           sp_branching_create(&problem->cover, &problem->line, &c->branching, error) && plant_trees(c, error);
 }
 
 static bool has_time(certifying *c, double done)
@@ -273,10 +110,11 @@ static bool has_time(certifying *c, double done)
  * little. */
 static bool tell_trees(certifying *c, size_t water, sp_error *error)
 {
-    for (size_t i = 0; i <= c->front->count && c->bound.complete; i++)
+    for (size_t i = 0; i <= c->problem.front->count && c->bound.complete; i++)
         if ((double)c->trees[i].water * WATER_LIKE > (double)water &&
             (double)c->trees[i].water < WATER_LIKE * (double)water &&
-            !sp_tree_hear(&c->branching, &c->trees[i], &c->bound.dual.price, sp_pose_prices_last(c->prices), error))
+            !sp_tree_hear(&c->branching, &c->trees[i], &c->bound.dual.price, sp_pose_prices_last(c->problem.prices),
+                          error))
             return false;
     return true;
 }
@@ -315,20 +153,22 @@ static bool lower_water(certifying *c, double area, size_t most, size_t trials, 
 static bool begins_anew(const certifying *c, size_t i)
 {
     const sp_tree *tree = &c->trees[i];
-    return !c->begun[i] && !(tree->next_work > 0 && tree->next_work < ALIVE_FEW * (double)c->line.count);
+    return !c->begun[i] && !(tree->next_work > 0 && tree->next_work < ALIVE_FEW * (double)c->problem.line.count);
 }
 
 /* What of the bound at a point nothing found comes up to. */
 static double open_at(const certifying *c, size_t i)
 {
-    return fmax(0, 1 - c->found[i] / c->bound.by_water[budget_of(c, draft_of(c->front, i)->flow)]);
+    return fmax(0,
+                1 - c->found[i] /
+                        c->bound.by_water[sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->flow)]);
 }
 
 /* The same of all points of about as much water, which prices for one of them are good for. */
 static double open_about(const certifying *c, size_t i)
 {
     double open = 0, water = (double)c->trees[i].water;
-    for (size_t k = 0; k <= c->front->count; k++) {
+    for (size_t k = 0; k <= c->problem.front->count; k++) {
         double other = (double)c->trees[k].water;
         open += other < WATER_NEAR * water && water < WATER_NEAR * other ? open_at(c, k) : 0;
     }
@@ -339,13 +179,13 @@ static double open_about(const certifying *c, size_t i)
  * it takes and took, the sooner; front->count + 1 where none is left open. */
 static size_t next_point(const certifying *c)
 {
-    size_t found = c->front->count + 1;
+    size_t found = c->problem.front->count + 1;
     double most = 0;
-    for (size_t i = 0; i <= c->front->count; i++) {
+    for (size_t i = 0; i <= c->problem.front->count; i++) {
         const sp_tree *tree = &c->trees[i];
         double open = open_at(c, i), score;
         if (begins_anew(c, i))
-            score = open_about(c, i) / (WORK_FIRST * (double)c->line.count + WORK_PAST * tree->work);
+            score = open_about(c, i) / (WORK_FIRST * (double)c->problem.line.count + WORK_PAST * tree->work);
         else
             score = open / (tree->next_work + WORK_PAST * tree->work);
         if (!sp_tree_closed(tree) && open > OPEN_LEAST && score > most) {
@@ -360,12 +200,13 @@ static size_t next_point(const certifying *c)
  * these get further in as much time, but do not see what a narrow gap is about. */
 static bool begin_tree(certifying *c, size_t i, sp_error *error)
 {
-    size_t water = budget_of(c, draft_of(c->front, i)->flow), iterations = c->bound.iterations;
-    for (size_t k = 0; k <= c->front->count; k++) {
+    size_t water = sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->flow),
+           iterations = c->bound.iterations;
+    for (size_t k = 0; k <= c->problem.front->count; k++) {
         double other = (double)c->trees[k].water;
         c->begun[k] |= other < WATER_SAME * (double)water && (double)water < WATER_SAME * other;
     }
-    c->trees[i].work += WORK_FIRST * (double)c->line.count;
+    c->trees[i].work += WORK_FIRST * (double)c->problem.line.count;
     if (open_at(c, i) > OPEN_WIDE) {
         c->bound.coarse = ITERATIONS_COARSE;
         c->bound.iterations = ITERATIONS_FINE;
@@ -397,7 +238,7 @@ static bool lower_front(certifying *c, double work, sp_error *error)
         return false;
     for (double done = 0; done < work;) {
         size_t i = next_point(c);
-        if (i > c->front->count || !has_time(c, 0.6 + 0.4 * done / work))
+        if (i > c->problem.front->count || !has_time(c, 0.6 + 0.4 * done / work))
             break;
         double before = c->trees[i].work;
         if (!grow_tree(c, i, error))
@@ -434,44 +275,31 @@ static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
            sp_bound_lower_single(&c->bound, error) && tell_trees(c, c->bound.lightest, error) &&
            lower(c, water, ROUNDS_FIRST - 1, 0.1, error) &&
            lower_water(c, area, water, TRIALS_WATER, ROUNDS_WATER, error) &&
-           lower_front(c, WORK_LEAST + WORK_EACH * (double)c->line.count, error);
+           lower_front(c, WORK_LEAST + WORK_EACH * (double)c->problem.line.count, error);
 }
 
 /* Poses that were priced: those of mounting points that were traced, not in ports that kept nozzles take. */
-static size_t count_poses(const certifying *c)
-{
-    const sp_search *search = c->search;
-    size_t count = 0;
-    for (size_t i = 0; i < search->sites->count; i++)
-        for (size_t k = 0; k < search->candidates->make_count; k++) {
-            uint32_t mount = search->sites->items[i].mount;
-            const sp_make *make = &search->candidates->makes[k];
-            if (!search->port_taken[mount] && sp_visibility_known(search->visibility, (uint32_t)i, make->speed_class))
-                count += sp_candidates_axes(search->candidates, mount, k)->count * make->roll_count;
-        }
-    return count;
-}
-
 /* Notes the bounds of the candidates. */
 static void conclude(const certifying *c, sp_front *front, sp_certificate *certificate)
 {
-    double whole = 0, counted = counted_area(c->search, &front->best);
-    for (size_t p = 0; p < c->search->patch_count; p++)
-        whole += (double)c->search->area[p];
+    double whole = 0, counted = sp_draft_counted(c->problem.search, &front->best);
+    for (size_t p = 0; p < c->problem.search->patch_count; p++)
+        whole += (double)c->problem.search->area[p];
     for (size_t i = 0; i < front->count; i++) {
         sp_front_point *point = &front->entries[i].point;
-        point->counted = counted_area(c->search, &front->entries[i].draft);
-        point->bound = fmin(whole, c->bound.by_water[budget_of(c, point->flow)]);
+        point->counted = sp_draft_counted(c->problem.search, &front->entries[i].draft);
+        point->bound = fmin(whole, c->bound.by_water[sp_problem_budget(&c->problem, point->flow)]);
     }
     size_t water = sp_bound_water(&c->bound, counted);
     certificate->computed = true;
-    certificate->texels = c->search->patch_count;
-    certificate->candidates = count_poses(c);
-    certificate->own = c->own;
+    certificate->texels = c->problem.search->patch_count;
+    certificate->candidates = sp_problem_poses(&c->problem);
+    certificate->own = c->problem.own;
     certificate->whole = whole;
     certificate->counted = counted;
-    certificate->area_bound = fmin(whole, c->bound.by_water[budget_of(c, front->best.flow)]);
-    certificate->water_bound = fmin(front->best.flow, c->search->kept_flow + c->units.unit * (double)water);
+    certificate->area_bound = fmin(whole, c->bound.by_water[sp_problem_budget(&c->problem, front->best.flow)]);
+    certificate->water_bound =
+        fmin(front->best.flow, c->problem.search->kept_flow + c->problem.units.unit * (double)water);
     certificate->gap = certificate->area_bound > 0 ? (certificate->area_bound - counted) / certificate->area_bound : 0;
 }
 
@@ -479,17 +307,18 @@ static void conclude(const certifying *c, sp_front *front, sp_certificate *certi
  * bounded whichever way nozzles are aimed, which a proof that is not closed in time would leave none for. */
 static bool certify(certifying *c, sp_front *front, sp_certificate *certificate, sp_error *error)
 {
-    size_t water = budget_of(c, front->best.flow);
-    double area = counted_area(c->search, &front->best);
+    size_t water = sp_problem_budget(&c->problem, front->best.flow);
+    double area = sp_draft_counted(c->problem.search, &front->best);
     if (!lower_all(c, water, area, error))
         return false;
     if (!c->bound.proofs)
         return true;
     conclude(c, front, certificate);
-    const sp_aim_task task = {c->search, c->watch, &c->cover, &c->units, c->need, c->ports, &c->bound.rows};
+    const sp_aim_task task = {c->problem.search, c->watch,         &c->problem.cover, &c->problem.units,
+                              c->problem.need,   c->problem.ports, &c->bound.rows};
     if (!sp_aim_bound(&task, front, certificate, error))
         return false;
-    if (!c->search->options->prove)
+    if (!c->problem.search->options->prove)
         return true;
     bool done = prove(c, water, area, error);
     conclude(c, front, certificate);
@@ -498,14 +327,15 @@ static bool certify(certifying *c, sp_front *front, sp_certificate *certificate,
 
 bool sp_certify(const sp_search *search, sp_watch *watch, sp_front *front, sp_certificate *certificate, sp_error *error)
 {
-    certifying c = {.search = search, .watch = watch, .front = front};
+    certifying c = {.watch = watch};
+    bool possible;
     *certificate = (sp_certificate){0};
     for (size_t i = 0; i < front->count; i++)
         front->entries[i].point.counted = front->entries[i].point.bound = front->entries[i].point.every_aim_bound = NAN;
     if (watch->cancelled || !front->found)
         return true;
-    bool done =
-        list_flows(&c, error) && (!set_limits(&c) || (prepare(&c, error) && certify(&c, front, certificate, error)));
+    bool done = sp_problem_create(search, front, &c.problem, &possible, error) &&
+                (!possible || (prepare(&c, error) && certify(&c, front, certificate, error)));
     certifying_free(&c);
     return done;
 }

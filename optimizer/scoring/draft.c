@@ -195,6 +195,14 @@ void sp_draft_remove(const sp_search *search, sp_draft *draft, size_t i)
     free(sp_draft_take(search, draft, i).field);
 }
 
+double sp_draft_counted(const sp_search *search, const sp_draft *draft)
+{
+    double area = 0;
+    for (size_t p = 0; p < search->patch_count; p++)
+        area += draft->wet[p] >= 1 ? (double)search->area[p] : 0;
+    return area;
+}
+
 bool sp_draft_has_place(const sp_search *search, const sp_draft *draft, uint32_t mount)
 {
     if (search->options->max_nozzles && search->kept_count + draft->count >= search->options->max_nozzles)

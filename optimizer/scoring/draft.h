@@ -61,6 +61,8 @@ void sp_draft_remove(const sp_search *search, sp_draft *draft, size_t i);
 sp_placed sp_draft_take(const sp_search *search, sp_draft *draft, size_t i);
 /* Draws wet, flow, covered and value from the items. */
 void sp_draft_refresh(const sp_search *search, sp_draft *draft);
+/* What it covers of the search's patches, m², added up in their order. */
+double sp_draft_counted(const sp_search *search, const sp_draft *draft);
 /* True where the draft may take one more nozzle at the site: number and ports, not water. */
 bool sp_draft_has_place(const sp_search *search, const sp_draft *draft, uint32_t mount);
 /* Named nozzles, the kept ones first. */

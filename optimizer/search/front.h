@@ -22,6 +22,12 @@ typedef struct {
     double bias;             /* m² that the fine measure lies above the best one's coarse `covered` */
 } sp_front;
 
+/* The entries' drafts, then the best. */
+static inline const sp_draft *sp_front_draft(const sp_front *front, size_t i)
+{
+    return i < front->count ? &front->entries[i].draft : &front->best;
+}
+
 /* True where a is better than b: by the objective among drafts that reach the target, by area among others. */
 bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b);
 /* Measures the draft, notes it, and keeps a copy where it is the best yet. *point may be NULL. */

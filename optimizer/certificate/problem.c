@@ -1,0 +1,173 @@
+#include "certificate/problem.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static double least_of(const double *values, size_t count)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < count; i++)
+        least = fmin(least, values[i]);
+    return least;
+}
+
+static bool list_flows(sp_problem *p, sp_error *error)
+{
+    const sp_candidates *candidates = p->search->candidates;
+    for (size_t i = 0; i <= p->front->count; i++)
+        p->own += sp_front_draft(p->front, i)->count;
+    p->flows = malloc((candidates->make_count + p->own + 1) * sizeof *p->flows);
+    if (!p->flows)
+        return sp_fail_memory(error);
+    size_t count = 0;
+    for (size_t k = 0; k < candidates->make_count; k++)
+        p->flows[count++] = candidates->makes[k].flow;
+    for (size_t i = 0; i <= p->front->count; i++)
+        for (size_t n = 0; n < sp_front_draft(p->front, i)->count; n++)
+            p->flows[count++] = sp_front_draft(p->front, i)->items[n].flow;
+    return true;
+}
+
+static uint32_t tier_for(sp_problem *p, double flow)
+{
+    uint32_t weight = sp_water_weight(&p->units, flow), tier = 0;
+    while (tier < p->cover.tier_count && p->weight[tier] != weight)
+        tier++;
+    if (tier == p->cover.tier_count)
+        p->weight[p->cover.tier_count++] = weight;
+    return tier;
+}
+
+/* Water of the layouts, in units, and number; false where nothing can be placed, or too many nozzles at a time. */
+static bool set_limits(sp_problem *p)
+{
+    const sp_search *search = p->search;
+    size_t makes = search->candidates->make_count, limit = search->options->max_nozzles;
+    double most = 0, least = least_of(p->flows, makes + p->own);
+    for (size_t i = 0; i <= p->front->count; i++)
+        most = fmax(most, sp_front_draft(p->front, i)->flow - search->kept_flow);
+    if (!(most >= least) || (limit && limit <= search->kept_count))
+        return false;
+    p->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
+    if (limit && limit - search->kept_count < p->cover.nozzles)
+        p->cover.nozzles = limit - search->kept_count;
+    if (p->cover.nozzles > SP_NOZZLES_MOST)
+        return false;
+    p->units = sp_water_units_create(p->flows, makes, least, p->cover.nozzles, most);
+    p->cover.water = sp_water_budget(&p->units, most);
+    return true;
+}
+
+static bool set_tiers(sp_problem *p, sp_error *error)
+{
+    const sp_search *search = p->search;
+    size_t makes = search->candidates->make_count, mounts = search->options->mount_count;
+    p->weight = malloc((makes + p->own + 1) * sizeof *p->weight);
+    p->tier_of = malloc((makes + 1) * sizeof *p->tier_of);
+    p->ports = malloc((mounts + 1) * sizeof *p->ports);
+    if (!p->weight || !p->tier_of || !p->ports)
+        return sp_fail_memory(error);
+    for (size_t k = 0; k < makes; k++)
+        p->tier_of[k] = tier_for(p, p->flows[k]);
+    for (size_t i = 0; i < p->own; i++)
+        tier_for(p, p->flows[makes + i]);
+    for (size_t m = 0; m < mounts; m++)
+        p->ports[m] = search->options->mounts[m].kind == SP_MOUNT_PORT ? p->cover.port_count++ : SP_NO_PORT;
+    return true;
+}
+
+/* What every texel still needs besides the kept nozzles. */
+static bool set_texels(sp_problem *p, sp_error *error)
+{
+    const sp_search *search = p->search;
+    p->area = malloc((search->patch_count + 1) * sizeof *p->area);
+    p->need = malloc((search->patch_count + 1) * sizeof *p->need);
+    double margin = sp_field_margin(search->kept_count + p->cover.nozzles);
+    if (!p->area || !p->need)
+        return sp_fail_memory(error);
+    for (size_t t = 0; t < search->patch_count; t++) {
+        double had = (double)search->kept_wet[t] * (1 + margin);
+        double need = had >= 1 ? 0 : search->single ? 1 : 1 - had;
+        p->need[t] = need > margin ? (float)need : 0;
+        p->area[t] = p->need[t] > 0 ? search->area[t] : 0;
+        p->cover.base += p->need[t] > 0 ? 0 : (double)search->area[t];
+    }
+    p->cover.texel_count = search->patch_count;
+    p->cover.area = p->area;
+    p->cover.weight = p->weight;
+    p->cover.repeats = true;
+    p->cover.whole = search->single || search->threshold <= 0;
+    p->cover.threads = sp_threads(&search->options->run);
+    return true;
+}
+
+static bool add_own(sp_problem *p, sp_error *error)
+{
+    for (size_t i = 0; i <= p->front->count; i++) {
+        const sp_draft *draft = sp_front_draft(p->front, i);
+        for (size_t n = 0; n < draft->count; n++) {
+            const sp_placed *placed = &draft->items[n];
+            if (!sp_pose_prices_row(p->prices, placed->field, SP_OWN_KEY, p->ports[placed->site.mount],
+                                    tier_for(p, placed->flow), &p->nozzles, error))
+                return false;
+        }
+    }
+    return true;
+}
+
+size_t sp_problem_poses(const sp_problem *p)
+{
+    const sp_search *search = p->search;
+    size_t count = 0;
+    for (size_t i = 0; i < search->sites->count; i++)
+        for (size_t k = 0; k < search->candidates->make_count; k++) {
+            uint32_t mount = search->sites->items[i].mount;
+            const sp_make *make = &search->candidates->makes[k];
+            if (!search->port_taken[mount] && sp_visibility_known(search->visibility, (uint32_t)i, make->speed_class))
+                count += sp_candidates_axes(search->candidates, mount, k)->count * make->roll_count;
+        }
+    return count;
+}
+
+size_t sp_problem_budget(const sp_problem *p, double flow)
+{
+    size_t budget = sp_water_budget(&p->units, flow - p->search->kept_flow);
+    return budget < p->cover.water ? budget : p->cover.water;
+}
+
+static bool prepare(sp_problem *p, sp_error *error)
+{
+    if (!set_tiers(p, error) || !set_texels(p, error))
+        return false;
+    p->prices = sp_pose_prices_create(p->search, &p->cover, p->tier_of, p->need, p->ports, error);
+    if (!p->prices)
+        return false;
+    p->pricer = sp_pose_pricer(p->prices);
+    return add_own(p, error) &&
+           sp_pose_order_create(p->search, &p->cover, p->tier_of, p->ports, &p->nozzles, &p->order, error) &&
+           sp_pose_line(p->prices, &p->order, &p->line, error);
+}
+
+bool sp_problem_create(const sp_search *search, const sp_front *front, sp_problem *problem, bool *possible,
+                       sp_error *error)
+{
+    *problem = (sp_problem){.search = search, .front = front};
+    *possible = false;
+    if (!list_flows(problem, error))
+        return false;
+    *possible = set_limits(problem);
+    return !*possible || prepare(problem, error);
+}
+
+void sp_problem_free(sp_problem *p)
+{
+    sp_pose_order_free(&p->order);
+    sp_rows_free(&p->nozzles);
+    sp_pose_prices_destroy(p->prices);
+    free(p->area);
+    free(p->need);
+    free(p->weight);
+    free(p->tier_of);
+    free(p->ports);
+    free(p->flows);
+}

@@ -1,0 +1,39 @@
+/* A placement as a problem of maximum coverage: all candidate poses and the nozzles of the layouts found, none of their
+ * rows stored. */
+#ifndef OPTIMIZER_PROBLEM_H
+#define OPTIMIZER_PROBLEM_H
+
+#include "certificate/pose_prices.h"
+#include "certificate/water_units.h"
+#include "search/front.h"
+
+typedef struct {
+    const sp_search *search;
+    const sp_front *front;
+    sp_cover cover;
+    sp_water_units units;
+    float *area, *need; /* [patches] */
+    uint32_t *weight;   /* [tiers] */
+    uint32_t *tier_of;  /* [makes] */
+    size_t *ports;      /* [mounts] */
+    double *flows;      /* [makes], then one for each nozzle of the front */
+    size_t own;         /* nozzles of the front */
+    sp_pose_prices *prices;
+    sp_rows nozzles; /* of the front */
+    sp_pose_order order;
+    sp_line line;
+    sp_pricer pricer;
+} sp_problem;
+
+/* *possible becomes false, and the problem is not to be used, where nothing can be placed, or too many nozzles at a
+ * time. search and front are borrowed; the problem must stay where it is. Freed in any case. */
+bool sp_problem_create(const sp_search *search, const sp_front *front, sp_problem *problem, bool *possible,
+                       sp_error *error);
+void sp_problem_free(sp_problem *problem);
+
+/* Units of water for so much flow, kept nozzles included, no more than the problem is about. */
+size_t sp_problem_budget(const sp_problem *problem, double flow);
+/* Candidate poses. */
+size_t sp_problem_poses(const sp_problem *problem);
+
+#endif
