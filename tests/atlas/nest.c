@@ -119,12 +119,33 @@ static void bumpy_strips_keep_apart(void **state)
     forget(shapes, COUNT);
 }
 
+static void thousands_of_pieces(void **state)
+{
+    (void)state;
+    enum { COUNT = 3000 };
+    sp_shape *shapes = malloc(COUNT * sizeof *shapes);
+    uint64_t seed = 3;
+    uint32_t edge;
+    size_t pages;
+    for (size_t i = 0; i < COUNT; i++)
+        shapes[i] = corner(3 + (uint32_t)(20 * random_number(&seed)), 2);
+    for (size_t i = 0; i < COUNT; i += 2) {
+        free(shapes[i].runs);
+        shapes[i] = square(2 + (uint32_t)(20 * random_number(&seed)));
+    }
+    assert_true(packed(shapes, COUNT, 4096, &edge, &pages) > 0.5);
+    assert_int_equal(pages, 1);
+    forget(shapes, COUNT);
+    free(shapes);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(squares_lie_in_rows),
         cmocka_unit_test(corners_reach_into_each_other),
         cmocka_unit_test(bumpy_strips_keep_apart),
+        cmocka_unit_test(thousands_of_pieces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #define TURNS 4
+#define MANY 200 /* pieces; those after them are asked for where the last like them went, not from the first row on */
 #define FIRST_GUESS 0.8 /* of the page taken */
 #define GROWTH 1.06     /* of the edge, while it is too small */
 #define HALVINGS 6
@@ -35,6 +36,8 @@ typedef struct {
 typedef struct {
     uint64_t *bits;
     uint32_t *longest; /* [edge], the longest free stretch of each row */
+    uint32_t from;     /* the first row to be asked of the many */
+    size_t size;       /* pixels, of the first of those that began there */
 } page;
 
 typedef struct {
@@ -138,6 +141,8 @@ static bool add_page(pages *p)
         p->capacity = capacity;
     }
     page *fresh = &p->pages[p->count++];
+    fresh->from = 0;
+    fresh->size = 0;
     fresh->bits = calloc(p->row_words * p->edge, sizeof *fresh->bits);
     fresh->longest = malloc(p->edge * sizeof *fresh->longest);
     for (uint32_t y = 0; fresh->longest && y < p->edge; y++)
@@ -212,7 +217,7 @@ static bool find_place(pages *p, const page *on, const piece *of, sp_spot *spot)
         const pose *pose = &of->pose[t];
         if (pose->grown.width > p->edge)
             continue;
-        for (uint32_t y = 0, x; y + pose->grown.height <= p->edge && y + pose->middle < lowest; y++)
+        for (uint32_t y = on->from, x; y + pose->grown.height <= p->edge && y + pose->middle < lowest; y++)
             if (fit_row(p, on, pose, y, &x)) {
                 lowest = y + pose->middle;
                 spot->x = x;
@@ -221,6 +226,15 @@ static bool find_place(pages *p, const page *on, const piece *of, sp_spot *spot)
             }
     }
     return lowest < INFINITY;
+}
+
+/* Rows below where a piece went are hardly free for one nearly as large; for one a fifth smaller they may be. */
+static void begin_anew(page *on, size_t size)
+{
+    if (5 * size <= 4 * on->size || on->size == 0) {
+        on->size = size;
+        on->from = 0;
+    }
 }
 
 static void occupy(pages *p, page *on, const sp_shape *shape, const sp_spot *spot)
@@ -257,9 +271,14 @@ static bool place_all(const piece *pieces, const uint32_t *order, size_t count, 
                 break;
             if (spot->page == p.count && !(memory = add_page(&p)))
                 break;
-            if (!find_place(&p, &p.pages[spot->page], &pieces[order[i]], spot))
+            page *on = &p.pages[spot->page];
+            if (i >= MANY)
+                begin_anew(on, pieces[order[i]].pose[0].plain.area);
+            if (!find_place(&p, on, &pieces[order[i]], spot))
                 continue;
-            occupy(&p, &p.pages[spot->page], &pieces[order[i]].pose[spot->turns].plain, spot);
+            if (i >= MANY)
+                on->from = spot->y;
+            occupy(&p, on, &pieces[order[i]].pose[spot->turns].plain, spot);
             break;
         }
     }
