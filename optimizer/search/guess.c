@@ -8,7 +8,7 @@
 
 #define FIRST_MOST 300     /* first nozzles that have their turn */
 #define SECOND_MOST 48     /* second ones of each first that proved good */
-#define STARTS 4           /* of each amount of water, that are improved */
+#define STARTS 3           /* of each amount of water, that are improved */
 #define PATHS_WORK 2e9     /* terms of sums that all greedy orders may take */
 #define REGROUP_WORK 1.5e9 /* the same for regrouping at one amount of water */
 
