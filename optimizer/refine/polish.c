@@ -212,13 +212,15 @@ static bool keeps_up(const sp_trial *trials, size_t count, size_t i)
 
 typedef bool (*sp_step)(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error);
 
-/* Takes the step for every trial, or for those that are better. */
+/* Takes the step for every trial, or for those that are better; the last, which have most nozzles, first, so that no
+ * thread is left alone with one of these. */
 static bool for_each(const sp_polishing *polishing, sp_trial *trials, size_t count, bool better, sp_step step,
                      sp_error *error)
 {
     sp_error failure = {0};
 #pragma omp parallel for num_threads(polishing->threads) schedule(dynamic, 1)
-    for (size_t i = 0; i < count; i++) {
+    for (size_t k = 0; k < count; k++) {
+        size_t i = count - 1 - k;
         sp_error mine = {0};
         if ((!better || trials[i].better) && !step(polishing, omp_get_thread_num(), &trials[i], &mine)) {
 #pragma omp critical(sp_polish_failure)
