@@ -81,6 +81,14 @@ static double carried_roll(const sp_freedom *freedom, sp_vec3 axis)
     return atan2(sp_dot(x, to.y), sp_dot(x, to.x));
 }
 
+/* The roll with which a nozzle turned to this axis is listed, `roll` past the one carried along. A cone is the same at
+ * every roll: its own stays, so that no layout asks for turns that mean nothing. */
+static double listed_roll(const sp_freedom *freedom, sp_vec3 axis, double roll)
+{
+    bool fan = freedom->start.type->pattern == SP_PATTERN_FLAT_FAN;
+    return fan ? carried_roll(freedom, axis) + roll : freedom->start.roll;
+}
+
 static void add_axis(sp_freedom *freedom, double limit)
 {
     if (!(limit > 0) || !(freedom->tilt > 0))
@@ -158,7 +166,7 @@ sp_nozzle sp_freedom_nozzle(const sp_freedom *freedom, const double *values)
         nozzle.axis = leaned(sp_unit(turned(freedom->origin.axis, about, away)), freedom->reference, freedom->tilt);
     }
     if (leans || rolls)
-        nozzle.roll = carried_roll(freedom, nozzle.axis) + roll;
+        nozzle.roll = listed_roll(freedom, nozzle.axis, roll);
     return nozzle;
 }
 
@@ -169,7 +177,7 @@ sp_nozzle sp_freedom_nozzle_at(const sp_freedom *freedom, const double *values, 
     nozzle.position = site->position;
     if (angle_between(nozzle.axis, site->axis) > freedom->tilt) {
         nozzle.axis = leaned(nozzle.axis, site->axis, freedom->tilt);
-        nozzle.roll = carried_roll(freedom, nozzle.axis) + roll;
+        nozzle.roll = listed_roll(freedom, nozzle.axis, roll);
     }
     return nozzle;
 }

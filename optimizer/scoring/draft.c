@@ -225,8 +225,17 @@ static bool name_taken(const sp_layout *layout, size_t but, const char *name)
     return false;
 }
 
-/* A port's nozzle is called after the port, any other P1, P2, ...; where that is taken, the first free "name-2", ... */
-static void name_nozzle(const sp_layout *layout, size_t i, const char *port, size_t *number)
+/* A nozzle that sits elsewhere and is called like a port, even one left empty, would be fitted there. */
+static bool is_port(const sp_place_options *options, const char *name)
+{
+    for (size_t i = 0; i < options->mount_count; i++)
+        if (options->mounts[i].kind == SP_MOUNT_PORT && !strcmp(options->mounts[i].name, name))
+            return true;
+    return false;
+}
+
+/* A port's nozzle is called after the port, where that is taken the first free "name-2", ...; any other P1, P2, ... */
+static void name_nozzle(const sp_search *search, const sp_layout *layout, size_t i, const char *port, size_t *number)
 {
     char *name = layout->nozzles[i].name;
     if (port && port[0]) {
@@ -237,7 +246,7 @@ static void name_nozzle(const sp_layout *layout, size_t i, const char *port, siz
     }
     do
         snprintf(name, SP_NAME, "P%zu", ++*number);
-    while (name_taken(layout, i, name));
+    while (name_taken(layout, i, name) || is_port(search->options, name));
 }
 
 sp_layout *sp_draft_layout(const sp_search *search, const sp_draft *draft, sp_error *error)
@@ -248,7 +257,7 @@ sp_layout *sp_draft_layout(const sp_search *search, const sp_draft *draft, sp_er
     for (size_t i = 0; i < search->kept_count; i++)
         layout->nozzles[i] = search->kept[i];
     size_t number = 0;
-    /* ports first, so that no P1 takes the name of a port P1 */
+    /* ports first, so that none of their names is taken */
     for (int ports = 1; ports >= 0; ports--)
         for (size_t i = 0; i < draft->count; i++) {
             const sp_mount *mount = &search->options->mounts[draft->items[i].site.mount];
@@ -257,7 +266,7 @@ sp_layout *sp_draft_layout(const sp_search *search, const sp_draft *draft, sp_er
                 continue;
             layout->nozzles[at] = draft->items[i].nozzle;
             layout->nozzles[at].name[0] = 0;
-            name_nozzle(layout, at, ports ? mount->name : NULL, &number);
+            name_nozzle(search, layout, at, ports ? mount->name : NULL, &number);
         }
     return layout;
 }

@@ -1,6 +1,7 @@
 #include "markup.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const char *entity(char character)
@@ -42,12 +43,20 @@ void sp_markup_base64(sp_text *text, const uint8_t *bytes, size_t size)
     }
 }
 
+/* What rounds to 0 has no sign. */
+static bool rounds_below_zero(double value, int decimals)
+{
+    char digits[340]; /* the longest double, and a few decimals */
+    snprintf(digits, sizeof digits, "%.*f", decimals, fabs(value));
+    return value < 0 && strspn(digits, "0.") < strlen(digits);
+}
+
 void sp_markup_decimals(sp_text *text, double value, int decimals)
 {
     if (!isfinite(value))
         sp_text_add(text, "\xe2\x80\x93");
     else
-        sp_text_add(text, "%s%.*f", value < 0 ? "\xe2\x88\x92" : "", decimals, fabs(value));
+        sp_text_add(text, "%s%.*f", rounds_below_zero(value, decimals) ? "\xe2\x88\x92" : "", decimals, fabs(value));
 }
 
 void sp_markup_significant(sp_text *text, double value, int digits)

@@ -24,6 +24,16 @@ void sp_page_name(const sp_page *page, sp_text *text, size_t design);
 /* Colour of a design in charts, "#rrggbb". */
 const char *sp_page_colour(const sp_page *page, size_t design);
 
+/* A layout that was found. */
+typedef struct {
+    double flow, area; /* m³/s, m² covered */
+    size_t nozzles;
+} sp_page_point;
+
+/* The proposal's front, point by point, then what was reported, which refinement may have taken beyond the front; false
+ * past the end. In comparison.c. */
+bool sp_page_point_at(const sp_page *page, size_t i, sp_page_point *p);
+
 /* headline.c: the statement, the key figures and what must not be overlooked. */
 void sp_page_headline(const sp_page *page, sp_text *text);
 /* comparison.c: at equal water and at equal coverage, as a sentence and as a table; nothing where there is nothing to
@@ -32,6 +42,8 @@ void sp_page_gain(const sp_page *page, sp_text *text);
 void sp_page_comparison(const sp_page *page, sp_text *text);
 /* front_chart.c: coverage against water, SVG. */
 void sp_page_front_chart(const sp_page *page, sp_text *text);
+/* nozzle_counts.c: coverage against number of nozzles; nothing without a front. */
+void sp_page_nozzle_counts(const sp_page *page, sp_text *text);
 /* certificate.c: what is proved about how good any layout could be; nothing where nothing is. */
 void sp_page_certificate(const sp_page *page, sp_text *text);
 /* pictures.c: three views of every design, with the colour bar. */

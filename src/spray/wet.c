@@ -167,11 +167,19 @@ static bool join_sides(side_flood *flood, sp_error *error)
     return done;
 }
 
+/* A line that starts on a wall would see, by round-off, what lies on either side. */
+static bool starts_on_surface(const side_flood *flood, sp_ray line)
+{
+    line.origin = sp_along(line.origin, -flood->contact, line.velocity);
+    line.t_max = 2 * flood->contact;
+    return sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0)).triangle != SP_NONE;
+}
+
 /* Joins the liquid with what the cavity's point sees. */
 static bool join_seen(side_flood *flood, sp_error *error)
 {
     sp_vec3 point = flood->setup->cavity_point;
-    bool seen = false;
+    bool seen = false, touches = false;
     for (int i = 0; i < DIRECTIONS; i++) {
         sp_ray line = {.origin = point,
                        .velocity = sp_sphere_direction(i, DIRECTIONS),
@@ -179,15 +187,16 @@ static bool join_seen(side_flood *flood, sp_error *error)
                        .t_max = INFINITY,
                        .skip = SP_NONE};
         sighting sighting = look(flood, line);
+        touches = touches || starts_on_surface(flood, line);
         if (is_news(flood, flood->liquid, sighting))
             join_news(flood, flood->liquid, line, sighting);
         seen = seen || (sighting.met != SKY && sighting.met != UNTOLD);
     }
-    return seen ||
-           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                   "cavity: no surface is seen from the point (%g m, %g m, %g m); expected a point of the space "
-                   "where the liquid flies",
-                   point.x, point.y, point.z);
+    if (seen && !touches)
+        return true;
+    return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "cavity: %s the point (%g m, %g m, %g m); expected a point of the space where the liquid flies",
+                   touches ? "a surface goes through" : "no surface is seen from", point.x, point.y, point.z);
 }
 
 static double mesh_diagonal(const sp_mesh *mesh)

@@ -171,6 +171,26 @@ static void a_port_holds_one(void **state)
     room_close(&j.room);
 }
 
+/* A nozzle that is not in the port P1 is not called P1, though the port stays empty. */
+static void no_other_nozzle_is_called_like_a_port(void **state)
+{
+    (void)state;
+    job j;
+    open_ports(&j);
+    j.mounts[0] = j.mounts[1];
+    j.mounts[1] = (sp_mount){
+        .kind = SP_MOUNT_LINE, .axis = sp_v(0, 0, -1), .spacing = 1, .from = sp_v(0, 0, 1), .to = sp_v(0, 0, 1)};
+    j.options.max_nozzles = 1;
+    j.options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    sp_proposal *proposal = job_place(&j);
+    assert_int_equal(proposal->layout->count, 1);
+    const sp_nozzle *nozzle = &proposal->layout->nozzles[0];
+    assert_true(nozzle->type == &j.types[0] && nozzle->position.x == 0);
+    assert_string_equal(nozzle->name, "P2");
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
 static void a_kept_nozzle_takes_its_port(void **state)
 {
     (void)state;
@@ -329,6 +349,7 @@ int main(void)
         cmocka_unit_test(water_allowed_may_be_used_up),
         cmocka_unit_test(limits_hold),
         cmocka_unit_test(a_port_holds_one),
+        cmocka_unit_test(no_other_nozzle_is_called_like_a_port),
         cmocka_unit_test(a_kept_nozzle_takes_its_port),
         cmocka_unit_test(attainable_is_what_one_could_cover),
         cmocka_unit_test(bad_options_are_errors),

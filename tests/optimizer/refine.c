@@ -109,6 +109,24 @@ static void pose_moves_over_the_floor(void **state)
     room_close(&j.room);
 }
 
+/* A cone that leans to both sides is the same at every roll: none is asked for. */
+static void a_cone_is_not_rolled(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j, 2.2, 0.03, 0);
+    j.mount.from = j.mount.to = sp_v(0.4, 0.2, 2);
+    j.mount.tilt = 30 * DEGREE;
+    j.mount.axis = sp_unit(sp_v(0.5, 0.1, -1));
+    j.options.refine = (sp_refine){.axis = 15 * DEGREE, .roll = true};
+    sp_proposal *proposal = job_place(&j);
+    const sp_nozzle *nozzle = &proposal->layout->nozzles[0];
+    assert_true(sp_distance(nozzle->axis, proposal->greedy->nozzles[0].axis) > 1e-3);
+    assert_true(nozzle->roll == 0);
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
 static void flow_is_turned_down_while_the_target_holds(void **state)
 {
     (void)state;
@@ -171,6 +189,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_aperture_whose_rim_is_just_wet),
         cmocka_unit_test(pose_moves_over_the_floor),
+        cmocka_unit_test(a_cone_is_not_rolled),
         cmocka_unit_test(flow_is_turned_down_while_the_target_holds),
         cmocka_unit_test(roll_follows_the_plank),
     };

@@ -163,6 +163,32 @@ static void the_page_stands_alone(void **state)
     free(page);
 }
 
+/* The front of the tank has a point each for one, two and three nozzles; the proposal of four covers most. */
+static void coverage_is_told_by_number_of_nozzles(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    sp_figures *figures = sp_result_figures(&f->result, &error);
+    size_t size;
+    char *page = read_whole("report.html", &size), row[200];
+    const char *table = strstr(page, "<section id=\"counts\">");
+    assert_non_null(table);
+    for (size_t i = 0; i < 4; i++) {
+        double area = f->coverages[2]->covered_area, flow = f->coverages[2]->flow;
+        if (i < 3) {
+            area = f->front[i].area;
+            flow = f->front[i].flow;
+        }
+        snprintf(row, sizeof row, ">%zu</th><td>%.1f&nbsp;%%</td><td>%.1f&nbsp;L/min</td>", i + 1,
+                 100 * area / figures[2].attainable_area, 6e4 * flow);
+        table = strstr(table, row);
+        if (!table)
+            fail_msg("no row %s", row);
+    }
+    sp_figures_destroy(figures, f->result.design_count);
+    free(page);
+}
+
 static void names_from_strangers_stay_text(void **state)
 {
     (void)state;
@@ -377,6 +403,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_same_bytes_every_time),
         cmocka_unit_test(the_page_stands_alone),
+        cmocka_unit_test(coverage_is_told_by_number_of_nozzles),
         cmocka_unit_test(names_from_strangers_stay_text),
         cmocka_unit_test(result_json_has_the_keys_of_the_contract),
         cmocka_unit_test(reasons_add_up),

@@ -228,6 +228,28 @@ static void point_that_sees_nothing_is_refused(void **state)
     sp_mesh_destroy(f.mesh);
 }
 
+static void point_on_a_surface_is_refused(void **state)
+{
+    (void)state;
+    /* inside a triangle of the wall, on an edge between two, in a corner, on the slanting sheet */
+    const sp_vec3 points[] = {{0.7, 0.2, 0}, {0.5, 0.5, 0}, {0, 0, 0}, {0.5, 0.45, 0.45}};
+    for (size_t i = 0; i < sizeof points / sizeof *points; i++) {
+        shape s = shape_create();
+        shape_part(&s, "wall");
+        shape_box(&s, sp_v(0, 0, 0), sp_v(1, 1, 1), true);
+        shape_sheet(&s, sp_v(0.3, 0.3, 0.3), sp_v(0.4, 0, 0), sp_v(0, 0.3, 0.3), 1);
+        fixture f = {.mesh = shape_mesh(&s)};
+        sp_setup setup = setup_of(&f);
+        setup.cavity = SP_CAVITY_POINT;
+        setup.cavity_point = points[i];
+        sp_error error = {0};
+        assert_null(sp_evaluator_create(&setup, &error));
+        assert_int_equal(error.kind, SP_ERROR_INPUT);
+        assert_non_null(strstr(error.message, "a surface goes through the point"));
+        sp_mesh_destroy(f.mesh);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -238,6 +260,7 @@ int main(void)
         cmocka_unit_test(doubled_triangles_stay_wet),
         cmocka_unit_test(same_for_any_number_of_threads),
         cmocka_unit_test(point_that_sees_nothing_is_refused),
+        cmocka_unit_test(point_on_a_surface_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
