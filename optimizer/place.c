@@ -117,11 +117,12 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
     proposal->interrupted = placement->watch.interrupted;
     proposal->positions = placement->sites.count;
     proposal->candidates = placement->candidates.pose_start[placement->sites.count];
-    proposal->front = sp_front_points(&placement->front, &proposal->front_count, error);
+    proposal->front = sp_front_by_water(&placement->front, &proposal->front_count, error);
+    proposal->by_number = sp_front_by_number(&placement->front, &proposal->by_number_count, error);
     proposal->stage_count = placement->watch.stage_count;
     proposal->stages = placement->watch.stages;
     placement->watch.stages = NULL;
-    return proposal->front != NULL;
+    return proposal->front && proposal->by_number;
 }
 
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error)
@@ -161,6 +162,7 @@ void sp_proposal_destroy(sp_proposal *proposal)
     free(proposal->attainable);
     free(proposal->reasons);
     free(proposal->front);
+    free(proposal->by_number);
     free(proposal->stages);
     free(proposal);
 }

@@ -124,6 +124,8 @@ typedef struct {
         candidates; /* mounting points kept; poses considered (position × axis × roll × type × pressure) */
     size_t front_count;
     sp_front_point *front; /* best found for rising water, both strictly rising */
+    size_t by_number_count;
+    sp_front_point *by_number; /* best found for rising numbers of nozzles, whatever their water; bounds NAN */
     sp_certificate certificate;
     size_t stage_count;
     sp_stage *stages;

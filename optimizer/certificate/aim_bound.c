@@ -46,7 +46,7 @@ static bool list_flows(aiming *a, sp_error *error)
 {
     const sp_candidates *candidates = a->task->search->candidates;
     size_t count = candidates->make_count;
-    for (size_t i = 0; i <= a->front->count; i++)
+    for (size_t i = 0; i <= a->front->by_water.count; i++)
         count += sp_front_draft(a->front, i)->count;
     for (size_t k = 0; k < a->kinds.count; k++)
         count += a->kinds.items[k].step_count;
@@ -56,7 +56,7 @@ static bool list_flows(aiming *a, sp_error *error)
         return sp_fail_memory(error);
     for (size_t k = 0; k < candidates->make_count; k++)
         a->flows[a->flow_count++] = candidates->makes[k].flow;
-    for (size_t i = 0; i <= a->front->count; i++)
+    for (size_t i = 0; i <= a->front->by_water.count; i++)
         for (size_t n = 0; n < sp_front_draft(a->front, i)->count; n++)
             a->flows[a->flow_count++] = sp_front_draft(a->front, i)->items[n].flow;
     for (size_t k = 0; k < a->kinds.count; k++)
@@ -73,7 +73,7 @@ static bool set_limits(aiming *a)
     double most = 0, least = INFINITY;
     for (size_t i = 0; i < a->flow_count; i++)
         least = fmin(least, a->flows[i]);
-    for (size_t i = 0; i <= a->front->count; i++)
+    for (size_t i = 0; i <= a->front->by_water.count; i++)
         most = fmax(most, sp_front_draft(a->front, i)->flow - search->kept_flow);
     if (!(most >= least))
         return false;
@@ -122,7 +122,7 @@ static bool set_tiers(aiming *a, sp_error *error)
 static bool add_rows(aiming *a, sp_error *error)
 {
     const sp_rows *rows = a->task->rows;
-    for (size_t i = 0; i <= a->front->count; i++)
+    for (size_t i = 0; i <= a->front->by_water.count; i++)
         for (size_t n = 0; n < sp_front_draft(a->front, i)->count; n++) {
             const sp_placed *placed = &sp_front_draft(a->front, i)->items[n];
             uint32_t tier = tier_of_weight(a, sp_water_weight(&a->units, placed->flow));
@@ -187,13 +187,13 @@ static bool lower_water(aiming *a, double area, sp_error *error)
     return true;
 }
 
-/* The point of the front with the widest gap that has not had its turn; front->count where none is left. */
+/* The point of the front with the widest gap that has not had its turn; front->by_water.count where none is left. */
 static size_t widest(const aiming *a, const bool *had)
 {
-    size_t found = a->front->count;
+    size_t found = a->front->by_water.count;
     double most = 0;
-    for (size_t i = 0; i < a->front->count; i++) {
-        const sp_front_point *point = &a->front->entries[i].point;
+    for (size_t i = 0; i < a->front->by_water.count; i++) {
+        const sp_front_point *point = &a->front->by_water.entries[i].point;
         double open = 1 - point->counted / a->bound.by_water[budget_of(a, point->flow)];
         if (!had[i] && open > most) {
             found = i;
@@ -205,15 +205,15 @@ static size_t widest(const aiming *a, const bool *had)
 
 static bool lower_front(aiming *a, sp_error *error)
 {
-    bool *had = calloc(a->front->count + 1, sizeof *had), done = had != NULL;
+    bool *had = calloc(a->front->by_water.count + 1, sizeof *had), done = had != NULL;
     if (!had)
         return sp_fail_memory(error);
     for (size_t turn = 0; done && turn < POINTS_MOST; turn++) {
         size_t i = widest(a, had);
-        if (i == a->front->count)
+        if (i == a->front->by_water.count)
             break;
         had[i] = true;
-        done = lower(a, budget_of(a, a->front->entries[i].point.flow), ROUNDS_FRONT, error);
+        done = lower(a, budget_of(a, a->front->by_water.entries[i].point.flow), ROUNDS_FRONT, error);
     }
     free(had);
     return done;
@@ -239,8 +239,8 @@ static void conclude(const aiming *a, sp_front *front, sp_certificate *certifica
     size_t water = sp_bound_water(&a->bound, counted);
     double area = fmin(whole, a->bound.by_water[budget_of(a, front->best.flow)]);
     bool says = area < whole * (1 - WORTH_LEAST);
-    for (size_t i = 0; i < front->count; i++) {
-        sp_front_point *point = &front->entries[i].point;
+    for (size_t i = 0; i < front->by_water.count; i++) {
+        sp_front_point *point = &front->by_water.entries[i].point;
         point->every_aim_bound = fmin(whole, a->bound.by_water[budget_of(a, point->flow)]);
         says = says || point->every_aim_bound < whole * (1 - WORTH_LEAST);
     }
@@ -257,8 +257,8 @@ static void conclude(const aiming *a, sp_front *front, sp_certificate *certifica
 bool sp_aim_bound(const sp_aim_task *task, sp_front *front, sp_certificate *certificate, sp_error *error)
 {
     aiming a = {.task = task, .front = front, .cover = *task->cover};
-    for (size_t i = 0; i < front->count; i++)
-        front->entries[i].point.every_aim_bound = NAN;
+    for (size_t i = 0; i < front->by_water.count; i++)
+        front->by_water.entries[i].point.every_aim_bound = NAN;
     if (!sp_watch_stage(task->watch, "certificate", error))
         return false;
     bool done = sp_aim_kinds_create(task->search, &a.kinds, error) && list_flows(&a, error);

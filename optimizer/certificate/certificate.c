@@ -37,7 +37,7 @@ typedef struct {
     sp_watch *watch;
     sp_bound bound;
     sp_branching branching;
-    sp_tree *trees; /* [front->count + 1], by points, then the proposal's; empty where it takes no water */
+    sp_tree *trees; /* [front->by_water.count + 1], by points, then the proposal's; empty where it takes no water */
     bool *begun;    /* the same, whether all candidates were priced for it */
     double *found;  /* the same, m² that a layout found with no more water covers */
     double done;    /* how far it all is, 0 to 1 */
@@ -45,7 +45,7 @@ typedef struct {
 
 static void certifying_free(certifying *c)
 {
-    for (size_t i = 0; c->trees && i <= c->problem.front->count; i++)
+    for (size_t i = 0; c->trees && i <= c->problem.front->by_water.count; i++)
         sp_tree_free(&c->trees[i]);
     free(c->trees);
     free(c->found);
@@ -66,7 +66,7 @@ static bool goes_on(void *user)
 static double found_within(const certifying *c, size_t water)
 {
     double most = c->problem.cover.base;
-    for (size_t i = 0; i <= c->problem.front->count; i++)
+    for (size_t i = 0; i <= c->problem.front->by_water.count; i++)
         if (sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->flow) <= water)
             most = fmax(most, sp_draft_counted(c->problem.search, sp_front_draft(c->problem.front, i)));
     return most;
@@ -75,7 +75,7 @@ static double found_within(const certifying *c, size_t water)
 /* One for every point of the front and the proposal, where water for a nozzle is. */
 static bool plant_trees(certifying *c, sp_error *error)
 {
-    for (size_t i = 0; i <= c->problem.front->count; i++) {
+    for (size_t i = 0; i <= c->problem.front->by_water.count; i++) {
         size_t water = sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->flow);
         c->found[i] = found_within(c, water);
         if (water && !sp_tree_create(&c->branching, water, c->bound.by_water[water], c->found[i], &c->trees[i], error))
@@ -87,7 +87,7 @@ static bool plant_trees(certifying *c, sp_error *error)
 static bool prepare(certifying *c, sp_error *error)
 {
     sp_problem *problem = &c->problem;
-    size_t count = problem->front->count + 1;
+    size_t count = problem->front->by_water.count + 1;
     problem->cover.goes_on = goes_on;
     problem->cover.user = c;
     c->trees = calloc(count, sizeof *c->trees);
@@ -110,7 +110,7 @@ static bool has_time(certifying *c, double done)
  * little. */
 static bool tell_trees(certifying *c, size_t water, sp_error *error)
 {
-    for (size_t i = 0; i <= c->problem.front->count && c->bound.complete; i++)
+    for (size_t i = 0; i <= c->problem.front->by_water.count && c->bound.complete; i++)
         if ((double)c->trees[i].water * WATER_LIKE > (double)water &&
             (double)c->trees[i].water < WATER_LIKE * (double)water &&
             !sp_tree_hear(&c->branching, &c->trees[i], &c->bound.dual.price, sp_pose_prices_last(c->problem.prices),
@@ -168,7 +168,7 @@ static double open_at(const certifying *c, size_t i)
 static double open_about(const certifying *c, size_t i)
 {
     double open = 0, water = (double)c->trees[i].water;
-    for (size_t k = 0; k <= c->problem.front->count; k++) {
+    for (size_t k = 0; k <= c->problem.front->by_water.count; k++) {
         double other = (double)c->trees[k].water;
         open += other < WATER_NEAR * water && water < WATER_NEAR * other ? open_at(c, k) : 0;
     }
@@ -176,12 +176,12 @@ static double open_about(const certifying *c, size_t i)
 }
 
 /* Of the front's points and the proposal the one whose turn it is: the wider its gap and the less work
- * it takes and took, the sooner; front->count + 1 where none is left open. */
+ * it takes and took, the sooner; front->by_water.count + 1 where none is left open. */
 static size_t next_point(const certifying *c)
 {
-    size_t found = c->problem.front->count + 1;
+    size_t found = c->problem.front->by_water.count + 1;
     double most = 0;
-    for (size_t i = 0; i <= c->problem.front->count; i++) {
+    for (size_t i = 0; i <= c->problem.front->by_water.count; i++) {
         const sp_tree *tree = &c->trees[i];
         double open = open_at(c, i), score;
         if (begins_anew(c, i))
@@ -202,7 +202,7 @@ static bool begin_tree(certifying *c, size_t i, sp_error *error)
 {
     size_t water = sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->flow),
            iterations = c->bound.iterations;
-    for (size_t k = 0; k <= c->problem.front->count; k++) {
+    for (size_t k = 0; k <= c->problem.front->by_water.count; k++) {
         double other = (double)c->trees[k].water;
         c->begun[k] |= other < WATER_SAME * (double)water && (double)water < WATER_SAME * other;
     }
@@ -238,7 +238,7 @@ static bool lower_front(certifying *c, double work, sp_error *error)
         return false;
     for (double done = 0; done < work;) {
         size_t i = next_point(c);
-        if (i > c->problem.front->count || !has_time(c, 0.6 + 0.4 * done / work))
+        if (i > c->problem.front->by_water.count || !has_time(c, 0.6 + 0.4 * done / work))
             break;
         double before = c->trees[i].work;
         if (!grow_tree(c, i, error))
@@ -285,9 +285,9 @@ static void conclude(const certifying *c, sp_front *front, sp_certificate *certi
     double whole = 0, counted = sp_draft_counted(c->problem.search, &front->best);
     for (size_t p = 0; p < c->problem.search->patch_count; p++)
         whole += (double)c->problem.search->area[p];
-    for (size_t i = 0; i < front->count; i++) {
-        sp_front_point *point = &front->entries[i].point;
-        point->counted = sp_draft_counted(c->problem.search, &front->entries[i].draft);
+    for (size_t i = 0; i < front->by_water.count; i++) {
+        sp_front_point *point = &front->by_water.entries[i].point;
+        point->counted = sp_draft_counted(c->problem.search, &front->by_water.entries[i].draft);
         point->bound = fmin(whole, c->bound.by_water[sp_problem_budget(&c->problem, point->flow)]);
     }
     size_t water = sp_bound_water(&c->bound, counted);
@@ -330,8 +330,8 @@ bool sp_certify(const sp_search *search, sp_watch *watch, sp_front *front, sp_ce
     certifying c = {.watch = watch};
     bool possible;
     *certificate = (sp_certificate){0};
-    for (size_t i = 0; i < front->count; i++)
-        front->entries[i].point.counted = front->entries[i].point.bound = front->entries[i].point.every_aim_bound = NAN;
+    for (size_t i = 0; i < front->by_water.count; i++)
+        front->by_water.entries[i].point.counted = front->by_water.entries[i].point.bound = front->by_water.entries[i].point.every_aim_bound = NAN;
     if (watch->cancelled || !front->found)
         return true;
     bool done = sp_problem_create(search, front, &c.problem, &possible, error) &&

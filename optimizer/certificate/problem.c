@@ -14,7 +14,7 @@ static double least_of(const double *values, size_t count)
 static bool list_flows(sp_problem *p, sp_error *error)
 {
     const sp_candidates *candidates = p->search->candidates;
-    for (size_t i = 0; i <= p->front->count; i++)
+    for (size_t i = 0; i <= p->front->by_water.count; i++)
         p->own += sp_front_draft(p->front, i)->count;
     p->flows = malloc((candidates->make_count + p->own + 1) * sizeof *p->flows);
     if (!p->flows)
@@ -22,7 +22,7 @@ static bool list_flows(sp_problem *p, sp_error *error)
     size_t count = 0;
     for (size_t k = 0; k < candidates->make_count; k++)
         p->flows[count++] = candidates->makes[k].flow;
-    for (size_t i = 0; i <= p->front->count; i++)
+    for (size_t i = 0; i <= p->front->by_water.count; i++)
         for (size_t n = 0; n < sp_front_draft(p->front, i)->count; n++)
             p->flows[count++] = sp_front_draft(p->front, i)->items[n].flow;
     return true;
@@ -44,7 +44,7 @@ static bool set_limits(sp_problem *p)
     const sp_search *search = p->search;
     size_t makes = search->candidates->make_count, limit = search->options->max_nozzles;
     double most = 0, least = least_of(p->flows, makes + p->own);
-    for (size_t i = 0; i <= p->front->count; i++)
+    for (size_t i = 0; i <= p->front->by_water.count; i++)
         most = fmax(most, sp_front_draft(p->front, i)->flow - search->kept_flow);
     if (!(most >= least) || (limit && limit <= search->kept_count))
         return false;
@@ -103,7 +103,7 @@ static bool set_texels(sp_problem *p, sp_error *error)
 
 static bool add_own(sp_problem *p, sp_error *error)
 {
-    for (size_t i = 0; i <= p->front->count; i++) {
+    for (size_t i = 0; i <= p->front->by_water.count; i++) {
         const sp_draft *draft = sp_front_draft(p->front, i);
         for (size_t n = 0; n < draft->count; n++) {
             const sp_placed *placed = &draft->items[n];

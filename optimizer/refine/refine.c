@@ -83,10 +83,32 @@ static bool carry_out(sp_refining *refining, sp_trials *trials, sp_draft *best)
 static bool try_front(sp_refining *refining, sp_trials *trials, sp_trial_kind kind)
 {
     const sp_front *front = refining->front;
-    for (size_t i = 0; i < front->count; i++)
+    for (size_t i = 0; i < front->by_water.count; i++)
         if (sp_front_counts(front, i) &&
-            !try_also(refining, trials, &front->entries[i].draft, front->entries[i].point.flow, kind))
+            !try_also(refining, trials, &front->by_water.entries[i].draft, front->by_water.entries[i].point.flow, kind))
             return false;
+    return true;
+}
+
+static bool on_water_front(const sp_front *front, const sp_front_point *point)
+{
+    for (size_t i = 0; i < front->by_water.count; i++)
+        if (front->by_water.entries[i].point.flow == point->flow &&
+            front->by_water.entries[i].point.area == point->area)
+            return true;
+    return false;
+}
+
+/* Those that cover most with fewer nozzles than the best has and take more water than others that cover as much. */
+static bool try_fewest(sp_refining *refining, sp_trials *trials)
+{
+    const sp_front *front = refining->front;
+    for (size_t i = 0; i < front->by_number.count; i++) {
+        const sp_front_entry *entry = &front->by_number.entries[i];
+        if (entry->draft.count && entry->draft.count < front->best.count && !on_water_front(front, &entry->point) &&
+            !try_also(refining, trials, &entry->draft, entry->point.flow, SP_TRIAL_POLISH))
+            return false;
+    }
     return true;
 }
 
@@ -95,9 +117,9 @@ static bool ask_other(sp_refining *refining, sp_trials *trials, double flow)
 {
     const sp_front *front = refining->front;
     size_t i = 0;
-    while (i + 1 < front->count && front->entries[i + 1].point.flow <= flow * (1 + SP_ROUNDING))
+    while (i + 1 < front->by_water.count && front->by_water.entries[i + 1].point.flow <= flow * (1 + SP_ROUNDING))
         i++;
-    return try_also(refining, trials, &front->entries[i].draft, flow, SP_TRIAL_OTHER);
+    return try_also(refining, trials, &front->by_water.entries[i].draft, flow, SP_TRIAL_OTHER);
 }
 
 /* Trials of other drafts for the water of every draft of the front, `between` also for a little less, where the front
@@ -108,12 +130,12 @@ static bool ask_others(sp_refining *refining, sp_trials *trials, bool between)
     const sp_front *front = refining->front;
     const sp_layout *own = refining->search->options->kept;
     double own_flow = own ? sp_layout_flow(own, &sp_evaluator_setup(refining->search->coarse)->liquid) : 0;
-    for (size_t i = 0; i < front->count; i++) {
-        double flow = front->entries[i].point.flow, less = flow * (1 - BETWEEN);
+    for (size_t i = 0; i < front->by_water.count; i++) {
+        double flow = front->by_water.entries[i].point.flow, less = flow * (1 - BETWEEN);
         if (!sp_front_counts(front, i))
             continue;
-        if (between && front->entries[i].draft.count > 1 && less > front->entries[i - 1].point.flow * (1 + APART) &&
-            !ask_other(refining, trials, less))
+        if (between && front->by_water.entries[i].draft.count > 1 &&
+            less > front->by_water.entries[i - 1].point.flow * (1 + APART) && !ask_other(refining, trials, less))
             return false;
         if (!ask_other(refining, trials, flow))
             return false;
@@ -134,13 +156,13 @@ static bool ask_savings(sp_refining *refining, sp_trials *trials)
 static const sp_placed **list_nozzles(const sp_front *front, size_t *count)
 {
     size_t total = 0;
-    for (size_t i = 0; i < front->count; i++)
-        total += front->entries[i].draft.count;
+    for (size_t i = 0; i < front->by_water.count; i++)
+        total += front->by_water.entries[i].draft.count;
     const sp_placed **nozzles = malloc((total + 1) * sizeof *nozzles);
     *count = 0;
-    for (size_t i = 0; nozzles && i < front->count; i++)
-        for (size_t n = 0; n < front->entries[i].draft.count; n++)
-            nozzles[(*count)++] = &front->entries[i].draft.items[n];
+    for (size_t i = 0; nozzles && i < front->by_water.count; i++)
+        for (size_t n = 0; n < front->by_water.entries[i].draft.count; n++)
+            nozzles[(*count)++] = &front->by_water.entries[i].draft.items[n];
     return nozzles;
 }
 
@@ -191,7 +213,8 @@ static bool polish_front(sp_refining *refining)
 {
     sp_trials trials = {0};
     bool done = ask_others(refining, &trials, true) && find_others(refining, &trials) &&
-                try_front(refining, &trials, SP_TRIAL_POLISH) && carry_out(refining, &trials, NULL);
+                try_front(refining, &trials, SP_TRIAL_POLISH) && try_fewest(refining, &trials) &&
+                carry_out(refining, &trials, NULL);
     trials_free(&trials);
     return done;
 }

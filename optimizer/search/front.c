@@ -20,28 +20,39 @@ bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_fr
     return a->flow < b->flow || (a->flow == b->flow && a->area > b->area);
 }
 
-/* Enters the draft at its place unless some entry covers as much with no more water, and drops what it betters. */
-static bool note(sp_front *front, const sp_search *search, const sp_draft *draft, const sp_front_point *point,
-                 sp_error *error)
+static double by_water(const sp_front_point *point)
+{
+    return point->flow;
+}
+
+static double by_number(const sp_front_point *point)
+{
+    return (double)point->nozzles;
+}
+
+/* Enters the draft at its place by `key` unless some entry of no higher key covers as much, and drops what it betters.
+ */
+static bool note(sp_front_list *list, double (*key)(const sp_front_point *), const sp_search *search,
+                 const sp_draft *draft, const sp_front_point *point, sp_error *error)
 {
     size_t at = 0;
-    while (at < front->count && front->entries[at].point.flow <= point->flow)
+    while (at < list->count && key(&list->entries[at].point) <= key(point))
         at++;
-    if (at > 0 && front->entries[at - 1].point.area >= point->area)
+    if (at > 0 && list->entries[at - 1].point.area >= point->area)
         return true;
     sp_draft copy;
-    if (!sp_grow(&front->entries, &front->capacity, front->count + 1, sizeof *front->entries))
+    if (!sp_grow(&list->entries, &list->capacity, list->count + 1, sizeof *list->entries))
         return sp_fail_memory(error);
     if (!sp_draft_copy(search, draft, &copy, error))
         return false;
-    if (at > 0 && front->entries[at - 1].point.flow == point->flow)
+    if (at > 0 && key(&list->entries[at - 1].point) == key(point))
         at--;
     size_t end = at;
-    for (; end < front->count && front->entries[end].point.area <= point->area; end++)
-        sp_draft_free(&front->entries[end].draft);
-    memmove(&front->entries[at + 1], &front->entries[end], (front->count - end) * sizeof *front->entries);
-    front->entries[at] = (sp_front_entry){*point, copy};
-    front->count += at + 1 - end;
+    for (; end < list->count && list->entries[end].point.area <= point->area; end++)
+        sp_draft_free(&list->entries[end].draft);
+    memmove(&list->entries[at + 1], &list->entries[end], (list->count - end) * sizeof *list->entries);
+    list->entries[at] = (sp_front_entry){*point, copy};
+    list->count += at + 1 - end;
     return true;
 }
 
@@ -56,7 +67,8 @@ bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *
     bool done = coverage != NULL;
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
-    if (!done || !note(front, search, draft, &measured, error))
+    if (!done || !note(&front->by_water, by_water, search, draft, &measured, error) ||
+        !note(&front->by_number, by_number, search, draft, &measured, error))
         return false;
     if (point)
         *point = measured;
@@ -75,26 +87,44 @@ bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *
 
 bool sp_front_counts(const sp_front *front, size_t i)
 {
-    return i + 1 == front->count || front->entries[i + 1].point.flow > front->entries[i].point.flow * (1 + FLOW_LEAST);
+    return i + 1 == front->by_water.count ||
+           front->by_water.entries[i + 1].point.flow > front->by_water.entries[i].point.flow * (1 + FLOW_LEAST);
 }
 
-sp_front_point *sp_front_points(const sp_front *front, size_t *count, sp_error *error)
+static sp_front_point *points_of(const sp_front *front, const sp_front_list *list, size_t *count, sp_error *error)
 {
-    sp_front_point *points = malloc((front->count ? front->count : 1) * sizeof *points);
+    sp_front_point *points = malloc((list->count ? list->count : 1) * sizeof *points);
     if (!points)
         return sp_fail_memory(error);
     *count = 0;
-    for (size_t i = 0; i < front->count; i++)
-        if (front->entries[i].point.flow > 0 && front->entries[i].point.area > 0 && sp_front_counts(front, i))
-            points[(*count)++] = front->entries[i].point;
+    for (size_t i = 0; i < list->count; i++)
+        if (list->entries[i].point.flow > 0 && list->entries[i].point.area > 0 &&
+            (list == &front->by_number || sp_front_counts(front, i)))
+            points[(*count)++] = list->entries[i].point;
     return points;
+}
+
+sp_front_point *sp_front_by_water(const sp_front *front, size_t *count, sp_error *error)
+{
+    return points_of(front, &front->by_water, count, error);
+}
+
+sp_front_point *sp_front_by_number(const sp_front *front, size_t *count, sp_error *error)
+{
+    return points_of(front, &front->by_number, count, error);
+}
+
+static void list_free(sp_front_list *list)
+{
+    for (size_t i = 0; i < list->count; i++)
+        sp_draft_free(&list->entries[i].draft);
+    free(list->entries);
 }
 
 void sp_front_free(sp_front *front)
 {
-    for (size_t i = 0; i < front->count; i++)
-        sp_draft_free(&front->entries[i].draft);
+    list_free(&front->by_water);
+    list_free(&front->by_number);
     sp_draft_free(&front->best);
-    free(front->entries);
     *front = (sp_front){0};
 }

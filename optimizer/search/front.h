@@ -1,4 +1,5 @@
-/* What the search has found: drafts measured by the scene's own evaluator, and the front of coverage against water. */
+/* What the search has found: drafts measured by the scene's own evaluator, and the fronts of coverage against water and
+ * against number of nozzles. */
 #ifndef OPTIMIZER_FRONT_H
 #define OPTIMIZER_FRONT_H
 
@@ -9,23 +10,28 @@ typedef struct {
     sp_draft draft;
 } sp_front_entry;
 
+/* What nothing measured betters with no more water, or no more nozzles: by rising water or number, all areas rising
+ * too. */
+typedef struct {
+    size_t count, capacity;
+    sp_front_entry *entries;
+} sp_front_list;
+
 typedef struct {
     const sp_evaluator *fine;
     sp_objective objective;
     double target; /* m² */
-    size_t count, capacity;
-    sp_front_entry
-        *entries; /* by rising flow, all areas rising too: what nothing measured betters with no more water */
+    sp_front_list by_water, by_number;
     bool found;
     sp_draft best;           /* with what follows, the best measured yet by the objective */
     sp_front_point measured; /* of it */
     double bias;             /* m² that the fine measure lies above the best one's coarse `covered` */
 } sp_front;
 
-/* The entries' drafts, then the best. */
+/* The drafts of the front by water, then the best. */
 static inline const sp_draft *sp_front_draft(const sp_front *front, size_t i)
 {
-    return i < front->count ? &front->entries[i].draft : &front->best;
+    return i < front->by_water.count ? &front->by_water.entries[i].draft : &front->best;
 }
 
 /* True where a is better than b: by the objective among drafts that reach the target, by area among others. */
@@ -33,10 +39,11 @@ bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_fr
 /* Measures the draft, notes it, and keeps a copy where it is the best yet. *point may be NULL. */
 bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
                       sp_error *error);
-/* False where the next entry covers more with hardly more water. */
+/* False where the next entry by water covers more with hardly more. */
 bool sp_front_counts(const sp_front *front, size_t i);
-/* The points that count, without one of no water; malloc'd, the caller frees. */
-sp_front_point *sp_front_points(const sp_front *front, size_t *count, sp_error *error);
+/* The points by water that count, and those by number, without one of no water; malloc'd, the caller frees. */
+sp_front_point *sp_front_by_water(const sp_front *front, size_t *count, sp_error *error);
+sp_front_point *sp_front_by_number(const sp_front *front, size_t *count, sp_error *error);
 void sp_front_free(sp_front *front);
 
 #endif

@@ -1,11 +1,17 @@
 /* The engineer's layout against the best found with no more water, and against the least water for no less coverage. */
 #include "page.h"
 
-bool sp_page_point_at(const sp_page *page, size_t i, sp_page_point *p)
+typedef struct {
+    double flow, area;
+    size_t nozzles;
+} point;
+
+/* The front's points, then what was reported: the refined proposal may lie beyond the front. */
+static bool point_at(const sp_page *page, size_t i, point *p)
 {
     const sp_proposal *proposal = page->result->proposal;
     if (i < proposal->front_count) {
-        *p = (sp_page_point){proposal->front[i].flow, proposal->front[i].area, proposal->front[i].nozzles};
+        *p = (point){proposal->front[i].flow, proposal->front[i].area, proposal->front[i].nozzles};
         return true;
     }
     size_t reported[2] = {page->greedy, page->main};
@@ -14,18 +20,17 @@ bool sp_page_point_at(const sp_page *page, size_t i, sp_page_point *p)
         return false;
     size_t design = reported[i] == SP_UNKNOWN ? page->main : reported[i];
     const sp_figures *figures = &page->figures[design];
-    *p = (sp_page_point){figures->flow, figures->covered_area, figures->nozzle_count};
+    *p = (point){figures->flow, figures->covered_area, figures->nozzle_count};
     return true;
 }
 
 /* Most area with no more water; least water with no less area. Nothing found: flow 0. */
-static void best_points(const sp_page *page, const sp_figures *manual, sp_page_point *same_water,
-                        sp_page_point *same_area)
+static void best_points(const sp_page *page, const sp_figures *manual, point *same_water, point *same_area)
 {
-    sp_page_point p;
-    *same_water = (sp_page_point){0, -1, 0};
-    *same_area = (sp_page_point){INFINITY, 0, 0};
-    for (size_t i = 0; sp_page_point_at(page, i, &p); ++i) {
+    point p;
+    *same_water = (point){0, -1, 0};
+    *same_area = (point){INFINITY, 0, 0};
+    for (size_t i = 0; point_at(page, i, &p); ++i) {
         if (p.flow <= manual->flow * (1 + 1e-9) && p.area > same_water->area)
             *same_water = p;
         if (p.area >= manual->covered_area * (1 - 1e-9) && p.flow < same_area->flow)
@@ -47,7 +52,7 @@ static void add_flow(sp_text *text, double flow)
     sp_text_add(text, "&nbsp;L/min</td>");
 }
 
-static void add_same_water(sp_text *text, double fraction, const sp_page_point *best, double whole)
+static void add_same_water(sp_text *text, double fraction, const point *best, double whole)
 {
     sp_text_add(text, "<tr><th scope=\"row\">At the engineer&#39;s water, coverage</th>");
     add_percent(text, fraction);
@@ -64,7 +69,7 @@ static void add_same_water(sp_text *text, double fraction, const sp_page_point *
     sp_text_add(text, "&nbsp;L/min</td></tr>\n");
 }
 
-static void add_same_area(sp_text *text, double flow, const sp_page_point *best, double whole)
+static void add_same_area(sp_text *text, double flow, const point *best, double whole)
 {
     sp_text_add(text, "<tr><th scope=\"row\">At the engineer&#39;s coverage, water</th>");
     add_flow(text, flow);
@@ -93,7 +98,7 @@ static double whole_area(const sp_page *page)
 
 void sp_page_gain(const sp_page *page, sp_text *text)
 {
-    sp_page_point same_water, same_area;
+    point same_water, same_area;
     if (!is_compared(page))
         return;
     const sp_figures *manual = &page->figures[page->manual];
@@ -117,7 +122,7 @@ void sp_page_comparison(const sp_page *page, sp_text *text)
         return;
     const sp_figures *manual = &page->figures[page->manual];
     double whole = whole_area(page);
-    sp_page_point same_water, same_area;
+    point same_water, same_area;
     best_points(page, manual, &same_water, &same_area);
     sp_text_add(text,
                 "<section id=\"comparison\"><h2>At equal water, at equal coverage</h2>\n<div class=\"wide\"><table "

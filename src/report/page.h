@@ -24,16 +24,6 @@ void sp_page_name(const sp_page *page, sp_text *text, size_t design);
 /* Colour of a design in charts, "#rrggbb". */
 const char *sp_page_colour(const sp_page *page, size_t design);
 
-/* A layout that was found. */
-typedef struct {
-    double flow, area; /* m³/s, m² covered */
-    size_t nozzles;
-} sp_page_point;
-
-/* The proposal's front, point by point, then what was reported, which refinement may have taken beyond the front; false
- * past the end. In comparison.c. */
-bool sp_page_point_at(const sp_page *page, size_t i, sp_page_point *p);
-
 /* headline.c: the statement, the key figures and what must not be overlooked. */
 void sp_page_headline(const sp_page *page, sp_text *text);
 /* comparison.c: at equal water and at equal coverage, as a sentence and as a table; nothing where there is nothing to

@@ -153,6 +153,20 @@ static bool put_front(json_t *root, const sp_proposal *proposal, double clean_ar
     return put(root, "front", front) && done;
 }
 
+static bool put_front_by_nozzles(json_t *root, const sp_proposal *proposal, double clean_area)
+{
+    json_t *front = json_array();
+    bool done = true;
+    for (size_t i = 0; done && i < proposal->by_number_count; ++i) {
+        const sp_front_point *point = &proposal->by_number[i];
+        json_t *entry = json_object();
+        done = put_count(entry, "nozzles", point->nozzles) && put_real(entry, "water_l_min", 6e4 * point->flow) &&
+               put_real(entry, "coverage", point->area / clean_area);
+        done = json_array_append_new(front, entry) == 0 && done;
+    }
+    return put(root, "front_by_nozzles", front) && done;
+}
+
 static bool put_every_aim(json_t *certificate, const sp_certificate *found)
 {
     json_t *every = json_object();
@@ -205,6 +219,7 @@ static bool fill(json_t *root, const sp_result *result, const sp_figures *figure
     done = put(root, "layouts", layouts) && done;
     if (result->proposal)
         done = done && put_front(root, result->proposal, figures[0].clean_area) &&
+               put_front_by_nozzles(root, result->proposal, figures[0].clean_area) &&
                (!result->proposal->certificate.computed || put_certificate(root, &result->proposal->certificate));
     done = done && put_stages(stages, result->stages, result->stage_count) &&
            (!result->proposal || put_stages(stages, result->proposal->stages, result->proposal->stage_count));
