@@ -2,6 +2,7 @@
 
 #define REACH 0.3 /* tangent of half the opening angle: about 33 degrees in all, little distortion */
 #define MARGIN 1.04
+#define MARGIN_OF_NOZZLES 1.12 /* their names stand beside them */
 #define RAD (M_PI / 180)
 
 /* From behind one looks up, so that the lid's underside shows; nozzles often leave it dry. */
@@ -63,17 +64,17 @@ typedef struct {
     double reach_x, reach_y;
 } frame;
 
-static void take_in(frame *f, sp_vec3 point)
+static void take_in(frame *f, sp_vec3 point, double margin)
 {
     sp_vec3 p = sp_sub(point, f->camera->centre);
     double x = fabs(sp_dot(p, f->camera->right)), y = fabs(sp_dot(p, f->camera->up));
     double depth = sp_dot(p, f->camera->forward);
     if (!f->placed) {
-        f->distance = fmax(f->distance, fmax(x, y) * MARGIN / REACH - depth);
+        f->distance = fmax(f->distance, fmax(x, y) * margin / REACH - depth);
         return;
     }
-    f->reach_x = fmax(f->reach_x, MARGIN * x / (f->distance + depth));
-    f->reach_y = fmax(f->reach_y, MARGIN * y / (f->distance + depth));
+    f->reach_x = fmax(f->reach_x, margin * x / (f->distance + depth));
+    f->reach_y = fmax(f->reach_y, margin * y / (f->distance + depth));
 }
 
 /* Where a machine is washed from outside, its nozzles stand around it; one that is lost far away is not gone after. */
@@ -81,7 +82,7 @@ static void take_in_nozzles(frame *f, const sp_layout *layout)
 {
     for (size_t i = 0; i < layout->count; ++i)
         if (sp_distance(layout->nozzles[i].position, f->camera->centre) <= f->camera->size)
-            take_in(f, layout->nozzles[i].position);
+            take_in(f, layout->nozzles[i].position, MARGIN_OF_NOZZLES);
 }
 
 /* The picture is trimmed to what it shows. */
@@ -92,7 +93,7 @@ static void frame_all(sp_camera *camera, const sp_evaluator *evaluator, const sp
     for (int pass = 0; pass < 2; ++pass) {
         for (uint32_t t = 0; t < mesh->triangle_count; ++t)
             for (int k = 0; k < 3 && is_wet(evaluator, t); ++k)
-                take_in(&f, mesh->vertices[mesh->triangles[t][k]]);
+                take_in(&f, mesh->vertices[mesh->triangles[t][k]], MARGIN);
         for (size_t i = 0; i < result->design_count; ++i)
             if (result->designs[i].evaluator == evaluator)
                 take_in_nozzles(&f, result->designs[i].layout);
