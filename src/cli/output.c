@@ -60,10 +60,14 @@ static void print_figures(const sp_figures *figures, const char *name, int width
 }
 
 /* What is proved, in the report's own words; rounded so that it stays true. */
-static void print_certificate(const sp_certificate *certificate)
+static void print_certificate(const sp_proposal *proposal)
 {
-    if (!certificate->computed)
+    const sp_certificate *certificate = &proposal->certificate;
+    if (!certificate->computed) {
+        if (proposal->interrupted)
+            printf("\nThe search ended before anything was proved of how much better a layout could be.\n");
         return;
+    }
     printf(
         "\nAmong these %zu candidate poses and the proposal's own, on %zu texels, no layout reaches %.1f %% with less "
         "than %.1f L/min.\nWith the proposal's water none covers more than %.1f %% of them (gap %.1f %%). Poses "
@@ -109,7 +113,7 @@ static bool print_summary(const sp_result *result, sp_error *error)
     if (result->proposal && result->design_count)
         print_missing(&figures[result->design_count - 1]);
     if (result->proposal)
-        print_certificate(&result->proposal->certificate);
+        print_certificate(result->proposal);
     sp_figures_destroy(figures, result->design_count);
     return true;
 }

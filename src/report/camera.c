@@ -2,6 +2,7 @@
 
 #define REACH 0.3 /* tangent of half the opening angle: about 33 degrees in all, little distortion */
 #define MARGIN 1.04
+#define MARGIN_OF_NOZZLES 1.12 /* their names stand beside them */
 #define RAD (M_PI / 180)
 
 /* From behind one looks up, so that the lid's underside shows; nozzles often leave it dry. */
@@ -54,32 +55,59 @@ static void set_axes(sp_camera *camera, const sp_view *view, sp_vec3 up)
     camera->up = sp_cross(camera->right, camera->forward);
 }
 
-/* The eye goes back until every wet corner is inside REACH, then the picture is trimmed to what it shows. */
-static void frame_all(sp_camera *camera, const sp_evaluator *evaluator, int pixels)
+/* What the picture has to show: first how far back the eye goes until all of it is inside REACH, then how wide it
+ * looks. */
+typedef struct {
+    const sp_camera *camera;
+    bool placed;     /* the distance is known */
+    double distance; /* m, of the eye from the camera's centre */
+    double reach_x, reach_y;
+} frame;
+
+static void take_in(frame *f, sp_vec3 point, double margin)
 {
-    const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
-    double distance = camera->size * 1e-3, reach_x = 1e-6, reach_y = 1e-6;
-    for (int pass = 0; pass < 2; ++pass) {
-        for (uint32_t t = 0; t < mesh->triangle_count; ++t)
-            for (int k = 0; k < 3 && is_wet(evaluator, t); ++k) {
-                sp_vec3 p = sp_sub(mesh->vertices[mesh->triangles[t][k]], camera->centre);
-                double x = fabs(sp_dot(p, camera->right)), y = fabs(sp_dot(p, camera->up));
-                double depth = sp_dot(p, camera->forward);
-                if (pass == 0)
-                    distance = fmax(distance, fmax(x, y) * MARGIN / REACH - depth);
-                reach_x = pass == 0 ? reach_x : fmax(reach_x, MARGIN * x / (distance + depth));
-                reach_y = pass == 0 ? reach_y : fmax(reach_y, MARGIN * y / (distance + depth));
-            }
+    sp_vec3 p = sp_sub(point, f->camera->centre);
+    double x = fabs(sp_dot(p, f->camera->right)), y = fabs(sp_dot(p, f->camera->up));
+    double depth = sp_dot(p, f->camera->forward);
+    if (!f->placed) {
+        f->distance = fmax(f->distance, fmax(x, y) * margin / REACH - depth);
+        return;
     }
-    double longest = fmax(reach_x, reach_y);
-    camera->reach_x = fmax(reach_x, 0.5 * longest);
-    camera->reach_y = fmax(reach_y, 0.5 * longest);
-    camera->width = (int)ceil(pixels * camera->reach_x / longest);
-    camera->height = (int)ceil(pixels * camera->reach_y / longest);
-    camera->eye = sp_along(camera->centre, -distance, camera->forward);
+    f->reach_x = fmax(f->reach_x, margin * x / (f->distance + depth));
+    f->reach_y = fmax(f->reach_y, margin * y / (f->distance + depth));
 }
 
-sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_view *view, int pixels)
+/* Where a machine is washed from outside, its nozzles stand around it; one that is lost far away is not gone after. */
+static void take_in_nozzles(frame *f, const sp_layout *layout)
+{
+    for (size_t i = 0; i < layout->count; ++i)
+        if (sp_distance(layout->nozzles[i].position, f->camera->centre) <= f->camera->size)
+            take_in(f, layout->nozzles[i].position, MARGIN_OF_NOZZLES);
+}
+
+/* The picture is trimmed to what it shows. */
+static void frame_all(sp_camera *camera, const sp_evaluator *evaluator, const sp_result *result, int pixels)
+{
+    const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
+    frame f = {camera, false, camera->size * 1e-3, 1e-6, 1e-6};
+    for (int pass = 0; pass < 2; ++pass) {
+        for (uint32_t t = 0; t < mesh->triangle_count; ++t)
+            for (int k = 0; k < 3 && is_wet(evaluator, t); ++k)
+                take_in(&f, mesh->vertices[mesh->triangles[t][k]], MARGIN);
+        for (size_t i = 0; i < result->design_count; ++i)
+            if (result->designs[i].evaluator == evaluator)
+                take_in_nozzles(&f, result->designs[i].layout);
+        f.placed = true;
+    }
+    double longest = fmax(f.reach_x, f.reach_y);
+    camera->reach_x = fmax(f.reach_x, 0.5 * longest);
+    camera->reach_y = fmax(f.reach_y, 0.5 * longest);
+    camera->width = (int)ceil(pixels * camera->reach_x / longest);
+    camera->height = (int)ceil(pixels * camera->reach_y / longest);
+    camera->eye = sp_along(camera->centre, -f.distance, camera->forward);
+}
+
+sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_result *result, const sp_view *view, int pixels)
 {
     sp_camera camera = {0};
     const sp_setup *setup = sp_evaluator_setup(evaluator);
@@ -89,7 +117,7 @@ sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_view *view, i
     camera.size = fmax(sp_distance(low, high), 1e-9);
     camera.cut = setup->cavity == SP_CAVITY_NONE && encloses(evaluator, camera.centre);
     set_axes(&camera, view, setup->up);
-    frame_all(&camera, evaluator, pixels);
+    frame_all(&camera, evaluator, result, pixels);
     return camera;
 }
 
@@ -108,4 +136,10 @@ bool sp_camera_project(const sp_camera *camera, sp_vec3 point, double xy[2])
     xy[0] = 0.5 * camera->width * (1 + sp_dot(p, camera->right) / (depth * camera->reach_x));
     xy[1] = 0.5 * camera->height * (1 - sp_dot(p, camera->up) / (depth * camera->reach_y));
     return true;
+}
+
+bool sp_camera_shows(const sp_camera *camera, sp_vec3 point, double xy[2])
+{
+    return sp_camera_project(camera, point, xy) && xy[0] >= 0 && xy[0] <= camera->width && xy[1] >= 0 &&
+           xy[1] <= camera->height;
 }

@@ -2,7 +2,7 @@
 #ifndef REPORT_CAMERA_H
 #define REPORT_CAMERA_H
 
-#include <sprayplan/evaluator.h>
+#include <sprayplan/result.h>
 
 typedef struct {
     const char *caption;       /* "From the front" */
@@ -22,12 +22,15 @@ typedef struct {
     double size;    /* m, the box's diagonal */
 } sp_camera;
 
-/* Holds everything wet, the longer side of the picture being `pixels`. Cut where no cavity says which sides to look
- * through and the geometry encloses its middle. */
-sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_view *view, int pixels);
+/* Holds everything wet and the nozzles that the result's designs of this evaluator have about it, the longer side of
+ * the picture being `pixels`. Cut where no cavity says which sides to look through and the geometry encloses its
+ * middle. */
+sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_result *result, const sp_view *view, int pixels);
 /* Direction (not unit, forward component 1) through a point of the picture, in pixels from its top left. */
 sp_vec3 sp_camera_direction(const sp_camera *camera, double x, double y);
 /* Where a point appears, in pixels; false behind the eye. */
 bool sp_camera_project(const sp_camera *camera, sp_vec3 point, double xy[2]);
+/* The same; false outside the picture too. */
+bool sp_camera_shows(const sp_camera *camera, sp_vec3 point, double xy[2]);
 
 #endif

@@ -38,8 +38,8 @@ void sp_page_certificate(const sp_page *page, sp_text *text)
     sp_text_add(text, " with less than ");
     sp_markup_decimals(text, floor(6e5 * found->water_bound + 1e-6) / 10, 1);
     sp_text_add(
-        text, "&nbsp;L/min. Poses between candidates are not covered.</p>\n<p>That is what the proposal itself reaches "
-              "on these texels, with ");
+        text, "&nbsp;L/min. Poses between candidates are not covered.</p>\n<p>That share of the surface to be cleaned, "
+              "attainable or not, is what the proposal itself reaches on these texels, with ");
     sp_markup_decimals(text, 6e4 * proposal->coverage->flow, 1);
     sp_text_add(text, "&nbsp;L/min. With as much water no layout reaches more than ");
     add_percent(text, found->area_bound / found->whole, true);

@@ -84,7 +84,7 @@ static void add_outline(sp_text *text, const sp_camera *camera, const sp_evaluat
             return;
         spots[i] = rim[i] = (spot){xy[0], xy[1]};
     }
-    if (!sp_camera_project(camera, nozzle->position, xy))
+    if (!sp_camera_shows(camera, nozzle->position, xy))
         return;
     spots[RIM] = (spot){xy[0], xy[1]};
     add_path(text, "spray", hull, convex_hull(spots, RIM + 1, hull));
@@ -97,7 +97,7 @@ void sp_overlay_nozzles(sp_text *text, const sp_camera *camera, const sp_evaluat
     for (size_t i = 0; i < layout->count; ++i)
         add_outline(text, camera, evaluator, &layout->nozzles[i]);
     for (size_t i = 0; i < layout->count; ++i) {
-        if (!sp_camera_project(camera, layout->nozzles[i].position, xy))
+        if (!sp_camera_shows(camera, layout->nozzles[i].position, xy))
             continue;
         char *name = sp_text_utf8(layout->nozzles[i].name);
         sp_text_add(

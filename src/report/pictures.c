@@ -111,7 +111,7 @@ static bool add_view(const sp_page *page, sp_text *text, const sp_view *view, in
         if (layers.evaluator != evaluator) {
             sp_layers_free(&layers);
             sp_shot_free(&shot);
-            camera = sp_camera_create(evaluator, view, pixels);
+            camera = sp_camera_create(evaluator, page->result, view, pixels);
             done = sp_layers_create(&layers, evaluator, error) &&
                    sp_shot_create(&shot, &layers, &camera, sp_evaluator_setup(evaluator)->run.threads, error);
         }
@@ -126,7 +126,7 @@ static bool add_view(const sp_page *page, sp_text *text, const sp_view *view, in
 static void add_note(const sp_page *page, sp_text *text, const sp_evaluator *first)
 {
     sp_cavity_kind cavity = sp_evaluator_setup(first)->cavity;
-    sp_camera camera = sp_camera_create(first, &sp_views[0], PIXELS);
+    sp_camera camera = sp_camera_create(first, page->result, &sp_views[0], PIXELS);
     sp_text_add(
         text,
         "<p class=\"note\">One colour scale for all pictures. %s Dots are nozzles; the outlines show where and how "

@@ -328,6 +328,7 @@ static void a_certificate_is_told_in_full(void **state)
                            "Among these 123456 candidate poses and the proposal&#39;s own, on 20011 texels, no layout "
                            "reaches 80.5&nbsp;% with less than 31.2&nbsp;L/min. Poses between candidates are not "
                            "covered."));
+    assert_non_null(strstr(html, "That share of the surface to be cleaned, attainable or not, is what the proposal"));
     assert_non_null(strstr(html, "no layout reaches more than 90.1&nbsp;%: at most 10.7&nbsp;% of what"));
     assert_non_null(strstr(html, "<path class=\"bound\""));
     assert_null(strstr(html, "is not known"));
