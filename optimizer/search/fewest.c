@@ -2,30 +2,53 @@
 
 #include "search/exchange.h"
 
-/* The draft with one nozzle more, all of them exchanged until nothing is gained. */
-static bool add_one(const sp_search *search, const sp_pool *pool, double budget, sp_watch *watch, sp_draft *draft,
-                    sp_error *error)
+/* Exchanges nozzles of the draft, and adds some up to `number`, until nothing is gained. */
+static bool improve(const sp_search *search, const sp_pool *pool, size_t number, double budget, sp_watch *watch,
+                    sp_draft *draft, sp_error *error)
 {
     sp_place_options options = *search->options;
-    options.max_nozzles = search->kept_count + draft->count + 1;
+    options.max_nozzles = search->kept_count + number;
     sp_search limited = *search;
     limited.options = &options;
     return sp_improve(&limited, pool, budget, watch, draft, error);
 }
 
-bool sp_find_fewest(const sp_search *search, const sp_pool *pool, double budget, sp_watch *watch, sp_front *front,
-                    sp_error *error)
+/* The greedy order's first so many. */
+static bool first_of(const sp_search *search, const sp_draft *greedy, size_t number, sp_draft *draft, sp_error *error)
+{
+    if (!sp_draft_copy(search, greedy, draft, error))
+        return false;
+    while (draft->count > number)
+        sp_draft_remove(search, draft, draft->count - 1);
+    return true;
+}
+
+/* *best, of at most number - 1 nozzles, becomes the best that two starts improve to. */
+static bool add_one(const sp_search *search, const sp_pool *pool, const sp_draft *greedy, size_t number, double budget,
+                    sp_watch *watch, sp_draft *best, sp_error *error)
+{
+    sp_draft other;
+    if (!first_of(search, greedy, number, &other, error))
+        return false;
+    bool done = improve(search, pool, number, budget, watch, &other, error) &&
+                improve(search, pool, number, budget, watch, best, error);
+    bool better = done && other.covered > best->covered;
+    sp_draft_free(better ? best : &other);
+    if (better)
+        *best = other;
+    return done;
+}
+
+bool sp_find_fewest(const sp_search *search, const sp_pool *pool, const sp_draft *greedy, double budget,
+                    sp_watch *watch, sp_front *front, sp_error *error)
 {
     sp_draft draft;
     if (!sp_draft_create(search, &draft, error))
         return false;
-    bool done = true, more = true;
-    while (done && more && draft.count < front->best.count && sp_watch_goes_on(watch, "front", 1)) {
-        size_t before = draft.count;
-        done = add_one(search, pool, budget, watch, &draft, error);
-        more = draft.count > before;
-        done = done && (!more || sp_front_measure(front, search, &draft, NULL, error));
-    }
+    bool done = true;
+    for (size_t number = 1; done && number < front->best.count && sp_watch_goes_on(watch, "front", 1); number++)
+        done = add_one(search, pool, greedy, number, budget, watch, &draft, error) &&
+               sp_front_measure(front, search, &draft, NULL, error);
     sp_draft_free(&draft);
     return done;
 }

@@ -6,9 +6,10 @@
 #include "search/front.h"
 #include "search/greedy.h"
 
-/* Measures, for the front, the best drafts found of rising numbers of nozzles of the pool, within `budget` (m³/s), up
- * to as many as the front's best has. */
-bool sp_find_fewest(const sp_search *search, const sp_pool *pool, double budget, sp_watch *watch, sp_front *front,
-                    sp_error *error);
+/* Measures, for the front, the best drafts found of rising numbers of nozzles of the pool, within `budget` (m³/s),
+ * fewer than the front's best has. Each number starts from what was found for one less and from the first of `greedy`.
+ */
+bool sp_find_fewest(const sp_search *search, const sp_pool *pool, const sp_draft *greedy, double budget,
+                    sp_watch *watch, sp_front *front, sp_error *error);
 
 #endif

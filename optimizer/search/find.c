@@ -240,7 +240,8 @@ bool sp_find(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool 
     for (int i = 0; done && i < 2 && sp_watch_goes_on(watch, "exchange", 0); i++)
         done = other_draft(&finding, i == 0 ? 0.5 : 0);
     done = done && shrink_best(&finding) && sp_watch_stage(watch, "exchange", error) && fill_front(&finding, &draft) &&
-           sp_find_fewest(search, pool, finding.budget, watch, front, error) && sp_watch_stage(watch, "front", error);
+           sp_find_fewest(search, pool, &draft, finding.budget, watch, front, error) &&
+           sp_watch_stage(watch, "front", error);
     sp_draft_free(&draft);
     return done;
 }

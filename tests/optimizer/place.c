@@ -16,6 +16,24 @@ static void two_nozzles_are_the_best_two(void **state)
     room_close(&j.room);
 }
 
+/* Also where the layout proposed, for the sake of the water, has more. */
+static void few_nozzles_cover_most_whatever_their_water(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    sp_proposal *proposal = job_place(&j);
+    assert_true(proposal->layout->count > 2);
+    assert_true(proposal->by_number_count > 2);
+    double best[2] = {best_of_one(&j), best_of_two(&j)};
+    for (size_t i = 0; i < 2; i++) {
+        assert_int_equal(proposal->by_number[i].nozzles, i + 1);
+        assert_true(proposal->by_number[i].area >= best[i] * (1 - 1e-9));
+    }
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
 static void least_water_for_a_target(void **state)
 {
     (void)state;
@@ -35,10 +53,7 @@ static void least_water_for_a_target(void **state)
                 int pose = i ? b : a;
                 if (pose < 0)
                     continue;
-                pair[count++] = (sp_nozzle){.type = j.type_list[pose % 2],
-                                            .position = sp_v(-0.8 + 0.4 * (pose / 2), 0.1, 1),
-                                            .axis = sp_v(0, 0, -1),
-                                            .pressure = PRESSURE};
+                pair[count++] = nozzle_of(&j, pose);
                 flow += j.type_list[pose % 2]->flow;
             }
             if (flow < best && area_of(&j, pair, count) >= proposal->target_area)
@@ -326,6 +341,8 @@ static void threads_do_not_matter(void **state)
     same_layout(one->greedy, three->greedy);
     assert_int_equal(one->front_count, three->front_count);
     assert_memory_equal(one->front, three->front, one->front_count * sizeof *one->front);
+    assert_int_equal(one->by_number_count, three->by_number_count);
+    assert_memory_equal(one->by_number, three->by_number, one->by_number_count * sizeof *one->by_number);
     const sp_certificate *a = &one->certificate, *b = &three->certificate;
     assert_true(a->computed && b->computed);
     assert_true(a->area_bound == b->area_bound && a->water_bound == b->water_bound && a->gap == b->gap);
@@ -344,6 +361,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_nozzles_are_the_best_two),
+        cmocka_unit_test(few_nozzles_cover_most_whatever_their_water),
         cmocka_unit_test(least_water_for_a_target),
         cmocka_unit_test(nothing_exceeds_the_certificate),
         cmocka_unit_test(water_allowed_may_be_used_up),

@@ -127,6 +127,17 @@ static inline void room_check(const sp_proposal *proposal, const sp_place_option
         assert_true(proposal->front[i].flow > proposal->front[i - 1].flow);
         assert_true(proposal->front[i].area > proposal->front[i - 1].area);
     }
+    for (size_t i = 1; i < proposal->by_number_count; i++) {
+        assert_true(proposal->by_number[i].nozzles > proposal->by_number[i - 1].nozzles);
+        assert_true(proposal->by_number[i].area > proposal->by_number[i - 1].area);
+    }
+    for (size_t i = 0; i < proposal->front_count; i++) {
+        double area = 0;
+        for (size_t k = 0; k < proposal->by_number_count; k++)
+            if (proposal->by_number[k].nozzles <= proposal->front[i].nozzles)
+                area = proposal->by_number[k].area;
+        assert_true(area >= proposal->front[i].area);
+    }
     assert_true(proposal->coverage->covered_area <= proposal->attainable_area * (1 + 1e-12));
     const sp_certificate *certificate = &proposal->certificate;
     if (!certificate->computed)

@@ -76,19 +76,32 @@ static inline double area_of(const job *j, const sp_nozzle *nozzles, size_t coun
     return area;
 }
 
-/* The most that any one or two of the five places and two types cover, a place holding more than one. */
+/* One of the five places with one of the two types. */
+static inline sp_nozzle nozzle_of(const job *j, int pose)
+{
+    return (sp_nozzle){.type = j->type_list[pose % 2],
+                       .position = sp_v(-0.8 + 0.4 * (pose / 2), 0.1, 1),
+                       .axis = sp_v(0, 0, -1),
+                       .pressure = PRESSURE};
+}
+
+static inline double best_of_one(const job *j)
+{
+    double best = 0;
+    for (int i = 0; i < 10; i++) {
+        sp_nozzle nozzle = nozzle_of(j, i);
+        best = fmax(best, area_of(j, &nozzle, 1));
+    }
+    return best;
+}
+
+/* A place may hold both. */
 static inline double best_of_two(const job *j)
 {
-    sp_nozzle poses[10];
-    for (int i = 0; i < 10; i++)
-        poses[i] = (sp_nozzle){.type = j->type_list[i % 2],
-                               .position = sp_v(-0.8 + 0.4 * (i / 2), 0.1, 1),
-                               .axis = sp_v(0, 0, -1),
-                               .pressure = PRESSURE};
     double best = 0;
     for (int a = 0; a < 10; a++)
         for (int b = a; b < 10; b++) {
-            sp_nozzle pair[2] = {poses[a], poses[b]};
+            sp_nozzle pair[2] = {nozzle_of(j, a), nozzle_of(j, b)};
             best = fmax(best, area_of(j, pair, 2));
         }
     return best;
