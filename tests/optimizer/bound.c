@@ -347,14 +347,10 @@ static void the_knapsack_is_the_best_choice(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_knapsack_is_the_best_choice),
-        cmocka_unit_test(never_below_the_optimum),
-        cmocka_unit_test(more_nozzles_than_are_counted),
-        cmocka_unit_test(groups_of_texels_lead_as_far),
-        cmocka_unit_test(breaking_off_proves_nothing_false),
-        cmocka_unit_test(tight_where_nothing_overlaps),
-        cmocka_unit_test(hundreds_of_rows_may_come_first),
-        cmocka_unit_test(threads_do_not_matter),
+        cmocka_unit_test(the_knapsack_is_the_best_choice),   cmocka_unit_test(never_below_the_optimum),
+        cmocka_unit_test(more_nozzles_than_are_counted),     cmocka_unit_test(groups_of_texels_lead_as_far),
+        cmocka_unit_test(breaking_off_proves_nothing_false), cmocka_unit_test(tight_where_nothing_overlaps),
+        cmocka_unit_test(hundreds_of_rows_may_come_first),   cmocka_unit_test(threads_do_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

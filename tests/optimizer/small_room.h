@@ -76,23 +76,13 @@ static inline double area_of(const job *j, const sp_nozzle *nozzles, size_t coun
     return area;
 }
 
-/* One of the five places with one of the two types. */
+/* One of the five places with one of the first two types. */
 static inline sp_nozzle nozzle_of(const job *j, int pose)
 {
     return (sp_nozzle){.type = j->type_list[pose % 2],
                        .position = sp_v(-0.8 + 0.4 * (pose / 2), 0.1, 1),
                        .axis = sp_v(0, 0, -1),
                        .pressure = PRESSURE};
-}
-
-static inline double best_of_one(const job *j)
-{
-    double best = 0;
-    for (int i = 0; i < 10; i++) {
-        sp_nozzle nozzle = nozzle_of(j, i);
-        best = fmax(best, area_of(j, &nozzle, 1));
-    }
-    return best;
 }
 
 /* A place may hold both. */
