@@ -12,15 +12,16 @@
 
 enum {
     TASK = 1 << 16,
-    CHUNK = 1 << 14,    /* triangles that one thread takes at a time before there are ranges */
-    DEEP = 24,          /* from this depth on ranges are halved, which takes at most 12 levels more */
+    CHUNK = 1 << 14, /* triangles that one thread takes at a time before there are ranges */
+    DEEP = 24,       /* from this depth on ranges are halved, which takes at most 12 levels more */
+    BLOCKS_ROOM = 2, /* memory set aside for the blocks, in references a triangle: enough for five triangles a leaf */
+    AHEAD = 4,       /* leaves whose triangles are sent for before they are needed */
     UPPER = 0x40000000, /* marks a child of an upper node that is task number so and so */
 };
 
-/* A leaf to be: where its triangles are. */
+/* A leaf to be: where its triangles are in the first buffer. */
 typedef struct {
     uint32_t first, count;
-    int buffer;
 } leaf;
 
 /* A part of the tree in the making; children are numbered within it. */
@@ -36,7 +37,7 @@ typedef struct {
 } task;
 
 typedef struct {
-    sp_bvh_reference *buffers[2];
+    sp_bvh_reference *buffers[2]; /* [triangle_count], [BLOCKS_ROOM triangle_count] */
     int threads;
     part upper;
     task *tasks; /* [task_count], in the order of their places in the tree */
@@ -67,14 +68,17 @@ static bool add_node(part *p, uint32_t *number)
     return good;
 }
 
-static bool add_leaf(part *p, const sp_bvh_range *range, uint32_t *number)
+/* Its references go to the first buffer if they are not there, as the second one is to hold the blocks. */
+static bool add_leaf(const builder *b, part *p, const sp_bvh_range *range, uint32_t *number)
 {
     void *items = p->leaves;
     bool good = make_room(&items, &p->leaf_room, p->leaf_count, sizeof *p->leaves);
     p->leaves = items;
     if (good) {
         *number = (uint32_t)p->leaf_count;
-        p->leaves[p->leaf_count++] = (leaf){(uint32_t)range->first, (uint32_t)range->count, range->buffer};
+        p->leaves[p->leaf_count++] = (leaf){(uint32_t)range->first, (uint32_t)range->count};
+        if (range->buffer == 1)
+            memcpy(b->buffers[0] + range->first, b->buffers[1] + range->first, range->count * sizeof **b->buffers);
     }
     return good;
 }
@@ -181,7 +185,7 @@ static bool build_subtree(builder *b, part *p, const sp_bvh_range *range, int de
     for (int i = 0; i < count; i++) {
         uint32_t child;
         bool is_leaf = children[i].count <= SP_BVH_WIDTH;
-        if (!(is_leaf ? add_leaf(p, &children[i], &child) : build_subtree(b, p, &children[i], depth + 1, &child)))
+        if (!(is_leaf ? add_leaf(b, p, &children[i], &child) : build_subtree(b, p, &children[i], depth + 1, &child)))
             return false;
         p->nodes[*number].child[i] = is_leaf ? child | SP_BVH_LEAF : child;
     }
@@ -204,7 +208,7 @@ static bool build_upper(builder *b, const sp_bvh_range *range, int depth, uint32
     for (int i = 0; i < count; i++) {
         uint32_t child;
         bool is_leaf = children[i].count <= SP_BVH_WIDTH;
-        if (!(is_leaf ? add_leaf(&b->upper, &children[i], &child) : build_upper(b, &children[i], depth + 1, &child)))
+        if (!(is_leaf ? add_leaf(b, &b->upper, &children[i], &child) : build_upper(b, &children[i], depth + 1, &child)))
             return false;
         b->upper.nodes[*number].child[i] = is_leaf ? child | SP_BVH_LEAF : child;
     }
@@ -244,16 +248,48 @@ static void take_nodes(const part *p, uint32_t first_node, uint32_t first_leaf, 
 
 static void fill_block(const sp_bvh *bvh, const sp_bvh_reference *references, uint32_t count, sp_bvh_block *block)
 {
-    for (uint32_t i = 0; i < SP_BVH_WIDTH; i++) {
+    memset(block, 255, sizeof *block); /* SP_NONE, and what is no number */
+    for (uint32_t i = 0; i < count; i++) {
         sp_corners corners;
-        block->triangle[i] = i < count ? references[i].triangle : SP_NONE;
-        if (i < count)
-            sp_bvh_corners(bvh, references[i].triangle, corners);
+        sp_bvh_corners(bvh, references[i].triangle, corners);
+        block->triangle[i] = references[i].triangle;
         for (int corner = 0; corner < 3; corner++)
             for (int axis = 0; axis < 3; axis++)
-                block->corner[corner][axis][i] =
-                    i < count ? (float)((corners[corner][axis] - bvh->centre[axis]) * bvh->scale) : NAN;
+                block->corner[corner][axis][i] = (float)((corners[corner][axis] - bvh->centre[axis]) * bvh->scale);
     }
+}
+
+/* Fills the blocks of a part. What they take from the mesh lies anywhere, and is sent for in time. */
+static void fill_blocks(const builder *b, const part *p, sp_bvh *bvh, size_t first)
+{
+    const sp_bvh_reference *references = b->buffers[0];
+    for (size_t k = 0; k < p->leaf_count; k++) {
+        const leaf *l = &p->leaves[k];
+        if (p->leaf_count - k > 2 * AHEAD)
+            for (uint32_t i = 0; i < l[2 * AHEAD].count; i++)
+                __builtin_prefetch(bvh->mesh->triangles[references[l[2 * AHEAD].first + i].triangle]);
+        if (p->leaf_count - k > AHEAD)
+            for (uint32_t i = 0; i < l[AHEAD].count; i++)
+                sp_bvh_fetch_corners(bvh, references[l[AHEAD].first + i].triangle);
+        fill_block(bvh, references + l->first, l->count, &bvh->blocks[first + k]);
+    }
+}
+
+/* The second buffer, done with, becomes the blocks where it is large enough: memory that is new to the process is
+ * dear. */
+static bool make_arrays(builder *b, sp_bvh *bvh, size_t nodes, size_t leaves)
+{
+    size_t room = BLOCKS_ROOM * bvh->mesh->triangle_count * sizeof **b->buffers;
+    bvh->nodes = sp_bvh_allocate(nodes, sizeof *bvh->nodes);
+    if (leaves <= room / sizeof *bvh->blocks) {
+        bvh->blocks = (sp_bvh_block *)(void *)b->buffers[1];
+        b->buffers[1] = NULL;
+    } else {
+        bvh->blocks = sp_bvh_allocate(leaves, sizeof *bvh->blocks);
+    }
+    bvh->node_count = nodes;
+    bvh->block_count = leaves;
+    return bvh->nodes && bvh->blocks;
 }
 
 static bool assemble(builder *b, sp_bvh *bvh)
@@ -269,25 +305,14 @@ static bool assemble(builder *b, sp_bvh *bvh)
         leaves += b->parts[i].leaf_count;
         good = nodes < UPPER && leaves < UPPER;
     }
+    good = good && make_arrays(b, bvh, nodes, leaves);
     if (good) {
-        bvh->nodes = sp_bvh_allocate(nodes, sizeof *bvh->nodes);
-        bvh->blocks = sp_bvh_allocate(leaves, sizeof *bvh->blocks);
-        good = bvh->nodes && bvh->blocks;
-    }
-    if (good) {
-        bvh->node_count = nodes;
-        bvh->block_count = leaves;
         take_nodes(&b->upper, 0, 0, roots, bvh->nodes);
+        fill_blocks(b, &b->upper, bvh, 0);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(b->threads)
-        for (size_t i = 0; i < b->task_count + 1; i++) {
-            const part *p = i < b->task_count ? &b->parts[i] : &b->upper;
-            uint32_t first = i < b->task_count ? firsts[i] : 0;
-            if (i < b->task_count)
-                take_nodes(p, roots[i], first, roots, bvh->nodes);
-            for (size_t k = 0; k < p->leaf_count; k++) {
-                const leaf *l = &p->leaves[k];
-                fill_block(bvh, b->buffers[l->buffer] + l->first, l->count, &bvh->blocks[first + k]);
-            }
+        for (size_t i = 0; i < b->task_count; i++) {
+            take_nodes(&b->parts[i], roots[i], firsts[i], roots, bvh->nodes);
+            fill_blocks(b, &b->parts[i], bvh, firsts[i]);
         }
     }
     free(roots);
@@ -296,12 +321,9 @@ static bool assemble(builder *b, sp_bvh *bvh)
 }
 
 /* The box around the triangles from the first on, m. */
-static void enclose_chunk(const sp_mesh *mesh, size_t first, size_t end, double low[3], double high[3])
+static void enclose_chunk(const sp_mesh *mesh, size_t first, size_t end, double box[2][3])
 {
-    for (int axis = 0; axis < 3; axis++) {
-        low[axis] = INFINITY;
-        high[axis] = -INFINITY;
-    }
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (size_t t = first; t < end; t++)
         for (int i = 0; i < 3; i++) {
             double p[3];
@@ -311,6 +333,8 @@ static void enclose_chunk(const sp_mesh *mesh, size_t first, size_t end, double 
                 high[axis] = sp_greater(high[axis], p[axis]);
             }
         }
+    memcpy(box[0], low, sizeof low);
+    memcpy(box[1], high, sizeof high);
 }
 
 /* Sets the space of the hierarchy; chunks are united in their order. */
@@ -324,7 +348,7 @@ static bool enclose(sp_bvh *bvh, int threads)
 #pragma omp parallel for num_threads(threads)
     for (size_t c = 0; c < chunks; c++) {
         size_t end = mesh->triangle_count - c * CHUNK < CHUNK ? mesh->triangle_count : (c + 1) * CHUNK;
-        enclose_chunk(mesh, c * CHUNK, end, boxes[c][0], boxes[c][1]);
+        enclose_chunk(mesh, c * CHUNK, end, boxes[c]);
     }
     for (int axis = 0; axis < 3; axis++) {
         bvh->low[axis] = INFINITY;
@@ -393,7 +417,7 @@ static bool build(builder *b, sp_bvh *bvh)
     sp_bvh_range all;
     uint32_t root;
     for (int i = 0; i < 2; i++) {
-        b->buffers[i] = sp_bvh_allocate(bvh->mesh->triangle_count, sizeof *b->buffers[i]);
+        b->buffers[i] = sp_bvh_allocate(bvh->mesh->triangle_count, (i ? BLOCKS_ROOM : 1) * sizeof *b->buffers[i]);
         if (!b->buffers[i])
             return false;
     }

@@ -7,6 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 /* References that one thread bins or moves at a time. Ranges of at most this many are divided by one thread. */
 enum { CHUNK = 1 << 15 };
 
@@ -14,12 +18,6 @@ typedef struct {
     sp_bvh_box box[3][SP_BIN_COUNT];
     uint32_t count[3][SP_BIN_COUNT];
 } bin_set;
-
-/* How centres are told apart along each axis: bin = (twice the centre - low) scale. */
-typedef struct {
-    float low[4], scale[4];
-    int bins;
-} binning;
 
 /* Where to divide: bins of that axis below `bin` go left. */
 typedef struct {
@@ -38,6 +36,12 @@ sp_bvh_box sp_bvh_box_empty(void)
 typedef float four __attribute__((vector_size(16)));
 typedef int32_t four_whole __attribute__((vector_size(16)));
 
+/* How centres are told apart along each axis: bin = (twice the centre - low) scale, up to `last`. */
+typedef struct {
+    four low, scale, last;
+    int bins;
+} binning;
+
 static inline four load(const float from[4])
 {
     four a;
@@ -55,11 +59,31 @@ static inline four where(four_whole mask, four one, four other)
     return (four)((mask & (four_whole)one) | (~mask & (four_whole)other));
 }
 
+#ifdef __SSE2__
+/* gcc does not see that these are one instruction each. */
+static inline four lesser(four a, four b)
+{
+    return _mm_min_ps(a, b);
+}
+static inline four greater(four a, four b)
+{
+    return _mm_max_ps(a, b);
+}
+#else
+static inline four lesser(four a, four b)
+{
+    return where(a < b, a, b);
+}
+static inline four greater(four a, four b)
+{
+    return where(a > b, a, b);
+}
+#endif
+
 static inline void unite(sp_bvh_box *box, four low, four high)
 {
-    four least = load(box->low), most = load(box->high);
-    store(box->low, where(least < low, least, low));
-    store(box->high, where(most > high, most, high));
+    store(box->low, lesser(load(box->low), low));
+    store(box->high, greater(load(box->high), high));
 }
 
 void sp_bvh_box_unite(sp_bvh_box *box, const sp_bvh_box *other)
@@ -96,22 +120,19 @@ void sp_bvh_measure(const sp_bvh_reference *references, sp_bvh_range *range)
 
 static binning choose_binning(const sp_bvh_range *range)
 {
-    binning b = {.bins = range->count < 32 ? SP_BIN_COUNT / 2 : SP_BIN_COUNT};
+    int bins = range->count < 32 ? SP_BIN_COUNT / 2 : SP_BIN_COUNT;
+    float last = (float)(bins - 1);
+    binning b = {.low = load(range->centres.low), .last = {last, last, last, last}, .bins = bins};
     for (int k = 0; k < 3; k++) {
-        float extent = range->centres.high[k] - range->centres.low[k];
-        b.low[k] = range->centres.low[k];
-        b.scale[k] = extent > 0 ? (float)b.bins * 0.99999f / extent : 0;
-        if (!(b.scale[k] <= FLT_MAX))
-            b.scale[k] = 0;
+        float extent = range->centres.high[k] - range->centres.low[k], scale = (float)bins * 0.99999f / extent;
+        b.scale[k] = extent > 0 && scale <= FLT_MAX ? scale : 0;
     }
     return b;
 }
 
-static inline four_whole bins_of(const binning *b, four centre)
+static inline four_whole bins_of(binning b, four centre)
 {
-    four_whole last = {b->bins - 1, b->bins - 1, b->bins - 1, b->bins - 1};
-    four_whole bin = __builtin_convertvector((centre - load(b->low)) * load(b->scale), four_whole), below = bin < last;
-    return (bin & below) | (last & ~below);
+    return __builtin_convertvector(lesser((centre - b.low) * b.scale, b.last), four_whole);
 }
 
 static void clear_bins(bin_set *set, int bins)
@@ -122,15 +143,16 @@ static void clear_bins(bin_set *set, int bins)
             set->box[axis][i] = sp_bvh_box_empty();
 }
 
-static void fill_bins(const sp_bvh_reference *references, size_t count, const binning *b, bin_set *set)
+static void fill_bins(const sp_bvh_reference *references, size_t count, const binning *chosen, bin_set *set)
 {
-    clear_bins(set, b->bins);
+    const binning b = *chosen; /* the set is not in its way */
+    clear_bins(set, b.bins);
     for (size_t i = 0; i < count; i++) {
         four low, high;
         unpack(&references[i], &low, &high);
         four_whole bins = bins_of(b, low + high);
         for (int axis = 0; axis < 3; axis++) {
-            int bin = bins[axis];
+            uint32_t bin = (uint32_t)bins[axis];
             set->count[axis][bin]++;
             unite(&set->box[axis][bin], low, high);
         }
@@ -187,18 +209,36 @@ static cut choose_cut(const bin_set *set, const binning *b, size_t count)
     return where;
 }
 
-/* Copies references to the left or right place, keeping their order; returns the boxes around their centres. */
+/* Copies references to the left or right place, keeping their order; returns the boxes around their centres. Both boxes
+ * stay in registers: the one of the other side is shown what is no number. */
 static void move(const sp_bvh_reference *from, size_t count, const binning *b, const cut *chosen,
-                 sp_bvh_reference *to[2], sp_bvh_box centres[2])
+                 sp_bvh_reference *const to[2], sp_bvh_box centres[2])
 {
-    centres[0] = centres[1] = sp_bvh_box_empty();
+    sp_bvh_reference *left = to[0], *right = to[1];
+    int axis = chosen->axis, bin = chosen->bin;
+    float from_low = b->low[axis], scale = b->scale[axis];
+    four least[2], most[2];
+    for (int side = 0; side < 2; side++) {
+        least[side] = (four){FLT_MAX, FLT_MAX, FLT_MAX, FLT_MAX};
+        most[side] = -least[side];
+    }
     for (size_t i = 0; i < count; i++) {
         four low, high;
         unpack(&from[i], &low, &high);
-        four centre = low + high;
-        int side = bins_of(b, centre)[chosen->axis] >= chosen->bin;
-        *to[side]++ = from[i];
-        unite(&centres[side], centre, centre);
+        four_whole centre = (four_whole)(low + high);
+        int32_t is_right = -((int)((from[i].low[axis] + from[i].high[axis] - from_low) * scale) >= bin);
+        four_whole mask = {is_right, is_right, is_right, is_right};
+        *(is_right ? right : left) = from[i];
+        right -= is_right;
+        left += 1 + is_right;
+        least[0] = lesser((four)(centre | mask), least[0]);
+        most[0] = greater((four)(centre | mask), most[0]);
+        least[1] = lesser((four)(centre | ~mask), least[1]);
+        most[1] = greater((four)(centre | ~mask), most[1]);
+    }
+    for (int side = 0; side < 2; side++) {
+        store(centres[side].low, least[side]);
+        store(centres[side].high, most[side]);
     }
 }
 

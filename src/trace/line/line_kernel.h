@@ -29,6 +29,7 @@ typedef struct {
     /* Where what comes next is, and its bytes: looked up, as a branch would be guesswork. */
     const char *base[WAITING];
     size_t size[WAITING];
+    size_t more[WAITING]; /* from its second line of the cache to each further one, where there are more */
     sp_bvh_line ready[SP_LINES];
     int ready_count, ready_next; /* those from the latter on have not begun */
     answers answers;
@@ -42,8 +43,10 @@ static inline void go_on(work *w, waiting *waiting, uint32_t number)
     uint32_t child = flight->child[--flight->height], kind = child >> KIND_SHIFT, place = child & ~END;
     const char *line = w->base[kind] + (size_t)place * w->size[kind];
     flight->current = place;
+    size_t more = w->more[kind];
     __builtin_prefetch(line);
-    __builtin_prefetch(line + 64);
+    for (size_t i = 0; i < 4; i++)
+        __builtin_prefetch(line + 64 + i * more);
     waiting->nodes |= (uint32_t)(kind == TO_NODE) << number;
     waiting->blocks |= (uint32_t)(kind == TO_BLOCK) << number;
     waiting->ends |= (uint32_t)(kind == TO_END) << number;
@@ -140,6 +143,8 @@ void SP_KERNEL(sp_bvh_lines)(sp_bvh_stream *stream)
     w.base[TO_BLOCK] = (const char *)w.bvh->blocks;
     w.size[TO_NODE] = w.size[TO_HIT] = w.size[TO_END] = sizeof *w.bvh->nodes;
     w.size[TO_BLOCK] = sizeof *w.bvh->blocks;
+    w.more[TO_NODE] = w.more[TO_HIT] = w.more[TO_END] = 0;
+    w.more[TO_BLOCK] = 64;
     w.ready_count = w.ready_next = 0;
     start_answers(&w.answers, stream->bvh, stream->rays, stream->hits);
     waiting waiting = {0, 0, 0, 0};
