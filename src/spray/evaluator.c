@@ -15,6 +15,7 @@
 #define MOST_PAGE_EDGE 16384 /* texels, for a triangle longer than PAGE_EDGE */
 #define PAGE_MARGIN 4        /* texels that a page needs beyond its chart */
 #define MOST_TEXELS 1e9
+#define MOST_SPEED 1e6 /* m/s: beyond any nozzle, and what flights are reckoned from stays far from overflow */
 
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error)
 {
@@ -270,6 +271,18 @@ unsigned sp_evaluator_wet(const sp_evaluator *evaluator, uint32_t triangle)
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator)
 {
     return evaluator->gravity;
+}
+
+bool sp_evaluator_takes(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
+{
+    for (size_t i = 0; i < layout->count; i++) {
+        double speed = sp_nozzle_speed(&layout->nozzles[i], &evaluator->setup.liquid);
+        if (speed > MOST_SPEED)
+            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                           "nozzle %s: exit speed %g m/s found, from pressure and density; expected at most %g m/s",
+                           layout->nozzles[i].name, speed, MOST_SPEED);
+    }
+    return true;
 }
 
 sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)

@@ -212,7 +212,7 @@ static bool fly_layout(jet_flight *flight, const sp_layout *layout, sp_error *er
 
 sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
 {
-    sp_coverage *coverage = sp_coverage_create(evaluator, error);
+    sp_coverage *coverage = sp_evaluator_takes(evaluator, layout, error) ? sp_coverage_create(evaluator, error) : NULL;
     if (!coverage)
         return NULL;
     jet_flight flight = {.evaluator = evaluator,

@@ -56,7 +56,7 @@ static bool lay_footprints(const sp_emitter *emitter, double flow, sp_deposits *
 
 sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
 {
-    if (!evaluator || !layout)
+    if (!evaluator || !layout || !sp_evaluator_takes(evaluator, layout, error))
         return NULL;
     sp_coverage *coverage = sp_coverage_create(evaluator, error);
     if (!coverage)

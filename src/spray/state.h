@@ -27,6 +27,8 @@ static inline int sp_thread_count(int threads)
 }
 /* Reports progress; false, with the error set, where the caller is to stop. */
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error);
+/* False, with an error, where a nozzle's liquid leaves faster than can be reckoned with. */
+bool sp_evaluator_takes(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
 
 /* wet.c: floods lines of sight from the cavity. [triangle_count], malloc'd. All sides where there is no cavity. */
 uint8_t *sp_wet_sides(const sp_setup *setup, const sp_tracer *tracer, sp_error *error);
