@@ -15,7 +15,7 @@
 #define MOST_PAGE_EDGE 16384 /* texels, for a triangle longer than PAGE_EDGE */
 #define PAGE_MARGIN 4        /* texels that a page needs beyond its chart */
 #define MOST_TEXELS 1e9
-#define MOST_SPEED 1e6 /* m/s: beyond any nozzle, and what flights are reckoned from stays far from overflow */
+#define MOST_SPEED 1e30 /* m/s: far beyond, fourth powers that flights are reckoned from overflow */
 
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error)
 {
