@@ -85,7 +85,7 @@ static inline sp_nozzle nozzle_of(const job *j, int pose)
                        .pressure = PRESSURE};
 }
 
-/* A place may hold both. */
+/* The most that two of them cover; a place may hold both. */
 static inline double best_of_two(const job *j)
 {
     double best = 0;
