@@ -66,7 +66,8 @@ static bool fits(const sp_mount *port, const sp_nozzle_type *type)
     return port->type_count == 0;
 }
 
-/* Single nozzles need no criterion of their own: what counts of each adds up (combine: sum). */
+/* Single nozzles need no criterion of their own: what counts of each adds up (combine: sum), patches at a spray's edge
+ * counting whole or not at all. */
 static void add_option(search *search, size_t port, const sp_nozzle *nozzle)
 {
     sp_error error = {0};
@@ -84,9 +85,11 @@ static void add_option(search *search, size_t port, const sp_nozzle *nozzle)
     option->port = port;
     option->nozzle = *nozzle;
     option->flow = alone->flow;
+    double threshold = sp_evaluator_setup(search->evaluator)->criterion.flux;
     option->counted = allocate(search->padded_count, sizeof *option->counted);
     for (size_t i = 0; i < search->patch_count; ++i)
-        option->counted[i] = (float)alone->deposits.counted[i];
+        option->counted[i] = (float)(alone->deposits.covered[i] ? fmax(alone->deposits.even[i], threshold)
+                                                                : alone->deposits.even[i]);
     sp_coverage_destroy(alone);
     sp_layout_destroy(layout);
 }

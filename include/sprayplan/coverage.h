@@ -25,8 +25,44 @@ typedef struct {
     double *incidence_min;
     double *impact; /* mean pressure rho v_n² of the normal component, Pa */
     double *impact_max;
-    bool *covered;
+    double *even;  /* of the counted flux, what falls on all of the patch, m³/s per m² (see sp_wetting) */
+    double *dry;   /* share of the patch that no nozzle's edge covers */
+    double *share; /* of the patch, that is covered: all where `even` meets the criterion, else 1 - dry */
+    bool *covered; /* at least half of it */
 } sp_deposits;
+
+/* What one nozzle's passing arrivals bring to a patch that may lie across the edge of its spray. An arrival that meets
+ * the criterion alone covers the share of the patch that lies inside the spray; one that does not may still do so with
+ * others', and counts where the patch's point lies inside. The shares that several nozzles cover are taken to lie
+ * anywhere: together they leave dry the product of what each leaves dry. Starts as {0, 1}. */
+typedef struct {
+    double even; /* flux on all of the patch, as `threshold` */
+    double dry;  /* share that is not covered by the edges */
+} sp_wetting;
+/* `flux`: of the arrival inside the spray; `share` of the patch that is inside; `holds`: its point is. */
+static inline void sp_wetting_add(sp_wetting *wetting, double flux, double threshold, double share, bool holds)
+{
+    bool alone = flux > 0 && flux >= threshold;
+    if (alone && share < 1)
+        wetting->dry *= 1 - share;
+    else if (alone || holds)
+        wetting->even += flux;
+}
+/* What one nozzle's arrivals come to: all of the patch, or what its edge covers; what falls short besides is nothing.
+ */
+static inline sp_wetting sp_wetting_settle(sp_wetting wetting, double threshold)
+{
+    if (wetting.dry < 1 && wetting.even > 0 && wetting.even >= threshold)
+        wetting.dry = 1;
+    else if (wetting.dry < 1)
+        wetting.even = 0;
+    return wetting;
+}
+/* The share covered by all that came together. */
+static inline double sp_wetting_share(const sp_wetting *wetting, double threshold)
+{
+    return wetting->even > 0 && wetting->even >= threshold ? 1 : 1 - wetting->dry;
+}
 
 /* Why a patch is not attainable: how near the candidate that comes nearest brings it. */
 typedef enum {
@@ -52,7 +88,7 @@ typedef struct {
 
 typedef struct {
     double area;                                    /* clean (and wet) area, m² */
-    double covered_area;                            /* m² */
+    double covered_area;                            /* Σ share area, m² */
     double fraction;                                /* covered_area / area */
     double flow;                                    /* m³/s */
     double area_per_water;                          /* covered area over flow, m² per m³/s; 0 without flow */

@@ -23,6 +23,8 @@ typedef struct {
     sp_vec3 *point;            /* [count], where it is judged: its point nearest to its centroid, m */
     sp_vec3 *normal;           /* [count], unit, towards the side that is wet (the front where both are) */
     uint32_t *triangle;        /* [count], the one that holds `point` */
+    double *length;            /* [count], m, edge of a square as large as its surroundings allow: the texel's, or where
+                                * its chart has less area than a texel, that area's root */
     uint32_t *neighbour_start; /* [count + 1] */
     uint32_t *neighbours;      /* patches of the same side that touch, ascending */
     double total_area;         /* Σ area, m² */
@@ -59,12 +61,13 @@ sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout 
  * type or flow. The flux (m/s) at the patch is Q · intensity(direction) · transfer. */
 typedef struct {
     uint32_t patch;
-    bool passes;       /* impact speed and incidence meet the criterion */
-    uint8_t arc;       /* which of sp_flights */
-    sp_vec3 direction; /* unit, at the nozzle, world coordinates */
-    double transfer;   /* 1/m²: |n·w| / (v T √D) for a parabola, cos(incidence)/r² for a line */
-    double speed;      /* at impact, m/s */
-    double incidence;  /* rad */
+    bool passes;        /* impact speed and incidence meet the criterion */
+    uint8_t arc;        /* which of sp_flights */
+    sp_vec3 direction;  /* unit, at the nozzle, world coordinates */
+    double transfer;    /* 1/m²: |n·w| / (v T √D) for a parabola, cos(incidence)/r² for a line */
+    double speed;       /* at impact, m/s */
+    double incidence;   /* rad */
+    sp_breadth breadth; /* of the patch, as seen along the direction */
 } sp_arrival;
 
 typedef struct {
@@ -96,6 +99,14 @@ typedef struct {
     double spread; /* m³/s: transfer (1/m²) = |n · velocity| / spread; v r² for a line, v T √D for a parabola */
 } sp_flight;
 int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_flight flights[2]);
+/* How broad a square of this edge length (m) looks from where the flight starts at `speed` (m/s), the square lying
+ * about the flight's end with a unit normal: by how much the flight's direction has to change for its end to move so
+ * far. At most a quarter of a square radian: nearer to the nozzle, or to the edge of its reach, a patch is no longer
+ * small against its way. */
+sp_breadth sp_flight_breadth(const sp_flight *flight, double speed, sp_vec3 normal, double length);
+/* True where nothing lies in the way of a flight that leaves `position` (m) at `speed` (m/s) for the patch's point. */
+bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, double speed, const sp_flight *flight,
+                              uint32_t patch);
 
 #ifdef __cplusplus
 }

@@ -93,6 +93,9 @@ double sp_triangle_area(const sp_mesh *mesh, uint32_t triangle);
 sp_vec3 sp_triangle_normal(const sp_mesh *mesh, uint32_t triangle);
 /* (1-u-v) a + u b + v c */
 sp_vec3 sp_triangle_point(const sp_mesh *mesh, uint32_t triangle, double u, double v);
+/* The weights of the second and third corner at the foot of the perpendicular from `point` onto the triangle's plane;
+ * whether that lies within the triangle. */
+bool sp_triangle_weights(const sp_mesh *mesh, uint32_t triangle, sp_vec3 point, double *u, double *v);
 /* Sum over all triangles, m². */
 double sp_mesh_area(const sp_mesh *mesh);
 

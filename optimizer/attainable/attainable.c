@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 #define CHUNK 256 /* patches a thread does in a row: neighbours are reached from the same sites */
-#define ENDS 1e-7 /* share of a flight at either end in which nothing blocks it */
 
 /* The best that one mounting place can do for one patch. */
 typedef struct {
@@ -164,17 +163,6 @@ static sp_reason judge(const sp_reckoning *reckoning, const sp_flight *flight, s
     return SP_REASON_FLUX;
 }
 
-static bool is_free(const sp_reckoning *reckoning, const sp_site *site, double speed, const sp_flight *flight,
-                    size_t patch)
-{
-    sp_ray ray = {.origin = site->position,
-                  .velocity = sp_scale(flight->direction, speed),
-                  .t_min = ENDS * flight->time,
-                  .t_max = (1 - ENDS) * flight->time,
-                  .skip = sp_evaluator_patches(reckoning->fine)->triangle[patch]};
-    return !sp_trace_occluded(sp_evaluator_tracer(reckoning->fine), &ray, sp_evaluator_gravity(reckoning->fine));
-}
-
 /* Whether any make at this speed can be aimed so. */
 static bool aimable(const sp_reckoning *reckoning, const sp_site *site, size_t speed, sp_vec3 direction)
 {
@@ -207,7 +195,8 @@ static bool site_offers(const sp_reckoning *reckoning, const sp_site *site, size
             if (!aimable(reckoning, site, s, flights[f].direction))
                 continue;
             sp_reason near = judge(reckoning, &flights[f], patch, &transfer);
-            if ((near < SP_REASON_FLUX && near <= *reason) || !is_free(reckoning, site, speed, &flights[f], patch))
+            if ((near < SP_REASON_FLUX && near <= *reason) ||
+                !sp_evaluator_flight_free(reckoning->fine, site->position, speed, &flights[f], (uint32_t)patch))
                 continue;
             *reason = near > *reason ? near : *reason;
             if (near == SP_REASON_FLUX)
@@ -293,7 +282,7 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *
         done = sp_fail_memory(error);
     if (done) {
         reckoning.scopes = scopes;
-        reckoning.kept = kept->deposits.counted;
+        reckoning.kept = kept->deposits.even;
         for (size_t p = 0; p < kept->deposits.count; p++)
             reasons[p] = kept->deposits.covered[p] ? SP_REASON_ATTAINABLE : SP_REASON_UNKNOWN;
         done =

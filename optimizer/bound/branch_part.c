@@ -96,33 +96,50 @@ static uint32_t weight_of(const sp_branching *b, piece p)
     return b->line->weight[sp_line_kind(b->line, p.end - 1)];
 }
 
+/* The most that any candidate alive in a slot brings to a texel: on all of it, and by itself to a part of it. */
+typedef struct {
+    float whole, part;
+} most_of;
+
+static void note_most(const sp_rows *rows, most_of *most)
+{
+    for (size_t k = 0; k < rows->used; k++) {
+        most_of *own = &most[rows->texel[k]];
+        if (rows->share[k] < 0)
+            own->part = fmaxf(own->part, -rows->share[k]);
+        else
+            own->whole = fmaxf(own->whole, rows->share[k]);
+    }
+}
+
 /* What the slots would cover if each nozzle brought every texel the most that any candidate alive in its slot does; a
  * layout that is all there is left is covered exactly. Shares are rounded upwards, and so is their sum. */
 static bool outline(const sp_branching *b, const sp_tree *tree, const sp_branch *branch, double *area, sp_error *error)
 {
     const sp_cover *cover = b->cover;
-    float *most = calloc(cover->texel_count + 1, sizeof *most);
-    double *sum = calloc(cover->texel_count + 1, sizeof *sum);
-    bool done = (most && sum) || sp_fail_memory(error);
+    most_of *most = calloc(cover->texel_count + 1, sizeof *most);
+    double *sum = calloc(cover->texel_count + 1, sizeof *sum), *lit = calloc(cover->texel_count + 1, sizeof *lit);
+    bool done = (most && sum && lit) || sp_fail_memory(error);
     for (size_t i = 0; done && i < branch->slot_count; i++) {
         const sp_slot *slot = &branch->slots[i];
         sp_rows rows = {0};
         for (size_t at = slot->first; done && at < slot->end; at++)
             done = !tree->alive[at] || b->line->row(b->line->user, at, &rows, error);
-        for (size_t k = 0; k < rows.used; k++)
-            most[rows.texel[k]] = fmaxf(most[rows.texel[k]], rows.share[k]);
+        note_most(&rows, most);
         for (size_t t = 0; done && t < cover->texel_count; t++) {
-            sum[t] += (double)most[t] * slot->count * (1 + 1e-6);
-            most[t] = 0;
+            sum[t] += (double)most[t].whole * slot->count * (1 + 1e-6);
+            lit[t] = 1 - (1 - lit[t]) * pow(1 - (double)most[t].part, slot->count);
+            most[t] = (most_of){0};
         }
         sp_rows_free(&rows);
     }
     *area = cover->base;
     for (size_t t = 0; done && t < cover->texel_count; t++)
-        *area += sum[t] >= 1 ? (double)cover->area[t] : 0;
-    *area *= 1 + 1e-11;
+        *area += (sum[t] >= 1 ? 1 : lit[t]) * (double)cover->area[t];
+    *area *= 1 + 1e-6;
     free(most);
     free(sum);
+    free(lit);
     return done;
 }
 

@@ -36,8 +36,8 @@ static size_t group_row(const sp_dual *dual, const sp_rows *rows, size_t row, co
             share[count] = lifted[count] = 0;
             count++;
         }
-        share[count - 1] += part * rows->share[i];
-        lifted[count - 1] += lifts ? part * sp_lift(lifts, dual->u.kind[t], rows->share[i]) : 0;
+        share[count - 1] += part * sp_share_of(rows->share[i]);
+        lifted[count - 1] += lifts ? part * sp_share_lifted(lifts, dual->u.kind[t], rows->share[i]) : 0;
     }
     return count;
 }

@@ -148,9 +148,10 @@ double sp_rows_price(const sp_rows *rows, size_t row, const sp_prices *prices)
     double plain = 0, lifted = 0;
     for (size_t i = rows->start[row]; i < rows->start[row + 1]; i++) {
         uint32_t t = rows->texel[i];
-        plain += (double)rows->share[i] * (double)prices->plain[t];
+        plain += (double)sp_share_of(rows->share[i]) * (double)prices->plain[t];
         if (prices->lifts && prices->lifted[t] > 0)
-            lifted += (double)sp_lift(prices->lifts, prices->kind[t], rows->share[i]) * (double)prices->lifted[t];
+            lifted +=
+                (double)sp_share_lifted(prices->lifts, prices->kind[t], rows->share[i]) * (double)prices->lifted[t];
     }
     return (plain + lifted) * UPWARDS;
 }

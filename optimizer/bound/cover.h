@@ -1,12 +1,16 @@
 /* Maximum coverage: candidates as sparse rows over texels, of which some may be chosen within number, water and ports.
  *
  * A texel counts as covered only where the shares of the chosen candidates come to at least 1. With liquid that adds up
- * a share is min(1, flux over what the texel still needs); where one nozzle alone must do, it is 1 or 0. */
+ * a share is min(1, flux over what the texel still needs); where one nozzle alone must do, it is 1 or 0. Where a
+ * candidate's spray ends within a texel it covers a part of it alone; no more of the texel is covered than these parts
+ * come to, unless shares on all of it come to 1. */
 #ifndef OPTIMIZER_COVER_H
 #define OPTIMIZER_COVER_H
 
 #include "bound/knapsack.h"
 #include "bound/lift.h"
+
+#include <math.h>
 
 #define SP_NO_PORT SIZE_MAX
 #define SP_OWN_KEY UINT64_MAX
@@ -41,8 +45,19 @@ typedef struct {
     uint64_t *key; /* which candidate it is; SP_OWN_KEY: a nozzle of a layout that was found */
     size_t used, room;
     uint32_t *texel; /* [used], ascending in a row */
-    float *share;    /* [used], above 0, at most 1 */
+    float *share; /* [used], above 0, at most 1; or below 0: of so much of the texel a whole share (see sp_share_of) */
 } sp_rows;
+
+/* What a row's entry counts for in sums of plain shares; and of lifted ones: a candidate covers the part of a texel
+ * that lies at its spray's edge by itself or not at all. */
+static inline float sp_share_of(float share)
+{
+    return fabsf(share);
+}
+static inline float sp_share_lifted(const sp_lifts *lifts, size_t kind, float share)
+{
+    return share < 0 ? -share : sp_lift(lifts, kind, share);
+}
 
 /* Appends a row of `count` texels; false when memory runs out. */
 bool sp_rows_add(sp_rows *rows, uint64_t key, size_t port, uint32_t tier, const uint32_t *texels, const float *shares,

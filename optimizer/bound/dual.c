@@ -109,7 +109,7 @@ bool sp_dual_lift(sp_dual *dual, const sp_rows *rows, const sp_lifts *lifts, sp_
         float amount = (float)sp_dual_choice(dual, c);
         for (size_t i = rows->start[c]; amount > CHOICE_LEAST && i < rows->start[c + 1]; i++)
             for (size_t k = 0; k < kinds; k++)
-                sums[rows->texel[i] * kinds + k] += amount * sp_lift(lifts, k, rows->share[i]);
+                sums[rows->texel[i] * kinds + k] += amount * sp_share_lifted(lifts, k, rows->share[i]);
     }
     for (size_t t = 0; t < dual->texels; t++) {
         uint8_t best = dual->u.kind[t];

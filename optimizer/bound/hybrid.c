@@ -63,8 +63,9 @@ static bool lift_rows(sp_hybrid *h, sp_error *error)
     if (!h->lifted)
         return sp_fail_memory(error);
     for (size_t i = 0; i < rows->used; i++)
-        h->lifted[i] = h->task->lifted ? h->task->lifted[i]
-                                       : sp_lift(h->task->lifts, h->dual->u.kind[rows->texel[i]], rows->share[i]);
+        h->lifted[i] = h->task->lifted
+                           ? h->task->lifted[i]
+                           : sp_share_lifted(h->task->lifts, h->dual->u.kind[rows->texel[i]], rows->share[i]);
     return true;
 }
 
@@ -127,8 +128,9 @@ static void add_shares(sp_hybrid *h, double *mean)
             continue;
         }
         for (size_t i = rows->start[c]; i < rows->start[c + 1]; i++) {
-            h->tau[c] += (double)rows->share[i];
-            h->sigma[rows->texel[i]] += (double)rows->share[i];
+            double share = (double)sp_share_of(rows->share[i]);
+            h->tau[c] += share;
+            h->sigma[rows->texel[i]] += share;
             if (h->lifted) {
                 h->tau[c] += (double)h->lifted[i];
                 h->sigma[texels + rows->texel[i]] += (double)h->lifted[i];

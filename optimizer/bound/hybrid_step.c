@@ -42,7 +42,7 @@ void sp_hybrid_add_up(sp_hybrid *h, const double *x)
             size_t i = lower_bound(rows->texel, rows->start[c], rows->start[c + 1], first);
             size_t stop = lower_bound(rows->texel, i, rows->start[c + 1], end);
             for (size_t k = i; k < stop; k++)
-                h->cover[rows->texel[k]] += rows->share[k] * amount;
+                h->cover[rows->texel[k]] += sp_share_of(rows->share[k]) * amount;
             for (size_t k = i; h->lifted && k < stop; k++)
                 h->cover[texels + rows->texel[k]] += h->lifted[k] * amount;
         }
@@ -56,9 +56,9 @@ static double worth(const uint32_t *texel, const float *share, size_t count, con
     size_t i = 0;
     for (; i + 4 <= count; i += 4)
         for (size_t k = 0; k < 4; k++)
-            total[k] += (double)share[i + k] * (double)u[texel[i + k]];
+            total[k] += (double)sp_share_of(share[i + k]) * (double)u[texel[i + k]];
     for (; i < count; i++)
-        total[0] += (double)share[i] * (double)u[texel[i]];
+        total[0] += (double)sp_share_of(share[i]) * (double)u[texel[i]];
     return (total[0] + total[1]) + (total[2] + total[3]);
 }
 

@@ -18,8 +18,8 @@ static double in_common(const ordering *o, size_t row)
     const sp_rows *rows = o->stored->rows;
     double both = 0, own = 0;
     for (size_t i = rows->start[row]; i < rows->start[row + 1]; i++) {
-        both += (double)(rows->share[i] * o->shares[rows->texel[i]]);
-        own += (double)(rows->share[i] * o->stored->cover->area[rows->texel[i]]);
+        both += (double)(sp_share_of(rows->share[i]) * o->shares[rows->texel[i]]);
+        own += (double)(sp_share_of(rows->share[i]) * o->stored->cover->area[rows->texel[i]]);
     }
     return own > 0 ? both / own : 0;
 }
@@ -28,7 +28,7 @@ static void set_pivot(ordering *o, size_t row, bool on)
 {
     const sp_rows *rows = o->stored->rows;
     for (size_t i = rows->start[row]; i < rows->start[row + 1]; i++)
-        o->shares[rows->texel[i]] = on ? rows->share[i] * o->stored->cover->area[rows->texel[i]] : 0;
+        o->shares[rows->texel[i]] = on ? sp_share_of(rows->share[i]) * o->stored->cover->area[rows->texel[i]] : 0;
 }
 
 /* The row of the range with least in common with the pivot. */

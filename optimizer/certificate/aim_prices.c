@@ -14,7 +14,7 @@
 #define KEY_FIRST (UINT64_C(1) << 62) /* of rows for aims, which have no number */
 
 typedef struct {
-    bool used;
+    bool used, generous;
     sp_spray spray;
     sp_cull cull;
 } kept_cull;
@@ -25,7 +25,7 @@ typedef struct {
     const sp_view *view;
     float *worth; /* [largest view + SP_LANES] */
     float total[SP_BINS];
-    kept_cull *culls; /* [CULLS] */
+    kept_cull *culls; /* [CULLS], of the view */
     size_t next_cull;
 } scratch;
 
@@ -161,6 +161,13 @@ static double *known_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
     return &prices->known[place * prices->cover->tier_count + tier_of(prices, cell)];
 }
 
+/* The most flux over threshold per transfer (m²) of a cell's aims. */
+static double strength_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
+{
+    double threshold = prices->search->threshold;
+    return threshold > 0 ? sp_aim_cell_intensity(cell, &prices->kinds->items[cell->kind]) / threshold : INFINITY;
+}
+
 /* Whether two cells need the same worths of arrivals. */
 static bool alike(const sp_aim_cell *a, const sp_aim_cell *b)
 {
@@ -174,29 +181,32 @@ static bool same(const sp_spray *a, const sp_spray *b)
            a->half_thickness == b->half_thickness;
 }
 
-static const sp_cull *cull_of(scratch *own, const sp_bins *bins, const sp_spray *spray)
+static const sp_cull *cull_of(scratch *own, const sp_bins *bins, const sp_spray *spray, bool generous)
 {
     for (size_t i = 0; i < CULLS; i++)
-        if (own->culls[i].used && same(&own->culls[i].spray, spray))
+        if (own->culls[i].used && own->culls[i].generous == generous && same(&own->culls[i].spray, spray))
             return &own->culls[i].cull;
     kept_cull *kept = &own->culls[own->next_cull++ % CULLS];
     kept->used = true;
     kept->spray = *spray;
-    sp_cull_create(bins, spray, &kept->cull);
+    kept->generous = generous;
+    sp_cull_create(bins, own->view, spray, generous, &kept->cull);
     return &kept->cull;
 }
 
-/* The sum over all that aims sprayed as `cell` about `disc` may reach. */
-static double reach_price(const sp_aim_prices *prices, scratch *own, const sp_aim_cell *cell, sp_aim_disc disc)
+/* The sum over all that aims sprayed as `cell` about `disc` may have a share of; not generous, over their shares. */
+static double reach_price(const sp_aim_prices *prices, scratch *own, const sp_aim_cell *cell, sp_aim_disc disc,
+                          bool generous)
 {
     const sp_search *search = prices->search;
     sp_spray spray = sp_aim_cell_spray(cell, &prices->kinds->items[cell->kind], disc.radius);
     sp_frame frame = sp_aim_cell_frame(cell, &disc, sp_evaluator_setup(search->coarse)->up);
-    sp_region region = sp_region_create(&spray, &frame);
+    sp_region region = sp_region_create(&spray, &frame, strength_of(prices, cell), 0);
+    region.generous = generous;
     const sp_bins *bins = &search->visibility->bins;
     const sp_weight weight = {own->worth, own->total};
     double price;
-    search->sweeps->sum(bins, cull_of(own, bins, &spray), &region, own->view, &weight, 1, &price);
+    search->sweeps->sum(bins, cull_of(own, bins, &spray, generous), &region, own->view, &weight, 1, &price);
     return price * UPWARDS;
 }
 
@@ -205,12 +215,12 @@ static bool turn_to(const sp_aim_prices *prices, scratch *own, const sp_aim_cell
 {
     const sp_search *search = prices->search;
     const sp_aim_kind *kind = &prices->kinds->items[cell->kind];
-    double strength = sp_aim_cell_intensity(cell, kind) / search->threshold;
+    for (size_t i = 0; i < CULLS; i++)
+        own->culls[i].used = false;
     own->view = sp_visibility_look(search->visibility, cell->site, kind->speed_class, &own->desk);
     if (!own->view->start)
         return false;
-    sp_pose_prices_worth(prices->poses, own->view, search->threshold > 0 ? (float)strength : INFINITY, u, own->worth,
-                         own->total);
+    sp_pose_prices_worth(prices->poses, own->view, (float)strength_of(prices, cell), u, own->worth, own->total);
     return true;
 }
 
@@ -224,13 +234,13 @@ static void price_alike(const sp_aim_prices *prices, scratch *own, entry *entrie
         sp_aim_cell *cell = &entries[i].cell;
         sp_aim_disc disc = sp_aim_cell_disc(cell, site, tilt);
         /* nor more than the cell that it is a piece of */
-        cell->upper = sees ? fmin(cell->upper, reach_price(prices, own, cell, disc)) : 0;
+        cell->upper = sees ? fmin(cell->upper, reach_price(prices, own, cell, disc, true)) : 0;
         entries[i].middle = 0;
         if (cell->upper <= fmin(*known_of(prices, cell), prices->fair[tier_of(prices, cell)]) ||
             sp_dot(disc.axis, site->axis) < cos(tilt) - 1e-12)
             continue;
         sp_aim_cell middle = sp_aim_cell_middle(cell, &prices->kinds->items[cell->kind]);
-        entries[i].middle = reach_price(prices, own, &middle, (sp_aim_disc){disc.axis, 0});
+        entries[i].middle = reach_price(prices, own, &middle, (sp_aim_disc){disc.axis, 0}, false);
     }
 }
 
@@ -380,14 +390,9 @@ static bool hand_out_one(sp_aim_prices *prices, const sp_aim_cell *cell, sp_rows
     sp_aim_disc disc = {sp_aim_cell_disc(cell, site, tilt_of(prices, cell->site)).axis, 0};
     sp_spray spray = sp_aim_cell_spray(&middle, kind, 0);
     sp_frame frame = sp_aim_cell_frame(&middle, &disc, sp_evaluator_setup(search->coarse)->up);
-    sp_region region = sp_region_create(&spray, &frame);
-    float strength = search->threshold > 0 ? (float)(sp_aim_cell_intensity(cell, kind) / search->threshold) : INFINITY;
     sp_desk *desk = NULL;
     const sp_view *view = sp_visibility_look(search->visibility, cell->site, kind->speed_class, &desk);
-    memset(prices->field, 0, search->patch_count * sizeof *prices->field);
-    for (uint32_t i = 0; i < view->count; i++)
-        if (sp_region_holds(&region, view->x[i], view->y[i], view->z[i]))
-            prices->field[view->patch[i]] += strength * view->transfer[i];
+    sp_field_view(search, view, &spray, &frame, strength_of(prices, cell), prices->field);
     sp_visibility_leave(search->visibility, &desk);
     return sp_pose_prices_row(prices->poses, prices->field, KEY_FIRST + prices->keys++, prices->ports[site->mount],
                               tier_of(prices, cell), rows, error);
@@ -436,7 +441,7 @@ double sp_aim_prices_upper(sp_aim_prices *prices, const sp_aim_cell *cell, const
     scratch *own = &prices->scratches[0];
     double upper = 0;
     if (turn_to(prices, own, cell, u))
-        upper = reach_price(prices, own, cell, sp_aim_cell_disc(cell, site, tilt_of(prices, cell->site)));
+        upper = reach_price(prices, own, cell, sp_aim_cell_disc(cell, site, tilt_of(prices, cell->site)), true);
     sp_visibility_leave(prices->search->visibility, &own->desk);
     return upper;
 }

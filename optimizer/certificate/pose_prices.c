@@ -9,6 +9,7 @@
 #include <string.h>
 
 #define UPWARDS (1 + 1e-4) /* more than a sweep's sum may lie off, see sweep.h */
+#define SLACK 1e-6         /* more than single precision puts an edge, or a flux over its threshold, wrong */
 #define ROWS_AT_A_TIME 300
 #define STRIDE 7 /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
 
@@ -22,6 +23,7 @@ typedef struct {
 typedef struct {
     float *worth; /* [arrivals of a view + SP_LANES], price that it brings to a make */
     float total[SP_BINS];
+    sp_cull cull;
     sp_desk *desk;
 } scratch;
 
@@ -125,13 +127,15 @@ void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, flo
     prices->search->sweeps->total(view, worth, total);
 }
 
-/* What each arrival of a view brings to a make. */
-static void prepare_worth(const sp_pose_prices *prices, scratch *own, const sp_view *view, const sp_make *make,
-                          const sp_prices *u)
+/* What each arrival of a view brings to a make; returns the make's region about the site's axis. */
+static sp_region prepare_worth(const sp_pose_prices *prices, scratch *own, const sp_view *view, const sp_make *make,
+                               const sp_frame *frame, const sp_prices *u)
 {
     double threshold = prices->search->threshold;
-    float strength = threshold > 0 ? (float)(make->flow / (make->spray.solid_angle * threshold)) : INFINITY;
-    sp_pose_prices_worth(prices, view, strength, u, own->worth, own->total);
+    double strength = threshold > 0 ? make->flow / (make->spray.solid_angle * threshold) : INFINITY;
+    sp_pose_prices_worth(prices, view, (float)strength, u, own->worth, own->total);
+    sp_cull_create(&prices->search->visibility->bins, view, &make->spray, false, &own->cull);
+    return sp_region_create(&make->spray, frame, strength, SLACK);
 }
 
 /* The pose's price, rounded upwards. */
@@ -145,7 +149,7 @@ static double price_of(const sp_pose_prices *prices, const scratch *own, const s
     const sp_weight weight = {own->worth, own->total};
     double price;
     sp_region_turn(region, &frame);
-    search->sweeps->sum(&search->visibility->bins, &search->culls[pose.make], region, view, &weight, 1, &price);
+    search->sweeps->sum(&search->visibility->bins, &own->cull, region, view, &weight, 1, &price);
     return price * UPWARDS;
 }
 
@@ -178,8 +182,7 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
         const sp_view *view = sp_visibility_look(prices->search->visibility, site, make->speed_class, &own->desk);
         if (!view->start)
             continue;
-        prepare_worth(prices, own, view, make, u);
-        sp_region region = sp_region_create(&make->spray, &frame);
+        sp_region region = prepare_worth(prices, own, view, make, &frame, u);
         for (uint32_t a = 0; a < axes; a++)
             for (uint32_t r = 0; r < make->roll_count; r++) {
                 sp_pose pose = {site, k, a, r};
@@ -199,10 +202,10 @@ bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64
 {
     size_t count = 0;
     for (uint32_t t = 0; t < prices->search->patch_count; t++) {
-        if (!(field[t] > 0) || !(prices->need[t] > 0))
+        if (field[t] == 0 || !(prices->need[t] > 0))
             continue;
-        float share = share_of(prices, t, field[t], false);
-        if (share > 0) {
+        float share = field[t] < 0 ? fmaxf(field[t] * prices->upwards, -1) : share_of(prices, t, field[t], false);
+        if (share != 0) {
             prices->texels[count] = t;
             prices->shares[count++] = share;
         }
@@ -298,8 +301,7 @@ static void price_block(sp_pose_prices *prices, scratch *own, size_t block, cons
     const sp_view *view = sp_visibility_look(search->visibility, poses->site, make->speed_class, &own->desk);
     if (!view->start)
         return;
-    prepare_worth(prices, own, view, make, u);
-    sp_region region = sp_region_create(&make->spray, &frame);
+    sp_region region = prepare_worth(prices, own, view, make, &frame, u);
     for (size_t i = poses->start; i < end; i++)
         if (alive[i])
             price[i] = nextafterf(

@@ -76,7 +76,7 @@ static bool set_tiers(sp_problem *p, sp_error *error)
     return true;
 }
 
-/* What every texel still needs besides the kept nozzles. */
+/* What every texel still needs besides the kept nozzles, and the part of it that they leave dry. */
 static bool set_texels(sp_problem *p, sp_error *error)
 {
     const sp_search *search = p->search;
@@ -89,8 +89,9 @@ static bool set_texels(sp_problem *p, sp_error *error)
         double had = (double)search->kept_wet[t] * (1 + margin);
         double need = had >= 1 ? 0 : search->single ? 1 : 1 - had;
         p->need[t] = need > margin ? (float)need : 0;
-        p->area[t] = p->need[t] > 0 ? search->area[t] : 0;
-        p->cover.base += p->need[t] > 0 ? 0 : (double)search->area[t];
+        /* of what their edges leave dry, other edges cover as large a part as of all of it */
+        p->area[t] = p->need[t] > 0 ? search->area[t] * search->kept_dry[t] : 0;
+        p->cover.base += (double)search->area[t] - (double)p->area[t];
     }
     p->cover.texel_count = search->patch_count;
     p->cover.area = p->area;

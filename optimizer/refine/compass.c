@@ -40,7 +40,7 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
         return true;
     if (!sp_sights_field(needle->sights, &trial, needle->trial, needle->error))
         return false;
-    double gain = sp_field_gain(needle->search, needle->draft->wet, needle->trial);
+    double gain = sp_field_gain(needle->search, needle->draft, needle->trial);
     if (gain <= needle->gain + needle->least)
         return true;
     trial.field = needle->trial;
@@ -65,7 +65,7 @@ static bool try_nozzle(const sp_search *search, sp_sights *sights, double budget
     needle.trial = malloc(search->patch_count * sizeof *needle.trial);
     bool done = needle.trial || sp_fail_memory(error);
     if (done)
-        needle.gain = sp_field_gain(search, draft->wet, needle.placed.field);
+        needle.gain = sp_field_gain(search, draft, needle.placed.field);
     sp_freedom freedom = sp_freedom_create(search, &needle.placed);
     for (size_t k = 0; done && k < freedom.count; k++) {
         if (freedom.kind[k] == SP_UNKNOWN_PLACE && step < PLACE_LEAST)

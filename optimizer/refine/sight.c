@@ -1,5 +1,7 @@
 #include "refine/sight.h"
 
+#include "scoring/scoring.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -76,7 +78,8 @@ static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
     for (size_t i = 0; sight->seen && i < reach->count; i++) {
         const sp_arrival *arrival = &reach->arrivals[i];
         uint32_t arc = is_high(sp_sub(patches->point[arrival->patch], sight->position), up, arrival->direction);
-        sight->seen[sight->count++] = (sp_seen){arrival->patch, arc, arrival->direction, arrival->transfer};
+        sight->seen[sight->count++] =
+            (sp_seen){arrival->patch, arc, arrival->direction, arrival->transfer, arrival->breadth};
     }
     sp_reach_destroy(reach);
     return sight->seen || sp_fail_memory(error);
@@ -143,33 +146,26 @@ bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen 
     return *transfer > 0;
 }
 
-/* Cones without an inverse trigonometric function, fans by the pattern itself. */
-static bool holds(const sp_spray *spray, double inner, double outer, const sp_frame *frame, sp_vec3 d)
-{
-    double z = sp_dot(d, frame->z);
-    if (spray->kind != SP_PATTERN_FLAT_FAN)
-        return z >= outer && z <= inner;
-    return sp_spray_intensity(spray, sp_v(sp_dot(d, frame->x), sp_dot(d, frame->y), z)) > 0;
-}
-
 void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_placed *placed, float *field)
 {
-    const sp_setup *setup = sp_evaluator_setup(search->coarse);
+    const sp_patches *patches = sp_evaluator_patches(search->coarse);
     const sp_nozzle *nozzle = &placed->nozzle;
-    sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
-    sp_frame frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up);
-    double inner = spray.inner > 0 ? cos(spray.inner) : 2, outer = spray.outer < M_PI ? cos(spray.outer) : -2;
-    double strength = sp_nozzle_flow(nozzle, &setup->liquid) / (spray.solid_angle * search->threshold);
+    sp_posed_spray posed = sp_posed_spray_of(search, nozzle);
     bool moved = !equal(nozzle->position, sight->position);
     memset(field, 0, search->patch_count * sizeof *field);
     for (size_t i = 0; i < sight->count; i++) {
         const sp_seen *seen = &sight->seen[i];
         sp_flight flight = {.direction = seen->direction};
+        sp_breadth breadth = seen->breadth;
         double transfer = seen->transfer;
-        if (moved && !sp_sight_fly(search, sight, seen, nozzle->position, &flight, &transfer))
-            continue;
-        if (transfer > 0 && holds(&spray, inner, outer, &frame, flight.direction))
-            field[seen->patch] += search->threshold > 0 ? (float)(strength * transfer) : INFINITY;
+        if (moved) {
+            if (!sp_sight_fly(search, sight, seen, nozzle->position, &flight, &transfer))
+                continue;
+            breadth =
+                sp_flight_breadth(&flight, sight->speed, patches->normal[seen->patch], patches->length[seen->patch]);
+        }
+        float *value = &field[seen->patch];
+        *value = sp_field_join(*value, sp_posed_spray_value(&posed, flight.direction, &breadth, transfer));
     }
 }
 

@@ -88,7 +88,7 @@ static double miss_of_sum(const sp_soft *soft, size_t patch, double *factor)
 /* The same where any one level suffices: the product of what each leaves dry, but for link `but` (SIZE_MAX: none). */
 static double miss_of_any(const sp_soft *soft, size_t patch, size_t but)
 {
-    double miss = soft->search->kept_wet[patch] >= 1 ? 0 : 1;
+    double miss = soft->search->kept_wet[patch] >= 1 ? 0 : (double)soft->search->kept_dry[patch];
     for (size_t l = soft->start[patch]; l < soft->start[patch + 1]; l++)
         if (l != but)
             miss *= 1 - soft->nozzles[soft->links[l].nozzle].level[soft->links[l].arrival];

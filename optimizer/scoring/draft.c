@@ -26,8 +26,7 @@ static bool kept_create(sp_search *search, sp_error *error)
         search->kept_flow += sp_nozzle_flow(&layout->nozzles[i], &sp_evaluator_setup(search->coarse)->liquid);
         done = sp_field_nozzle(search, &layout->nozzles[i], field, error);
         for (size_t p = 0; done && p < search->patch_count; p++)
-            search->kept_wet[p] =
-                search->single ? fmaxf(search->kept_wet[p], field[p]) : search->kept_wet[p] + field[p];
+            sp_pour(search, field[p], &search->kept_wet[p], &search->kept_dry[p]);
     }
     free(field);
     return done;
@@ -58,16 +57,16 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
                           .credit = criterion->combine == SP_COMBINE_SINGLE ? 0 : CREDIT};
     search->area = malloc(patches->count * sizeof *search->area);
     search->kept_wet = calloc(patches->count, sizeof *search->kept_wet);
-    search->culls = malloc(candidates->make_count * sizeof *search->culls);
+    search->kept_dry = malloc(patches->count * sizeof *search->kept_dry);
     search->port_taken = calloc(options->mount_count, sizeof *search->port_taken);
-    if (!search->area || !search->kept_wet || !search->culls || !search->port_taken) {
+    if (!search->area || !search->kept_wet || !search->kept_dry || !search->port_taken) {
         sp_search_free(search);
         return sp_fail_memory(error);
     }
-    for (size_t p = 0; p < patches->count; p++)
+    for (size_t p = 0; p < patches->count; p++) {
         search->area[p] = (float)patches->area[p];
-    for (size_t k = 0; k < candidates->make_count; k++)
-        sp_cull_create(&visibility->bins, &candidates->makes[k].spray, &search->culls[k]);
+        search->kept_dry[p] = 1;
+    }
     if (options->kept && !kept_create(search, error)) {
         sp_search_free(search);
         return false;
@@ -82,7 +81,7 @@ void sp_search_free(sp_search *search)
 {
     free(search->area);
     free(search->kept_wet);
-    free(search->culls);
+    free(search->kept_dry);
     free(search->port_taken);
     free(search->kept);
     *search = (sp_search){0};
@@ -91,22 +90,18 @@ void sp_search_free(sp_search *search)
 void sp_draft_refresh(const sp_search *search, sp_draft *draft)
 {
     memcpy(draft->wet, search->kept_wet, search->patch_count * sizeof *draft->wet);
+    memcpy(draft->dry, search->kept_dry, search->patch_count * sizeof *draft->dry);
     draft->flow = search->kept_flow;
     for (size_t i = 0; i < draft->count; i++) {
         const float *field = draft->items[i].field;
         draft->flow += draft->items[i].flow;
-        if (search->single)
-            for (size_t p = 0; p < search->patch_count; p++)
-                draft->wet[p] = fmaxf(draft->wet[p], field[p]);
-        else
-            for (size_t p = 0; p < search->patch_count; p++)
-                draft->wet[p] += field[p];
+        for (size_t p = 0; p < search->patch_count; p++)
+            sp_pour(search, field[p], &draft->wet[p], &draft->dry[p]);
     }
     draft->covered = draft->value = 0;
     for (size_t p = 0; p < search->patch_count; p++) {
-        draft->value += (double)(search->area[p] * sp_worth(search, draft->wet[p]));
-        if (draft->wet[p] >= 1)
-            draft->covered += (double)search->area[p];
+        draft->value += (double)(search->area[p] * sp_worth(search, draft->wet[p], draft->dry[p]));
+        draft->covered += (double)(search->area[p] * sp_covered(draft->wet[p], draft->dry[p]));
     }
 }
 
@@ -114,8 +109,11 @@ bool sp_draft_create(const sp_search *search, sp_draft *draft, sp_error *error)
 {
     *draft = (sp_draft){0};
     draft->wet = malloc(search->patch_count * sizeof *draft->wet);
-    if (!draft->wet)
+    draft->dry = malloc(search->patch_count * sizeof *draft->dry);
+    if (!draft->wet || !draft->dry) {
+        sp_draft_free(draft);
         return sp_fail_memory(error);
+    }
     sp_draft_refresh(search, draft);
     return true;
 }
@@ -126,6 +124,7 @@ void sp_draft_free(sp_draft *draft)
         free(draft->items[i].field);
     free(draft->items);
     free(draft->wet);
+    free(draft->dry);
     *draft = (sp_draft){0};
 }
 
@@ -199,7 +198,7 @@ double sp_draft_counted(const sp_search *search, const sp_draft *draft)
 {
     double area = 0;
     for (size_t p = 0; p < search->patch_count; p++)
-        area += draft->wet[p] >= 1 ? (double)search->area[p] : 0;
+        area += (double)(search->area[p] * sp_covered(draft->wet[p], draft->dry[p]));
     return area;
 }
 

@@ -18,12 +18,12 @@ typedef struct {
     double threshold; /* m³/s per m² that cover; 0: any liquid */
     bool single;      /* one nozzle alone must cover */
     float credit;     /* worth of an uncovered patch per share of the threshold that it has */
-    sp_cull *culls;   /* [make_count] */
     const sp_sweep_set *sweeps;
     size_t kept_count;
     sp_nozzle *kept; /* the nozzles that every layout contains */
     double kept_flow;
-    float *kept_wet;  /* [patch_count], flux over threshold */
+    float *kept_wet;  /* [patch_count], flux over threshold on all of a patch */
+    float *kept_dry;  /* [patch_count], share of a patch that their edges do not cover */
     bool *port_taken; /* [mount_count], by a kept nozzle */
 } sp_search;
 
@@ -32,13 +32,33 @@ typedef struct {
     sp_nozzle origin; /* the candidate that it was, from which refinement's limits count */
     sp_site site;     /* where it is now: a surface's axis changes along it */
     double flow;      /* m³/s */
-    float *field;     /* [patch_count], flux over threshold; INFINITY where any liquid covers */
+    /* [patch_count], what it brings to a patch (see sp_wetting): flux over threshold on all of it, INFINITY where any
+     * liquid covers; or, below 0, less the share that it covers by itself at its spray's edge */
+    float *field;
 } sp_placed;
+
+/* What a nozzle's arrivals come to, as a field holds it. */
+static inline float sp_field_value(sp_wetting wetting)
+{
+    sp_wetting settled = sp_wetting_settle(wetting, 1);
+    return settled.dry < 1 ? (float)(settled.dry - 1) : (float)settled.even;
+}
+
+/* The same of two flights to one patch. */
+static inline float sp_field_join(float a, float b)
+{
+    if (a < 0 && b < 0)
+        return a + b + a * b;
+    if (a >= 0 && b >= 0)
+        return a + b;
+    return fmaxf(a, b) >= 1 ? fmaxf(a, b) : fminf(a, b);
+}
 
 typedef struct {
     size_t count, capacity;
     sp_placed *items; /* besides the kept nozzles */
-    float *wet;       /* [patch_count], all nozzles together, flux over threshold */
+    float *wet;       /* [patch_count], all nozzles together, flux over threshold on all of a patch */
+    float *dry;       /* [patch_count], share of a patch that no edge covers */
     double flow;      /* m³/s, kept nozzles included */
     double covered;   /* m² of coarse patches */
     double value;     /* covered, and the credit for what is on the way */
@@ -59,7 +79,20 @@ bool sp_draft_add_pose(const sp_search *search, sp_draft *draft, sp_pose pose, s
 void sp_draft_remove(const sp_search *search, sp_draft *draft, size_t i);
 /* Removes item i and hands it over. */
 sp_placed sp_draft_take(const sp_search *search, sp_draft *draft, size_t i);
-/* Draws wet, flow, covered and value from the items. */
+/* Adds a nozzle's field value to what is wet and dry of a patch. */
+static inline void sp_pour(const sp_search *search, float field, float *wet, float *dry)
+{
+    if (field < 0)
+        *dry *= 1 + field;
+    else
+        *wet = search->single ? fmaxf(*wet, field) : *wet + field;
+}
+/* The share of a patch that is covered. */
+static inline float sp_covered(float wet, float dry)
+{
+    return wet >= 1 ? 1 : 1 - dry;
+}
+/* Draws wet, dry, flow, covered and value from the items. */
 void sp_draft_refresh(const sp_search *search, sp_draft *draft);
 /* What it covers of the search's patches, m², added up in their order. */
 double sp_draft_counted(const sp_search *search, const sp_draft *draft);

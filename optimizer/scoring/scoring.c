@@ -54,13 +54,12 @@ void sp_sweepers_destroy(sp_sweeper *sweepers, int count)
     free(sweepers);
 }
 
-static sp_credit credit_of(const sp_search *search, const sp_make *make)
+static double strength_of(const sp_search *search, const sp_make *make)
 {
-    double strength = search->threshold > 0 ? make->flow / (make->spray.solid_angle * search->threshold) : INFINITY;
-    return (sp_credit){search->single, search->credit, (float)strength};
+    return search->threshold > 0 ? make->flow / (make->spray.solid_angle * search->threshold) : INFINITY;
 }
 
-void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const float *wet, uint32_t site, size_t speed)
+void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, uint32_t site, size_t speed)
 {
     if (sweeper->search == search && sweeper->site == site && sweeper->speed == speed)
         return;
@@ -74,8 +73,8 @@ void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const float *
     if (!view->start)
         return;
     for (size_t i = 0; i < view->count; i++) {
-        sweeper->had[i] = wet[view->patch[i]];
-        sweeper->area[i] = search->area[view->patch[i]];
+        sweeper->had[i] = draft->wet[view->patch[i]];
+        sweeper->area[i] = search->area[view->patch[i]] * draft->dry[view->patch[i]];
     }
     sp_credit credit = {search->single, search->credit, 0};
     search->sweeps->room(&credit, view->count, sweeper->had, sweeper->area, sweeper->room);
@@ -86,13 +85,15 @@ void sp_sweeper_take(sp_sweeper *sweeper, size_t make)
 {
     const sp_search *search = sweeper->search;
     const sp_make *own = &search->candidates->makes[make];
-    sp_credit credit = credit_of(search, own);
+    double strength = strength_of(search, own);
+    sp_credit credit = {search->single, search->credit, (float)strength};
     if (sweeper->make == make)
         return;
     sweeper->make = make;
-    sweeper->region = sp_region_create(&own->spray, &sweeper->frame);
+    sweeper->region = sp_region_create(&own->spray, &sweeper->frame, strength, 0);
     if (!sweeper->view->start)
         return;
+    sp_cull_create(&search->visibility->bins, sweeper->view, &own->spray, false, &sweeper->cull);
     search->sweeps->gain(&credit, sweeper->view->count, sweeper->had, sweeper->area, sweeper->view->transfer,
                          sweeper->gain);
     search->sweeps->total(sweeper->view, sweeper->gain, sweeper->gain_total);
@@ -119,16 +120,66 @@ sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t rol
     sp_region region = sp_sweeper_region(sweeper, axis, roll);
     const sp_weight weights[] = {{sweeper->gain, sweeper->gain_total}, {sweeper->room, sweeper->room_total}};
     double sums[2];
-    search->sweeps->sum(&search->visibility->bins, &search->culls[sweeper->make], &region, sweeper->view, weights, 2,
-                        sums);
+    search->sweeps->sum(&search->visibility->bins, &sweeper->cull, &region, sweeper->view, weights, 2, sums);
     return (sp_score){sums[0], sums[1]};
 }
 
-sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const float *wet, sp_pose pose)
+sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose)
 {
-    sp_sweeper_look(sweeper, search, wet, pose.site, search->candidates->makes[pose.make].speed_class);
+    sp_sweeper_look(sweeper, search, draft, pose.site, search->candidates->makes[pose.make].speed_class);
     sp_sweeper_take(sweeper, pose.make);
     return sp_sweeper_score(sweeper, pose.axis, pose.roll);
+}
+
+sp_posed_spray sp_posed_spray_of(const sp_search *search, const sp_nozzle *nozzle)
+{
+    const sp_setup *setup = sp_evaluator_setup(search->coarse);
+    sp_posed_spray posed = {sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle)),
+                            sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up), INFINITY};
+    if (search->threshold > 0)
+        posed.strength = sp_nozzle_flow(nozzle, &setup->liquid) / (posed.spray.solid_angle * search->threshold);
+    return posed;
+}
+
+float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 d, const sp_breadth *breadth, double transfer)
+{
+    const sp_frame *frame = &posed->frame;
+    sp_vec3 local = sp_v(sp_dot(d, frame->x), sp_dot(d, frame->y), sp_dot(d, frame->z));
+    sp_wetting wetting = {0, 1};
+    sp_wetting_add(&wetting, transfer > 0 ? posed->strength * transfer : 0, 1,
+                   sp_spray_share(&posed->spray, frame, d, breadth), sp_spray_intensity(&posed->spray, local) > 0);
+    return sp_field_value(wetting);
+}
+
+/* The arrival `i` of a view. */
+static float value_in_view(const sp_posed_spray *posed, const sp_view *view, uint32_t i)
+{
+    sp_vec3 d = sp_unit(sp_v((double)view->x[i], (double)view->y[i], (double)view->z[i]));
+    sp_breadth breadth = {(double)view->square[i],
+                          sp_v((double)view->less_x[i], (double)view->less_y[i], (double)view->less_z[i])};
+    return sp_posed_spray_value(posed, d, &breadth, (double)view->transfer[i]);
+}
+
+void sp_field_view(const sp_search *search, const sp_view *view, const sp_spray *spray, const sp_frame *frame,
+                   double strength, float *field)
+{
+    const sp_bins *bins = &search->visibility->bins;
+    sp_posed_spray posed = {*spray, *frame, strength};
+    float z[3] = {(float)frame->z.x, (float)frame->z.y, (float)frame->z.z};
+    sp_cull cull;
+    for (size_t p = 0; p < search->patch_count; p++)
+        field[p] = 0;
+    if (!view->start)
+        return;
+    sp_cull_create(bins, view, spray, false, &cull);
+    for (size_t b = 0; b < SP_BINS; b++) {
+        if (bins->x[b] * z[0] + bins->y[b] * z[1] + bins->z[b] * z[2] < cull.outside[b])
+            continue;
+        for (uint32_t i = view->start[b]; i < view->start[b + 1]; i++) {
+            float *value = &field[view->patch[i]];
+            *value = sp_field_join(*value, value_in_view(&posed, view, i));
+        }
+    }
 }
 
 void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
@@ -136,40 +187,24 @@ void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
     const sp_make *make = &search->candidates->makes[pose.make];
     sp_desk *desk = NULL;
     const sp_view *view = sp_visibility_look(search->visibility, pose.site, make->speed_class, &desk);
-    const sp_bins *bins = &search->visibility->bins;
     sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
     sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
     sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, up);
-    sp_region region = sp_region_create(&make->spray, &frame);
-    float strength = credit_of(search, make).strength;
-    const float *z = region.z, *outside = search->culls[pose.make].outside;
-    for (size_t p = 0; p < search->patch_count; p++)
-        field[p] = 0;
-    for (size_t b = 0; view->start && b < SP_BINS; b++) {
-        if (bins->x[b] * z[0] + bins->y[b] * z[1] + bins->z[b] * z[2] < outside[b])
-            continue;
-        for (uint32_t i = view->start[b]; i < view->start[b + 1]; i++)
-            if (sp_region_holds(&region, view->x[i], view->y[i], view->z[i]))
-                field[view->patch[i]] += strength * view->transfer[i];
-    }
+    sp_field_view(search, view, &make->spray, &frame, strength_of(search, make), field);
     sp_visibility_leave(search->visibility, &desk);
 }
 
 static void field_reach(const sp_search *search, const sp_nozzle *nozzle, const sp_reach *reach, float *field)
 {
-    const sp_setup *setup = sp_evaluator_setup(search->coarse);
-    sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
-    sp_frame frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up);
-    double flow = sp_nozzle_flow(nozzle, &setup->liquid);
+    sp_posed_spray posed = sp_posed_spray_of(search, nozzle);
     for (size_t p = 0; p < search->patch_count; p++)
         field[p] = 0;
     for (size_t i = 0; i < reach->count; i++) {
         const sp_arrival *arrival = &reach->arrivals[i];
-        sp_vec3 d = arrival->direction;
-        double intensity = sp_spray_intensity(&spray, sp_v(sp_dot(d, frame.x), sp_dot(d, frame.y), sp_dot(d, frame.z)));
-        if (arrival->passes && intensity > 0 && arrival->transfer > 0)
-            field[arrival->patch] +=
-                search->threshold > 0 ? (float)(flow * intensity * arrival->transfer / search->threshold) : INFINITY;
+        float *value = &field[arrival->patch];
+        if (arrival->passes)
+            *value = sp_field_join(
+                *value, sp_posed_spray_value(&posed, arrival->direction, &arrival->breadth, arrival->transfer));
     }
 }
 
@@ -186,13 +221,15 @@ bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, float *fi
     return true;
 }
 
-double sp_field_gain(const sp_search *search, const float *wet, const float *field)
+double sp_field_gain(const sp_search *search, const sp_draft *draft, const float *field)
 {
     double gain = 0;
     for (size_t p = 0; p < search->patch_count; p++)
-        if (field[p] > 0 && wet[p] < 1) {
-            float has = search->single ? fmaxf(wet[p], field[p]) : wet[p] + field[p];
-            gain += (double)(search->area[p] * (sp_worth(search, has) - sp_worth(search, wet[p])));
+        if (field[p] != 0 && draft->wet[p] < 1) {
+            float wet = draft->wet[p], dry = draft->dry[p];
+            sp_pour(search, field[p], &wet, &dry);
+            gain += (double)(search->area[p] *
+                             (sp_worth(search, wet, dry) - sp_worth(search, draft->wet[p], draft->dry[p])));
         }
     return gain;
 }

@@ -9,10 +9,10 @@ typedef struct {
     double room; /* m² by which it could rise at most, whatever the flow: never grows while a draft only grows */
 } sp_score;
 
-/* The worth of a patch per m² at this flux over threshold. */
-static inline float sp_worth(const sp_search *search, float wet)
+/* The worth of a patch per m² at this flux over threshold on all of it, `dry` of it being beyond what edges cover. */
+static inline float sp_worth(const sp_search *search, float wet, float dry)
 {
-    return wet >= 1 ? 1 : search->credit * wet;
+    return wet >= 1 ? 1 : 1 - dry * (1 - search->credit * wet);
 }
 
 /* What scores many poses one after the other, those of one mounting point together: what an arrival is worth to a make
@@ -30,6 +30,7 @@ typedef struct {
     size_t make;      /* SIZE_MAX: none */
     sp_frame frame;   /* the site's */
     sp_region region; /* the make's, about the site's axis */
+    sp_cull cull;     /* of the make */
 } sp_sweeper;
 
 /* Threads that may score at a time: no more than memory has desks for. */
@@ -40,23 +41,37 @@ void sp_sweepers_destroy(sp_sweeper *sweepers, int count);
 /* Says that what is wet, or the search's credit, has changed, and leaves the desk: all sweepers of a loop are to forget
  * at its end, before anyone else looks. */
 void sp_sweepers_forget(sp_sweeper *sweepers, int count);
-/* Turns to what a site's nozzles at a speed class would add to what is wet. */
-void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const float *wet, uint32_t site, size_t speed);
+/* Turns to what a site's nozzles at a speed class would add to a draft. */
+void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, uint32_t site, size_t speed);
 /* Then to a make of that speed class. Both do nothing where the sweeper has not turned elsewhere since, nor forgotten.
  */
 void sp_sweeper_take(sp_sweeper *sweeper, size_t make);
 /* Then to its poses. */
 sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll);
 /* All three at once. */
-sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const float *wet, sp_pose pose);
+sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose);
 
 /* The region of a pose at the site that the sweeper looks at, of the make that it took. */
 sp_region sp_sweeper_region(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll);
 
-/* [patch_count], flux over threshold of a candidate pose; of any nozzle, traced anew. */
+/* A nozzle's spray in the world. */
+typedef struct {
+    sp_spray spray;
+    sp_frame frame;
+    double strength; /* flux over threshold per transfer, m²; INFINITY where any liquid covers */
+} sp_posed_spray;
+
+sp_posed_spray sp_posed_spray_of(const sp_search *search, const sp_nozzle *nozzle);
+/* What one arrival comes to in a field. */
+float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 direction, const sp_breadth *breadth, double transfer);
+/* Field [patch_count] (see sp_placed) of a spray at a view's mounting point, of so much flux over threshold per
+ * transfer (m²). */
+void sp_field_view(const sp_search *search, const sp_view *view, const sp_spray *spray, const sp_frame *frame,
+                   double strength, float *field);
+/* The same of a candidate pose; of any nozzle, traced anew. */
 void sp_field_pose(const sp_search *search, sp_pose pose, float *field);
 bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, float *field, sp_error *error);
 /* What a field adds to a draft. */
-double sp_field_gain(const sp_search *search, const float *wet, const float *field);
+double sp_field_gain(const sp_search *search, const sp_draft *draft, const float *field);
 
 #endif

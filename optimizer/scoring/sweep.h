@@ -7,17 +7,29 @@
 
 #define SP_WEIGHTS 2 /* most quantities that one sweep sums */
 
-/* A posed pattern: which directions it holds. DESIGN's regions without an inverse trigonometric function. */
+/* A polar angle about the axis at which a cone or its hole ends, as squared chords. */
+typedef struct {
+    float edge2; /* from the axis to the edge; 4: none */
+    float sine2; /* the edge's squared sine */
+} sp_rim;
+
+/* A posed pattern: what share of a patch lies inside (see sp_spray_share), without trigonometric functions. */
 typedef struct {
     bool fan;
-    float x[3], y[3], z[3]; /* the nozzle's frame in world coordinates; cones need z alone */
-    float inner, outer;     /* cones: cosines of the polar angles */
-    float width, narrow;    /* fans: w|w| of the cosine of the half-width, and the square of its sine */
-    float thickness;        /* fans: sine of the half-thickness */
+    float z[3];                 /* cones: the axis in world coordinates */
+    sp_rim outer, inner;        /* cones; inner.edge2 0: no hole */
+    float y[3];                 /* fans: across the fan's plane */
+    float height;               /* fans: sine of the half-thickness; 2: it has no such edge */
+    float end[2][3];            /* fans: normals of the planes through its ends, inwards */
+    bool wide, all_round;       /* fans of more than half a turn; of a whole one */
+    float alone_from;           /* transfer (1/m²) from which an arrival may meet the criterion alone */
+    float alone;                /* from which it surely does */
+    bool generous;              /* counts all of a patch that may have any share */
+    float end_cosine, end_sine; /* fans: of the half-width */
 } sp_region;
 
-/* For every bin the cosines, between its centre and the pattern's axis, from which it lies wholly outside or wholly
- * inside the pattern; for fans the sine of the latitude beyond which it lies outside. */
+/* For every bin the cosines, between its centre and the pattern's axis, from which what it has lies wholly outside or
+ * wholly inside the pattern; for fans the sine of the latitude beyond which it lies outside. */
 typedef struct {
     float outside[SP_BINS], inside[SP_BINS]; /* less than `outside`: missed; `inside` or more: not cut off */
     float inner_outside[SP_BINS], inner_inside[SP_BINS]; /* the same for the hole of a hollow cone, downwards */
@@ -44,7 +56,8 @@ typedef struct {
 typedef struct {
     const char *name;
     bool (*available)(void);
-    /* sums[k] = Σ weights[k].item over the arrivals in the region. weight_count is 1 or 2. */
+    /* sums[k] = Σ weights[k].item times its patch's share in the region, or where an arrival does not meet the
+     * criterion alone, over those whose direction the region holds (see sp_wetting). weight_count is 1 or 2. */
     void (*sum)(const sp_bins *bins, const sp_cull *cull, const sp_region *region, const sp_view *view,
                 const sp_weight *weights, size_t weight_count, double *sums);
     /* totals[bin] = Σ items */
@@ -62,11 +75,12 @@ extern const size_t sp_sweep_set_count;
 /* The widest that this processor has. */
 const sp_sweep_set *sp_sweep_best(void);
 
-sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame);
+/* `strength`: flux over threshold per transfer (m²). `slack`: how far beyond (rad, and as a share of the transfer) an
+ * edge may lie, for sums that must not be too small. */
+sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double strength, double slack);
 /* Brings the region into another frame. */
 void sp_region_turn(sp_region *region, const sp_frame *frame);
-void sp_cull_create(const sp_bins *bins, const sp_spray *spray, sp_cull *cull);
-/* Whether the region holds a direction, as the sweep decides it. */
-bool sp_region_holds(const sp_region *region, float x, float y, float z);
+/* For the arrivals of one view; generous as the regions that are to be summed. */
+void sp_cull_create(const sp_bins *bins, const sp_view *view, const sp_spray *spray, bool generous, sp_cull *cull);
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "scoring/sweep.h"
 
+#include <math.h>
 #include <string.h>
 #ifdef __SSE2__
 #include <immintrin.h>
@@ -176,16 +177,235 @@ INLINE unsigned bits_of(mask m)
     return bits;
 }
 
-/* The lanes of sp_region_holds. */
-INLINE mask holds(const sp_region *region, bool fan, lanes x, lanes y, lanes z)
+INLINE lanes divide(lanes a, lanes b)
 {
-    lanes along = dot(x, y, z, region->z);
-    if (!fan)
-        return both(at_least(along, all(region->outer)), at_least(all(region->inner), along));
-    lanes up = dot(x, y, z, region->y), across = dot(x, y, z, region->x);
-    lanes left = scale(multiply(along, magnitude(along)), region->narrow),
-          right = scale(multiply(across, across), region->width);
-    return both(at_least(all(region->thickness), magnitude(up)), at_least(left, right));
+    EACH_PART(i) a.part[i] /= b.part[i];
+    return a;
+}
+INLINE lanes lesser(lanes a, lanes b)
+{
+    return choose(below(a, b), a, b);
+}
+INLINE lanes greater(lanes a, lanes b)
+{
+    return choose(below(a, b), b, a);
+}
+INLINE mask either(mask a, mask b)
+{
+    EACH_PART(i) a.part[i] |= b.part[i];
+    return a;
+}
+INLINE lanes root(lanes a)
+{
+#if defined __AVX512DQ__
+    EACH_PART(i) a.part[i] = (floats)_mm512_sqrt_ps((__m512)a.part[i]);
+#elif defined __AVX2__
+    EACH_PART(i) a.part[i] = (floats)_mm256_sqrt_ps((__m256)a.part[i]);
+#elif defined __SSE2__
+    EACH_PART(i) a.part[i] = (floats)_mm_sqrt_ps((__m128)a.part[i]);
+#else
+    EACH_PART(i)
+    for (int k = 0; k < WIDTH; k++)
+        a.part[i][k] = sqrtf(a.part[i][k]);
+#endif
+    return a;
+}
+
+/* What follows is share.c's, for many patches at a time. */
+#define BLUR 1.834f
+#define LEAST_SQUARE 0.0025f
+#define TINY 1e-30f
+
+INLINE lanes smooth_step(lanes t)
+{
+    t = greater(lesser(t, all(1)), all(0));
+    lanes inner = add(multiply(t, add(scale(t, 6), all(-15))), all(10));
+    return multiply(multiply(multiply(t, t), t), inner);
+}
+
+/* How many patches lie to an axis. */
+typedef struct {
+    lanes chord2, square, less2, along2;
+} aspects;
+
+INLINE lanes spot_share(float edge2, lanes chord2, const aspects *a)
+{
+    lanes minor = greater(subtract(a->square, a->less2), all(edge2 / (BLUR * BLUR)));
+    lanes stretch = divide(subtract(a->square, minor), multiply(minor, add(a->less2, all(TINY))));
+    lanes distance2 = divide(add(chord2, multiply(a->along2, stretch)), a->square);
+    lanes height = divide(all(edge2 / (BLUR * BLUR)), root(multiply(a->square, minor)));
+    return multiply(height, smooth_step(subtract(all(1), scale(distance2, 1 / (2 * BLUR * BLUR)))));
+}
+
+INLINE lanes disc_share(const sp_rim *rim, const aspects *a)
+{
+    if (rim->edge2 <= 0 || rim->edge2 >= 4)
+        return all(rim->edge2 > 0);
+    lanes sine2 = add(multiply(a->chord2, subtract(all(1), scale(a->chord2, 0.25f))), all(TINY));
+    lanes lacks = lesser(divide(a->along2, sine2), scale(a->square, 1 - LEAST_SQUARE));
+    lanes breadth = root(scale(subtract(a->square, lacks), rim->sine2));
+    lanes share = smooth_step(
+        add(all(0.5f), divide(subtract(all(rim->edge2), a->chord2), add(scale(breadth, 2 * BLUR), all(TINY)))));
+    lanes small = scale(a->square, BLUR * BLUR);
+    mask spots = below(all(rim->edge2), lesser(small, all(2))), holes = below(all(4 - rim->edge2), small);
+    if (bits_of(spots))
+        share = choose(spots, spot_share(rim->edge2, a->chord2, a), share);
+    holes = but(holes, spots);
+    if (bits_of(holes))
+        share = choose(holes, subtract(all(1), spot_share(4 - rim->edge2, subtract(all(4), a->chord2), a)), share);
+    return share;
+}
+
+/* Patches that a rim may cut. */
+INLINE mask near_rim(const sp_rim *rim, lanes chord2, lanes square)
+{
+    const float wide = 1.01f * BLUR * BLUR;
+    lanes apart = subtract(all(rim->edge2), chord2), blur2 = scale(square, wide);
+    mask cut = below(multiply(apart, apart), scale(blur2, rim->sine2));
+    mask spots = both(below(all(rim->edge2), blur2), below(chord2, scale(blur2, 2)));
+    mask holes = both(below(all(4 - rim->edge2), blur2), below(subtract(all(4), chord2), scale(blur2, 2)));
+    return either(cut, either(spots, holes));
+}
+
+INLINE lanes half_share(lanes above, float height, lanes along, lanes square)
+{
+    lanes whole = multiply(square, greater(subtract(all(1), multiply(above, above)), all(LEAST_SQUARE)));
+    lanes breadth = root(greater(subtract(whole, multiply(along, along)), scale(whole, LEAST_SQUARE)));
+    return smooth_step(add(all(0.5f), divide(subtract(above, all(height)), add(scale(breadth, BLUR), all(TINY)))));
+}
+
+/* One vector of arrivals. */
+typedef struct {
+    lanes x, y, z, square;
+    const sp_view *view;
+    size_t at;
+} arrivals;
+
+INLINE arrivals load_arrivals(const sp_view *view, size_t at)
+{
+    return (arrivals){load(&view->x[at]), load(&view->y[at]), load(&view->z[at]), load(&view->square[at]), view, at};
+}
+
+INLINE lanes less_along(const arrivals *a, const float v[3])
+{
+    return dot(load(&a->view->less_x[a->at]), load(&a->view->less_y[a->at]), load(&a->view->less_z[a->at]), v);
+}
+
+/* The shares of patches of which some may be cut, and what is held. */
+typedef struct {
+    lanes share;
+    mask held;
+    bool same; /* share is all or nothing, as held */
+} shares;
+
+/* Squared chords: a sum of small squares, where the cosine would lose the digits that tell narrow cones. */
+INLINE lanes chords(const arrivals *a, const float axis[3])
+{
+    lanes x = subtract(a->x, all(axis[0])), y = subtract(a->y, all(axis[1])), z = subtract(a->z, all(axis[2]));
+    return add(add(multiply(x, x), multiply(y, y)), multiply(z, z));
+}
+
+INLINE shares cone_shares(const sp_region *region, const arrivals *a)
+{
+    lanes chord2 = chords(a, region->z);
+    bool hollow = region->inner.edge2 > 0;
+    shares s = {.held = at_least(all(region->outer.edge2), chord2)};
+    mask cut = near_rim(&region->outer, chord2, a->square);
+    if (region->outer.edge2 >= 4)
+        s.held = at_least(all(5), chord2), cut = below(all(1), all(0));
+    if (hollow) {
+        s.held = both(s.held, at_least(chord2, all(region->inner.edge2)));
+        cut = either(cut, near_rim(&region->inner, chord2, a->square));
+    }
+    s.same = !bits_of(cut);
+    if (s.same)
+        return s;
+    lanes lx = load(&a->view->less_x[a->at]), ly = load(&a->view->less_y[a->at]), lz = load(&a->view->less_z[a->at]);
+    lanes along = dot(lx, ly, lz, region->z);
+    aspects aspects = {chord2, a->square, add(add(multiply(lx, lx), multiply(ly, ly)), multiply(lz, lz)),
+                       multiply(along, along)};
+    s.share = disc_share(&region->outer, &aspects);
+    if (hollow)
+        s.share = greater(subtract(s.share, disc_share(&region->inner, &aspects)), all(0));
+    return s;
+}
+
+/* Patches that a plane may cut. */
+INLINE mask near_plane(lanes above, lanes square)
+{
+    return below(multiply(above, above), scale(square, 0.26f * BLUR * BLUR));
+}
+
+INLINE shares fan_shares(const sp_region *region, const arrivals *a)
+{
+    lanes up = dot(a->x, a->y, a->z, region->y);
+    lanes end[2] = {dot(a->x, a->y, a->z, region->end[0]), dot(a->x, a->y, a->z, region->end[1])};
+    lanes side = subtract(all(region->height), magnitude(up));
+    shares s = {.held = at_least(side, all(0))};
+    mask cut = near_plane(side, a->square);
+    if (region->height > 1)
+        cut = below(all(1), all(0));
+    if (!region->all_round) {
+        mask in[2] = {at_least(end[0], all(0)), at_least(end[1], all(0))};
+        s.held = both(s.held, region->wide ? either(in[0], in[1]) : both(in[0], in[1]));
+        cut = either(cut, either(near_plane(end[0], a->square), near_plane(end[1], a->square)));
+    }
+    s.same = !bits_of(cut);
+    if (s.same)
+        return s;
+    s.share = all(1);
+    if (region->height <= 1) {
+        lanes along = less_along(a, region->y), down = subtract(all(0), up);
+        s.share = greater(subtract(add(half_share(up, -region->height, along, a->square),
+                                       half_share(down, -region->height, along, a->square)),
+                                   all(1)),
+                          all(0));
+    }
+    if (!region->all_round) {
+        lanes ends = add(half_share(end[0], 0, less_along(a, region->end[0]), a->square),
+                         half_share(end[1], 0, less_along(a, region->end[1]), a->square));
+        s.share = multiply(s.share, region->wide ? lesser(ends, all(1)) : greater(subtract(ends, all(1)), all(0)));
+    }
+    return s;
+}
+
+/* All of a patch that any aim may give any share of. */
+INLINE lanes generous_shares(const sp_region *region, bool fan, const arrivals *a)
+{
+    const float most = 1.4144f * 1.002f * BLUR; /* breadths */
+    lanes spread = scale(root(a->square), most);
+    if (!fan) {
+        lanes chord = root(chords(a, region->z));
+        mask in = at_least(add(spread, all(sqrtf(region->outer.edge2))), chord);
+        if (region->outer.edge2 >= 4)
+            in = at_least(all(5), chord);
+        if (region->inner.edge2 > 0)
+            in = both(in, at_least(add(chord, spread), all(sqrtf(region->inner.edge2))));
+        return keep(all(1), in);
+    }
+    mask in = at_least(add(all(region->height), spread), magnitude(dot(a->x, a->y, a->z, region->y)));
+    if (!region->all_round) {
+        lanes short_of = subtract(all(0), spread);
+        mask end[2] = {at_least(dot(a->x, a->y, a->z, region->end[0]), short_of),
+                       at_least(dot(a->x, a->y, a->z, region->end[1]), short_of)};
+        in = both(in, region->wide ? either(end[0], end[1]) : both(end[0], end[1]));
+    }
+    return keep(all(1), in);
+}
+
+/* How much of its patch every arrival counts for. Where slack leaves open whether it meets the criterion alone, the
+ * more of the two. */
+INLINE lanes counting(const sp_region *region, bool fan, const sp_view *view, size_t at)
+{
+    arrivals a = load_arrivals(view, at);
+    if (region->generous)
+        return generous_shares(region, fan, &a);
+    shares s = fan ? fan_shares(region, &a) : cone_shares(region, &a);
+    lanes held = keep(all(1), s.held), transfer = load(&view->transfer[at]);
+    if (s.same)
+        return held;
+    lanes open = choose(at_least(transfer, all(region->alone_from)), greater(s.share, held), held);
+    return choose(at_least(transfer, all(region->alone)), s.share, open);
 }
 
 /* A sum in the making. */
@@ -208,17 +428,11 @@ INLINE void flush(tally *tally, size_t weight_count)
 INLINE void sum_run(const sp_region *region, bool fan, const sp_view *view, const sp_weight *weights,
                     size_t weight_count, size_t first, size_t end, tally *tally)
 {
-    size_t i = first;
-    for (; i + SP_LANES <= end; i += SP_LANES) {
-        mask in = holds(region, fan, load(&view->x[i]), load(&view->y[i]), load(&view->z[i]));
+    for (size_t i = first; i < end; i += SP_LANES) {
+        lanes part = counting(region, fan, view, i);
+        mask own = first_lanes(end - i);
         for (size_t k = 0; k < weight_count; k++)
-            tally->sum[k] = add(tally->sum[k], keep(load(&weights[k].item[i]), in));
-    }
-    if (i < end) {
-        mask in = holds(region, fan, load(&view->x[i]), load(&view->y[i]), load(&view->z[i]));
-        in = both(in, first_lanes(end - i));
-        for (size_t k = 0; k < weight_count; k++)
-            tally->sum[k] = add(tally->sum[k], keep(load(&weights[k].item[i]), in));
+            tally->sum[k] = add(tally->sum[k], keep(multiply(load(&weights[k].item[i]), part), own));
     }
     tally->vectors += (end - first + SP_LANES - 1) / SP_LANES;
     if (tally->vectors >= FLUSH)

@@ -2,7 +2,8 @@
 
 #include <stdlib.h>
 
-#define PART 512 /* patches traced at a time */
+#define PART 512  /* patches traced at a time */
+#define COLUMNS 8 /* of floats by arrival */
 
 /* The octahedron unfolded onto [-1, 1]²: Cigolle et al., A survey of efficient representations for independent unit
  * vectors, JCGT 2014. */
@@ -71,8 +72,11 @@ static bool take(const sp_reach *reach, sp_sightings *sightings)
     for (size_t i = 0; i < reach->count; i++) {
         const sp_arrival *arrival = &reach->arrivals[i];
         sp_vec3 d = arrival->direction;
-        part[i] = (sp_sighting){(float)d.x,     (float)d.y, (float)d.z,   (float)arrival->transfer,
-                                arrival->patch, bin_of(d),  arrival->arc, false};
+        sp_vec3 less = arrival->breadth.less;
+        part[i] = (sp_sighting){
+            (float)d.x,    (float)d.y,    (float)d.z,    (float)arrival->transfer, (float)arrival->breadth.square,
+            (float)less.x, (float)less.y, (float)less.z, arrival->patch,           bin_of(d),
+            arrival->arc,  false};
         if (i && part[i - 1].patch == part[i].patch)
             part[i - 1].twice = part[i].twice = sightings->any_twice = true;
     }
@@ -124,7 +128,8 @@ void sp_sightings_free(sp_sightings *sightings)
 
 size_t sp_view_bytes(size_t count, bool any_twice)
 {
-    return (SP_BINS + 1 + count) * sizeof(uint32_t) + 4 * (count + SP_LANES) * sizeof(float) + (any_twice ? count : 0);
+    return (SP_BINS + 1 + count) * sizeof(uint32_t) + (SP_BINS + COLUMNS * (count + SP_LANES)) * sizeof(float) +
+           (any_twice ? count : 0);
 }
 
 /* The bins' starts first, then the arrays. */
@@ -133,13 +138,16 @@ static void lay_out(void *block, size_t count, bool any_twice, sp_view *view)
     size_t padded = count + SP_LANES;
     *view = (sp_view){.count = (uint32_t)count, .start = block};
     view->patch = view->start + SP_BINS + 1;
-    float *columns = (float *)(view->patch + count), **column[] = {&view->x, &view->y, &view->z, &view->transfer};
-    for (size_t i = 0; i < 4; i++) {
+    view->broadest = (float *)(view->patch + count);
+    float *columns = view->broadest + SP_BINS;
+    float **column[COLUMNS] = {&view->x,      &view->y,      &view->z,      &view->transfer,
+                               &view->square, &view->less_x, &view->less_y, &view->less_z};
+    for (size_t i = 0; i < COLUMNS; i++) {
         *column[i] = columns + i * padded;
         for (size_t k = count; k < padded; k++)
             (*column[i])[k] = 0;
     }
-    view->twice = any_twice ? (uint8_t *)(columns + 4 * padded) : NULL;
+    view->twice = any_twice ? (uint8_t *)(columns + COLUMNS * padded) : NULL;
 }
 
 void sp_view_write(const sp_sightings *sightings, void *block, sp_view *view)
@@ -155,6 +163,8 @@ void sp_view_write(const sp_sightings *sightings, void *block, sp_view *view)
         start[b + 1] += start[b];
     for (size_t b = 0; b < SP_BINS; b++)
         next[b] = start[b];
+    for (size_t b = 0; b < SP_BINS; b++)
+        view->broadest[b] = 0;
     for (size_t p = 0; p < sightings->parts; p++)
         for (size_t i = 0; i < sightings->size[p]; i++) {
             const sp_sighting *from = &sightings->part[p][i];
@@ -163,6 +173,11 @@ void sp_view_write(const sp_sightings *sightings, void *block, sp_view *view)
             view->y[at] = from->y;
             view->z[at] = from->z;
             view->transfer[at] = from->transfer;
+            view->square[at] = from->square;
+            view->less_x[at] = from->less_x;
+            view->less_y[at] = from->less_y;
+            view->less_z[at] = from->less_z;
+            view->broadest[from->bin] = fmaxf(view->broadest[from->bin], sqrtf(from->square));
             view->patch[at] = from->patch;
             if (view->twice)
                 view->twice[at] = from->twice;

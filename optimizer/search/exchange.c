@@ -12,7 +12,7 @@ static bool replace(const sp_search *search, const sp_pool *pool, double budget,
 {
     sp_placed own = sp_draft_take(search, draft, i);
     double least =
-        sp_field_gain(search, draft->wet, own.field) + GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
+        sp_field_gain(search, draft, own.field) + GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
     sp_pose pose;
     if (sp_pool_best(search, pool, draft, 0, budget, bench, &pose) <= least)
         return sp_draft_add(search, draft, own, error);

@@ -127,7 +127,7 @@ static void scan_site(sp_rounds *rounds, const sp_draft *draft, sp_sweeper *swee
         return;
     for (size_t s = 0; s < candidates->speed_count; s++) {
         size_t number = candidates->pose_start[site];
-        sp_sweeper_look(sweeper, rounds->search, draft->wet, site, s);
+        sp_sweeper_look(sweeper, rounds->search, draft, site, s);
         for (size_t k = 0; k < candidates->make_count; k++) {
             const sp_make *make = &candidates->makes[k];
             if (make->speed_class == s && draft->flow + make->flow <= rounds->budget)
@@ -154,7 +154,7 @@ static double round_floor(sp_rounds *rounds, const sp_draft *draft)
             !sp_draft_has_place(search, draft, search->sites->items[best->pose.site].mount))
             continue;
         sp_sweeper *sweeper = &rounds->sweepers[omp_get_thread_num()];
-        double gain = sp_score_pose(sweeper, search, draft->wet, best->pose).gain;
+        double gain = sp_score_pose(sweeper, search, draft, best->pose).gain;
         least = fmax(least, gain / pow(make->flow, rounds->power));
     }
     return least;
@@ -267,7 +267,7 @@ double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft
         bool allowed = draft->flow + search->candidates->makes[pose.make].flow <= budget &&
                        sp_draft_has_place(search, draft, search->sites->items[pose.site].mount);
         sp_sweeper *sweeper = &bench->sweepers[omp_get_thread_num()];
-        scores[i] = allowed ? sp_score_pose(sweeper, search, draft->wet, pose).gain : 0;
+        scores[i] = allowed ? sp_score_pose(sweeper, search, draft, pose).gain : 0;
     }
     sp_sweepers_forget(bench->sweepers, bench->threads);
     double merit = 0, gain = 0;

@@ -34,18 +34,17 @@ static bool draw_poses(const sp_pool *pool, uint64_t *state, sp_pool *drawn, sp_
 }
 
 /* A dry patch, chosen by area; patch_count where there is none. */
-static size_t dry_patch(const sp_search *search, const float *wet, uint64_t *state)
+static size_t dry_patch(const sp_search *search, const sp_draft *draft, uint64_t *state)
 {
     double dry = 0;
     size_t chosen = search->patch_count;
     for (size_t p = 0; p < search->patch_count; p++)
-        if (wet[p] < 1)
-            dry += (double)search->area[p];
+        dry += (double)(search->area[p] * (1 - sp_covered(draft->wet[p], draft->dry[p])));
     double left = uniform(state) * dry;
     for (size_t p = 0; p < search->patch_count && left >= 0; p++)
-        if (wet[p] < 1) {
+        if (sp_covered(draft->wet[p], draft->dry[p]) < 1) {
             chosen = p;
-            left -= (double)search->area[p];
+            left -= (double)(search->area[p] * (1 - sp_covered(draft->wet[p], draft->dry[p])));
         }
     return chosen;
 }
@@ -62,7 +61,7 @@ static bool add_at_random(const sp_search *search, const sp_pool *poses, double 
     float all = (float)sp_evaluator_patches(search->coarse)->total_area;
     bool done = true;
     for (int i = 0; i < TRIES; i++) {
-        size_t patch = dry_patch(search, draft->wet, state);
+        size_t patch = dry_patch(search, draft, state);
         sp_pose pose;
         if (patch == search->patch_count)
             break;

@@ -11,8 +11,9 @@ bool sp_lineup_create(const sp_table *table, sp_lineup *lineup, sp_error *error)
 {
     *lineup = (sp_lineup){.table = table,
                           .wet = malloc((table->patch_count + 1) * sizeof *lineup->wet),
+                          .dry = malloc((table->patch_count + 1) * sizeof *lineup->dry),
                           .gain = malloc((table->row_count + 1) * sizeof *lineup->gain)};
-    if (!lineup->wet || !lineup->gain) {
+    if (!lineup->wet || !lineup->dry || !lineup->gain) {
         sp_lineup_free(lineup);
         return sp_fail_memory(error);
     }
@@ -23,6 +24,7 @@ bool sp_lineup_create(const sp_table *table, sp_lineup *lineup, sp_error *error)
 void sp_lineup_free(sp_lineup *lineup)
 {
     free(lineup->wet);
+    free(lineup->dry);
     free(lineup->gain);
     *lineup = (sp_lineup){0};
 }
@@ -31,24 +33,22 @@ static void count_covered(sp_lineup *lineup)
 {
     lineup->covered = 0;
     for (size_t p = 0; p < lineup->table->patch_count; p++)
-        if (lineup->wet[p] >= 1)
-            lineup->covered += (double)lineup->table->area[p];
+        lineup->covered += (double)(lineup->table->area[p] * sp_covered(lineup->wet[p], lineup->dry[p]));
 }
 
 static void pour(sp_lineup *lineup, uint32_t row)
 {
     const sp_table *table = lineup->table;
     lineup->flow += sp_table_flow(table, row);
-    for (size_t i = table->start[row]; i < table->start[row + 1]; i++) {
-        float *wet = &lineup->wet[table->patch[i]];
-        *wet = table->search->single ? fmaxf(*wet, table->field[i]) : *wet + table->field[i];
-    }
+    for (size_t i = table->start[row]; i < table->start[row + 1]; i++)
+        sp_pour(table->search, table->field[i], &lineup->wet[table->patch[i]], &lineup->dry[table->patch[i]]);
 }
 
 void sp_lineup_set(sp_lineup *lineup, const uint32_t *rows, size_t count)
 {
     const sp_table *table = lineup->table;
     memcpy(lineup->wet, table->kept_wet, table->patch_count * sizeof *lineup->wet);
+    memcpy(lineup->dry, table->kept_dry, table->patch_count * sizeof *lineup->dry);
     lineup->flow = table->search->kept_flow;
     lineup->count = count;
     for (size_t i = 0; i < count; i++) {
@@ -95,17 +95,24 @@ static bool has_number(const sp_lineup *lineup)
     return lineup->count < SP_LINEUP_MOST && (!limit || lineup->table->search->kept_count + lineup->count < limit);
 }
 
+/* What a field's value adds to a patch that is not wet yet, per m². */
+static float more_worth(bool single, float credit, float had, float dry, float more)
+{
+    if (more < 0)
+        return dry * -more * (1 - credit * had);
+    float has = single ? fmaxf(had, more) : had + more;
+    return dry * ((has >= 1 ? 1 : credit * has) - credit * had);
+}
+
 static double gain_of(const sp_lineup *lineup, size_t row, float credit)
 {
     const sp_table *table = lineup->table;
     double gain = 0;
     for (size_t i = table->start[row]; i < table->start[row + 1]; i++) {
         uint32_t p = table->patch[i];
-        float had = lineup->wet[p], more = table->field[i];
-        if (had >= 1)
-            continue;
-        float has = table->search->single ? fmaxf(had, more) : had + more;
-        gain += (double)(table->area[p] * ((has >= 1 ? 1 : credit * has) - credit * had));
+        if (lineup->wet[p] < 1)
+            gain += (double)(table->area[p] * more_worth(table->search->single, credit, lineup->wet[p], lineup->dry[p],
+                                                         table->field[i]));
     }
     return gain;
 }
@@ -124,12 +131,12 @@ static void set_gains(sp_lineup *lineup, float credit)
     bool single = table->search->single;
     memset(lineup->gain, 0, table->row_count * sizeof *lineup->gain);
     for (size_t p = 0; p < table->patch_count; p++) {
-        float had = lineup->wet[p], area = table->area[p];
+        float had = lineup->wet[p], dry = lineup->dry[p], area = table->area[p];
         if (had >= 1)
             continue;
         for (size_t i = table->column_start[p]; i < table->column_start[p + 1]; i++) {
-            float more = table->column_field[i], has = single ? fmaxf(had, more) : had + more;
-            lineup->gain[table->column_row[i]] += (double)(area * ((has >= 1 ? 1 : credit * has) - credit * had));
+            float more = more_worth(single, credit, had, dry, table->column_field[i]);
+            lineup->gain[table->column_row[i]] += (double)(area * more);
         }
     }
 }
@@ -230,7 +237,7 @@ static size_t nearest(const sp_lineup *lineup, size_t i)
         while (k != i && a < table->start[lineup->row[i] + 1] && b < table->start[lineup->row[k] + 1]) {
             uint32_t p = table->patch[a], q = table->patch[b];
             if (p == q)
-                shared += (double)(table->area[p] * fminf(1, fminf(table->field[a], table->field[b])));
+                shared += (double)(table->area[p] * fminf(1, fminf(fabsf(table->field[a]), fabsf(table->field[b]))));
             a += p <= q;
             b += q <= p;
         }

@@ -11,6 +11,7 @@ void sp_table_free(sp_table *table)
 {
     free(table->area);
     free(table->kept_wet);
+    free(table->kept_dry);
     free(table->start);
     free(table->patch);
     free(table->field);
@@ -28,6 +29,7 @@ static void draw_sample(const sp_search *search, size_t *sample, sp_table *table
                to = search->patch_count * (i + 1) / table->patch_count;
         sample[i] = (from + to) / 2;
         table->kept_wet[i] = search->kept_wet[sample[i]];
+        table->kept_dry[i] = search->kept_dry[sample[i]];
         for (size_t p = from; p < to; p++)
             table->area[i] += search->area[p];
     }
@@ -54,7 +56,7 @@ static bool add_rows(const size_t *sample, float *field, sp_table *table, sp_err
         else
             from = table->others[r - table->pool->count]->field;
         for (size_t i = 0; i < table->patch_count; i++)
-            if (from[sample[i]] > 0) {
+            if (from[sample[i]] != 0) {
                 table->patch[used] = (uint32_t)i;
                 table->field[used++] = from[sample[i]];
             }
@@ -98,8 +100,9 @@ bool sp_table_create(const sp_search *search, const sp_pool *pool, const sp_plac
     float *field = malloc((search->patch_count + 1) * sizeof *field);
     table->area = calloc(table->patch_count + 1, sizeof *table->area);
     table->kept_wet = calloc(table->patch_count + 1, sizeof *table->kept_wet);
+    table->kept_dry = calloc(table->patch_count + 1, sizeof *table->kept_dry);
     table->start = calloc(table->row_count + 1, sizeof *table->start);
-    bool done = sample && field && table->area && table->kept_wet && table->start;
+    bool done = sample && field && table->area && table->kept_wet && table->kept_dry && table->start;
     if (done) {
         draw_sample(search, sample, table);
         done = add_rows(sample, field, table, error) && add_columns(table, error);

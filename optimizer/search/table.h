@@ -12,10 +12,10 @@ typedef struct {
     const sp_placed *const *others; /* the rows behind the pool's */
     size_t patch_count;             /* of the sample */
     float *area;                    /* [patch_count], m²: each stands for its neighbours, too */
-    float *kept_wet;                /* [patch_count] */
+    float *kept_wet, *kept_dry;     /* [patch_count] */
     size_t *start;                  /* [row_count + 1] */
     uint32_t *patch;
-    float *field;         /* flux over threshold */
+    float *field;         /* as sp_placed's */
     size_t *column_start; /* [patch_count + 1]; the same by patch */
     uint32_t *column_row;
     float *column_field;

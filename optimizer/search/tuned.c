@@ -65,18 +65,9 @@ bool sp_tuned_create(const sp_search *search, const sp_pool *pool, sp_tuned *tun
     tuned->candidates.axes = NULL;
     tuned->candidates.pose_start = NULL;
     tuned->search.candidates = &tuned->candidates;
-    tuned->search.culls = NULL;
-    bool done = base && list_makes(search, &tuned->candidates, base) && list_axes(from, base, &tuned->candidates);
-    if (done)
-        tuned->search.culls = malloc(tuned->candidates.make_count * sizeof *tuned->search.culls);
-    if (!done || !tuned->search.culls) {
-        free(base);
-        sp_tuned_free(tuned);
-        return sp_fail_memory(error);
-    }
-    for (size_t k = 0; k < tuned->candidates.make_count; k++)
-        tuned->search.culls[k] = search->culls[base[k]];
-    done = list_poses(pool, base, tuned, error);
+    bool done = (base && list_makes(search, &tuned->candidates, base) && list_axes(from, base, &tuned->candidates)) ||
+                sp_fail_memory(error);
+    done = done && list_poses(pool, base, tuned, error);
     free(base);
     if (!done)
         sp_tuned_free(tuned);
@@ -87,7 +78,6 @@ void sp_tuned_free(sp_tuned *tuned)
 {
     free(tuned->candidates.makes);
     free(tuned->candidates.axes);
-    free(tuned->search.culls);
     sp_pool_free(&tuned->pool);
     *tuned = (sp_tuned){0};
 }

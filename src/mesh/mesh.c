@@ -208,3 +208,14 @@ double sp_mesh_area(const sp_mesh *mesh)
         area += sp_triangle_area(mesh, (uint32_t)i);
     return area;
 }
+
+bool sp_triangle_weights(const sp_mesh *mesh, uint32_t triangle, sp_vec3 point, double *u, double *v)
+{
+    const uint32_t *corner = mesh->triangles[triangle];
+    sp_vec3 a = mesh->vertices[corner[0]], offset = sp_sub(point, a);
+    sp_vec3 ab = sp_sub(mesh->vertices[corner[1]], a), ac = sp_sub(mesh->vertices[corner[2]], a),
+            area = sp_cross(ab, ac);
+    *u = sp_dot(sp_cross(offset, ac), area) / sp_dot(area, area);
+    *v = sp_dot(sp_cross(ab, offset), area) / sp_dot(area, area);
+    return *u >= 0 && *v >= 0 && *u + *v <= 1;
+}

@@ -5,9 +5,11 @@
  * and which of two triangles at an edge that is belongs to round-off. */
 static const double ends = 1e-7;
 
-sp_target sp_patch_target(const sp_patches *patches, uint32_t patch)
+sp_target sp_patch_target(const sp_evaluator *evaluator, uint32_t patch)
 {
-    return (sp_target){patches->point[patch], patches->normal[patch], patches->side[patch], patches->triangle[patch]};
+    const sp_patches *patches = &evaluator->patches;
+    return (sp_target){patches->point[patch], patches->normal[patch], patches->side[patch], patches->triangle[patch],
+                       patches->length[patch]};
 }
 
 bool sp_arrive(const sp_source *source, const sp_target *target, const sp_flight *flight, sp_arrival *arrival)
@@ -22,6 +24,7 @@ bool sp_arrive(const sp_source *source, const sp_target *target, const sp_flight
     arrival->transfer = against / flight->spread;
     arrival->speed = sp_length(flight->velocity);
     arrival->incidence = atan2(sp_length(sp_cross(flight->velocity, target->normal)), against);
+    arrival->breadth = sp_flight_breadth(flight, source->speed, target->normal, target->length);
     arrival->passes = arrival->speed >= criterion->impact_speed && arrival->incidence <= criterion->incidence;
     return true;
 }
@@ -35,8 +38,27 @@ sp_ray sp_flight_ray(const sp_source *source, const sp_target *target, const sp_
                     .skip = target->triangle};
 }
 
-bool sp_flight_blocked(const sp_source *source, const sp_target *target, const sp_flight *flight)
+/* Of the two times at which a parabola meets the plane of the triangle one is its arrival, so that the other follows
+ * from their sum without round-off. */
+bool sp_flight_pierces(const sp_source *source, const sp_target *target, const sp_flight *flight)
 {
-    sp_ray ray = sp_flight_ray(source, target, flight);
-    return sp_trace_occluded(source->evaluator->tracer, &ray, source->evaluator->gravity);
+    const sp_evaluator *evaluator = source->evaluator;
+    const sp_mesh *mesh = evaluator->setup.mesh;
+    sp_vec3 normal = sp_triangle_normal(mesh, target->triangle), velocity = sp_scale(flight->direction, source->speed);
+    double fall = sp_dot(evaluator->gravity, normal), t = -2 * sp_dot(velocity, normal) / fall - flight->time;
+    if (fall == 0 || !(t > ends * flight->time && t < (1 - ends) * flight->time))
+        return false;
+    sp_ray ray = {.origin = source->position, .velocity = velocity};
+    double u, v;
+    return sp_triangle_weights(mesh, target->triangle, sp_ray_point(&ray, evaluator->gravity, t), &u, &v);
+}
+
+bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, double speed, const sp_flight *flight,
+                              uint32_t patch)
+{
+    sp_source source = {evaluator, position, speed};
+    sp_target target = sp_patch_target(evaluator, patch);
+    sp_ray ray = sp_flight_ray(&source, &target, flight);
+    return !sp_flight_pierces(&source, &target, flight) &&
+           !sp_trace_occluded(evaluator->tracer, &ray, evaluator->gravity);
 }

@@ -15,14 +15,15 @@ typedef struct {
     sp_vec3 normal;    /* unit, towards the wet side */
     sp_side side;      /* SP_SIDE_BOTH takes liquid from either side */
     uint32_t triangle; /* that holds the point */
+    double length;     /* m, of the texel's edges on the surface */
 } sp_target;
 
-sp_target sp_patch_target(const sp_patches *patches, uint32_t patch);
+sp_target sp_patch_target(const sp_evaluator *evaluator, uint32_t patch);
 /* Fills everything but `patch`; false where the flight comes to the dry side. */
 bool sp_arrive(const sp_source *source, const sp_target *target, const sp_flight *flight, sp_arrival *arrival);
-/* The flight as a ray that ends at the target. */
+/* The flight as a ray that ends at the target and skips the target's own triangle. */
 sp_ray sp_flight_ray(const sp_source *source, const sp_target *target, const sp_flight *flight);
-/* True where something lies in the way. */
-bool sp_flight_blocked(const sp_source *source, const sp_target *target, const sp_flight *flight);
+/* True where the flight comes through the target's own triangle before it arrives there, which a parabola may. */
+bool sp_flight_pierces(const sp_source *source, const sp_target *target, const sp_flight *flight);
 
 #endif

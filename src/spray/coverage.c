@@ -10,9 +10,9 @@ sp_coverage *sp_coverage_create(const sp_evaluator *evaluator, sp_error *error)
     if (!coverage)
         return sp_fail_memory(error);
     sp_deposits *deposits = &coverage->deposits;
-    double **columns[] = {&deposits->flux,          &deposits->counted,   &deposits->jets,
-                          &deposits->speed,         &deposits->speed_max, &deposits->incidence,
-                          &deposits->incidence_min, &deposits->impact,    &deposits->impact_max};
+    double **columns[] = {&deposits->flux,       &deposits->counted,   &deposits->jets,          &deposits->speed,
+                          &deposits->speed_max,  &deposits->incidence, &deposits->incidence_min, &deposits->impact,
+                          &deposits->impact_max, &deposits->even,      &deposits->dry,           &deposits->share};
     bool done = true;
     for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
         *columns[i] = calloc(room, sizeof(double));
@@ -20,6 +20,8 @@ sp_coverage *sp_coverage_create(const sp_evaluator *evaluator, sp_error *error)
     }
     deposits->covered = calloc(room, sizeof *deposits->covered);
     deposits->count = count;
+    for (size_t i = 0; deposits->dry && i < count; i++)
+        deposits->dry[i] = 1;
     if (!done || !deposits->covered) {
         sp_coverage_destroy(coverage);
         return sp_fail_memory(error);
@@ -41,6 +43,9 @@ void sp_coverage_destroy(sp_coverage *coverage)
     free(deposits->incidence_min);
     free(deposits->impact);
     free(deposits->impact_max);
+    free(deposits->even);
+    free(deposits->dry);
+    free(deposits->share);
     free(deposits->covered);
     free(coverage);
 }
@@ -59,6 +64,17 @@ void sp_deposit(sp_deposits *deposits, uint32_t patch, double flux, double jets,
     deposits->impact_max[patch] = fmax(deposits->impact_max[patch], impact);
     if (first || incidence < deposits->incidence_min[patch])
         deposits->incidence_min[patch] = incidence;
+}
+
+void sp_count_wetting(const sp_evaluator *evaluator, sp_deposits *deposits, uint32_t patch, double counted,
+                      const sp_wetting *wetting)
+{
+    sp_wetting settled = sp_wetting_settle(*wetting, evaluator->setup.criterion.flux);
+    bool single = evaluator->setup.criterion.combine == SP_COMBINE_SINGLE;
+    double *before = &deposits->counted[patch], *even = &deposits->even[patch];
+    *before = single ? fmax(*before, counted) : *before + counted;
+    *even = single ? fmax(*even, settled.even) : *even + settled.even;
+    deposits->dry[patch] *= settled.dry;
 }
 
 /* A patch's flux and area, to be sorted. */
@@ -113,9 +129,9 @@ bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_layout *layout
             deposits->incidence[i] /= deposits->flux[i];
             deposits->impact[i] /= deposits->flux[i];
         }
-        deposits->covered[i] = deposits->counted[i] > 0 && deposits->counted[i] >= threshold;
-        if (deposits->covered[i])
-            coverage->covered_area += patches->area[i];
+        deposits->share[i] = sp_wetting_share(&(sp_wetting){deposits->even[i], deposits->dry[i]}, threshold);
+        deposits->covered[i] = deposits->share[i] >= 0.5;
+        coverage->covered_area += deposits->share[i] * patches->area[i];
     }
     coverage->fraction = coverage->area > 0 ? coverage->covered_area / coverage->area : 0;
     coverage->flow = sp_layout_flow(layout, &evaluator->setup.liquid);

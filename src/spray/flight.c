@@ -36,3 +36,26 @@ int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_fligh
     flights[1] = parabola(r, speed, gravity, high, root);
     return 2;
 }
+
+#define MOST_SQUARE 0.25 /* rad² */
+
+/* A flight whose direction changes by u' and that is later by t' ends v t u' + w t' further on, w being the velocity
+ * there, so that a step s on the surface needs u' = (s - w (u·s)/(u·w)) / (v t). Steps of all directions of the surface
+ * make an ellipse of u', whose axes are those of the 2 x 2 matrix of what a step brings about across u. */
+sp_breadth sp_flight_breadth(const sp_flight *flight, double speed, sp_vec3 normal, double length)
+{
+    sp_vec3 u = flight->direction, w = flight->velocity, across[2], step[2];
+    across[0] = sp_unit(sp_cross(u, fabs(u.x) < 0.5 ? sp_v(1, 0, 0) : sp_v(0, 1, 0)));
+    across[1] = sp_cross(u, across[0]);
+    double along = sp_dot(u, w), scale = length / (speed * flight->time);
+    along = copysign(fmax(fabs(along), 1e-9 * speed), along);
+    for (int i = 0; i < 2; i++) {
+        sp_vec3 back = sp_along(across[i], -sp_dot(w, across[i]) / along, u);
+        step[i] = sp_scale(sp_along(back, -sp_dot(back, normal), normal), scale);
+    }
+    double xx = sp_dot(step[0], step[0]), xy = sp_dot(step[0], step[1]), yy = sp_dot(step[1], step[1]);
+    double mean = 0.5 * (xx + yy), apart = hypot(0.5 * (xx - yy), xy), turn = 0.5 * atan2(2 * xy, xx - yy);
+    double major = fmin(mean + apart, MOST_SQUARE), minor = fmin(fmax(mean - apart, 0), MOST_SQUARE);
+    sp_vec3 narrow = sp_along(sp_scale(across[0], -sin(turn)), cos(turn), across[1]);
+    return (sp_breadth){major, sp_scale(narrow, sqrt(major - minor))};
+}

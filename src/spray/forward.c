@@ -1,9 +1,9 @@
 /* The forward evaluator: jets are traced from the nozzles through their reflections, and leave their liquid on the
  * patches that they hit (study 3.2.3 and 3.3.1). */
+#include "lit.h"
 #include "splat.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #define BATCH 65536 /* jets in flight at once */
 /* Texels that a jet flies before anything stops it: on which side of the wall it stands in a nozzle is, is round-off.
@@ -15,14 +15,16 @@ typedef struct {
     sp_shares shares; /* of the flow; none: a dry side, an obstacle or a miss */
     double flow;      /* m³/s */
     double speed, incidence;
-    bool passes;  /* the criterion's speed and incidence */
-    bool goes_on; /* is reflected */
+    unsigned cell; /* of the patch, where all of the flow is one patch's */
+    bool passes;   /* the criterion's speed and incidence */
+    bool goes_on;  /* is reflected */
 } jet_impact;
 
 typedef struct {
     const sp_evaluator *evaluator;
     sp_deposits *deposits;
-    double *counted;     /* [patches], m³/s per m² of the nozzle in hand, or of all */
+    double *counted;     /* [patches], m³/s per m² of the nozzle in hand */
+    sp_lit lit;          /* by the nozzle in hand */
     sp_ray *rays;        /* [BATCH] */
     double *flow;        /* [BATCH], m³/s */
     sp_hit *hits;        /* [BATCH] */
@@ -38,14 +40,8 @@ static void return_to_start(const sp_mesh *mesh, const sp_ray *ray, sp_vec3 grav
     double rise = sp_dot(ray->velocity, normal), fall = sp_dot(gravity, normal);
     if (!(rise * fall < 0) || !(-2 * rise / fall < hit->t))
         return;
-    double t = -2 * rise / fall;
-    const uint32_t *corner = mesh->triangles[ray->skip];
-    sp_vec3 a = mesh->vertices[corner[0]], point = sp_sub(sp_ray_point(ray, gravity, t), a);
-    sp_vec3 ab = sp_sub(mesh->vertices[corner[1]], a), ac = sp_sub(mesh->vertices[corner[2]], a),
-            area = sp_cross(ab, ac);
-    double u = sp_dot(sp_cross(point, ac), area) / sp_dot(area, area);
-    double v = sp_dot(sp_cross(ab, point), area) / sp_dot(area, area);
-    if (u >= 0 && v >= 0 && u + v <= 1)
+    double t = -2 * rise / fall, u, v;
+    if (sp_triangle_weights(mesh, ray->skip, sp_ray_point(ray, gravity, t), &u, &v))
         *hit = (sp_hit){.t = t, .u = u, .v = v, .triangle = ray->skip};
 }
 
@@ -77,6 +73,7 @@ static void strike(jet_flight *flight, size_t i)
         sp_share_linearly(evaluator, hit, along_normal > 0, patch, &impact->shares);
     else if (patch != SP_NONE)
         impact->shares = (sp_shares){.patch = {patch}, .share = {1}, .count = 1};
+    impact->cell = sp_lit_cell(evaluator, hit->triangle, hit->u, hit->v);
 
     const sp_surface *surface = &evaluator->setup.surfaces[mesh->part[hit->triangle]];
     ray->origin = sp_triangle_point(mesh, hit->triangle, hit->u, hit->v);
@@ -106,8 +103,10 @@ static void settle(jet_flight *flight, size_t count)
                     continue;
                 double flux = impact->flow * share / patches->area[patch];
                 sp_deposit(flight->deposits, patch, flux, share, impact->speed, impact->incidence, density);
-                if (impact->passes)
-                    flight->counted[patch] += flux;
+                if (!impact->passes)
+                    continue;
+                flight->counted[patch] += flux;
+                sp_lit_add(&flight->lit, patch, impact->cell);
             }
         }
     }
@@ -186,28 +185,34 @@ static bool fly_nozzle(jet_flight *flight, const sp_nozzle *nozzle, double *done
     return true;
 }
 
-/* With SP_COMBINE_SINGLE each nozzle is counted by itself and the best one stays. */
+/* Counts what the nozzle in hand has brought. What a linear splat spreads it spreads over whole patches. */
+static void count_nozzle(jet_flight *flight)
+{
+    const sp_evaluator *evaluator = flight->evaluator;
+    bool spread = evaluator->fidelity.splat == SP_SPLAT_LINEAR;
+#pragma omp parallel for num_threads(flight->threads)
+    for (size_t i = 0; i < flight->deposits->count; i++) {
+        double flux = flight->counted[i],
+               share = flux > 0 && !spread ? sp_lit_share(evaluator, &flight->lit, (uint32_t)i) : 1;
+        sp_wetting wetting = {0, 1};
+        sp_wetting_add(&wetting, flux / share, evaluator->setup.criterion.flux, share, share >= 0.5);
+        sp_count_wetting(evaluator, flight->deposits, (uint32_t)i, flux, &wetting);
+        flight->counted[i] = 0;
+    }
+    sp_lit_clear(evaluator, &flight->lit);
+}
+
 static bool fly_layout(jet_flight *flight, const sp_layout *layout, sp_error *error)
 {
-    size_t patches = flight->deposits->count;
-    bool single = flight->evaluator->setup.criterion.combine == SP_COMBINE_SINGLE;
     double done = 0, all = 0;
     for (size_t n = 0; n < layout->count; n++)
         all += (double)nozzle_jets(flight->evaluator, &layout->nozzles[n]);
-    flight->counted = single ? malloc((patches ? patches : 1) * sizeof(double)) : flight->deposits->counted;
-    if (!flight->counted)
-        return sp_fail_memory(error);
-    bool going = true;
-    for (size_t n = 0; going && n < layout->count; n++) {
-        if (single)
-            memset(flight->counted, 0, patches * sizeof(double));
-        going = fly_nozzle(flight, &layout->nozzles[n], &done, all, error);
-        for (size_t i = 0; single && i < patches; i++)
-            flight->deposits->counted[i] = fmax(flight->deposits->counted[i], flight->counted[i]);
+    for (size_t n = 0; n < layout->count; n++) {
+        if (!fly_nozzle(flight, &layout->nozzles[n], &done, all, error))
+            return false;
+        count_nozzle(flight);
     }
-    if (single)
-        free(flight->counted);
-    return going;
+    return true;
 }
 
 sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
@@ -217,15 +222,19 @@ sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout 
         return NULL;
     jet_flight flight = {.evaluator = evaluator,
                          .deposits = &coverage->deposits,
+                         .counted = calloc(coverage->deposits.count + 1, sizeof *flight.counted),
                          .rays = malloc(BATCH * sizeof *flight.rays),
                          .flow = malloc(BATCH * sizeof *flight.flow),
                          .hits = malloc(BATCH * sizeof *flight.hits),
                          .impacts = malloc(BATCH * sizeof *flight.impacts),
                          .threads = sp_thread_count(evaluator->setup.run.threads)};
-    bool done = flight.rays && flight.flow && flight.hits && flight.impacts;
+    bool done = flight.rays && flight.flow && flight.hits && flight.impacts && flight.counted;
     if (!done)
         sp_fail_memory(error);
-    done = done && fly_layout(&flight, layout, error) && sp_coverage_conclude(evaluator, layout, coverage, error);
+    done = done && sp_lit_create(evaluator, &flight.lit, error) && fly_layout(&flight, layout, error) &&
+           sp_coverage_conclude(evaluator, layout, coverage, error);
+    sp_lit_free(&flight.lit);
+    free(flight.counted);
     free(flight.rays);
     free(flight.flow);
     free(flight.hits);

@@ -1,56 +1,42 @@
-/* The inverse evaluator: for every patch, the closed-form flights that reach it and the pattern's density there. */
+/* The inverse evaluator: for every patch, the closed-form flights that reach it, the share of it that lies inside the
+ * spray and the pattern's density there. */
 #include "reach.h"
 
 #include <stdlib.h>
 
-/* Adds what one nozzle brings a patch, all its flights together, to what the criterion counts. */
-static void count_liquid(const sp_evaluator *evaluator, sp_deposits *deposits, uint32_t patch, double flux)
+/* All arrivals of one nozzle at one patch, `first` to `end`. */
+static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *first, const sp_arrival *end,
+                      sp_deposits *deposits)
 {
-    double *counted = &deposits->counted[patch];
-    *counted = evaluator->setup.criterion.combine == SP_COMBINE_SINGLE ? fmax(*counted, flux) : *counted + flux;
+    const sp_setup *setup = &emitter->source.evaluator->setup;
+    sp_wetting wetting = {0, 1};
+    double counted = 0;
+    for (const sp_arrival *arrival = first; arrival < end; arrival++) {
+        double flux = flow / emitter->spray.solid_angle * arrival->transfer, share = sp_emitter_share(emitter, arrival);
+        if (share > 0)
+            sp_deposit(deposits, first->patch, share * flux, 1, arrival->speed, arrival->incidence,
+                       setup->liquid.density);
+        if (!arrival->passes)
+            continue;
+        counted += share * flux;
+        sp_wetting_add(&wetting, flux, setup->criterion.flux, share, sp_emitter_holds(emitter, arrival->direction));
+    }
+    sp_count_wetting(emitter->source.evaluator, deposits, first->patch, counted, &wetting);
 }
 
-/* Patches across which the spray hardly changes, judged at their points. */
-static bool lay_points(const sp_emitter *emitter, double flow, sp_deposits *deposits, sp_error *error)
+static bool lay_nozzle(const sp_emitter *emitter, double flow, sp_deposits *deposits, sp_error *error)
 {
-    const sp_source *source = &emitter->source;
-    const sp_setup *setup = &source->evaluator->setup;
     sp_aim aim = sp_aim_at(emitter->frame.z, sp_spray_reach(&emitter->spray));
     aim.emitter = emitter;
-    sp_reach *reach = sp_reach_create(source, &aim, error);
+    sp_reach *reach = sp_reach_create(&emitter->source, &aim, error);
     if (!reach)
         return false;
-    for (size_t i = 0; i < reach->count;) {
-        uint32_t patch = reach->arrivals[i].patch;
-        double passing = 0;
-        for (; i < reach->count && reach->arrivals[i].patch == patch; i++) {
-            const sp_arrival *arrival = &reach->arrivals[i];
-            double intensity = sp_spray_intensity(&emitter->spray, sp_emitter_local(emitter, arrival->direction));
-            double flux = flow * intensity * arrival->transfer;
-            sp_deposit(deposits, patch, flux, 1, arrival->speed, arrival->incidence, setup->liquid.density);
-            passing += arrival->passes ? flux : 0;
-        }
-        count_liquid(source->evaluator, deposits, patch, passing);
+    for (size_t i = 0, end; i < reach->count; i = end) {
+        for (end = i + 1; end < reach->count && reach->arrivals[end].patch == reach->arrivals[i].patch;)
+            end++;
+        lay_patch(emitter, flow, &reach->arrivals[i], &reach->arrivals[end], deposits);
     }
     sp_reach_destroy(reach);
-    return true;
-}
-
-/* Patches across which it does, integrated. */
-static bool lay_footprints(const sp_emitter *emitter, double flow, sp_deposits *deposits, sp_error *error)
-{
-    const sp_evaluator *evaluator = emitter->source.evaluator;
-    size_t count = 0;
-    sp_footprint *footprints = sp_footprints(emitter, &count, error);
-    if (!footprints)
-        return false;
-    for (size_t i = 0; i < count; i++) {
-        const sp_footprint *footprint = &footprints[i];
-        sp_deposit(deposits, footprint->patch, flow * footprint->gain, footprint->arcs, footprint->speed,
-                   footprint->incidence, evaluator->setup.liquid.density);
-        count_liquid(evaluator, deposits, footprint->patch, flow * footprint->passing);
-    }
-    free(footprints);
     return true;
 }
 
@@ -65,8 +51,7 @@ sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout 
     for (size_t i = 0; done && i < layout->count; i++) {
         sp_emitter emitter = sp_emitter_of(evaluator, &layout->nozzles[i]);
         double flow = sp_nozzle_flow(&layout->nozzles[i], &evaluator->setup.liquid);
-        done = lay_points(&emitter, flow, &coverage->deposits, error) &&
-               lay_footprints(&emitter, flow, &coverage->deposits, error);
+        done = !(flow > 0) || lay_nozzle(&emitter, flow, &coverage->deposits, error);
     }
     if (!done || !sp_coverage_conclude(evaluator, layout, coverage, error)) {
         sp_coverage_destroy(coverage);

@@ -135,9 +135,10 @@ static bool allocate_patches(sp_patches *patches, size_t count)
     patches->point = malloc(room * sizeof *patches->point);
     patches->normal = malloc(room * sizeof *patches->normal);
     patches->triangle = malloc(room * sizeof *patches->triangle);
+    patches->length = malloc(room * sizeof *patches->length);
     patches->neighbour_start = malloc((count + 1) * sizeof *patches->neighbour_start);
     return patches->texel && patches->side && patches->area && patches->point && patches->normal && patches->triangle &&
-           patches->neighbour_start;
+           patches->length && patches->neighbour_start;
 }
 
 /* Copies the places found on front and back of every texel into patches, and numbers them. */
@@ -163,6 +164,20 @@ static void number_patches(sp_evaluator *evaluator, patch_place (*places)[2])
             patch++;
         }
     }
+}
+
+static bool set_lengths(sp_evaluator *evaluator)
+{
+    const sp_atlas *atlas = evaluator->atlas;
+    sp_patches *patches = &evaluator->patches;
+    double *area = calloc(atlas->chart_count + 1, sizeof *area);
+    for (size_t texel = 0; area && texel < atlas->texel_count; texel++)
+        area[sp_atlas_place(atlas, (uint32_t)texel).chart] += atlas->texel_area[texel];
+    for (size_t patch = 0; area && patch < patches->count; patch++)
+        patches->length[patch] = fmin(atlas->texel, sqrt(area[sp_atlas_place(atlas, patches->texel[patch]).chart]));
+    bool done = area != NULL;
+    free(area);
+    return done;
 }
 
 /* Neighbours of a patch: the patches on the same side of the texels that touch its own. */
@@ -215,7 +230,8 @@ bool sp_patches_create(sp_evaluator *evaluator, sp_error *error)
     if (done) {
         number_patches(evaluator, places);
         sp_texel_links touching = {0};
-        done = sp_texel_links_create(&touching, evaluator->atlas, evaluator->setup.mesh, error) &&
+        done = set_lengths(evaluator) &&
+               sp_texel_links_create(&touching, evaluator->atlas, evaluator->setup.mesh, error) &&
                link_patches(evaluator, &touching);
         sp_texel_links_destroy(&touching);
     }
@@ -231,6 +247,7 @@ void sp_patches_free(sp_patches *patches)
     free(patches->point);
     free(patches->normal);
     free(patches->triangle);
+    free(patches->length);
     free(patches->neighbour_start);
     free(patches->neighbours);
     *patches = (sp_patches){0};

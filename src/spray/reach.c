@@ -6,10 +6,9 @@
 
 #define CHUNK 4096 /* patches whose flights are traced together: the tracer likes many of one origin */
 
-/* A hair wider than asked, so that round-off never takes a jet of the edge away. */
 sp_aim sp_aim_at(sp_vec3 axis, double half_angle)
 {
-    return (sp_aim){.axis = axis, .least_cosine = half_angle < M_PI ? cos(half_angle) - 1e-12 : -2, .end = SIZE_MAX};
+    return (sp_aim){.axis = axis, .half_angle = half_angle, .end = SIZE_MAX};
 }
 
 /* Flights that pass all questions but whether their way is free. */
@@ -35,17 +34,19 @@ static void flock_free(flock *flock)
     free(flock->blocked);
 }
 
-static bool aimed(const sp_aim *aim, const sp_flight *flight)
+/* A hair wider than asked, so that round-off never takes a jet of the edge away. */
+static bool aimed(const sp_aim *aim, const sp_arrival *arrival)
 {
-    if (sp_dot(flight->direction, aim->axis) < aim->least_cosine)
+    double most = aim->half_angle + sp_spray_fringe(arrival->breadth.square) + 1e-12;
+    if (most < M_PI && sp_dot(arrival->direction, aim->axis) < cos(most))
         return false;
-    return !aim->emitter ||
-           sp_spray_intensity(&aim->emitter->spray, sp_emitter_local(aim->emitter, flight->direction)) > 0;
+    return !aim->emitter || sp_emitter_share(aim->emitter, arrival) > 0 ||
+           sp_emitter_holds(aim->emitter, arrival->direction);
 }
 
 static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, flock *flock)
 {
-    sp_target target = sp_patch_target(&source->evaluator->patches, patch);
+    sp_target target = sp_patch_target(source->evaluator, patch);
     sp_flight flights[2];
     int count = sp_flights(source->position, target.point, source->speed, source->evaluator->gravity, flights);
     for (int k = 0; k < count; k++) {
@@ -53,8 +54,8 @@ static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, f
         size_t bit = 2 * (size_t)patch + (size_t)k;
         if (aim->known && !(aim->known[bit / 8] >> bit % 8 & 1))
             continue;
-        if (!aimed(aim, &flights[k]) || !sp_arrive(source, &target, &flights[k], arrival) ||
-            (aim->passing && !arrival->passes))
+        if (!sp_arrive(source, &target, &flights[k], arrival) || (aim->passing && !arrival->passes) ||
+            !aimed(aim, arrival) || (!aim->known && sp_flight_pierces(source, &target, &flights[k])))
             continue;
         arrival->patch = patch;
         arrival->arc = (uint8_t)k;
@@ -74,8 +75,7 @@ static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uin
 {
     flock->count = 0;
     for (uint32_t patch = first; patch < end; patch++)
-        if (!aim->emitter || !sp_emitter_is_narrow(aim->emitter, patch))
-            gather(source, aim, patch, flock);
+        gather(source, aim, patch, flock);
     if (!aim->known)
         sp_trace_occluded_many(source->evaluator->tracer, flock->rays, flock->count, source->evaluator->gravity, 1,
                                flock->blocked);

@@ -182,7 +182,7 @@ static double margin_of(const sp_nozzle *nozzle, sp_vec3 up, sp_vec3 d)
     return sp_spray_margin(&spray, sp_v(sp_dot(d, frame.x), sp_dot(d, frame.y), sp_dot(d, frame.z)));
 }
 
-/* The field of a pose is what the evaluator deposits, but for patches at the pattern's very edge. */
+/* The field of a pose is what the evaluator deposits, but where a patch's point lies on the pattern's very edge. */
 static void fields_are_the_evaluators(void **state)
 {
     (void)state;
@@ -193,7 +193,7 @@ static void fields_are_the_evaluators(void **state)
         stage_open(&s, criterion_of_all, trajectories[t]);
         const sp_patches *patches = sp_evaluator_patches(s.room.evaluator);
         float *field = malloc(patches->count * sizeof *field);
-        size_t poses = s.candidates.pose_start[s.sites.count], compared = 0;
+        size_t poses = s.candidates.pose_start[s.sites.count], compared = 0, at_edges = 0;
         sp_vec3 up = sp_v(0, 0, 1);
         for (size_t number = 0; number < poses; number += poses / 60) {
             sp_pose pose = pose_of(&s, number);
@@ -209,22 +209,33 @@ static void fields_are_the_evaluators(void **state)
                 bool at_edge = false;
                 for (int k = 0; k < count; k++)
                     at_edge |= fabs(margin_of(&nozzle, up, flights[k].direction)) < 1e-5;
-                double expected = coverage->deposits.counted[p] / criterion_of_all.flux;
-                /* nearby the spray is narrower than two texels, and the evaluator integrates */
-                double width = 2 * TEXEL / (25 * DEGREE);
-                if (at_edge || sp_distance(patches->point[p], nozzle.position) < 1.5 * width)
+                double even = coverage->deposits.even[p] / criterion_of_all.flux, dry = coverage->deposits.dry[p];
+                double expected = dry < 1 ? dry - 1 : even, allowed = dry < 1 ? 1e-4 : 1e-5 * even;
+                if (at_edge)
                     continue;
-                if (fabs((double)field[p] - expected) > 1e-5 * expected)
+                if (fabs((double)field[p] - expected) > allowed)
                     fail_msg("pose %zu patch %zu: field %g, deposits %g", number, p, (double)field[p], expected);
-                compared += expected > 0;
+                compared += expected != 0;
+                at_edges += dry < 1;
             }
             sp_coverage_destroy(coverage);
             sp_layout_destroy(layout);
         }
-        assert_true(compared > 1000);
+        assert_true(compared > 1000 && at_edges > 1000);
         free(field);
         stage_close(&s);
     }
+}
+
+/* How much an arrival of a view counts for. */
+static double part_of(const sp_view *view, size_t i, const sp_spray *spray, const sp_frame *frame, double strength)
+{
+    sp_vec3 d = sp_unit(sp_v((double)view->x[i], (double)view->y[i], (double)view->z[i]));
+    sp_breadth breadth = {(double)view->square[i],
+                          sp_v((double)view->less_x[i], (double)view->less_y[i], (double)view->less_z[i])};
+    if (strength * (double)view->transfer[i] >= 1)
+        return sp_spray_share(spray, frame, d, &breadth);
+    return sp_spray_intensity(spray, sp_v(sp_dot(d, frame->x), sp_dot(d, frame->y), sp_dot(d, frame->z))) > 0;
 }
 
 /* Every instruction set that this processor has gives the same bits, and the sums are those of a plain loop. */
@@ -242,14 +253,17 @@ static void every_instruction_set_gives_the_same_bits(void **state)
         const sp_view *view = &s.visibility.views[pose.site * 2 + make->speed_class];
         sp_nozzle nozzle = sp_pose_nozzle(&s.candidates, &s.sites, pose, sp_v(0, 0, 1));
         sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, sp_v(0, 0, 1));
-        sp_region region = sp_region_create(&make->spray, &frame);
+        const double strength = 1 / (0.3 + 2 * next_random(&random)); /* of some arrivals enough for one nozzle alone */
+        sp_region region = sp_region_create(&make->spray, &frame, strength, 0);
+        sp_cull cull;
+        sp_cull_create(&s.visibility.bins, view, &make->spray, false, &cull);
         double naive[2] = {0}, first[2], sums[2];
         for (size_t i = 0; i < room; i++)
             for (int k = 0; k < 2; k++)
                 items[k][i] = (float)next_random(&random);
         for (size_t i = 0; i < view->count; i++)
             for (int k = 0; k < 2; k++)
-                naive[k] += sp_region_holds(&region, view->x[i], view->y[i], view->z[i]) ? (double)items[k][i] : 0;
+                naive[k] += part_of(view, i, &make->spray, &frame, strength) * (double)items[k][i];
         for (size_t set = 0; set < sp_sweep_set_count; set++) {
             const sp_sweep_set *sweeps = sp_sweep_sets[set];
             if (!sweeps->available())
@@ -257,12 +271,12 @@ static void every_instruction_set_gives_the_same_bits(void **state)
             const sp_weight weights[2] = {{items[0], totals[0]}, {items[1], totals[1]}};
             for (int k = 0; k < 2; k++)
                 sweeps->total(view, items[k], totals[k]);
-            sweeps->sum(&s.visibility.bins, &s.search.culls[pose.make], &region, view, weights, 2, sums);
+            sweeps->sum(&s.visibility.bins, &cull, &region, view, weights, 2, sums);
             for (int k = 0; k < 2; k++) {
                 double alone;
-                sweeps->sum(&s.visibility.bins, &s.search.culls[pose.make], &region, view, &weights[k], 1, &alone);
+                sweeps->sum(&s.visibility.bins, &cull, &region, view, &weights[k], 1, &alone);
                 assert_true(alone == sums[k]);
-                assert_true(fabs(sums[k] - naive[k]) <= 1e-5 * naive[k]);
+                assert_true(fabs(sums[k] - naive[k]) <= 1e-4 * naive[k] + 1e-3);
                 if (sweeps == sp_sweep_best())
                     first[k] = sums[k];
                 assert_true(sums[k] == first[k]);
@@ -285,37 +299,43 @@ static void scores_are_what_fields_add(void **state)
         criterion.combine = single ? SP_COMBINE_SINGLE : SP_COMBINE_SUM;
         stage_open(&s, criterion, SP_TRAJECTORY_LINE);
         size_t patches = s.search.patch_count, poses = s.candidates.pose_start[s.sites.count];
-        float *field = malloc(patches * sizeof *field), *wet = malloc(patches * sizeof *wet);
+        float *field = malloc(patches * sizeof *field);
+        sp_draft draft;
+        assert_true(sp_draft_create(&s.search, &draft, &error));
         sp_sweeper *sweeper = sp_sweepers_create(&s.search, 1, &error);
         uint64_t random = 11;
         double total = 0;
-        for (size_t p = 0; p < patches; p++)
-            wet[p] = (float)(1.5 * next_random(&random));
+        for (size_t p = 0; p < patches; p++) {
+            draft.wet[p] = (float)(1.5 * next_random(&random));
+            draft.dry[p] = (float)next_random(&random);
+        }
         for (size_t number = 0; number < poses; number += 1 + poses / 500) {
             sp_pose pose = pose_of(&s, number);
-            sp_score score = sp_score_pose(sweeper, &s.search, wet, pose);
+            sp_score score = sp_score_pose(sweeper, &s.search, &draft, pose);
             sp_field_pose(&s.search, pose, field);
-            double gain = sp_field_gain(&s.search, wet, field), room = 0;
+            double gain = sp_field_gain(&s.search, &draft, field), room = 0;
             for (size_t p = 0; p < patches; p++)
-                room += field[p] > 0 && wet[p] < 1
-                            ? (double)s.search.area[p] * (1 - (double)sp_worth(&s.search, wet[p]))
+                room += field[p] != 0 && draft.wet[p] < 1
+                            ? (double)s.search.area[p] * fmin(1, fabs((double)fminf(field[p], 0)) + (field[p] > 0)) *
+                                  (1 - (double)sp_worth(&s.search, draft.wet[p], draft.dry[p]))
                             : 0;
-            assert_true(fabs(score.gain - gain) <= 1e-5 * gain);
-            assert_true(fabs(score.room - room) <= 1e-5 * room);
+            /* single precision may see two points on the pattern's very edge otherwise */
+            assert_true(fabs(score.gain - gain) <= 1e-4 * gain + 2 * TEXEL * TEXEL);
+            assert_true(fabs(score.room - room) <= 1e-4 * room + 2 * TEXEL * TEXEL);
             total += gain;
         }
         assert_true(total > 0);
         /* what is wet by now counts only once the sweeper has been told */
         sp_pose pose = pose_of(&s, poses - 1);
-        double before = sp_score_pose(sweeper, &s.search, wet, pose).gain;
+        double before = sp_score_pose(sweeper, &s.search, &draft, pose).gain;
         for (size_t p = 0; p < patches; p++)
-            wet[p] = 2;
-        assert_true(before > 0 && sp_score_pose(sweeper, &s.search, wet, pose).gain == before);
+            draft.wet[p] = 2;
+        assert_true(before > 0 && sp_score_pose(sweeper, &s.search, &draft, pose).gain == before);
         sp_sweepers_forget(sweeper, 1);
-        assert_true(sp_score_pose(sweeper, &s.search, wet, pose).gain == 0);
+        assert_true(sp_score_pose(sweeper, &s.search, &draft, pose).gain == 0);
         sp_sweepers_destroy(sweeper, 1);
         free(field);
-        free(wet);
+        sp_draft_free(&draft);
         stage_close(&s);
     }
 }

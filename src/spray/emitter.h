@@ -1,0 +1,19 @@
+/* A nozzle as the evaluator sees it. */
+#ifndef SPRAY_EMITTER_H
+#define SPRAY_EMITTER_H
+
+#include "arrival.h"
+
+typedef struct {
+    sp_source source;
+    sp_frame frame;
+    sp_spray spray;
+} sp_emitter;
+
+sp_emitter sp_emitter_of(const sp_evaluator *evaluator, const sp_nozzle *nozzle);
+/* The share of the arrival's patch that lies inside the spray. */
+double sp_emitter_share(const sp_emitter *emitter, const sp_arrival *arrival);
+/* Whether the arrival's own direction does. */
+bool sp_emitter_holds(const sp_emitter *emitter, sp_vec3 direction);
+
+#endif
