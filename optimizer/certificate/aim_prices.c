@@ -14,7 +14,8 @@
 #define KEY_FIRST (UINT64_C(1) << 62) /* of rows for aims, which have no number */
 
 typedef struct {
-    bool used, generous;
+    bool used;
+    sp_count count;
     sp_spray spray;
     sp_cull cull;
 } kept_cull;
@@ -181,32 +182,33 @@ static bool same(const sp_spray *a, const sp_spray *b)
            a->half_thickness == b->half_thickness;
 }
 
-static const sp_cull *cull_of(scratch *own, const sp_bins *bins, const sp_spray *spray, bool generous)
+static const sp_cull *cull_of(scratch *own, const sp_bins *bins, const sp_spray *spray, sp_count count)
 {
     for (size_t i = 0; i < CULLS; i++)
-        if (own->culls[i].used && own->culls[i].generous == generous && same(&own->culls[i].spray, spray))
+        if (own->culls[i].used && own->culls[i].count == count && same(&own->culls[i].spray, spray))
             return &own->culls[i].cull;
     kept_cull *kept = &own->culls[own->next_cull++ % CULLS];
     kept->used = true;
     kept->spray = *spray;
-    kept->generous = generous;
-    sp_cull_create(bins, own->view, spray, generous, &kept->cull);
+    kept->count = count;
+    sp_cull_create(bins, own->view, spray, count, &kept->cull);
     return &kept->cull;
 }
 
-/* The sum over all that aims sprayed as `cell` about `disc` may have a share of; not generous, over their shares. */
+/* The sum over all that aims sprayed as `cell` about `disc` may have a share of; counted by shares, over these. */
 static double reach_price(const sp_aim_prices *prices, scratch *own, const sp_aim_cell *cell, sp_aim_disc disc,
-                          bool generous)
+                          sp_count count)
 {
     const sp_search *search = prices->search;
     sp_spray spray = sp_aim_cell_spray(cell, &prices->kinds->items[cell->kind], disc.radius);
     sp_frame frame = sp_aim_cell_frame(cell, &disc, sp_evaluator_setup(search->coarse)->up);
     sp_region region = sp_region_create(&spray, &frame, strength_of(prices, cell), 0);
-    region.generous = generous;
+    region.count = count;
+    region.narrowest = (float)(2 * sin(0.25 * cell->angle_low));
     const sp_bins *bins = &search->visibility->bins;
     const sp_weight weight = {own->worth, own->total};
     double price;
-    search->sweeps->sum(bins, cull_of(own, bins, &spray, generous), &region, own->view, &weight, 1, &price);
+    search->sweeps->sum(bins, cull_of(own, bins, &spray, count), &region, own->view, &weight, 1, &price);
     return price * UPWARDS;
 }
 
@@ -234,13 +236,13 @@ static void price_alike(const sp_aim_prices *prices, scratch *own, entry *entrie
         sp_aim_cell *cell = &entries[i].cell;
         sp_aim_disc disc = sp_aim_cell_disc(cell, site, tilt);
         /* nor more than the cell that it is a piece of */
-        cell->upper = sees ? fmin(cell->upper, reach_price(prices, own, cell, disc, true)) : 0;
+        cell->upper = sees ? fmin(cell->upper, reach_price(prices, own, cell, disc, SP_COUNT_GENEROUS)) : 0;
         entries[i].middle = 0;
         if (cell->upper <= fmin(*known_of(prices, cell), prices->fair[tier_of(prices, cell)]) ||
             sp_dot(disc.axis, site->axis) < cos(tilt) - 1e-12)
             continue;
         sp_aim_cell middle = sp_aim_cell_middle(cell, &prices->kinds->items[cell->kind]);
-        entries[i].middle = reach_price(prices, own, &middle, (sp_aim_disc){disc.axis, 0}, false);
+        entries[i].middle = reach_price(prices, own, &middle, (sp_aim_disc){disc.axis, 0}, SP_COUNT_SHARE);
     }
 }
 
@@ -441,7 +443,8 @@ double sp_aim_prices_upper(sp_aim_prices *prices, const sp_aim_cell *cell, const
     scratch *own = &prices->scratches[0];
     double upper = 0;
     if (turn_to(prices, own, cell, u))
-        upper = reach_price(prices, own, cell, sp_aim_cell_disc(cell, site, tilt_of(prices, cell->site)), true);
+        upper = reach_price(prices, own, cell, sp_aim_cell_disc(cell, site, tilt_of(prices, cell->site)),
+                            SP_COUNT_GENEROUS);
     sp_visibility_leave(prices->search->visibility, &own->desk);
     return upper;
 }

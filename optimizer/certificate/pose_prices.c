@@ -134,7 +134,7 @@ static sp_region prepare_worth(const sp_pose_prices *prices, scratch *own, const
     double threshold = prices->search->threshold;
     double strength = threshold > 0 ? make->flow / (make->spray.solid_angle * threshold) : INFINITY;
     sp_pose_prices_worth(prices, view, (float)strength, u, own->worth, own->total);
-    sp_cull_create(&prices->search->visibility->bins, view, &make->spray, false, &own->cull);
+    sp_cull_create(&prices->search->visibility->bins, view, &make->spray, SP_COUNT_SHARE, &own->cull);
     return sp_region_create(&make->spray, frame, strength, SLACK);
 }
 

@@ -37,14 +37,7 @@ typedef struct {
     float *field;
 } sp_placed;
 
-/* What a nozzle's arrivals come to, as a field holds it. */
-static inline float sp_field_value(sp_wetting wetting)
-{
-    sp_wetting settled = sp_wetting_settle(wetting, 1);
-    return settled.dry < 1 ? (float)(settled.dry - 1) : (float)settled.even;
-}
-
-/* The same of two flights to one patch. */
+/* What two flights to one patch come to (see sp_wetting_settle). */
 static inline float sp_field_join(float a, float b)
 {
     if (a < 0 && b < 0)

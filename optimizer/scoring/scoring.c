@@ -93,7 +93,8 @@ void sp_sweeper_take(sp_sweeper *sweeper, size_t make)
     sweeper->region = sp_region_create(&own->spray, &sweeper->frame, strength, 0);
     if (!sweeper->view->start)
         return;
-    sp_cull_create(&search->visibility->bins, sweeper->view, &own->spray, false, &sweeper->cull);
+    sweeper->region.count = sp_spray_is_wide(&own->spray, sweeper->view) ? SP_COUNT_POINT : SP_COUNT_SHARE;
+    sp_cull_create(&search->visibility->bins, sweeper->view, &own->spray, sweeper->region.count, &sweeper->cull);
     search->sweeps->gain(&credit, sweeper->view->count, sweeper->had, sweeper->area, sweeper->view->transfer,
                          sweeper->gain);
     search->sweeps->total(sweeper->view, sweeper->gain, sweeper->gain_total);
@@ -144,11 +145,13 @@ sp_posed_spray sp_posed_spray_of(const sp_search *search, const sp_nozzle *nozzl
 float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 d, const sp_breadth *breadth, double transfer)
 {
     const sp_frame *frame = &posed->frame;
+    double flux = transfer > 0 ? posed->strength * transfer : 0;
+    if (flux >= 1) {
+        float share = (float)sp_spray_share(&posed->spray, frame, d, breadth);
+        return share < 1 ? -share : (float)flux;
+    }
     sp_vec3 local = sp_v(sp_dot(d, frame->x), sp_dot(d, frame->y), sp_dot(d, frame->z));
-    sp_wetting wetting = {0, 1};
-    sp_wetting_add(&wetting, transfer > 0 ? posed->strength * transfer : 0, 1,
-                   sp_spray_share(&posed->spray, frame, d, breadth), sp_spray_intensity(&posed->spray, local) > 0);
-    return sp_field_value(wetting);
+    return sp_spray_intensity(&posed->spray, local) > 0 ? (float)flux : 0;
 }
 
 /* The arrival `i` of a view. */
@@ -171,7 +174,7 @@ void sp_field_view(const sp_search *search, const sp_view *view, const sp_spray 
         field[p] = 0;
     if (!view->start)
         return;
-    sp_cull_create(bins, view, spray, false, &cull);
+    sp_cull_create(bins, view, spray, SP_COUNT_SHARE, &cull);
     for (size_t b = 0; b < SP_BINS; b++) {
         if (bins->x[b] * z[0] + bins->y[b] * z[1] + bins->z[b] * z[2] < cull.outside[b])
             continue;

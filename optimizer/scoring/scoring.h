@@ -1,4 +1,5 @@
-/* Scoring: what a pose would add to a draft, by sweeping what its mounting point can reach. */
+/* Scoring: what a pose would add to a draft, by sweeping what its mounting point can reach. Wide patterns are scored by
+ * their patches' points, which is what a ranking needs; what a field adds is exact. */
 #ifndef OPTIMIZER_SCORING_H
 #define OPTIMIZER_SCORING_H
 

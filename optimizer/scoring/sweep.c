@@ -26,17 +26,19 @@ static void narrow(sp_vec3 v, float out[3])
     out[2] = (float)v.z;
 }
 
-/* What sp_spray_share makes of a patch's greatest breadth: edges are blurred by so much on either side, and a disc not
- * broader than SPOT breadths is spread over FRINGE. A little more than there, for round-off. */
+/* What sp_spray_share makes of a patch's greatest breadth: an edge is blurred over so much, and a disc not broader than
+ * SPOT breadths is spread over FRINGE: a little more than there, for round-off. */
+#define BLUR 1.834
 #define BLUR_HALF 0.925
 #define SPOT 1.84
 #define FRINGE 2.61
-#define CORNER 1.32 /* √2 blurs: two of a fan's edges meet there */
+#define WIDE 4 /* breadths */
 
 static sp_rim rim_at(double angle, double beyond)
 {
     double chord = fmax(0, 2 * sin(0.5 * fmin(angle, M_PI)) + beyond), edge2 = fmin(4, chord * chord);
-    return (sp_rim){(float)(angle >= M_PI ? 4 : edge2), (float)(edge2 * (1 - edge2 / 4))};
+    double sine2 = edge2 * (1 - edge2 / 4);
+    return (sp_rim){(float)(angle >= M_PI ? 4 : edge2), (float)sine2, (float)(1 / (2 * BLUR * sqrt(sine2 + 1e-30)))};
 }
 
 sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double strength, double slack)
@@ -53,7 +55,7 @@ sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double 
         region.end_sine = (float)sin(spray->half_width + slack);
     } else {
         region.outer = rim_at(spray->outer, slack);
-        region.inner = spray->inner > 0 ? rim_at(spray->inner, -slack) : (sp_rim){0, 0};
+        region.inner = spray->inner > 0 ? rim_at(spray->inner, -slack) : (sp_rim){0, 0, 0};
     }
     sp_region_turn(&region, frame);
     return region;
@@ -75,33 +77,67 @@ static float cosine_within(double angle)
     return angle >= M_PI ? -2 : angle < 0 ? 2 : (float)cos(angle);
 }
 
-/* The cosines for one bin's hole, `around` being its radius, `broadest` its patches' breadth and `blur` how far from
- * the edge these may be cut. */
-static void cull_hole(double inner, double around, double broadest, double blur, float *outside, float *inside)
+/* The same for one bin, where patches look broad against the pattern, or the region is generous. */
+static void cull_broad(double around, double broadest, const sp_spray *spray, sp_count count, size_t b, sp_cull *cull)
 {
-    bool spread = 2 * sin(0.5 * inner) <= SPOT * broadest;
-    double within = inner - around - blur;
-    *outside = !spread && within > 0 ? (float)cos(within) : 2;
-    *inside = cosine_within(fmax(inner + blur, spread ? FRINGE * broadest : 0) + around);
+    double reach = sp_spray_reach(spray), far = FRINGE * broadest,
+           near = count == SP_COUNT_GENEROUS ? far : SP_VIEW_BLUR * broadest;
+    bool fan = spray->kind == SP_PATTERN_FLAT_FAN;
+    cull->outside[b] = cosine_within(fmax(reach + near, fan ? 0 : far) + around);
+    cull->inside[b] = reach >= M_PI && !fan ? -2 : 2;
+    cull->inner_outside[b] = 2;
+    cull->inner_inside[b] = !fan && spray->inner > 0 ? cosine_within(fmax(spray->inner + near, far) + around) : 2;
+    double latitude = spray->half_thickness + near + around;
+    cull->latitude[b] = fan && latitude < M_PI / 2 ? (float)sin(latitude) : 2;
+}
+
+/* A polar angle's cosine and sine, once for all bins. */
+typedef struct {
+    float cosine, sine;
+} sp_turned;
+
+static sp_turned turned(double angle)
+{
+    return (sp_turned){(float)cos(angle), (float)sin(angle)};
+}
+
+/* Cosines of `angle` more and less what a bin takes; past half a turn and below none what no cosine comes up to. */
+static inline float cosine_more(sp_turned angle, float cosine, float sine)
+{
+    return cosine <= -angle.cosine ? -2 : angle.cosine * cosine - angle.sine * sine;
+}
+static inline float cosine_less(sp_turned angle, float cosine, float sine)
+{
+    return cosine < angle.cosine ? 2 : angle.cosine * cosine + angle.sine * sine;
 }
 
 /* The radii are a little too large (see sp_bins_create), so that round-off cannot put a bin on the wrong side. */
-void sp_cull_create(const sp_bins *bins, const sp_view *view, const sp_spray *spray, bool generous, sp_cull *cull)
+void sp_cull_create(const sp_bins *bins, const sp_view *view, const sp_spray *spray, sp_count count, sp_cull *cull)
 {
-    double reach = sp_spray_reach(spray), chord = 2 * sin(0.5 * reach), rest = 2 * cos(0.5 * reach);
-    bool fan = spray->kind == SP_PATTERN_FLAT_FAN, hole = !fan && spray->inner > 0;
+    double reach = sp_spray_reach(spray);
+    bool fan = spray->kind == SP_PATTERN_FLAT_FAN, all_round = reach >= M_PI, hole = !fan && spray->inner > 0;
+    sp_turned outer = turned(fmin(reach, M_PI)), inner = turned(spray->inner), side = turned(spray->half_thickness);
+    float broad = (float)(fmin(2 * sin(0.5 * reach), all_round ? 2 : 2 * cos(0.5 * reach)) / SPOT);
+    if (hole)
+        broad = fminf(broad, (float)(2 * sin(0.5 * spray->inner) / SPOT));
     for (size_t b = 0; b < SP_BINS; b++) {
-        double around = (double)bins->radius[b], broadest = (double)view->broadest[b];
-        double blur = (generous ? FRINGE : BLUR_HALF) * broadest, corner = (generous ? FRINGE : CORNER) * broadest;
-        bool spread = !fan && (chord <= SPOT * broadest || (reach < M_PI && rest <= SPOT * broadest));
-        double beyond = fmax(reach + (fan ? corner : blur), spread ? FRINGE * broadest : 0);
-        double within = reach >= M_PI ? M_PI : reach - blur - around;
-        cull->outside[b] = cosine_within(beyond + around);
-        cull->inside[b] = fan || spread ? 2 : cosine_within(within);
-        cull->inner_outside[b] = cull->inner_inside[b] = 2;
-        if (hole)
-            cull_hole(spray->inner, around, broadest, blur, &cull->inner_outside[b], &cull->inner_inside[b]);
-        double latitude = spray->half_thickness + blur + around;
-        cull->latitude[b] = fan && latitude < M_PI / 2 ? (float)sin(latitude) : 2;
+        float c = count == SP_COUNT_POINT ? bins->cosine[b] : view->cosine[b];
+        float s = count == SP_COUNT_POINT ? bins->sine[b] : view->sine[b];
+        cull->outside[b] = all_round ? -2 : cosine_more(outer, c, s);
+        cull->inside[b] = fan ? 2 : all_round ? -2 : cosine_less(outer, c, s);
+        cull->inner_outside[b] = hole ? cosine_less(inner, c, s) : 2;
+        cull->inner_inside[b] = hole ? cosine_more(inner, c, s) : 2;
+        cull->latitude[b] = fan && s < side.cosine ? side.sine * c + side.cosine * s : 2;
     }
+    for (size_t b = 0; count != SP_COUNT_POINT && b < SP_BINS; b++)
+        if (count == SP_COUNT_GENEROUS || (!fan && view->broadest[b] >= broad))
+            cull_broad((double)bins->radius[b], (double)view->broadest[b], spray, count, b, cull);
+}
+
+bool sp_spray_is_wide(const sp_spray *spray, const sp_view *view)
+{
+    double width = spray->inner > 0 ? spray->outer - spray->inner : 2 * spray->outer;
+    if (spray->kind == SP_PATTERN_FLAT_FAN)
+        width = 2 * fmin(spray->half_width, spray->half_thickness);
+    return width > WIDE * (double)view->breadth;
 }

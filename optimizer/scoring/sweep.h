@@ -11,20 +11,29 @@
 typedef struct {
     float edge2; /* from the axis to the edge; 4: none */
     float sine2; /* the edge's squared sine */
+    float steep; /* by how much the share grows per squared chord, for a patch of breadth 1 */
 } sp_rim;
+
+/* How a sweep counts a patch at a pattern's edge. */
+typedef enum {
+    SP_COUNT_SHARE,    /* by what share of it lies inside, as the measure has it */
+    SP_COUNT_POINT,    /* by its point alone: quicker, and good enough to rank wide patterns */
+    SP_COUNT_GENEROUS, /* whole, if it may have any share */
+} sp_count;
 
 /* A posed pattern: what share of a patch lies inside (see sp_spray_share), without trigonometric functions. */
 typedef struct {
     bool fan;
-    float z[3];                 /* cones: the axis in world coordinates */
-    sp_rim outer, inner;        /* cones; inner.edge2 0: no hole */
-    float y[3];                 /* fans: across the fan's plane */
-    float height;               /* fans: sine of the half-thickness; 2: it has no such edge */
-    float end[2][3];            /* fans: normals of the planes through its ends, inwards */
-    bool wide, all_round;       /* fans of more than half a turn; of a whole one */
-    float alone_from;           /* transfer (1/m²) from which an arrival may meet the criterion alone */
-    float alone;                /* from which it surely does */
-    bool generous;              /* counts all of a patch that may have any share */
+    float z[3];           /* cones: the axis in world coordinates */
+    sp_rim outer, inner;  /* cones; inner.edge2 0: no hole */
+    float y[3];           /* fans: across the fan's plane */
+    float height;         /* fans: sine of the half-thickness; 2: it has no such edge */
+    float end[2][3];      /* fans: normals of the planes through its ends, inwards */
+    bool wide, all_round; /* fans of more than half a turn; of a whole one */
+    float alone_from;     /* transfer (1/m²) from which an arrival may meet the criterion alone */
+    float alone;          /* from which it surely does */
+    sp_count count;
+    float narrowest;            /* SP_COUNT_GENEROUS: chord to the edge of the narrowest cone that is meant */
     float end_cosine, end_sine; /* fans: of the half-width */
 } sp_region;
 
@@ -80,7 +89,9 @@ const sp_sweep_set *sp_sweep_best(void);
 sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double strength, double slack);
 /* Brings the region into another frame. */
 void sp_region_turn(sp_region *region, const sp_frame *frame);
-/* For the arrivals of one view; generous as the regions that are to be summed. */
-void sp_cull_create(const sp_bins *bins, const sp_view *view, const sp_spray *spray, bool generous, sp_cull *cull);
+/* For the arrivals of one view. */
+void sp_cull_create(const sp_bins *bins, const sp_view *view, const sp_spray *spray, sp_count count, sp_cull *cull);
+/* Whether the spray is so much wider than the view's patches that their points tell enough for a ranking. */
+bool sp_spray_is_wide(const sp_spray *spray, const sp_view *view);
 
 #endif

@@ -242,10 +242,11 @@ INLINE lanes disc_share(const sp_rim *rim, const aspects *a)
     if (rim->edge2 <= 0 || rim->edge2 >= 4)
         return all(rim->edge2 > 0);
     lanes sine2 = add(multiply(a->chord2, subtract(all(1), scale(a->chord2, 0.25f))), all(TINY));
-    lanes lacks = lesser(divide(a->along2, sine2), scale(a->square, 1 - LEAST_SQUARE));
-    lanes breadth = root(scale(subtract(a->square, lacks), rim->sine2));
-    lanes share = smooth_step(
-        add(all(0.5f), divide(subtract(all(rim->edge2), a->chord2), add(scale(breadth, 2 * BLUR), all(TINY)))));
+    lanes whole = multiply(a->square, sine2);
+    lanes broad2 = greater(subtract(whole, a->along2), scale(whole, LEAST_SQUARE));
+    lanes slope = root(divide(sine2, add(broad2, all(TINY))));
+    lanes apart = subtract(all(rim->edge2), a->chord2);
+    lanes share = smooth_step(add(all(0.5f), multiply(scale(apart, rim->steep), slope)));
     lanes small = scale(a->square, BLUR * BLUR);
     mask spots = below(all(rim->edge2), lesser(small, all(2))), holes = below(all(4 - rim->edge2), small);
     if (bits_of(spots))
@@ -317,7 +318,7 @@ INLINE shares cone_shares(const sp_region *region, const arrivals *a)
         s.held = both(s.held, at_least(chord2, all(region->inner.edge2)));
         cut = either(cut, near_rim(&region->inner, chord2, a->square));
     }
-    s.same = !bits_of(cut);
+    s.same = region->count == SP_COUNT_POINT || !bits_of(cut);
     if (s.same)
         return s;
     lanes lx = load(&a->view->less_x[a->at]), ly = load(&a->view->less_y[a->at]), lz = load(&a->view->less_z[a->at]);
@@ -350,7 +351,7 @@ INLINE shares fan_shares(const sp_region *region, const arrivals *a)
         s.held = both(s.held, region->wide ? either(in[0], in[1]) : both(in[0], in[1]));
         cut = either(cut, either(near_plane(end[0], a->square), near_plane(end[1], a->square)));
     }
-    s.same = !bits_of(cut);
+    s.same = region->count == SP_COUNT_POINT || !bits_of(cut);
     if (s.same)
         return s;
     s.share = all(1);
@@ -372,15 +373,17 @@ INLINE shares fan_shares(const sp_region *region, const arrivals *a)
 /* All of a patch that any aim may give any share of. */
 INLINE lanes generous_shares(const sp_region *region, bool fan, const arrivals *a)
 {
-    const float most = 1.4144f * 1.002f * BLUR; /* breadths */
-    lanes spread = scale(root(a->square), most);
+    lanes breadth = root(a->square);
+    lanes spread = scale(breadth, 1.32f); /* corners of fans */
     if (!fan) {
+        mask slim = at_least(all(region->narrowest), scale(breadth, 1.84f));
+        spread = choose(slim, scale(breadth, 0.925f), scale(breadth, 2.61f));
         lanes chord = root(chords(a, region->z));
         mask in = at_least(add(spread, all(sqrtf(region->outer.edge2))), chord);
         if (region->outer.edge2 >= 4)
             in = at_least(all(5), chord);
         if (region->inner.edge2 > 0)
-            in = both(in, at_least(add(chord, spread), all(sqrtf(region->inner.edge2))));
+            in = both(in, at_least(add(chord, scale(breadth, 2.61f)), all(sqrtf(region->inner.edge2))));
         return keep(all(1), in);
     }
     mask in = at_least(add(all(region->height), spread), magnitude(dot(a->x, a->y, a->z, region->y)));
@@ -398,7 +401,7 @@ INLINE lanes generous_shares(const sp_region *region, bool fan, const arrivals *
 INLINE lanes counting(const sp_region *region, bool fan, const sp_view *view, size_t at)
 {
     arrivals a = load_arrivals(view, at);
-    if (region->generous)
+    if (region->count == SP_COUNT_GENEROUS)
         return generous_shares(region, fan, &a);
     shares s = fan ? fan_shares(region, &a) : cone_shares(region, &a);
     lanes held = keep(all(1), s.held), transfer = load(&view->transfer[at]);

@@ -51,7 +51,10 @@ void sp_bins_create(sp_bins *bins)
         bins->x[b] = (float)centre.x;
         bins->y[b] = (float)centre.y;
         bins->z[b] = (float)centre.z;
-        bins->radius[b] = (float)(acos(cosine) + 1e-3);
+        double radius = acos(cosine) + 1e-3;
+        bins->radius[b] = (float)radius;
+        bins->cosine[b] = (float)cos(radius);
+        bins->sine[b] = (float)sin(radius);
     }
 }
 
@@ -128,7 +131,7 @@ void sp_sightings_free(sp_sightings *sightings)
 
 size_t sp_view_bytes(size_t count, bool any_twice)
 {
-    return (SP_BINS + 1 + count) * sizeof(uint32_t) + (SP_BINS + COLUMNS * (count + SP_LANES)) * sizeof(float) +
+    return (SP_BINS + 1 + count) * sizeof(uint32_t) + (3 * SP_BINS + COLUMNS * (count + SP_LANES)) * sizeof(float) +
            (any_twice ? count : 0);
 }
 
@@ -139,7 +142,9 @@ static void lay_out(void *block, size_t count, bool any_twice, sp_view *view)
     *view = (sp_view){.count = (uint32_t)count, .start = block};
     view->patch = view->start + SP_BINS + 1;
     view->broadest = (float *)(view->patch + count);
-    float *columns = view->broadest + SP_BINS;
+    view->cosine = view->broadest + SP_BINS;
+    view->sine = view->cosine + SP_BINS;
+    float *columns = view->sine + SP_BINS;
     float **column[COLUMNS] = {&view->x,      &view->y,      &view->z,      &view->transfer,
                                &view->square, &view->less_x, &view->less_y, &view->less_z};
     for (size_t i = 0; i < COLUMNS; i++) {
@@ -150,7 +155,7 @@ static void lay_out(void *block, size_t count, bool any_twice, sp_view *view)
     view->twice = any_twice ? (uint8_t *)(columns + COLUMNS * padded) : NULL;
 }
 
-void sp_view_write(const sp_sightings *sightings, void *block, sp_view *view)
+void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *block, sp_view *view)
 {
     lay_out(block, sightings->count, sightings->any_twice, view);
     uint32_t *start = view->start, next[SP_BINS];
@@ -178,8 +183,14 @@ void sp_view_write(const sp_sightings *sightings, void *block, sp_view *view)
             view->less_y[at] = from->less_y;
             view->less_z[at] = from->less_z;
             view->broadest[from->bin] = fmaxf(view->broadest[from->bin], sqrtf(from->square));
+            view->breadth += sqrtf(from->square) / (float)view->count;
             view->patch[at] = from->patch;
             if (view->twice)
                 view->twice[at] = from->twice;
         }
+    for (size_t b = 0; b < SP_BINS; b++) {
+        double angle = (double)bins->radius[b] + SP_VIEW_BLUR * (double)view->broadest[b];
+        view->cosine[b] = (float)cos(angle);
+        view->sine[b] = (float)sin(angle);
+    }
 }

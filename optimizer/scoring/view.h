@@ -6,14 +6,18 @@
 
 #define SP_BINS_EDGE 32
 #define SP_BINS (SP_BINS_EDGE * SP_BINS_EDGE)
+#define SP_VIEW_BLUR                                                                                                   \
+    1.32            /* of a patch's breadth: so far beyond a pattern's edge, or a corner of it, it may have a share */
 #define SP_LANES 16 /* floats that a sweep takes at a time: views have as many more, all 0, behind their last */
 
 /* Arrivals that pass the criterion's speed and incidence, sorted by the octahedral bin of their direction, then by
  * patch. */
 typedef struct {
     uint32_t count;
+    float breadth;                            /* rad, the mean of its patches' greatest breadths */
     uint32_t *start;                          /* [SP_BINS + 1]; NULL: nothing is known to be reached */
     float *broadest;                          /* [SP_BINS], rad, the greatest breadth of a bin's patches */
+    float *cosine, *sine;                     /* [SP_BINS], of the bin's radius and SP_VIEW_BLUR of that together */
     float *x, *y, *z;                         /* [count + SP_LANES], unit direction at the nozzle */
     float *transfer;                          /* [count + SP_LANES], 1/m² */
     float *square, *less_x, *less_y, *less_z; /* [count + SP_LANES], sp_breadth */
@@ -24,7 +28,8 @@ typedef struct {
 /* The bins' cones: all directions of a bin are within `radius` of its centre. */
 typedef struct {
     float x[SP_BINS], y[SP_BINS], z[SP_BINS];
-    float radius[SP_BINS]; /* rad */
+    float radius[SP_BINS];                /* rad */
+    float cosine[SP_BINS], sine[SP_BINS]; /* of the radius */
 } sp_bins;
 
 void sp_bins_create(sp_bins *bins);
@@ -61,6 +66,6 @@ size_t sp_sightings_work(void);
 /* Bytes of a view's block. */
 size_t sp_view_bytes(size_t count, bool any_twice);
 /* Writes the sightings as a view into the block, of sp_view_bytes, that then is view->start. */
-void sp_view_write(const sp_sightings *sightings, void *block, sp_view *view);
+void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *block, sp_view *view);
 
 #endif

@@ -104,7 +104,7 @@ static void survey_view(sp_survey *survey, size_t at, bool keep)
         visibility->known[at] = true;
         void *block = keep ? malloc(sp_view_bytes(sightings.count, sightings.any_twice)) : NULL;
         if (block)
-            sp_view_write(&sightings, block, &visibility->views[at]);
+            sp_view_write(&sightings, &visibility->bins, block, &visibility->views[at]);
         else if (keep)
             sp_fail_memory(&error);
     }
@@ -341,7 +341,7 @@ const sp_view *sp_visibility_look(const sp_visibility *visibility, uint32_t site
     sp_error error = {0};
     (*desk)->at = at;
     if (trace(visibility, at, &sightings, &error))
-        sp_view_write(&sightings, (*desk)->block, &(*desk)->view);
+        sp_view_write(&sightings, &visibility->bins, (*desk)->block, &(*desk)->view);
     else {
         (*desk)->view = (sp_view){0};
         (*desk)->at = SIZE_MAX;

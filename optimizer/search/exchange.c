@@ -10,15 +10,25 @@
 static bool replace(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_draft *draft,
                     size_t i, bool *changed, sp_error *error)
 {
+    double before = draft->value;
     sp_placed own = sp_draft_take(search, draft, i);
-    double least =
-        sp_field_gain(search, draft, own.field) + GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
+    double step = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
+    double least = sp_field_gain(search, draft, own.field) + step;
     sp_pose pose;
     if (sp_pool_best(search, pool, draft, 0, budget, bench, &pose) <= least)
         return sp_draft_add(search, draft, own, error);
+    if (!sp_draft_add_pose(search, draft, pose, error)) {
+        free(own.field);
+        return false;
+    }
+    /* scores only rank: what counts is the field */
+    if (draft->value <= before + step) {
+        sp_draft_remove(search, draft, draft->count - 1);
+        return sp_draft_add(search, draft, own, error);
+    }
     free(own.field);
     *changed = true;
-    return sp_draft_add_pose(search, draft, pose, error);
+    return true;
 }
 
 static bool sweep(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_watch *watch,

@@ -8,6 +8,7 @@
 /* Breadths over which an edge goes from all to nothing: the first length at which the step's slope, seen as a filter,
  * has a zero at the lattice's own frequency. */
 #define BLUR 1.834
+#define ROUND_OFF 1e-6      /* share that is none, or that all lacks */
 #define LEAST_SQUARE 0.0025 /* of the square of its greatest, is a patch's breadth taken to be at least */
 
 /* 0 to 1, with two even derivatives at either end (Perlin, Improving noise, 2002): what is left of a lattice's own
@@ -49,11 +50,10 @@ static double disc_share(double edge2, const sp_aspect *aspect)
         return spot_share(edge2, aspect->chord2, aspect);
     if (4 - edge2 < small)
         return 1 - spot_share(4 - edge2, 4 - aspect->chord2, aspect);
-    /* across the edge, times the edge's sine: what a step there changes the squared chord by, halved */
-    double sine2 = aspect->chord2 * (1 - aspect->chord2 / 4);
-    double lacks = fmin(aspect->along2 / (sine2 + 1e-300), (1 - LEAST_SQUARE) * aspect->square);
-    double breadth = sqrt((aspect->square - lacks) * sine2_edge);
-    return smooth_step(0.5 + apart / (2 * BLUR * breadth));
+    /* the breadth across the edge, and what a step there changes the squared chord by: twice the edge's sine */
+    double sine2 = aspect->chord2 * (1 - aspect->chord2 / 4) + 1e-30, whole = aspect->square * sine2;
+    double broad2 = fmax(whole - aspect->along2, LEAST_SQUARE * whole) / sine2;
+    return smooth_step(0.5 + apart / (2 * BLUR * sqrt(broad2 * sine2_edge)));
 }
 
 static double chord2(double angle)
@@ -101,8 +101,9 @@ static double fan_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 di
 
 double sp_spray_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, const sp_breadth *breadth)
 {
-    return spray->kind == SP_PATTERN_FLAT_FAN ? fan_share(spray, frame, direction, breadth)
-                                              : cone_share(spray, frame, direction, breadth);
+    double share = spray->kind == SP_PATTERN_FLAT_FAN ? fan_share(spray, frame, direction, breadth)
+                                                      : cone_share(spray, frame, direction, breadth);
+    return share > 1 - ROUND_OFF ? 1 : share < ROUND_OFF ? 0 : share;
 }
 
 double sp_spray_fringe(double square)

@@ -54,8 +54,11 @@ sp_breadth sp_flight_breadth(const sp_flight *flight, double speed, sp_vec3 norm
         step[i] = sp_scale(sp_along(back, -sp_dot(back, normal), normal), scale);
     }
     double xx = sp_dot(step[0], step[0]), xy = sp_dot(step[0], step[1]), yy = sp_dot(step[1], step[1]);
-    double mean = 0.5 * (xx + yy), apart = hypot(0.5 * (xx - yy), xy), turn = 0.5 * atan2(2 * xy, xx - yy);
+    double mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy), apart = sqrt(half * half + xy * xy);
     double major = fmin(mean + apart, MOST_SQUARE), minor = fmin(fmax(mean - apart, 0), MOST_SQUARE);
-    sp_vec3 narrow = sp_along(sp_scale(across[0], -sin(turn)), cos(turn), across[1]);
+    /* the minor axis is a quarter turn from half the angle whose cosine is half / apart */
+    double twice = apart > 0 ? half / apart : 1, cosine = sqrt(fmax(0, 0.5 * (1 + twice))),
+           sine = copysign(sqrt(fmax(0, 0.5 * (1 - twice))), xy);
+    sp_vec3 narrow = sp_along(sp_scale(across[0], -sine), cosine, across[1]);
     return (sp_breadth){major, sp_scale(narrow, sqrt(major - minor))};
 }

@@ -95,8 +95,10 @@ static double area_of(const job *j, const uint32_t *rows, size_t count, bool alo
     setup.criterion.combine = SP_COMBINE_SUM;
     sp_evaluator *evaluator = sp_evaluator_create(&setup, &error);
     const sp_patches *patches = sp_evaluator_patches(evaluator);
-    bool *covered = calloc(patches->count, sizeof *covered);
-    assert_non_null(covered);
+    double *dry = malloc(patches->count * sizeof *dry);
+    assert_non_null(dry);
+    for (size_t p = 0; p < patches->count; p++)
+        dry[p] = 1;
     for (size_t i = 0; i < (alone ? count : 1); i++) {
         sp_nozzle nozzles[3];
         size_t taken = alone ? 1 : count;
@@ -106,14 +108,14 @@ static double area_of(const job *j, const uint32_t *rows, size_t count, bool alo
         sp_coverage *coverage = sp_evaluate_inverse(evaluator, layout, &error);
         assert_non_null(coverage);
         for (size_t p = 0; p < patches->count; p++)
-            covered[p] |= coverage->deposits.covered[p];
+            dry[p] *= 1 - coverage->deposits.share[p];
         sp_coverage_destroy(coverage);
         sp_layout_destroy(layout);
     }
     double area = 0;
     for (size_t p = 0; p < patches->count; p++)
-        area += covered[p] ? patches->area[p] : 0;
-    free(covered);
+        area += (1 - dry[p]) * patches->area[p];
+    free(dry);
     sp_evaluator_destroy(evaluator);
     return area;
 }

@@ -256,7 +256,7 @@ static void every_instruction_set_gives_the_same_bits(void **state)
         const double strength = 1 / (0.3 + 2 * next_random(&random)); /* of some arrivals enough for one nozzle alone */
         sp_region region = sp_region_create(&make->spray, &frame, strength, 0);
         sp_cull cull;
-        sp_cull_create(&s.visibility.bins, view, &make->spray, false, &cull);
+        sp_cull_create(&s.visibility.bins, view, &make->spray, SP_COUNT_SHARE, &cull);
         double naive[2] = {0}, first[2], sums[2];
         for (size_t i = 0; i < room; i++)
             for (int k = 0; k < 2; k++)

@@ -38,7 +38,7 @@ static void one_nozzle_alone_covers(void **state)
         sp_coverage *together = sp_evaluate(sum, proposal->layout, &error);
         both = together->covered_area;
         for (size_t p = 0; p < patches->count; p++)
-            area += alone[0]->deposits.covered[p] || alone[1]->deposits.covered[p] ? patches->area[p] : 0;
+            area += (1 - (1 - alone[0]->deposits.share[p]) * (1 - alone[1]->deposits.share[p])) * patches->area[p];
         assert_true(fabs(area - proposal->coverage->covered_area) < 1e-9 * area);
         assert_true(both >= area);
         sp_coverage_destroy(alone[0]);
