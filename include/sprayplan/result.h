@@ -21,6 +21,13 @@ typedef struct {
     sp_reason reason; /* where not, of most of what is not attainable of it; else unknown */
 } sp_shadow_figures;
 
+/* What of one part is not attainable. */
+typedef struct {
+    char *part;               /* owned */
+    double area;              /* m², of all reasons */
+    double areas[SP_REASONS]; /* m², by reason */
+} sp_missing_figures;
+
 typedef struct {
     char *name, *type;                         /* owned */
     sp_vec3 position;                          /* m */
@@ -34,6 +41,8 @@ typedef struct {
     double area, clean_area;                        /* of the geometry, m² */
     double attainable_area;                         /* m², with whatever a reported layout covers */
     double missing_area[SP_REASONS];                /* m² that are not attainable, by reason */
+    size_t missing_count;                           /* of parts that are not wholly attainable */
+    sp_missing_figures *missing;                    /* owned; those of most area first */
     char trajectory[16], evaluator[16];             /* "line" or "parabola", "forward" or "inverse" */
     size_t reflections, jets;                       /* jets: per nozzle, unknown for the inverse evaluator */
     double texel, error_estimate;                   /* m; points of coverage as a fraction */
@@ -41,6 +50,7 @@ typedef struct {
     double coverage, of_attainable;                 /* fractions */
     double area_per_water;                          /* m² per m³/s */
     double flux_min, flux_mean, flux_p05, flux_max; /* m³/s per m² */
+    double landed_clean, landed_other, left, unfollowed; /* m³/s, as sp_balance */
     size_t shadow_count;                            /* at most SP_SHADOWS_KEPT, largest first */
     sp_shadow_figures *shadows;                     /* owned */
     size_t nozzle_count;

@@ -80,9 +80,11 @@ static void warn_of_cavity(findings *found)
 static void warn_of_nozzles(findings *found)
 {
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
-    for (size_t i = 0; i < layout->count; i++)
-        if (!sp_evaluator_inside(found->opened->evaluator, layout->nozzles[i].position))
-            warn(found, "nozzles: %s is not inside the cavity", layout->nozzles[i].name);
+    for (size_t i = 0; i < layout->count; i++) {
+        sp_error error = {0};
+        if (!sp_evaluator_admits(found->opened->evaluator, &layout->nozzles[i], &error))
+            warn(found, "%s", error.message);
+    }
 }
 
 static void print_cavity(const sp_setup *setup)

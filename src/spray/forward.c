@@ -22,6 +22,7 @@ typedef struct {
 typedef struct {
     const sp_evaluator *evaluator;
     sp_deposits *deposits;
+    sp_balance *balance;
     double *counted;     /* [patches], m³/s per m² of the nozzle in hand, or of all */
     sp_ray *rays;        /* [BATCH] */
     double *flow;        /* [BATCH], m³/s */
@@ -126,6 +127,17 @@ static size_t gather(jet_flight *flight, size_t count)
     return kept;
 }
 
+/* In the order of the jets, whatever the number of threads. */
+static void keep_balance(jet_flight *flight, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const jet_impact *impact = &flight->impacts[i];
+        bool hit = flight->hits[i].triangle != SP_NONE;
+        sp_balance_add(flight->balance, hit, impact->shares.count > 0, hit ? impact->flow : flight->flow[i],
+                       impact->goes_on ? flight->flow[i] : 0);
+    }
+}
+
 /* Flies `count` jets to their end. */
 static void fly(jet_flight *flight, size_t count)
 {
@@ -137,8 +149,11 @@ static void fly(jet_flight *flight, size_t count)
         for (size_t i = 0; i < count; i++)
             strike(flight, i);
         settle(flight, count);
+        keep_balance(flight, count);
         count = gather(flight, count);
     }
+    for (size_t i = 0; i < count; i++)
+        flight->balance->unfollowed += flight->flow[i];
 }
 
 static uint64_t nozzle_jets(const sp_evaluator *evaluator, const sp_nozzle *nozzle)
@@ -217,6 +232,7 @@ sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout 
         return NULL;
     jet_flight flight = {.evaluator = evaluator,
                          .deposits = &coverage->deposits,
+                         .balance = &coverage->balance,
                          .rays = malloc(BATCH * sizeof *flight.rays),
                          .flow = malloc(BATCH * sizeof *flight.flow),
                          .hits = malloc(BATCH * sizeof *flight.hits),
@@ -230,6 +246,7 @@ sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout 
     free(flight.flow);
     free(flight.hits);
     free(flight.impacts);
+    coverage->balance.known = done;
     if (done)
         return coverage;
     sp_coverage_destroy(coverage);

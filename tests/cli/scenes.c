@@ -419,28 +419,40 @@ static void out_of_time_place_writes_the_best_so_far(void **state)
     }
 }
 
-static void interrupting_place_writes_the_best_so_far(void **state)
+static void place_survives(int signal, const char *folder)
 {
-    (void)state;
     write_long_scene();
-    pid_t child = begin_long_place("interrupted");
+    pid_t child = begin_long_place(folder);
     assert_true(child > 0);
     struct timespec pause = {0, 10000000};
     int status;
-    while (!catches(child, SIGINT)) {
+    while (!catches(child, signal)) {
         assert_int_equal(waitpid(child, &status, WNOHANG), 0); /* it must not have ended by itself */
         nanosleep(&pause, NULL);
     }
     /* The evaluator of twelve triangles takes a few milliseconds. */
     sleep(2);
-    assert_int_equal(kill(child, SIGINT), 0);
+    assert_int_equal(kill(child, signal), 0);
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_true(WIFEXITED(status));
     assert_int_equal(WEXITSTATUS(status), 130);
     char *complaint = read_file(".err", NULL);
     assert_non_null(strstr(complaint, "interrupted"));
     free(complaint);
-    proposal_is_whole("interrupted", true); /* the signal may come before the first nozzle is found */
+    proposal_is_whole(folder, true); /* the signal may come before the first nozzle is found */
+}
+
+static void interrupting_place_writes_the_best_so_far(void **state)
+{
+    (void)state;
+    place_survives(SIGINT, "interrupted");
+}
+
+/* As timeout(1) and schedulers do. */
+static void so_does_asking_it_to_end(void **state)
+{
+    (void)state;
+    place_survives(SIGTERM, "terminated");
 }
 
 int main(void)
@@ -465,6 +477,7 @@ int main(void)
         cmocka_unit_test(atlas_keeps_every_triangle),
         cmocka_unit_test(out_of_time_place_writes_the_best_so_far),
         cmocka_unit_test(interrupting_place_writes_the_best_so_far),
+        cmocka_unit_test(so_does_asking_it_to_end),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }
