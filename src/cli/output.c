@@ -59,21 +59,31 @@ static void print_figures(const sp_figures *figures, const char *name, int width
     printf(" %14.4f\n", isnan(figures->area_per_water) ? 0 : figures->area_per_water / 6e4);
 }
 
-static void print_share(const sp_figures *figures, double flow, const char *where)
+static void print_share(const sp_figures *figures, double flow)
 {
-    printf(" %.1f L/min (%.1f %%) %s", 6e4 * flow, figures->flow > 0 ? 100 * flow / figures->flow : 0, where);
+    printf(" %12.1f %5.1f %%", 6e4 * flow, figures->flow > 0 ? 100 * flow / figures->flow : 0);
 }
 
 /* Where the liquid goes, which coverage does not tell: what flies out or onto obstacles cleans nothing. */
-static void print_liquid(const sp_figures *figures, const char *name, int width)
+static void print_liquid(const sp_result *result, const sp_figures *figures, int width)
 {
-    if (!isfinite(figures->landed_clean))
+    bool known = false;
+    for (size_t i = 0; i < result->design_count; i++)
+        known = known || isfinite(figures[i].landed_clean);
+    if (!known)
         return;
-    printf("%-*s", width, name);
-    print_share(figures, figures->landed_clean, "land on surface to be cleaned,");
-    print_share(figures, figures->landed_other, "on other surface,");
-    print_share(figures, figures->left, "fly out,");
-    print_share(figures, figures->unfollowed, "are thrown back and not followed\n");
+    printf("\n%-*s %20s %20s %20s %20s\n", width, "liquid", "on clean parts L/min", "on other surface", "flies out",
+           "not followed");
+    for (size_t i = 0; i < result->design_count; i++) {
+        if (!isfinite(figures[i].landed_clean))
+            continue;
+        printf("%-*s", width, result->designs[i].name);
+        print_share(&figures[i], figures[i].landed_clean);
+        print_share(&figures[i], figures[i].landed_other);
+        print_share(&figures[i], figures[i].left);
+        print_share(&figures[i], figures[i].unfollowed);
+        printf("\n");
+    }
 }
 
 /* What is proved, in the report's own words; rounded so that it stays true. */
@@ -163,8 +173,7 @@ static bool print_summary(const sp_result *result, sp_error *error)
            "of attainable %", "m2 per L/min");
     for (size_t i = 0; i < result->design_count; i++)
         print_figures(&figures[i], result->designs[i].name, width);
-    for (size_t i = 0; i < result->design_count; i++)
-        print_liquid(&figures[i], result->designs[i].name, width);
+    print_liquid(result, figures, width);
     if (result->proposal)
         print_certificate(result->proposal);
     sp_figures_destroy(figures, result->design_count);
