@@ -135,8 +135,8 @@ typedef struct {
 
 /* Greedy next-best-view placement by the inverse evaluator, then refinement with Ceres accepted only where the
  * re-traced objective improves. Deterministic. Returns NULL on error, never for a target that cannot be reached. Fails
- * with SP_ERROR_INPUT where no mount, type or pressure is given, no mounting point is inside and clear or a kept nozzle is in a wall or
- * outside. */
+ * with SP_ERROR_INPUT where no mount, type or pressure is given, no mounting point is inside and clear or a kept nozzle
+ * is in a wall or outside. */
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error);
 void sp_proposal_destroy(sp_proposal *proposal);
 

@@ -38,21 +38,21 @@ typedef struct {
 typedef struct {
     char *name; /* owned */
     size_t triangles;
-    double area, clean_area;                        /* of the geometry, m² */
-    double attainable_area;                         /* m², with whatever a reported layout covers */
-    double missing_area[SP_REASONS];                /* m² that are not attainable, by reason */
-    size_t missing_count;                           /* of parts that are not wholly attainable */
-    sp_missing_figures *missing;                    /* owned; those of most area first */
-    char trajectory[16], evaluator[16];             /* "line" or "parabola", "forward" or "inverse" */
-    size_t reflections, jets;                       /* jets: per nozzle, unknown for the inverse evaluator */
-    double texel, error_estimate;                   /* m; points of coverage as a fraction */
-    double flow, covered_area;                      /* m³/s, m² */
-    double coverage, of_attainable;                 /* fractions */
-    double area_per_water;                          /* m² per m³/s */
-    double flux_min, flux_mean, flux_p05, flux_max; /* m³/s per m² */
+    double area, clean_area;                             /* of the geometry, m² */
+    double attainable_area;                              /* m², with whatever a reported layout covers */
+    double missing_area[SP_REASONS];                     /* m² that are not attainable, by reason */
+    size_t missing_count;                                /* of parts that are not wholly attainable */
+    sp_missing_figures *missing;                         /* owned; those of most area first */
+    char trajectory[16], evaluator[16];                  /* "line" or "parabola", "forward" or "inverse" */
+    size_t reflections, jets;                            /* jets: per nozzle, unknown for the inverse evaluator */
+    double texel, error_estimate;                        /* m; points of coverage as a fraction */
+    double flow, covered_area;                           /* m³/s, m² */
+    double coverage, of_attainable;                      /* fractions */
+    double area_per_water;                               /* m² per m³/s */
+    double flux_min, flux_mean, flux_p05, flux_max;      /* m³/s per m² */
     double landed_clean, landed_other, left, unfollowed; /* m³/s, as sp_balance */
-    size_t shadow_count;                            /* at most SP_SHADOWS_KEPT, largest first */
-    sp_shadow_figures *shadows;                     /* owned */
+    size_t shadow_count;                                 /* at most SP_SHADOWS_KEPT, largest first */
+    sp_shadow_figures *shadows;                          /* owned */
     size_t nozzle_count;
     sp_nozzle_figures *nozzles; /* owned */
 } sp_figures;

@@ -72,7 +72,7 @@ static void print_liquid(const sp_result *result, const sp_figures *figures, int
         known = known || isfinite(figures[i].landed_clean);
     if (!known)
         return;
-    printf("\n%-*s %20s %20s %20s %20s\n", width, "liquid", "on clean parts L/min", "on other surface", "flies out",
+    printf("\n%-*s %20s %20s %20s %20s\n", width, "L/min", "on surface to clean", "on other surface", "flies out",
            "not followed");
     for (size_t i = 0; i < result->design_count; i++) {
         if (!isfinite(figures[i].landed_clean))

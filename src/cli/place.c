@@ -81,8 +81,7 @@ static bool follow_liquid(const cli_scene *opened, const placement *found, sp_er
 {
     const sp_evaluator *evaluator = opened->evaluator;
     const sp_proposal *proposal = found->proposal;
-    return (!found->manual ||
-            sp_evaluate_balance(evaluator, sp_scene_layout(opened->scene), found->manual, error)) &&
+    return (!found->manual || sp_evaluate_balance(evaluator, sp_scene_layout(opened->scene), found->manual, error)) &&
            sp_evaluate_balance(evaluator, proposal->greedy, proposal->greedy_coverage, error) &&
            sp_evaluate_balance(evaluator, proposal->layout, proposal->coverage, error);
 }

@@ -155,10 +155,10 @@ void sp_page_attainable(const sp_page *page, sp_text *text)
         text, "&nbsp;%%) are attainable: some allowed nozzle, at some allowed place and direction, reaches them as the "
               "criterion asks, or a layout of this report covers them.");
     if (missing > NEGLIGIBLE * figures->clean_area)
-        sp_text_add(
-            text, " What is out of reach of every allowed nozzle is a fault of the vessel or of the mounts allowed, "
-                  "which no choice among them mends: another port, another type of nozzle or a change of the part "
-                  "would.");
+        sp_text_add(text,
+                    " What is out of reach of every allowed nozzle is a fault of the vessel or of the mounts allowed, "
+                    "which no choice among them mends: another port, another type of nozzle or a change of the part "
+                    "would.");
     sp_text_add(text, "</p>\n");
     if (missing > NEGLIGIBLE * figures->clean_area)
         add_table(text, figures);

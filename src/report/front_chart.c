@@ -127,8 +127,8 @@ static void add_designs(const sp_page *page, sp_text *text, const axes *a)
     size_t count = page->result->design_count;
     for (size_t i = 0; i < count; ++i) {
         double legend = HEIGHT - BOTTOM - 20 - 22 * (double)(count - 1 - i);
-        add_marker(text, x_of(a, 6e4 * page->figures[i].flow), y_of(a, 100 * page->figures[i].coverage),
-                   i, sp_page_colour(page, i));
+        add_marker(text, x_of(a, 6e4 * page->figures[i].flow), y_of(a, 100 * page->figures[i].coverage), i,
+                   sp_page_colour(page, i));
         if (count > 12)
             continue;
         add_marker(text, WIDTH - RIGHT - 250, legend - 4, i, sp_page_colour(page, i));

@@ -20,10 +20,8 @@ static double diagonal(const sp_mesh *mesh)
 /* What sees the cavity's point is in its space, though it may see more of the sky than of walls: above an open tank. */
 static bool sees_cavity(const sp_evaluator *evaluator, sp_vec3 point)
 {
-    sp_ray sight = {.origin = point,
-                    .velocity = sp_sub(evaluator->setup.cavity_point, point),
-                    .t_max = 1,
-                    .skip = SP_NONE};
+    sp_ray sight = {
+        .origin = point, .velocity = sp_sub(evaluator->setup.cavity_point, point), .t_max = 1, .skip = SP_NONE};
     return evaluator->setup.cavity == SP_CAVITY_POINT &&
            (!(sp_length(sight.velocity) > 0) || !sp_trace_occluded(evaluator->tracer, &sight, sp_v(0, 0, 0)));
 }

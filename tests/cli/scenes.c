@@ -43,6 +43,39 @@ static void check_measures_the_room(void **state)
     json_decref(object);
 }
 
+/* The box of each part, and a warning where the file's unit can hardly be meant. */
+static void check_tells_how_large_everything_is(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *unit;
+        double metres;
+        int warnings;
+    } units[] = {{"m", 1, 0}, {"mm", 1e-3, 1}, {"km", 1e3, 1}};
+    for (size_t i = 0; i < 3; i++) {
+        char scene[256];
+        snprintf(scene, sizeof scene, "geometry:\n  - {file: room.obj, unit: %s}\ncavity: [%g, %g, %g]\n",
+                 units[i].unit, 0.5 * units[i].metres, 0.5 * units[i].metres, 0.5 * units[i].metres);
+        write_file("sized.yaml", scene);
+        json_t *object = expect_json("check sized.yaml --json", 0), *warnings = json_object_get(object, "warnings");
+        json_t *ceiling = json_array_get(json_object_get(object, "parts"), 1);
+        const double low[] = {0, 0, 1}, high[] = {1, 1, 1};
+        for (size_t k = 0; k < 3; k++) {
+            double a = json_number_value(json_array_get(json_object_get(ceiling, "minimum_m"), k));
+            double b = json_number_value(json_array_get(json_object_get(ceiling, "maximum_m"), k));
+            assert_true(fabs(a - low[k] * units[i].metres) < 1e-9 * units[i].metres);
+            assert_true(fabs(b - high[k] * units[i].metres) < 1e-9 * units[i].metres);
+        }
+        assert_int_equal(json_array_size(warnings), units[i].warnings);
+        assert_true(!units[i].warnings || strstr(json_string_value(json_array_get(warnings, 0)), "unit"));
+        json_decref(object);
+    }
+    outcome result = run_program("check room.yaml");
+    assert_non_null(
+        strstr(result.out, "0        ceiling                  0, 0, 1                              1, 1, 1\n"));
+    forget(&result);
+}
+
 static void check_warns_where_bodies_are_closed_and_no_cavity_is_named(void **state)
 {
     (void)state;
@@ -467,15 +500,17 @@ static void simulate_says_where_the_liquid_goes(void **state)
     char open_obj[sizeof room_obj], scene[1024];
     snprintf(open_obj, sizeof open_obj, "%.*s%s", (int)(ceiling - room_obj), room_obj, walls);
     write_file("open.obj", open_obj);
-    snprintf(scene, sizeof scene, "geometry:\n  - file: open.obj\n    clean_parts: [floor]\ncatalogue: catalogue.yaml\n"
-                                  "nozzles:\n  - {name: N1, type: ball, position: [0.5 m, 0.5 m, 0.5 m], axis: [0, 0, 1], "
-                                  "pressure: 2 bar}\nsimulate: {texel: 100 mm, trajectory: line}\n");
+    snprintf(scene, sizeof scene,
+             "geometry:\n  - file: open.obj\n    clean_parts: [floor]\ncatalogue: catalogue.yaml\n"
+             "nozzles:\n  - {name: N1, type: ball, position: [0.5 m, 0.5 m, 0.5 m], axis: [0, 0, 1], "
+             "pressure: 2 bar}\nsimulate: {texel: 100 mm, trajectory: line}\n");
     write_file("open.yaml", scene);
     outcome result = run_program("simulate open.yaml -o opened");
     assert_int_equal(result.status, 0);
-    assert_non_null(strstr(result.out, "on clean parts L/min     on other surface            flies out         not followed\n"
-                                       "manual          3.3  16.7 %         13.3  66.6 %          3.3  16.7 %          "
-                                       "0.0   0.0 %\n"));
+    assert_non_null(strstr(
+        result.out, "L/min   on surface to clean     on other surface            flies out         not followed\n"
+                    "manual          3.3  16.7 %         13.3  66.6 %          3.3  16.7 %          "
+                    "0.0   0.0 %\n"));
     forget(&result);
     char row[512];
     row_of("opened", "Flies out of the geometry", row);
@@ -618,6 +653,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(check_measures_the_room),
+        cmocka_unit_test(check_tells_how_large_everything_is),
         cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),
         cmocka_unit_test(check_reports_the_cavity),
         cmocka_unit_test(simulate_gives_the_figures),

@@ -355,12 +355,12 @@ static void figures_survive_the_file(void **state)
             for (sp_reason reason = SP_REASON_NO_LINE; reason < SP_REASONS; reason++)
                 same_real(a->missing[k].areas[reason], b->missing[k].areas[reason]);
         }
-        const double first[] = {a->flow,      a->covered_area, a->coverage, a->of_attainable, a->area_per_water,
-                                a->flux_min,  a->flux_mean,    a->flux_p05, a->flux_max,      a->landed_clean,
-                                a->landed_other, a->left,      a->unfollowed, a->attainable_area};
-        const double second[] = {b->flow,      b->covered_area, b->coverage, b->of_attainable, b->area_per_water,
-                                 b->flux_min,  b->flux_mean,    b->flux_p05, b->flux_max,      b->landed_clean,
-                                 b->landed_other, b->left,      b->unfollowed, b->attainable_area};
+        const double first[] = {a->flow,         a->covered_area, a->coverage,   a->of_attainable,  a->area_per_water,
+                                a->flux_min,     a->flux_mean,    a->flux_p05,   a->flux_max,       a->landed_clean,
+                                a->landed_other, a->left,         a->unfollowed, a->attainable_area};
+        const double second[] = {b->flow,         b->covered_area, b->coverage,   b->of_attainable,  b->area_per_water,
+                                 b->flux_min,     b->flux_mean,    b->flux_p05,   b->flux_max,       b->landed_clean,
+                                 b->landed_other, b->left,         b->unfollowed, b->attainable_area};
         for (size_t k = 0; k < sizeof first / sizeof *first; k++)
             same_real(first[k], second[k]);
     }

@@ -161,7 +161,8 @@ static void a_nozzle_stands_in_the_liquid(void **state)
 {
     (void)state;
     static const sp_vec3 places[] = {{0, 0, 0}, {0, 0, 3}, {0.2, 0.1, 1}, {1, 1, 1}};
-    static const bool stands[3][4] = {{true, true, false, false}, {true, false, false, false}, {false, true, false, false}};
+    static const bool stands[3][4] = {
+        {true, true, false, false}, {true, false, false, false}, {false, true, false, false}};
     static const sp_cavity_kind cavities[] = {SP_CAVITY_NONE, SP_CAVITY_POINT, SP_CAVITY_OUTSIDE};
     for (int c = 0; c < 3; c++) {
         fixture f;
