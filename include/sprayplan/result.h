@@ -63,6 +63,9 @@ typedef struct {
 const char *sp_reason_key(sp_reason reason);
 /* The same for readers, "no line of reach". */
 const char *sp_reason_text(sp_reason reason);
+/* Index in `missing` of the part of which the reason keeps most out of reach, of equal ones the first; given one such
+ * index as `last`, of the next; SP_UNKNOWN before the first and after the last. */
+size_t sp_missing_next(const sp_figures *figures, sp_reason reason, size_t last);
 
 /* Accepts NULL. */
 void sp_figures_destroy(sp_figures *figures, size_t count);

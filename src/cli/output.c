@@ -114,25 +114,11 @@ static void print_certificate(const sp_proposal *proposal)
 
 enum { PARTS_NAMED = 3 };
 
-/* The part that a reason keeps out of reach most, after `last` in that order; SIZE_MAX: none. */
-static size_t next_part(const sp_figures *figures, sp_reason reason, size_t last)
-{
-    const sp_missing_figures *parts = figures->missing;
-    size_t next = SIZE_MAX;
-    for (size_t k = 0; k < figures->missing_count; k++) {
-        double area = parts[k].areas[reason], before = last == SIZE_MAX ? INFINITY : parts[last].areas[reason];
-        bool after = area < before || (area == before && k > last);
-        if (area > 0 && after && (next == SIZE_MAX || area > parts[next].areas[reason]))
-            next = k;
-    }
-    return next;
-}
-
 static void print_parts(const sp_figures *figures, sp_reason reason)
 {
     double left = figures->missing_area[reason];
     size_t part = SIZE_MAX;
-    for (int i = 0; i < PARTS_NAMED && (part = next_part(figures, reason, part)) != SIZE_MAX; i++) {
+    for (int i = 0; i < PARTS_NAMED && (part = sp_missing_next(figures, reason, part)) != SIZE_MAX; i++) {
         printf("%s%s %.4f", i ? ", " : ": ", figures->missing[part].part, figures->missing[part].areas[reason]);
         left -= figures->missing[part].areas[reason];
     }
@@ -146,8 +132,9 @@ static void print_missing(const sp_figures *figures)
     double missing = figures->clean_area - figures->attainable_area;
     if (!(missing > 1e-6 * figures->clean_area))
         return;
-    printf("out of reach of every allowed nozzle: %.2g %% of the surface to be cleaned, %.4f m2\n",
-           100 * missing / figures->clean_area, missing);
+    double percent = 100 * missing / figures->clean_area;
+    printf("out of reach of every allowed nozzle: %.*f %% of the surface to be cleaned, %.4f m2\n", percent < 1 ? 3 : 1,
+           percent, missing);
     for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
         const char *text = reason == SP_REASON_UNKNOWN ? "not looked into" : sp_reason_text(reason);
         if (!text || !(figures->missing_area[reason] > 0))

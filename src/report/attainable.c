@@ -2,6 +2,7 @@
 #include "page.h"
 
 #define PARTS_SHOWN 12
+#define PARTS_NAMED 3
 #define NEGLIGIBLE 1e-6 /* share of the surface to be cleaned */
 
 static const char *const explanations[SP_REASONS] = {
@@ -57,6 +58,27 @@ static size_t rank_reasons(const double areas[SP_REASONS], sp_reason ranked[SP_R
     return count;
 }
 
+/* Area, reason and the parts that it is most of. */
+static void add_reason(sp_text *text, const sp_figures *figures, const area_unit *unit, sp_reason reason)
+{
+    double others = figures->missing_area[reason];
+    size_t part = SP_UNKNOWN;
+    sp_markup_decimals(text, unit->per_m2 * figures->missing_area[reason], unit->decimals);
+    sp_text_add(text, "&nbsp;%s %s", unit->name, reason_text(reason));
+    for (int i = 0; i < PARTS_NAMED && (part = sp_missing_next(figures, reason, part)) != SP_UNKNOWN; i++) {
+        sp_text_add(text, i ? ", " : " (");
+        sp_markup_escape(text, figures->missing[part].part);
+        sp_text_add(text, "&nbsp;");
+        sp_markup_decimals(text, unit->per_m2 * figures->missing[part].areas[reason], unit->decimals);
+        others -= figures->missing[part].areas[reason];
+    }
+    if (others > NEGLIGIBLE * figures->clean_area) {
+        sp_text_add(text, ", others ");
+        sp_markup_decimals(text, unit->per_m2 * others, unit->decimals);
+    }
+    sp_text_add(text, figures->missing_count ? ")" : "");
+}
+
 void sp_page_out_of_reach(const sp_page *page, sp_text *text)
 {
     const sp_figures *figures = known(page);
@@ -69,14 +91,14 @@ void sp_page_out_of_reach(const sp_page *page, sp_text *text)
     size_t count = rank_reasons(figures->missing_area, ranked);
     sp_text_add(text, "<p id=\"out-of-reach\" class=\"%s\"><strong>",
                 proposal && figures->attainable_area < proposal->asked_area ? "warning" : "note");
-    sp_markup_significant(text, 100 * missing / figures->clean_area, 2);
+    double percent = 100 * missing / figures->clean_area;
+    sp_markup_decimals(text, percent, percent < 1 ? 3 : 1);
     sp_text_add(text, "&nbsp;%% of the surface to be cleaned is out of reach</strong> of every allowed nozzle: ");
     for (size_t i = 0; i < count; i++) {
-        sp_text_add(text, i ? ", " : "");
-        sp_markup_decimals(text, unit.per_m2 * figures->missing_area[ranked[i]], unit.decimals);
-        sp_text_add(text, "&nbsp;%s %s", unit.name, reason_text(ranked[i]));
+        sp_text_add(text, i ? "; " : "");
+        add_reason(text, figures, &unit, ranked[i]);
     }
-    sp_text_add(text, ". <a href=\"#attainable\">By part</a>.</p>\n");
+    sp_text_add(text, ". <a href=\"#attainable\">All parts</a>.</p>\n");
 }
 
 static void add_row(sp_text *text, const area_unit *unit, const sp_missing_figures *row, const sp_reason *ranked,
