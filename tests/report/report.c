@@ -412,6 +412,7 @@ static void a_certificate_is_told_in_full(void **state)
         front[i] = f->front[i];
         front[i].counted = 6 + i;
         front[i].bound = 8 + 0.5 * i;
+        front[i].every_aim_bound = 9 + 0.25 * i;
     }
     proposal.front = front;
     proposal.certificate = (sp_certificate){.computed = true,
@@ -422,7 +423,12 @@ static void a_certificate_is_told_in_full(void **state)
                                             .counted = 8.0401,
                                             .area_bound = 9.0001,
                                             .water_bound = 31.29 / 6e4,
-                                            .gap = 0.10667};
+                                            .gap = 0.10667,
+                                            .every_aim = {.computed = true,
+                                                          .places = 56,
+                                                          .area_bound = 9.5,
+                                                          .water_bound = 23.45 / 6e4,
+                                                          .gap = 0.1537}};
     sp_result result = f->result;
     result.proposal = &proposal;
     html = sp_report_html(&result, &error);
@@ -438,18 +444,23 @@ static void a_certificate_is_told_in_full(void **state)
     text = sp_result_json(&result, &error);
     json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL), *certificate = json_object_get(all, "certificate");
     EXPECT_KEYS(certificate, "method", "coverage", "coverage_bound_same_water", "water_bound_same_coverage_l_min",
-                "gap", "candidates", "own_poses", "texels");
+                "gap", "candidates", "own_poses", "texels", "every_aim");
     EXPECT_KEYS(json_array_get(json_object_get(all, "front"), 0), "water_l_min", "coverage", "nozzles",
-                "coverage_on_texels", "coverage_bound");
+                "coverage_on_texels", "coverage_bound", "coverage_bound_every_aim");
     assert_true(fabs(json_number_value(json_object_get(certificate, "coverage_bound_same_water")) - 0.90001) < 1e-12);
     assert_true(fabs(real_of(certificate, "water_bound_same_coverage_l_min") - 31.29) < 1e-9);
     assert_true(fabs(real_of(certificate, "coverage") - 0.80401) < 1e-12);
     assert_true(real_of(certificate, "gap") == 0.10667);
+    const json_t *every = json_object_get(certificate, "every_aim");
+    assert_true(fabs(real_of(every, "water_bound_same_coverage_l_min") - 23.45) < 1e-9);
+    assert_true(fabs(real_of(every, "coverage_bound_same_water") - 0.95) < 1e-12);
+    assert_true(real_of(every, "gap") == 0.1537 && real_of(every, "mounting_points") == 56);
     for (size_t i = 0; i < 3; i++) {
         const json_t *point = json_array_get(json_object_get(all, "front"), i);
         assert_true(fabs(real_of(point, "water_l_min") - 6e4 * front[i].flow) < 1e-9);
         assert_true(fabs(real_of(point, "coverage_on_texels") - front[i].counted / 10) < 1e-12);
         assert_true(fabs(real_of(point, "coverage_bound") - front[i].bound / 10) < 1e-12);
+        assert_true(fabs(real_of(point, "coverage_bound_every_aim") - front[i].every_aim_bound / 10) < 1e-12);
     }
     json_decref(all);
     free(text);
