@@ -133,8 +133,9 @@ static void print_missing(const sp_figures *figures)
     if (!(missing > 1e-6 * figures->clean_area))
         return;
     double percent = 100 * missing / figures->clean_area;
-    printf("out of reach of every allowed nozzle: %.*f %% of the surface to be cleaned, %.4f m2\n", percent < 1 ? 3 : 1,
-           percent, missing);
+    printf("out of reach of every allowed nozzle%s: %.*f %% of the surface to be cleaned, %.4f m2\n",
+           figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or not looked into" : "", percent < 1 ? 3 : 1, percent,
+           missing);
     for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
         const char *text = reason == SP_REASON_UNKNOWN ? "not looked into" : sp_reason_text(reason);
         if (!text || !(figures->missing_area[reason] > 0))

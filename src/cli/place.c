@@ -86,6 +86,19 @@ static bool follow_liquid(const cli_scene *opened, const placement *found, sp_er
            sp_evaluate_balance(evaluator, proposal->layout, proposal->coverage, error);
 }
 
+/* A nozzle of the scene's own that could not stand where it is drawn: what the proposal is compared with is in doubt.
+ */
+static void warn_of_own(const cli_scene *opened, const sp_layout *own)
+{
+    for (size_t i = 0; i < own->count; i++) {
+        sp_error error = {0};
+        if (own->nozzles[i].keep || sp_evaluator_admits(opened->evaluator, &own->nozzles[i], &error))
+            continue;
+        cli_progress_end();
+        fprintf(stderr, "sprayplan: the layout compared with is in doubt: %s\n", error.message);
+    }
+}
+
 static int place(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error)
 {
     placement found = {0};
@@ -102,6 +115,8 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
         found.proposal = sp_place(opened->evaluator, &how, error);
     }
     bool good = found.proposal && follow_liquid(opened, &found, error);
+    if (good && !options->quiet)
+        warn_of_own(opened, own);
     int status = good ? report(options, opened, &found, clock, error) : cli_fail_in(opened, error);
     sp_proposal_destroy(found.proposal);
     sp_coverage_destroy(found.manual);

@@ -93,7 +93,8 @@ void sp_page_out_of_reach(const sp_page *page, sp_text *text)
                 proposal && figures->attainable_area < proposal->asked_area ? "warning" : "note");
     double percent = 100 * missing / figures->clean_area;
     sp_markup_decimals(text, percent, percent < 1 ? 3 : 1);
-    sp_text_add(text, "&nbsp;%% of the surface to be cleaned is out of reach</strong> of every allowed nozzle: ");
+    sp_text_add(text, "&nbsp;%% of the surface to be cleaned is out of reach</strong> of every allowed nozzle%s: ",
+                figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or was not looked into" : "");
     for (size_t i = 0; i < count; i++) {
         sp_text_add(text, i ? "; " : "");
         add_reason(text, figures, &unit, ranked[i]);

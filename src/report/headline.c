@@ -52,7 +52,7 @@ static void add_shortfall(const sp_figures *proposed, const sp_proposal *proposa
     sp_text_add(text, "&nbsp;%% of the surface to be cleaned (");
     sp_markup_significant(text, proposal->asked_area, 4);
     sp_text_add(text, "&nbsp;m\xc2\xb2) were asked for within the limits on nozzles, water and ports; ");
-    if (proposed->attainable_area < proposal->asked_area) {
+    if (proposed->attainable_area < proposal->asked_area && !(proposed->missing_area[SP_REASON_UNKNOWN] > 0)) {
         sp_text_add(text, "no more than ");
         sp_markup_decimals(text, percent * proposed->attainable_area, 1);
         sp_text_add(text, "&nbsp;%% are attainable, so that ");

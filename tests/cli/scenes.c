@@ -481,8 +481,12 @@ static void a_nozzle_must_stand_in_the_liquid(void **state)
         assert_int_equal(told, 1);
         json_decref(object);
     }
+    outcome result = run_program("place astray.yaml --set 'place.coverage=10 %' --time-limit 1");
+    assert_int_equal(result.status, 0);
+    assert_non_null(strstr(result.err, "the layout compared with is in doubt: nozzles: N1 at "));
+    forget(&result);
     write_room_with("astray.yaml", "[0.5 m, 0.5 m, 0.9 m]", "[0.5 m, 0.5 m, 1.9 m], keep: true");
-    outcome result = run_program("place astray.yaml");
+    result = run_program("place astray.yaml");
     assert_int_equal(result.status, 3);
     forget(&result);
 }

@@ -302,7 +302,12 @@ static void reasons_add_up(void **state)
     assert_non_null(strstr(text, "attainable_area_m2"));
     assert_null(strstr(text, "unattainable_m2"));
     assert_null(strstr(text, "\"reason\""));
+    assert_null(strstr(text, "unattainable_by_part"));
     free(text);
+    html = sp_report_html(&result, &error);
+    assert_non_null(strstr(html, "of every allowed nozzle, or was not looked into: "));
+    assert_null(strstr(html, "are attainable, so that"));
+    free(html);
 }
 
 /* Each by a value of its own, so that no two can be confused and none be off by a factor. */
