@@ -420,20 +420,17 @@ static void a_certificate_is_told_in_full(void **state)
         front[i].every_aim_bound = 9 + 0.25 * i;
     }
     proposal.front = front;
-    proposal.certificate = (sp_certificate){.computed = true,
-                                            .texels = 20011,
-                                            .candidates = 123456,
-                                            .own = 7,
-                                            .whole = 10,
-                                            .counted = 8.0401,
-                                            .area_bound = 9.0001,
-                                            .water_bound = 31.29 / 6e4,
-                                            .gap = 0.10667,
-                                            .every_aim = {.computed = true,
-                                                          .places = 56,
-                                                          .area_bound = 9.5,
-                                                          .water_bound = 23.45 / 6e4,
-                                                          .gap = 0.1537}};
+    proposal.certificate = (sp_certificate){
+        .computed = true,
+        .texels = 20011,
+        .candidates = 123456,
+        .own = 7,
+        .whole = 10,
+        .counted = 8.0401,
+        .area_bound = 9.0001,
+        .water_bound = 31.29 / 6e4,
+        .gap = 0.10667,
+        .every_aim = {.computed = true, .places = 56, .area_bound = 9.5, .water_bound = 23.45 / 6e4, .gap = 0.1537}};
     sp_result result = f->result;
     result.proposal = &proposal;
     html = sp_report_html(&result, &error);
