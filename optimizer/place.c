@@ -35,12 +35,15 @@ static void placement_free(sp_placement *placement)
     free(placement->watch.stages);
 }
 
-static bool check(const sp_place_options *options, sp_error *error)
+static bool check(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error)
 {
     if (!options->mount_count)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: no mounts");
     if (!(options->coverage >= 0 && options->coverage <= 1))
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: coverage: %g, expected 0 to 1", options->coverage);
+    for (size_t i = 0; options->kept && i < options->kept->count; i++)
+        if (options->kept->nozzles[i].keep && !sp_evaluator_admits(evaluator, &options->kept->nozzles[i], error))
+            return false;
     return true;
 }
 
@@ -69,6 +72,14 @@ static double area_of(const sp_evaluator *fine, const bool *chosen)
     return area;
 }
 
+/* What is asked for, and what to aim at: where less is attainable, that share of what is. */
+static void set_areas(const sp_placement *placement, sp_proposal *proposal)
+{
+    double share = placement->options->coverage, attainable = area_of(placement->fine, proposal->attainable);
+    proposal->asked_area = share * sp_evaluator_patches(placement->fine)->total_area;
+    proposal->target_area = attainable < proposal->asked_area ? share * attainable : proposal->asked_area;
+}
+
 static bool set_target(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
     size_t patches = sp_evaluator_patches(placement->fine)->count;
@@ -80,7 +91,7 @@ static bool set_target(sp_placement *placement, sp_proposal *proposal, sp_error 
         return false;
     for (size_t p = 0; p < patches; p++)
         proposal->attainable[p] = proposal->reasons[p] == SP_REASON_ATTAINABLE;
-    proposal->target_area = placement->options->coverage * area_of(placement->fine, proposal->attainable);
+    set_areas(placement, proposal);
     placement->front.fine = placement->fine;
     placement->front.objective = placement->options->objective;
     placement->front.target = proposal->target_area;
@@ -106,12 +117,12 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
 {
     const sp_place_options *options = placement->options;
     for (size_t p = 0; p < proposal->coverage->deposits.count; p++)
-        if (proposal->coverage->deposits.covered[p] || proposal->greedy_coverage->deposits.covered[p]) {
+        if (proposal->coverage->deposits.share[p] > 0 || proposal->greedy_coverage->deposits.share[p] > 0) {
             proposal->attainable[p] = true;
             proposal->reasons[p] = SP_REASON_ATTAINABLE;
         }
     proposal->attainable_area = area_of(placement->fine, proposal->attainable);
-    proposal->reached = proposal->target_area > 0 && proposal->coverage->covered_area >= proposal->target_area &&
+    proposal->reached = proposal->asked_area > 0 && proposal->coverage->covered_area >= proposal->asked_area &&
                         proposal->coverage->flow <= options->max_water * (1 + SP_ROUNDING) &&
                         (!options->max_nozzles || proposal->layout->count <= options->max_nozzles);
     proposal->interrupted = placement->watch.interrupted;
@@ -127,7 +138,7 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
 
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error)
 {
-    if (!evaluator || !check(options, error))
+    if (!evaluator || !check(evaluator, options, error))
         return NULL;
     sp_proposal *proposal = calloc(1, sizeof *proposal);
     if (!proposal)

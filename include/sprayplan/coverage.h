@@ -86,6 +86,15 @@ typedef struct {
     sp_reason reason;      /* of most of its area that is not attainable; attainable or unknown where there is none */
 } sp_shadow;
 
+/* Where a layout's liquid ends, m³/s; the sum is what leaves its nozzles. */
+typedef struct {
+    bool known;        /* false: nothing below means anything */
+    double clean;      /* stays on surface that is cleaned and counted */
+    double other;      /* stays on obstacles and dry sides */
+    double left;       /* flies out of the geometry and meets nothing */
+    double unfollowed; /* is thrown back from a wall and not followed any further */
+} sp_balance;
+
 typedef struct {
     double area;                                    /* clean (and wet) area, m² */
     double covered_area;                            /* Σ share area, m² */
@@ -93,6 +102,7 @@ typedef struct {
     double flow;                                    /* m³/s */
     double area_per_water;                          /* covered area over flow, m² per m³/s; 0 without flow */
     double flux_min, flux_mean, flux_p05, flux_max; /* m³/s per m² over the clean area, by area; p05: 5th percentile */
+    sp_balance balance; /* known from the forward evaluator; else sp_evaluate_balance works it out */
     sp_deposits deposits;
 } sp_coverage;
 

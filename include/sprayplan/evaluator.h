@@ -50,12 +50,20 @@ unsigned sp_evaluator_wet(const sp_evaluator *evaluator, uint32_t triangle);
 /* True where the point lies in the space that the wet sides face (no cavity: everywhere). Decided by lines of sight in
  * at least 16 directions: what most of them first meet is a wet side (or, with the cavity outside, nothing). */
 bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point);
+/* False, with an error that names the nozzle, where it cannot stand: in a wall (nearer to a surface than 1e-6 of the
+ * geometry's diagonal), or not in the space that the wet sides face (by lines of sight as above, and none to the
+ * cavity's point). */
+bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle, sp_error *error);
 /* g, m/s²; zero for trajectory line. */
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator);
 
 /* Evaluates by the scene's own method; by the inverse method whatever the scene asks. NULL on error. */
 sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
 sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
+/* Works out coverage->balance of this layout where it is not known: 20,000 jets of each nozzle are flown to their first
+ * impact, evenly spread, which tells shares of the liquid to about 0.1 %. */
+bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
+                         sp_error *error);
 
 /* How liquid from one position at one speed arrives at a patch: nothing here depends on the nozzle's axis, roll, angle,
  * type or flow. The flux (m/s) at the patch is Q · intensity(direction) · transfer. */

@@ -44,7 +44,8 @@ typedef struct {
 
 typedef struct {
     sp_objective objective;
-    double coverage;    /* of attainable area, to be reached */
+    double coverage;    /* asked for, share of the surface to be cleaned; where less is attainable the search aims at
+                         * this share of what is */
     size_t max_nozzles; /* 0: unlimited */
     double max_water;   /* m³/s; INFINITY: unlimited */
     size_t type_count;
@@ -114,11 +115,12 @@ typedef struct {
     sp_coverage *coverage; /* of it, by the scene's own settings */
     sp_layout *greedy;     /* the best found on the candidates, before refinement */
     sp_coverage *greedy_coverage;
-    bool *attainable;       /* [patches] */
+    bool *attainable;       /* [patches], by the allowed nozzles or either layout above */
     sp_reason *reasons;     /* [patches]: why not */
     double attainable_area; /* m² */
-    double target_area;     /* m² that had to be covered */
-    bool reached;           /* the proposal covers target_area within all limits */
+    double asked_area;      /* m²: options' coverage of the surface to be cleaned */
+    double target_area;     /* m² aimed at: asked_area, or where the allowed nozzles attain less that share of it */
+    bool reached;           /* the proposal covers asked_area within all limits */
     bool interrupted;       /* cancelled or out of time: the best so far */
     size_t positions,
         candidates; /* mounting points kept; poses considered (position × axis × roll × type × pressure) */
@@ -133,7 +135,8 @@ typedef struct {
 
 /* Greedy next-best-view placement by the inverse evaluator, then refinement with Ceres accepted only where the
  * re-traced objective improves. Deterministic. Returns NULL on error, never for a target that cannot be reached. Fails
- * with SP_ERROR_INPUT where no mount, type or pressure is given or no mounting point is inside and clear. */
+ * with SP_ERROR_INPUT where no mount, type or pressure is given, no mounting point is inside and clear or a kept nozzle
+ * is in a wall or outside. */
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error);
 void sp_proposal_destroy(sp_proposal *proposal);
 

@@ -21,6 +21,13 @@ typedef struct {
     sp_reason reason; /* where not, of most of what is not attainable of it; else unknown */
 } sp_shadow_figures;
 
+/* What of one part is not attainable. */
+typedef struct {
+    char *part;               /* owned */
+    double area;              /* m², of all reasons */
+    double areas[SP_REASONS]; /* m², by reason */
+} sp_missing_figures;
+
 typedef struct {
     char *name, *type;                         /* owned */
     sp_vec3 position;                          /* m */
@@ -31,18 +38,21 @@ typedef struct {
 typedef struct {
     char *name; /* owned */
     size_t triangles;
-    double area, clean_area;                        /* of the geometry, m² */
-    double attainable_area;                         /* m², with whatever a reported layout covers */
-    double missing_area[SP_REASONS];                /* m² that are not attainable, by reason */
-    char trajectory[16], evaluator[16];             /* "line" or "parabola", "forward" or "inverse" */
-    size_t reflections, jets;                       /* jets: per nozzle, unknown for the inverse evaluator */
-    double texel, error_estimate;                   /* m; points of coverage as a fraction */
-    double flow, covered_area;                      /* m³/s, m² */
-    double coverage, of_attainable;                 /* fractions */
-    double area_per_water;                          /* m² per m³/s */
-    double flux_min, flux_mean, flux_p05, flux_max; /* m³/s per m² */
-    size_t shadow_count;                            /* at most SP_SHADOWS_KEPT, largest first */
-    sp_shadow_figures *shadows;                     /* owned */
+    double area, clean_area;                             /* of the geometry, m² */
+    double attainable_area;                              /* m², with whatever a reported layout covers */
+    double missing_area[SP_REASONS];                     /* m² that are not attainable, by reason */
+    size_t missing_count;                                /* of parts that are not wholly attainable */
+    sp_missing_figures *missing;                         /* owned; those of most area first */
+    char trajectory[16], evaluator[16];                  /* "line" or "parabola", "forward" or "inverse" */
+    size_t reflections, jets;                            /* jets: per nozzle, unknown for the inverse evaluator */
+    double texel, error_estimate;                        /* m; points of coverage as a fraction */
+    double flow, covered_area;                           /* m³/s, m² */
+    double coverage, of_attainable;                      /* fractions */
+    double area_per_water;                               /* m² per m³/s */
+    double flux_min, flux_mean, flux_p05, flux_max;      /* m³/s per m² */
+    double landed_clean, landed_other, left, unfollowed; /* m³/s, as sp_balance */
+    size_t shadow_count;                                 /* at most SP_SHADOWS_KEPT, largest first */
+    sp_shadow_figures *shadows;                          /* owned */
     size_t nozzle_count;
     sp_nozzle_figures *nozzles; /* owned */
 } sp_figures;
@@ -53,6 +63,9 @@ typedef struct {
 const char *sp_reason_key(sp_reason reason);
 /* The same for readers, "no line of reach". */
 const char *sp_reason_text(sp_reason reason);
+/* Index in `missing` of the part of which the reason keeps most out of reach, of equal ones the first; given one such
+ * index as `last`, of the next; SP_UNKNOWN before the first and after the last. */
+size_t sp_missing_next(const sp_figures *figures, sp_reason reason, size_t last);
 
 /* Accepts NULL. */
 void sp_figures_destroy(sp_figures *figures, size_t count);

@@ -2,7 +2,7 @@
 
 #include "grow.h"
 
-#include "candidates/distance.h"
+#include "mesh/distance.h"
 #include "watch.h"
 
 #include <stdlib.h>

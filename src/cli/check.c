@@ -6,12 +6,16 @@
 #include <stdlib.h>
 
 enum { MAX_WARNINGS = 100 };
+/* m; vessels and machines lie between */
+#define LARGEST_SIZE 100.0
+#define SMALLEST_SIZE 0.01
 
 typedef struct {
     const cli_scene *opened;
     sp_mesh_diagnosis mesh;
     double *part_area, *part_wet; /* [part_count], m²: all triangles; their wet sides */
     size_t *part_triangles;
+    cli_box *part_box; /* [part_count] */
     char warnings[MAX_WARNINGS][256];
     size_t warning_count;
 } findings;
@@ -38,7 +42,8 @@ static bool measure_parts(findings *found, sp_error *error)
     found->part_area = calloc(mesh->part_count, sizeof *found->part_area);
     found->part_wet = calloc(mesh->part_count, sizeof *found->part_wet);
     found->part_triangles = calloc(mesh->part_count, sizeof *found->part_triangles);
-    if (!found->part_area || !found->part_wet || !found->part_triangles)
+    found->part_box = cli_part_boxes(mesh);
+    if (!found->part_area || !found->part_wet || !found->part_triangles || !found->part_box)
         return sp_fail_memory(error);
     for (size_t i = 0; i < mesh->triangle_count; i++) {
         double area = sp_triangle_area(mesh, (uint32_t)i);
@@ -68,6 +73,22 @@ static void warn_of_mesh(findings *found)
         warn(found, "geometry: %zu triangles are there twice", mesh->duplicate_triangles);
 }
 
+/* A file whose unit is not what the scene says is a thousand times too large or too small, or 25 times. */
+static void warn_of_size(findings *found)
+{
+    const sp_mesh *mesh = setup_of(found)->mesh;
+    for (size_t i = 0; i < mesh->part_count;) {
+        uint32_t geometry = mesh->parts[i].geometry;
+        cli_box box = found->part_box[i];
+        for (; i < mesh->part_count && mesh->parts[i].geometry == geometry; i++)
+            box = cli_box_join(box, found->part_box[i]);
+        double size = cli_box_size(box);
+        if (size > LARGEST_SIZE || size < SMALLEST_SIZE)
+            warn(found, "geometry: file %lu is %.4g m across: is `unit` the unit of its coordinates?",
+                 (unsigned long)geometry, size);
+    }
+}
+
 static void warn_of_cavity(findings *found)
 {
     const sp_setup *setup = setup_of(found);
@@ -80,9 +101,11 @@ static void warn_of_cavity(findings *found)
 static void warn_of_nozzles(findings *found)
 {
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
-    for (size_t i = 0; i < layout->count; i++)
-        if (!sp_evaluator_inside(found->opened->evaluator, layout->nozzles[i].position))
-            warn(found, "nozzles: %s is not inside the cavity", layout->nozzles[i].name);
+    for (size_t i = 0; i < layout->count; i++) {
+        sp_error error = {0};
+        if (!sp_evaluator_admits(found->opened->evaluator, &layout->nozzles[i], &error))
+            warn(found, "%s", error.message);
+    }
 }
 
 static void print_cavity(const sp_setup *setup)
@@ -94,6 +117,19 @@ static void print_cavity(const sp_setup *setup)
     else
         printf("cavity      sides that face the space of [%.6g m, %.6g m, %.6g m]\n", setup->cavity_point.x,
                setup->cavity_point.y, setup->cavity_point.z);
+}
+
+static void print_boxes(const findings *found)
+{
+    const sp_mesh *mesh = setup_of(found)->mesh;
+    printf("\n%-8s %-24s %-36s %s\n", "geometry", "part", "from, m", "to, m");
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        sp_vec3 low = found->part_box[i].minimum, high = found->part_box[i].maximum;
+        char from[64];
+        snprintf(from, sizeof from, "%.6g, %.6g, %.6g", low.x, low.y, low.z);
+        printf("%-8lu %-24s %-36s %.6g, %.6g, %.6g\n", (unsigned long)mesh->parts[i].geometry, mesh->parts[i].name,
+               from, high.x, high.y, high.z);
+    }
 }
 
 static void print_table(const findings *found)
@@ -117,6 +153,7 @@ static void print_table(const findings *found)
         printf("%-8lu %-24s %-9s %10zu %12.4f %12.4f\n", (unsigned long)mesh->parts[i].geometry, mesh->parts[i].name,
                setup->surfaces[i].clean ? "clean" : "obstacle", found->part_triangles[i], found->part_area[i],
                found->part_wet[i]);
+    print_boxes(found);
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
     if (layout->count)
         printf("\n%-16s %-20s %12s %11s %10s\n", "nozzle", "type", "flow L/min", "speed m/s", "angle deg");
@@ -144,17 +181,24 @@ static json_t *mesh_json(const findings *found)
                      m->minimum.z, "maximum_m", m->maximum.x, m->maximum.y, m->maximum.z);
 }
 
+/* null: of a part without triangles. */
+static json_t *vector_json(sp_vec3 v)
+{
+    return isfinite(v.x) ? json_pack("[fff]", v.x, v.y, v.z) : json_null();
+}
+
 static json_t *parts_json(const findings *found)
 {
     const sp_setup *setup = setup_of(found);
     json_t *parts = json_array();
     for (size_t i = 0; i < setup->mesh->part_count; i++)
-        json_array_append_new(parts,
-                              json_pack("{s:I, s:s, s:s, s:I, s:f, s:f}", "geometry",
-                                        (json_int_t)setup->mesh->parts[i].geometry, "name", setup->mesh->parts[i].name,
-                                        "role", setup->surfaces[i].clean ? "clean" : "obstacle", "triangles",
-                                        (json_int_t)found->part_triangles[i], "area_m2", found->part_area[i],
-                                        "wet_area_m2", found->part_wet[i]));
+        json_array_append_new(
+            parts, json_pack("{s:I, s:s, s:s, s:I, s:f, s:f, s:o, s:o}", "geometry",
+                             (json_int_t)setup->mesh->parts[i].geometry, "name", setup->mesh->parts[i].name, "role",
+                             setup->surfaces[i].clean ? "clean" : "obstacle", "triangles",
+                             (json_int_t)found->part_triangles[i], "area_m2", found->part_area[i], "wet_area_m2",
+                             found->part_wet[i], "minimum_m", vector_json(found->part_box[i].minimum), "maximum_m",
+                             vector_json(found->part_box[i].maximum)));
     return parts;
 }
 
@@ -189,6 +233,7 @@ static bool examine(const cli_options *options, findings *found, sp_error *error
     if (!measure_parts(found, error) || !sp_mesh_diagnose(setup_of(found)->mesh, &found->mesh, error))
         return false;
     warn_of_mesh(found);
+    warn_of_size(found);
     warn_of_cavity(found);
     warn_of_nozzles(found);
     cli_progress_end();
@@ -212,6 +257,7 @@ static int check(const cli_options *options, const cli_scene *opened, cli_clock 
     free(found->part_area);
     free(found->part_wet);
     free(found->part_triangles);
+    free(found->part_box);
     free(found);
     return good ? EXIT_DONE : cli_fail_in(opened, error);
 }

@@ -54,7 +54,7 @@ enum option_flag {
 /* options.c: fills options from the arguments after the command's name; false after a message on standard error. */
 bool cli_parse(const cli_command *command, int count, char **arguments, cli_options *options, bool *help);
 
-/* progress.c: Ctrl-C and the bar on standard error. */
+/* progress.c: Ctrl-C, SIGTERM and the bar on standard error. */
 sp_run cli_run(const cli_options *options);
 bool cli_interrupted(void);
 void cli_progress_end(void);
@@ -94,6 +94,18 @@ void cli_scene_close(cli_scene *opened);
 /* Opens the first input, does the work with it and closes it; the exit status. */
 typedef int cli_work(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error);
 int cli_with_scene(const cli_options *options, cli_work *work);
+
+/* What the layout does and where its liquid goes; NULL with an error, for instance where a nozzle is in a wall. */
+sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_error *error);
+
+/* boxes.c: how far something reaches along the axes, m. */
+typedef struct {
+    sp_vec3 minimum, maximum;
+} cli_box;
+cli_box *cli_part_boxes(const sp_mesh *mesh); /* [part_count], malloc'd; NULL where memory ran out;
+                                               * of a part without triangles from infinity to -infinity */
+cli_box cli_box_join(cli_box a, cli_box b);
+double cli_box_size(cli_box box); /* its longest edge */
 
 /* As cli_fail, with the place in the scene of the setting that the error is about. */
 int cli_fail_in(const cli_scene *opened, sp_error *error);

@@ -41,8 +41,10 @@ static bool open_input(compared *input, const char *path, const cli_options *opt
         sp_scene_locate(input->opened.scene, error);
         return false;
     }
-    input->coverage = sp_evaluate(input->opened.evaluator, layout, error);
+    input->coverage = cli_simulated(&input->opened, layout, error);
     cli_clock_stage(clock, "simulate");
+    if (!input->coverage)
+        sp_scene_locate(input->opened.scene, error);
     return input->coverage != NULL;
 }
 

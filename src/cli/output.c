@@ -59,6 +59,33 @@ static void print_figures(const sp_figures *figures, const char *name, int width
     printf(" %14.4f\n", isnan(figures->area_per_water) ? 0 : figures->area_per_water / 6e4);
 }
 
+static void print_share(const sp_figures *figures, double flow)
+{
+    printf(" %12.1f %5.1f %%", 6e4 * flow, figures->flow > 0 ? 100 * flow / figures->flow : 0);
+}
+
+/* Where the liquid goes, which coverage does not tell: what flies out or onto obstacles cleans nothing. */
+static void print_liquid(const sp_result *result, const sp_figures *figures, int width)
+{
+    bool known = false;
+    for (size_t i = 0; i < result->design_count; i++)
+        known = known || isfinite(figures[i].landed_clean);
+    if (!known)
+        return;
+    printf("\n%-*s %20s %20s %20s %20s\n", width, "L/min", "on surface to clean", "on other surface", "flies out",
+           "not followed");
+    for (size_t i = 0; i < result->design_count; i++) {
+        if (!isfinite(figures[i].landed_clean))
+            continue;
+        printf("%-*s", width, result->designs[i].name);
+        print_share(&figures[i], figures[i].landed_clean);
+        print_share(&figures[i], figures[i].landed_other);
+        print_share(&figures[i], figures[i].left);
+        print_share(&figures[i], figures[i].unfollowed);
+        printf("\n");
+    }
+}
+
 /* What is proved, in the report's own words; rounded so that it stays true. */
 static void print_certificate(const sp_proposal *proposal)
 {
@@ -85,17 +112,39 @@ static void print_certificate(const sp_proposal *proposal)
             ceil(1e3 * certificate->every_aim.area_bound / certificate->whole - 1e-9) / 10);
 }
 
-/* What no layout can cover, by reason. */
+enum { PARTS_NAMED = 3 };
+
+static void print_parts(const sp_figures *figures, sp_reason reason)
+{
+    double left = figures->missing_area[reason];
+    size_t part = SIZE_MAX;
+    for (int i = 0; i < PARTS_NAMED && (part = sp_missing_next(figures, reason, part)) != SIZE_MAX; i++) {
+        printf("%s%s %.4f", i ? ", " : ": ", figures->missing[part].part, figures->missing[part].areas[reason]);
+        left -= figures->missing[part].areas[reason];
+    }
+    if (left > 5e-5)
+        printf(", other parts %.4f", left);
+}
+
+/* What no layout can cover, by reason and part. */
 static void print_missing(const sp_figures *figures)
 {
-    const char *lead = "not attainable: ";
-    for (sp_reason reason = 0; isfinite(figures->attainable_area) && reason < SP_REASONS; reason++)
-        if (sp_reason_text(reason) && figures->missing_area[reason] > 0) {
-            printf("%s%.4f m2 %s", lead, figures->missing_area[reason], sp_reason_text(reason));
-            lead = ", ";
-        }
-    if (lead[0] == ',')
+    double missing = figures->clean_area - figures->attainable_area;
+    if (!(missing > 1e-6 * figures->clean_area))
+        return;
+    double percent = 100 * missing / figures->clean_area;
+    printf("out of reach of every allowed nozzle%s: %.*f %% of the surface to be cleaned, %.4f m2\n",
+           figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or not looked into" : "", percent < 1 ? 3 : 1, percent,
+           missing);
+    for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
+        const char *text = reason == SP_REASON_UNKNOWN ? "not looked into" : sp_reason_text(reason);
+        if (!text || !(figures->missing_area[reason] > 0))
+            continue;
+        printf("  %.4f m2 %s", figures->missing_area[reason], text);
+        print_parts(figures, reason);
         printf("\n");
+    }
+    printf("\n");
 }
 
 static bool print_summary(const sp_result *result, sp_error *error)
@@ -103,6 +152,8 @@ static bool print_summary(const sp_result *result, sp_error *error)
     sp_figures *figures = sp_result_figures(result, error);
     if (!figures)
         return false;
+    if (result->proposal && result->design_count)
+        print_missing(&figures[result->design_count - 1]);
     int width = 0;
     for (size_t i = 0; i < result->design_count; i++)
         width = (int)strlen(result->designs[i].name) > width ? (int)strlen(result->designs[i].name) : width;
@@ -110,8 +161,7 @@ static bool print_summary(const sp_result *result, sp_error *error)
            "of attainable %", "m2 per L/min");
     for (size_t i = 0; i < result->design_count; i++)
         print_figures(&figures[i], result->designs[i].name, width);
-    if (result->proposal && result->design_count)
-        print_missing(&figures[result->design_count - 1]);
+    print_liquid(result, figures, width);
     if (result->proposal)
         print_certificate(result->proposal);
     sp_figures_destroy(figures, result->design_count);

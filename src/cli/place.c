@@ -23,16 +23,24 @@ static size_t list_designs(const cli_scene *opened, const placement *found, sp_d
 
 static void say_what_is_missing(const sp_proposal *proposal)
 {
-    double covered = proposal->coverage->covered_area, target = proposal->target_area;
-    if (!(target > 0))
+    const sp_coverage *coverage = proposal->coverage;
+    double percent = 100 / coverage->area;
+    if (!(proposal->target_area > 0))
         fprintf(stderr,
                 "sprayplan: no nozzle that is allowed, at any mounting point that takes it, covers anything by the "
                 "criteria\n");
-    else if (covered >= target)
+    else if (coverage->covered_area >= proposal->asked_area)
         fprintf(stderr, "sprayplan: the nozzles to keep are more, or take more water, than max_nozzles and max_water "
                         "allow\n");
+    else if (proposal->attainable_area < proposal->asked_area)
+        fprintf(stderr,
+                "sprayplan: %.4g %% of the surface was asked for, of which no more than %.1f %% is attainable: the "
+                "proposal covers %.1f %%, %.1f %% of what is attainable\n",
+                percent * proposal->asked_area, percent * proposal->attainable_area, 100 * coverage->fraction,
+                100 * coverage->covered_area / proposal->attainable_area);
     else
-        fprintf(stderr, "sprayplan: the proposal covers %.3f m2 of the %.3f m2 asked for\n", covered, target);
+        fprintf(stderr, "sprayplan: the proposal covers %.1f %% of the surface (%.3f m2), not the %.4g %% asked for\n",
+                100 * coverage->fraction, coverage->covered_area, percent * proposal->asked_area);
 }
 
 static int report(const cli_options *options, const cli_scene *opened, const placement *found, const cli_clock *clock,
@@ -68,6 +76,29 @@ static double time_left(const cli_options *options, const cli_clock *clock)
     return options->time_limit > 0 && left < 1e-3 ? 1e-3 : options->time_limit > 0 ? left : 0;
 }
 
+/* Where the liquid of every layout goes. */
+static bool follow_liquid(const cli_scene *opened, const placement *found, sp_error *error)
+{
+    const sp_evaluator *evaluator = opened->evaluator;
+    const sp_proposal *proposal = found->proposal;
+    return (!found->manual || sp_evaluate_balance(evaluator, sp_scene_layout(opened->scene), found->manual, error)) &&
+           sp_evaluate_balance(evaluator, proposal->greedy, proposal->greedy_coverage, error) &&
+           sp_evaluate_balance(evaluator, proposal->layout, proposal->coverage, error);
+}
+
+/* A nozzle of the scene's own that could not stand where it is drawn: what the proposal is compared with is in doubt.
+ */
+static void warn_of_own(const cli_scene *opened, const sp_layout *own)
+{
+    for (size_t i = 0; i < own->count; i++) {
+        sp_error error = {0};
+        if (own->nozzles[i].keep || sp_evaluator_admits(opened->evaluator, &own->nozzles[i], &error))
+            continue;
+        cli_progress_end();
+        fprintf(stderr, "sprayplan: the layout compared with is in doubt: %s\n", error.message);
+    }
+}
+
 static int place(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error)
 {
     placement found = {0};
@@ -83,7 +114,10 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
         how.prove = options->prove;
         found.proposal = sp_place(opened->evaluator, &how, error);
     }
-    int status = found.proposal ? report(options, opened, &found, clock, error) : cli_fail_in(opened, error);
+    bool good = found.proposal && follow_liquid(opened, &found, error);
+    if (good && !options->quiet)
+        warn_of_own(opened, own);
+    int status = good ? report(options, opened, &found, clock, error) : cli_fail_in(opened, error);
     sp_proposal_destroy(found.proposal);
     sp_coverage_destroy(found.manual);
     return status;

@@ -1,4 +1,4 @@
-/* Ctrl-C, and the progress bar on standard error, only when that is a terminal. */
+/* Ctrl-C and the request to end, and the progress bar on standard error, only when that is a terminal. */
 #include "cli.h"
 
 #include <signal.h>
@@ -75,9 +75,11 @@ sp_run cli_run(const cli_options *options)
 {
     static bool visible;
     visible = !options->quiet && isatty(STDERR_FILENO);
-    /* The second Ctrl-C ends the program at once. */
+    /* SIGTERM is what timeout(1), schedulers and shutting down send: no reason to lose what was found. The second of
+     * either ends the program at once. */
     struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
     sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
     return (sp_run){
         .threads = options->threads, .progress = progress, .user = &visible, .time_limit = options->time_limit};
 }

@@ -26,6 +26,18 @@ void cli_scene_close(cli_scene *opened)
     *opened = (cli_scene){0};
 }
 
+sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_error *error)
+{
+    for (size_t i = 0; i < layout->count; i++)
+        if (!sp_evaluator_admits(opened->evaluator, &layout->nozzles[i], error))
+            return NULL;
+    sp_coverage *coverage = sp_evaluate(opened->evaluator, layout, error);
+    if (coverage && sp_evaluate_balance(opened->evaluator, layout, coverage, error))
+        return coverage;
+    sp_coverage_destroy(coverage);
+    return NULL;
+}
+
 int cli_fail_in(const cli_scene *opened, sp_error *error)
 {
     sp_scene_locate(opened->scene, error);

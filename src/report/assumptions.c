@@ -1,63 +1,6 @@
 /* What the figures rest on. */
 #include "page.h"
 
-static const char *const explanations[SP_REASONS] = {
-    [SP_REASON_NO_LINE] = "nothing that leaves an allowed place in an allowed direction arrives there",
-    [SP_REASON_REFLECTION] = "only liquid that a wall throws back arrives",
-    [SP_REASON_SLOW] = "what arrives is slower than the criterion asks",
-    [SP_REASON_SLANTED] = "what arrives fast enough is more slanted than the criterion allows",
-    [SP_REASON_FLUX] = "what arrives so is too little, within the limits of number and water",
-};
-
-/* Why area is not attainable, largest first. */
-static void add_reasons(const sp_figures *figures, sp_text *text)
-{
-    bool listed[SP_REASONS] = {false}, any = false;
-    for (;;) {
-        sp_reason largest = SP_REASON_ATTAINABLE;
-        for (sp_reason reason = 0; reason < SP_REASONS; reason++)
-            if (explanations[reason] && !listed[reason] && figures->missing_area[reason] > 0 &&
-                (largest == SP_REASON_ATTAINABLE || figures->missing_area[reason] > figures->missing_area[largest]))
-                largest = reason;
-        if (largest == SP_REASON_ATTAINABLE)
-            break;
-        sp_text_add(text, any ? "" : "<ul id=\"reasons\">\n");
-        any = listed[largest] = true;
-        sp_text_add(text, "<li>");
-        sp_markup_significant(text, 1e4 * figures->missing_area[largest], 3);
-        sp_text_add(text, "&nbsp;cm\xc2\xb2 %s: %s.</li>\n", sp_reason_text(largest), explanations[largest]);
-    }
-    sp_text_add(text, any ? "</ul>\n" : "");
-}
-
-void sp_page_attainable(const sp_page *page, sp_text *text)
-{
-    if (page->main == SP_UNKNOWN || !isfinite(page->figures[page->main].attainable_area))
-        return;
-    const sp_figures *figures = &page->figures[page->main];
-    double missing = fmax(figures->clean_area - figures->attainable_area, 0);
-    sp_text_add(text, "<section id=\"attainable\"><h2>What can be reached at all</h2>\n<p>Of ");
-    sp_markup_significant(text, figures->clean_area, 4);
-    sp_text_add(text, "&nbsp;m\xc2\xb2 to be cleaned, ");
-    sp_markup_significant(text, figures->attainable_area, 4);
-    sp_text_add(text, "&nbsp;m\xc2\xb2 (");
-    sp_markup_decimals(text, 100 * figures->attainable_area / figures->clean_area, 1);
-    sp_text_add(
-        text, "&nbsp;%%) are attainable: some allowed nozzle, at some allowed place and direction, reaches them as the "
-              "criterion asks, or a layout of this report covers them.");
-    if (missing > 1e-6 * figures->clean_area) {
-        sp_text_add(text, " The other ");
-        sp_markup_significant(text, missing, 3);
-        sp_text_add(
-            text, "&nbsp;m\xc2\xb2 are out of reach of every allowed nozzle. That is a fault of the vessel or of the "
-                  "mounts allowed, which no choice among them mends: another port, another type of nozzle or a change "
-                  "of the part would.");
-    }
-    sp_text_add(text, "</p>\n");
-    add_reasons(figures, text);
-    sp_text_add(text, "</section>\n");
-}
-
 static void add_item(sp_text *text, const char *term)
 {
     sp_text_add(text, "<dt>%s</dt><dd>", term);

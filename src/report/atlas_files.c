@@ -81,7 +81,7 @@ static void fill_part(const sp_layers *layers, const sp_deposits *deposits, size
         const double values[CHANNELS - 1] = {
             deposits->flux[patch],      deposits->jets[patch],       deposits->speed[patch],
             deposits->speed_max[patch], deposits->incidence[patch],  deposits->incidence_min[patch],
-            deposits->impact[patch],    deposits->impact_max[patch], deposits->covered[patch] ? 1.0 : 0.0,
+            deposits->impact[patch],    deposits->impact_max[patch], deposits->share[patch],
             patches->area[patch]};
         for (int k = 0; k < CHANNELS - 1; ++k)
             pixel[k] = (float)values[k];

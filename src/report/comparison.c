@@ -90,12 +90,6 @@ static bool is_compared(const sp_page *page)
     return page->result->proposal && page->manual != SP_UNKNOWN && page->main != SP_UNKNOWN;
 }
 
-static double whole_area(const sp_page *page)
-{
-    const sp_figures *manual = &page->figures[page->manual];
-    return page->of_attainable ? manual->attainable_area : manual->clean_area;
-}
-
 void sp_page_gain(const sp_page *page, sp_text *text)
 {
     point same_water, same_area;
@@ -108,7 +102,7 @@ void sp_page_gain(const sp_page *page, sp_text *text)
     sp_text_add(
         text,
         "<p class=\"headline\">With no more water than the engineer&#39;s, the best layout found covers <strong>");
-    sp_markup_decimals(text, 100 * same_water.area / whole_area(page), 1);
+    sp_markup_decimals(text, 100 * same_water.area / manual->clean_area, 1);
     sp_text_add(text, "&nbsp;%%</strong>; to cover no less than the engineer&#39;s, it needs <strong>");
     sp_markup_decimals(text, 6e4 * same_area.flow, 1);
     sp_text_add(text, "&nbsp;L/min</strong> (");
@@ -121,7 +115,7 @@ void sp_page_comparison(const sp_page *page, sp_text *text)
     if (!is_compared(page))
         return;
     const sp_figures *manual = &page->figures[page->manual];
-    double whole = whole_area(page);
+    double whole = manual->clean_area;
     point same_water, same_area;
     best_points(page, manual, &same_water, &same_area);
     sp_text_add(text,
@@ -129,7 +123,7 @@ void sp_page_comparison(const sp_page *page, sp_text *text)
                 "class=\"numbers\"><thead><tr><th scope=\"col\">Compared</th><th scope=\"col\">Manual</th><th "
                 "scope=\"col\">Best found</th><th scope=\"col\">Gain</th><th scope=\"col\" class=\"text\">With"
                 "</th></tr></thead>\n<tbody>\n");
-    add_same_water(text, sp_page_fraction(page, manual), &same_water, whole);
+    add_same_water(text, manual->coverage, &same_water, whole);
     add_same_area(text, manual->flow, &same_area, whole);
     sp_text_add(text, "</tbody></table></div></section>\n");
 }

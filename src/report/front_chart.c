@@ -32,7 +32,7 @@ static double nice_step(double range)
 static double whole_area(const sp_page *page)
 {
     const sp_figures *figures = &page->figures[page->main == SP_UNKNOWN ? 0 : page->main];
-    return page->of_attainable ? figures->attainable_area : figures->clean_area;
+    return figures->clean_area;
 }
 
 static axes choose_axes(const sp_page *page)
@@ -41,7 +41,7 @@ static axes choose_axes(const sp_page *page)
     double most = 1e-3, least = 100, whole = whole_area(page);
     for (size_t i = 0; i < page->result->design_count; ++i) {
         most = fmax(most, 6e4 * page->figures[i].flow);
-        least = fmin(least, 100 * sp_page_fraction(page, &page->figures[i]));
+        least = fmin(least, 100 * page->figures[i].coverage);
     }
     for (size_t i = 0; proposal && i < proposal->front_count; ++i) {
         most = fmax(most, 6e4 * proposal->front[i].flow);
@@ -54,7 +54,7 @@ static axes choose_axes(const sp_page *page)
     return a;
 }
 
-static void add_grid(const sp_page *page, sp_text *text, const axes *a)
+static void add_grid(sp_text *text, const axes *a)
 {
     for (double y = a->y_min; y < a->y_max + 0.5 * a->y_step; y += a->y_step) {
         sp_text_add(text, "<line class=\"grid\" x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\"/>", LEFT, WIDTH - RIGHT,
@@ -70,9 +70,9 @@ static void add_grid(const sp_page *page, sp_text *text, const axes *a)
                 (LEFT + WIDTH - RIGHT) / 2, HEIGHT - 12);
     sp_text_add(
         text,
-        "<text class=\"axis\" transform=\"translate(18 %d) rotate(-90)\" text-anchor=\"middle\">Coverage of the %s, "
-        "%%</text>\n",
-        (TOP + HEIGHT - BOTTOM) / 2, page->of_attainable ? "attainable area" : "surface");
+        "<text class=\"axis\" transform=\"translate(18 %d) rotate(-90)\" text-anchor=\"middle\">Coverage of the "
+        "surface to be cleaned, %%</text>\n",
+        (TOP + HEIGHT - BOTTOM) / 2);
 }
 
 /* Steps: with water between two points one has the left one's layout. */
@@ -100,13 +100,11 @@ static void add_front(const sp_page *page, sp_text *text, const axes *a)
 static void add_bound(const sp_page *page, sp_text *text, const axes *a)
 {
     const sp_proposal *proposal = page->result->proposal;
-    const sp_figures *figures = &page->figures[page->main == SP_UNKNOWN ? 0 : page->main];
     if (!proposal || !proposal->certificate.computed || proposal->front_count == 0)
         return;
     sp_text_add(text, "<path class=\"bound\" d=\"");
     for (size_t i = 0; i < proposal->front_count; ++i) {
-        double share = proposal->front[i].bound / proposal->certificate.whole;
-        double y = y_of(a, fmin(100, 100 * share * figures->clean_area / whole_area(page)));
+        double y = y_of(a, fmin(100, 100 * proposal->front[i].bound / proposal->certificate.whole));
         sp_text_add(text, i == 0 ? "M%.1f %.1f" : "H%.1fV%.1f", x_of(a, 6e4 * proposal->front[i].flow), y);
     }
     sp_text_add(text, "H%d\"/>\n", WIDTH - RIGHT);
@@ -129,8 +127,8 @@ static void add_designs(const sp_page *page, sp_text *text, const axes *a)
     size_t count = page->result->design_count;
     for (size_t i = 0; i < count; ++i) {
         double legend = HEIGHT - BOTTOM - 20 - 22 * (double)(count - 1 - i);
-        add_marker(text, x_of(a, 6e4 * page->figures[i].flow), y_of(a, 100 * sp_page_fraction(page, &page->figures[i])),
-                   i, sp_page_colour(page, i));
+        add_marker(text, x_of(a, 6e4 * page->figures[i].flow), y_of(a, 100 * page->figures[i].coverage), i,
+                   sp_page_colour(page, i));
         if (count > 12)
             continue;
         add_marker(text, WIDTH - RIGHT - 250, legend - 4, i, sp_page_colour(page, i));
@@ -163,7 +161,7 @@ void sp_page_front_chart(const sp_page *page, sp_text *text)
                 "<section id=\"front\"><h2>Coverage against water</h2>\n<svg class=\"chart\" viewBox=\"0 0 %d %d\" "
                 "role=\"img\" aria-label=\"Chart: coverage in per cent against water in litres a minute\">\n",
                 WIDTH, HEIGHT);
-    add_grid(page, text, &a);
+    add_grid(text, &a);
     add_bound(page, text, &a);
     add_front(page, text, &a);
     add_designs(page, text, &a);

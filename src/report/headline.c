@@ -5,9 +5,8 @@ static void add_statement(const sp_page *page, sp_text *text, size_t design)
 {
     const sp_figures *figures = &page->figures[design];
     sp_text_add(text, "covers <strong>");
-    sp_markup_decimals(text, 100 * sp_page_fraction(page, figures), 1);
-    sp_text_add(text, "&nbsp;%%</strong> of the %s with <strong>",
-                page->of_attainable ? "attainable area" : "surface to be cleaned");
+    sp_markup_decimals(text, 100 * figures->coverage, 1);
+    sp_text_add(text, "&nbsp;%%</strong> of the surface to be cleaned with <strong>");
     sp_markup_decimals(text, 6e4 * figures->flow, 1);
     sp_text_add(text, "&nbsp;L/min</strong>");
 }
@@ -32,19 +31,42 @@ static void add_cards(const sp_page *page, sp_text *text)
 {
     const sp_figures *main = &page->figures[page->main];
     const sp_figures *manual = &page->figures[page->manual == SP_UNKNOWN ? page->main : page->manual];
-    const double coverage[2] = {100 * sp_page_fraction(page, main), 100 * sp_page_fraction(page, manual)};
+    const double coverage[2] = {100 * main->coverage, 100 * manual->coverage};
     const double water[2] = {6e4 * main->flow, 6e4 * manual->flow};
     const double ratio[2] = {main->area_per_water / 6e4, manual->area_per_water / 6e4};
     const double count[2] = {(double)main->nozzle_count, (double)manual->nozzle_count};
     sp_text_add(text, "<div class=\"cards\">\n");
-    add_card(page, text, page->of_attainable ? "Coverage of attainable area" : "Coverage", "%", coverage, 1, true);
+    add_card(page, text, "Coverage", "%", coverage, 1, true);
     add_card(page, text, "Water", "L/min", water, 1, false);
     add_card(page, text, "Area per water", "m\xc2\xb2 per L/min", ratio, 3, false);
     add_card(page, text, "Nozzles", "", count, 0, false);
     sp_text_add(text, "</div>\n");
 }
 
-static void add_warnings(const sp_proposal *proposal, sp_text *text)
+/* The coverage asked for, and why the proposal falls short of it. */
+static void add_shortfall(const sp_figures *proposed, const sp_proposal *proposal, sp_text *text)
+{
+    double percent = 100 / proposed->clean_area;
+    sp_text_add(text, "<p class=\"warning\"><strong>The coverage asked for is not reached.</strong> ");
+    sp_markup_decimals(text, percent * proposal->asked_area, 1);
+    sp_text_add(text, "&nbsp;%% of the surface to be cleaned (");
+    sp_markup_significant(text, proposal->asked_area, 4);
+    sp_text_add(text, "&nbsp;m\xc2\xb2) were asked for within the limits on nozzles, water and ports; ");
+    if (proposed->attainable_area < proposal->asked_area && !(proposed->missing_area[SP_REASON_UNKNOWN] > 0)) {
+        sp_text_add(text, "no more than ");
+        sp_markup_decimals(text, percent * proposed->attainable_area, 1);
+        sp_text_add(text, "&nbsp;%% are attainable, so that ");
+        sp_markup_decimals(text, percent * proposal->target_area, 1);
+        sp_text_add(text, "&nbsp;%% were aimed at; ");
+    }
+    sp_text_add(text, "the proposal covers ");
+    sp_markup_decimals(text, percent * proposed->covered_area, 1);
+    sp_text_add(text, "&nbsp;%% (");
+    sp_markup_significant(text, proposed->covered_area, 4);
+    sp_text_add(text, "&nbsp;m\xc2\xb2).</p>\n");
+}
+
+static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal, sp_text *text)
 {
     if (proposal->interrupted)
         sp_text_add(text,
@@ -52,24 +74,16 @@ static void add_warnings(const sp_proposal *proposal, sp_text *text)
                     "the best layout found until then.</p>\n");
     if (proposal->reached)
         return;
-    if (!(proposal->target_area > 0)) {
+    if (!(proposal->target_area > 0))
         sp_text_add(text,
                     "<p class=\"warning\"><strong>Nothing can be covered.</strong> No nozzle that is allowed, at any "
                     "mounting point that takes it, covers anything by the criteria.</p>\n");
-        return;
-    }
-    if (proposal->coverage->covered_area >= proposal->target_area) {
+    else if (proposed->covered_area >= proposal->asked_area)
         sp_text_add(
             text, "<p class=\"warning\"><strong>Beyond the limits.</strong> The nozzles to keep are more, or take more "
                   "water, than was allowed.</p>\n");
-        return;
-    }
-    sp_text_add(text, "<p class=\"warning\"><strong>The coverage asked for is not reached.</strong> ");
-    sp_markup_significant(text, proposal->target_area, 4);
-    sp_text_add(text,
-                "&nbsp;m\xc2\xb2 were asked for within the limits on nozzles, water and ports; the proposal covers ");
-    sp_markup_significant(text, proposal->coverage->covered_area, 4);
-    sp_text_add(text, "&nbsp;m\xc2\xb2.</p>\n");
+    else
+        add_shortfall(proposed, proposal, text);
 }
 
 void sp_page_headline(const sp_page *page, sp_text *text)
@@ -88,6 +102,6 @@ void sp_page_headline(const sp_page *page, sp_text *text)
     sp_text_add(text, ".</p>\n");
     sp_page_gain(page, text);
     if (page->result->proposal)
-        add_warnings(page->result->proposal, text);
+        add_warnings(&page->figures[page->main], page->result->proposal, text);
     add_cards(page, text);
 }

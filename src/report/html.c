@@ -53,11 +53,6 @@ static const char *const style[] = {
     ".wide{overflow:visible}figure,.card,tr,dl,.chart,.block{break-inside:avoid}h2,h3{break-after:avoid}}\n</style>\n",
 };
 
-double sp_page_fraction(const sp_page *page, const sp_figures *figures)
-{
-    return page->of_attainable ? figures->of_attainable : figures->coverage;
-}
-
 void sp_page_name(const sp_page *page, sp_text *text, size_t design)
 {
     const char *name = page->figures[design].name;
@@ -134,9 +129,12 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
 {
     add_head(text, scene);
     add_title(page, text, scene);
+    sp_page_out_of_reach(page, text);
     sp_page_headline(page, text);
+    sp_page_attainable(page, text);
     sp_page_figures(page, text);
     sp_page_comparison(page, text);
+    sp_page_liquid(page, text);
     sp_page_front_chart(page, text);
     sp_page_nozzle_counts(page, text);
     sp_page_certificate(page, text);
@@ -144,7 +142,6 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
         return false;
     sp_page_nozzles(page, text);
     sp_page_shadows(page, text);
-    sp_page_attainable(page, text);
     sp_page_assumptions(page, text);
     sp_page_stages(page, text);
     sp_text_add(text, "<footer>Made by sprayplan " SP_VERSION ".</footer>\n</main>\n</body>\n</html>\n");
@@ -157,9 +154,6 @@ char *sp_report_html(const sp_result *result, sp_error *error)
     sp_figures *figures = sp_result_figures(result, error);
     char *scene = sp_text_utf8(result->scene), *html = NULL;
     page.figures = figures;
-    page.of_attainable = result->design_count > 0;
-    for (size_t i = 0; figures && i < result->design_count; ++i)
-        page.of_attainable = page.of_attainable && isfinite(figures[i].of_attainable);
     find_roles(&page);
     sp_text text = {0};
     if (!scene)

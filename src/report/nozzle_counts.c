@@ -16,14 +16,12 @@ void sp_page_nozzle_counts(const sp_page *page, sp_text *text)
     if (!proposal || proposal->by_number_count == 0 || page->main == SP_UNKNOWN)
         return;
     const sp_figures *figures = &page->figures[page->main];
-    double whole = page->of_attainable ? figures->attainable_area : figures->clean_area;
     sp_text_add(text,
                 "<section id=\"counts\"><h2>Coverage against number of nozzles</h2>\n<table class=\"numbers small "
-                "narrow\"><thead><tr><th scope=\"col\">Nozzles</th><th scope=\"col\">Coverage of the %s</th><th "
-                "scope=\"col\">Water</th></tr></thead>\n<tbody>\n",
-                page->of_attainable ? "attainable area" : "surface");
+                "narrow\"><thead><tr><th scope=\"col\">Nozzles</th><th scope=\"col\">Coverage</th><th "
+                "scope=\"col\">Water</th></tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < proposal->by_number_count; ++i)
-        add_row(text, &proposal->by_number[i], whole);
+        add_row(text, &proposal->by_number[i], figures->clean_area);
     sp_text_add(text,
                 "</tbody></table>\n<p class=\"note\">The most that was found with so many nozzles, whatever their "
                 "water. A number is left out where fewer nozzles cover as much.</p></section>\n");

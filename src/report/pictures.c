@@ -90,7 +90,7 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
     sp_text_add(text, "</svg><figcaption>");
     sp_page_name(page, text, design);
     sp_text_add(text, "<br><span class=\"unit\">");
-    sp_markup_decimals(text, 100 * sp_page_fraction(page, &page->figures[design]), 1);
+    sp_markup_decimals(text, 100 * page->figures[design].coverage, 1);
     sp_text_add(text, "&nbsp;%% with ");
     sp_markup_decimals(text, 6e4 * page->figures[design].flow, 1);
     sp_text_add(text, "&nbsp;L/min</span></figcaption></figure>\n");

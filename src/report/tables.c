@@ -8,13 +8,13 @@
 
 typedef double measure(const sp_figures *figures);
 
-static double of_attainable(const sp_figures *f)
-{
-    return 100 * f->of_attainable;
-}
 static double of_clean(const sp_figures *f)
 {
     return 100 * f->coverage;
+}
+static double of_attainable(const sp_figures *f)
+{
+    return 100 * f->of_attainable;
 }
 static double covered(const sp_figures *f)
 {
@@ -62,8 +62,8 @@ typedef struct {
 } row;
 
 static const row rows[] = {
-    {"Coverage of the attainable area", "%", of_attainable, 1, true, true},
     {"Coverage of the surface to be cleaned", "%", of_clean, 1, true, true},
+    {"Share of the attainable area covered", "%", of_attainable, 1, true, true},
     {"Covered area", "m\xc2\xb2", covered, 4, false, false},
     {"Area left uncovered", "m\xc2\xb2", uncovered, 3, false, false},
     {"Largest uncovered region", "m\xc2\xb2", largest, 3, false, false},

@@ -28,6 +28,11 @@ static void set_coverage(sp_figures *figures, const sp_coverage *coverage)
     figures->coverage = coverage->fraction;
     figures->of_attainable = figures->attainable_area > 0 ? coverage->covered_area / figures->attainable_area : NAN;
     figures->area_per_water = coverage->flow > 0 ? coverage->area_per_water : NAN;
+    const sp_balance *balance = &coverage->balance;
+    figures->landed_clean = balance->known ? balance->clean : NAN;
+    figures->landed_other = balance->known ? balance->other : NAN;
+    figures->left = balance->known ? balance->left : NAN;
+    figures->unfollowed = balance->known ? balance->unfollowed : NAN;
     figures->flux_min = coverage->flux_min;
     figures->flux_mean = coverage->flux_mean;
     figures->flux_p05 = coverage->flux_p05;
@@ -80,6 +85,42 @@ static void set_attainable(sp_figures *figures, const sp_patches *patches, const
     figures->missing_area[SP_REASON_ATTAINABLE] = reasons ? 0 : NAN;
 }
 
+static int by_area(const void *left, const void *right)
+{
+    const sp_missing_figures *a = left, *b = right;
+    if (a->area != b->area)
+        return a->area > b->area ? -1 : 1;
+    return strcmp(a->part, b->part);
+}
+
+/* The same by part. */
+static bool set_missing_parts(sp_figures *figures, const sp_evaluator *evaluator, const sp_reason *reasons)
+{
+    const sp_patches *patches = sp_evaluator_patches(evaluator);
+    const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
+    sp_missing_figures *parts = reasons ? calloc(mesh->part_count + 1, sizeof *parts) : NULL;
+    size_t count = 0;
+    for (size_t k = 0; parts && k < patches->count; ++k) {
+        sp_missing_figures *part = &parts[mesh->part[patches->triangle[k]]];
+        count += reasons[k] != SP_REASON_ATTAINABLE && part->area == 0;
+        part->areas[reasons[k]] += patches->area[k];
+        part->area += reasons[k] != SP_REASON_ATTAINABLE ? patches->area[k] : 0;
+    }
+    bool done = (parts || !reasons) && sp_figures_make_missing(figures, count);
+    size_t row = 0;
+    for (size_t i = 0; done && row < count; ++i)
+        if (parts[i].area > 0) {
+            sp_missing_figures *missing = &figures->missing[row++];
+            *missing = parts[i];
+            missing->areas[SP_REASON_ATTAINABLE] = 0;
+            done = (missing->part = sp_text_utf8(mesh->parts[i].name)) != NULL;
+        }
+    free(parts);
+    if (done)
+        qsort(figures->missing, count, sizeof *figures->missing, by_area);
+    return done;
+}
+
 /* With `reasons` NULL attainable area is not known. */
 static bool describe(sp_figures *figures, const sp_design *design, const sp_reason *reasons, sp_error *error)
 {
@@ -91,7 +132,8 @@ static bool describe(sp_figures *figures, const sp_design *design, const sp_reas
     set_geometry_and_fidelity(figures, design->evaluator);
     set_attainable(figures, sp_evaluator_patches(design->evaluator), reasons);
     set_coverage(figures, design->coverage);
-    bool done = sp_figures_make_rows(figures, shadow_count < SP_SHADOWS_KEPT ? shadow_count : SP_SHADOWS_KEPT,
+    bool done = set_missing_parts(figures, design->evaluator, reasons) &&
+                sp_figures_make_rows(figures, shadow_count < SP_SHADOWS_KEPT ? shadow_count : SP_SHADOWS_KEPT,
                                      design->layout->count) &&
                 set_nozzles(figures, design->layout, &setup->liquid) && set_shadows(figures, shadows, setup->mesh);
     free(shadows);
@@ -119,7 +161,7 @@ static sp_reason *reported_reasons(const sp_result *result, const sp_evaluator *
                                              : SP_REASON_UNKNOWN;
     for (size_t i = 0; i < result->design_count; ++i)
         for (size_t k = 0; result->designs[i].evaluator == *evaluator && k < patches->count; ++k)
-            if (result->designs[i].coverage->deposits.covered[k])
+            if (result->designs[i].coverage->deposits.share[k] > 0)
                 reasons[k] = SP_REASON_ATTAINABLE;
     return reasons;
 }

@@ -12,8 +12,11 @@ static void figures_clear(sp_figures *figures)
         free(figures->nozzles[i].name);
         free(figures->nozzles[i].type);
     }
+    for (size_t i = 0; i < figures->missing_count; ++i)
+        free(figures->missing[i].part);
     free(figures->shadows);
     free(figures->nozzles);
+    free(figures->missing);
     free(figures->name);
 }
 
@@ -37,14 +40,34 @@ bool sp_figures_make_rows(sp_figures *figures, size_t shadows, size_t nozzles)
     return true;
 }
 
+bool sp_figures_make_missing(sp_figures *figures, size_t count)
+{
+    figures->missing = calloc(count + 1, sizeof *figures->missing);
+    figures->missing_count = figures->missing ? count : 0;
+    return figures->missing != NULL;
+}
+
+static bool copy_missing(sp_figures *to, const sp_figures *from)
+{
+    if (!sp_figures_make_missing(to, from->missing_count))
+        return false;
+    bool copied = true;
+    for (size_t i = 0; i < to->missing_count; ++i) {
+        to->missing[i] = from->missing[i];
+        copied &= (to->missing[i].part = sp_text_utf8(from->missing[i].part)) != NULL;
+    }
+    return copied;
+}
+
 bool sp_figures_copy(sp_figures *to, const sp_figures *from)
 {
     *to = *from;
     to->name = NULL;
     to->shadows = NULL;
     to->nozzles = NULL;
-    to->shadow_count = to->nozzle_count = 0;
-    if (!sp_figures_make_rows(to, from->shadow_count, from->nozzle_count))
+    to->missing = NULL;
+    to->shadow_count = to->nozzle_count = to->missing_count = 0;
+    if (!copy_missing(to, from) || !sp_figures_make_rows(to, from->shadow_count, from->nozzle_count))
         return false;
     bool copied = true;
     for (size_t i = 0; i < to->shadow_count; ++i) {

@@ -6,6 +6,8 @@
 
 /* Room for the counts given, every text NULL. False where memory ran out. */
 bool sp_figures_make_rows(sp_figures *figures, size_t shadows, size_t nozzles);
+/* The same for parts that are not wholly attainable. */
+bool sp_figures_make_missing(sp_figures *figures, size_t count);
 /* Everything but the name. False where memory ran out; what was copied is then still to be destroyed. */
 bool sp_figures_copy(sp_figures *to, const sp_figures *from);
 

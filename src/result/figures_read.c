@@ -134,6 +134,19 @@ static bool get_part(const reader *in, const json_t *object, const char *key, js
     return wrong(in, key, *value, type == JSON_ARRAY ? "a list" : "an object");
 }
 
+/* The reader for entry `i` of the list `key`, which must be an object. */
+static bool enter(const reader *in, const char *key, size_t i, const json_t *entry, reader *inner)
+{
+    *inner = *in;
+    size_t used = strlen(in->place);
+    snprintf(inner->place + used, sizeof inner->place - used, "%s[%zu]", key, i);
+    if (!json_is_object(entry))
+        return wrong(inner, "", entry, "an object");
+    used = strlen(inner->place);
+    snprintf(inner->place + used, sizeof inner->place - used, ".");
+    return true;
+}
+
 static bool read_missing(const reader *in, const json_t *geometry, sp_figures *figures)
 {
     const json_t *missing;
@@ -150,13 +163,40 @@ static bool read_missing(const reader *in, const json_t *geometry, sp_figures *f
     return true;
 }
 
+static bool read_missing_part(const reader *in, const json_t *entry, sp_missing_figures *missing)
+{
+    if (!get_text(in, entry, "part", &missing->part) || !get_real(in, entry, "area_m2", 0, 1e12, 1, &missing->area))
+        return false;
+    for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
+        const char *key = sp_reason_key(reason);
+        if (key && !get_real(in, entry, key, 0, 1e12, 1, &missing->areas[reason]))
+            return false;
+    }
+    return true;
+}
+
+static bool read_missing_parts(const reader *in, const json_t *geometry, sp_figures *figures)
+{
+    const json_t *parts;
+    if (!get_part(in, geometry, "unattainable_by_part", JSON_ARRAY, false, &parts))
+        return false;
+    if (!sp_figures_make_missing(figures, json_array_size(parts)))
+        return sp_fail_memory(in->error);
+    reader inner;
+    for (size_t i = 0; i < figures->missing_count; ++i)
+        if (!enter(in, "unattainable_by_part", i, json_array_get(parts, i), &inner) ||
+            !read_missing_part(&inner, json_array_get(parts, i), &figures->missing[i]))
+            return false;
+    return true;
+}
+
 static bool read_geometry(const reader *in, const json_t *geometry, sp_figures *figures)
 {
     return get_count(in, geometry, "triangles", &figures->triangles) &&
            get_real(in, geometry, "area_m2", 0, 1e12, 1, &figures->area) &&
            get_real(in, geometry, "clean_area_m2", 0, 1e12, 1, &figures->clean_area) &&
            get_real(in, geometry, "attainable_area_m2", 0, 1e12, 1, &figures->attainable_area) &&
-           read_missing(in, geometry, figures);
+           read_missing(in, geometry, figures) && read_missing_parts(in, geometry, figures);
 }
 
 static bool read_fidelity(const reader *in, const json_t *fidelity, sp_figures *figures)
@@ -192,6 +232,20 @@ static bool read_coverage(const reader *in, const json_t *layout, sp_figures *fi
            get_real(&inner, flux, "max", 0, 1e12, l_min, &figures->flux_max);
 }
 
+static bool read_liquid(const reader *in, const json_t *layout, sp_figures *figures)
+{
+    const double l_min = 1 / 6e4;
+    const json_t *liquid;
+    if (!get_part(in, layout, "liquid_l_min", JSON_OBJECT, false, &liquid))
+        return false;
+    reader inner = *in;
+    snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "liquid_l_min.");
+    return get_real(&inner, liquid, "on_clean_surface", 0, 1e9, l_min, &figures->landed_clean) &&
+           get_real(&inner, liquid, "on_other_surface", 0, 1e9, l_min, &figures->landed_other) &&
+           get_real(&inner, liquid, "left", 0, 1e9, l_min, &figures->left) &&
+           get_real(&inner, liquid, "not_followed", 0, 1e9, l_min, &figures->unfollowed);
+}
+
 static bool read_reason(const reader *in, const json_t *entry, sp_reason *reason)
 {
     const json_t *found = json_object_get(entry, "reason");
@@ -225,19 +279,6 @@ static bool read_nozzle(const reader *in, const json_t *entry, sp_nozzle_figures
            get_real(in, entry, "pressure_pa", 0, 1e12, 1, &nozzle->pressure) &&
            get_real(in, entry, "flow_l_min", 0, 1e9, 1 / 6e4, &nozzle->flow) &&
            get_real(in, entry, "speed_m_s", 0, 1e6, 1, &nozzle->speed);
-}
-
-/* The reader for entry `i` of the list `key`, which must be an object. */
-static bool enter(const reader *in, const char *key, size_t i, const json_t *entry, reader *inner)
-{
-    *inner = *in;
-    size_t used = strlen(in->place);
-    snprintf(inner->place + used, sizeof inner->place - used, "%s[%zu]", key, i);
-    if (!json_is_object(entry))
-        return wrong(inner, "", entry, "an object");
-    used = strlen(inner->place);
-    snprintf(inner->place + used, sizeof inner->place - used, ".");
-    return true;
 }
 
 static bool read_rows(const reader *in, const json_t *layout, sp_figures *figures)
@@ -283,7 +324,7 @@ static bool read_layout(const reader *in, const json_t *root, const json_t *layo
         return false;
     if (!figures->name[0])
         return wrong(in, "name", json_object_get(layout, "name"), "a text that is not empty");
-    return read_coverage(in, layout, figures) && read_rows(in, layout, figures);
+    return read_coverage(in, layout, figures) && read_liquid(in, layout, figures) && read_rows(in, layout, figures);
 }
 
 static json_t *parse(const char *path, sp_error *error)

@@ -48,12 +48,30 @@ static bool put_missing(json_t *geometry, const sp_figures *figures)
     return put(geometry, "unattainable_m2", missing) && done;
 }
 
+/* The same for each part, those of most area first. */
+static bool put_missing_parts(json_t *geometry, const sp_figures *figures)
+{
+    if (!isfinite(figures->attainable_area) || figures->missing_area[SP_REASON_UNKNOWN] > 0)
+        return true;
+    json_t *parts = json_array();
+    bool done = true;
+    for (size_t i = 0; done && i < figures->missing_count; i++) {
+        json_t *part = json_object();
+        done = put_text(part, "part", figures->missing[i].part) && put_real(part, "area_m2", figures->missing[i].area);
+        for (sp_reason reason = 0; done && reason < SP_REASONS; reason++)
+            done = !sp_reason_key(reason) || put_real(part, sp_reason_key(reason), figures->missing[i].areas[reason]);
+        done = json_array_append_new(parts, part) == 0 && done;
+    }
+    return put(geometry, "unattainable_by_part", parts) && done;
+}
+
 static bool put_geometry(json_t *object, const sp_figures *figures)
 {
     json_t *geometry = json_object();
     bool done = put_count(geometry, "triangles", figures->triangles) && put_real(geometry, "area_m2", figures->area) &&
                 put_real(geometry, "clean_area_m2", figures->clean_area) &&
-                put_real(geometry, "attainable_area_m2", figures->attainable_area) && put_missing(geometry, figures);
+                put_real(geometry, "attainable_area_m2", figures->attainable_area) && put_missing(geometry, figures) &&
+                put_missing_parts(geometry, figures);
     return put(object, "geometry", geometry) && done;
 }
 
@@ -74,6 +92,19 @@ static bool put_flux(json_t *object, const sp_figures *figures)
     bool done = put_real(flux, "min", 6e4 * figures->flux_min) && put_real(flux, "mean", 6e4 * figures->flux_mean) &&
                 put_real(flux, "p05", 6e4 * figures->flux_p05) && put_real(flux, "max", 6e4 * figures->flux_max);
     return put(object, "flux_l_min_m2", flux) && done;
+}
+
+/* Where the liquid ends, where that was counted. */
+static bool put_liquid(json_t *object, const sp_figures *figures)
+{
+    if (!isfinite(figures->landed_clean))
+        return true;
+    json_t *liquid = json_object();
+    bool done = put_real(liquid, "on_clean_surface", 6e4 * figures->landed_clean) &&
+                put_real(liquid, "on_other_surface", 6e4 * figures->landed_other) &&
+                put_real(liquid, "left", 6e4 * figures->left) &&
+                put_real(liquid, "not_followed", 6e4 * figures->unfollowed);
+    return put(object, "liquid_l_min", liquid) && done;
 }
 
 static bool put_shadow(json_t *shadows, const sp_shadow_figures *figures)
@@ -105,7 +136,8 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, bool own_geom
                 put_real(layout, "covered_area_m2", figures->covered_area) &&
                 put_real(layout, "coverage", figures->coverage) &&
                 put_real(layout, "coverage_of_attainable", figures->of_attainable) &&
-                put_real(layout, "area_per_water", figures->area_per_water / 6e4) && put_flux(layout, figures);
+                put_real(layout, "area_per_water", figures->area_per_water / 6e4) && put_flux(layout, figures) &&
+                put_liquid(layout, figures);
     for (size_t i = 0; done && i < figures->shadow_count; ++i)
         done = put_shadow(shadows, &figures->shadows[i]);
     for (size_t i = 0; done && i < figures->nozzle_count; ++i)
@@ -132,6 +164,16 @@ static bool same_fidelity(const sp_figures *a, const sp_figures *b)
     return strcmp(a->trajectory, b->trajectory) == 0 && strcmp(a->evaluator, b->evaluator) == 0 &&
            a->reflections == b->reflections && a->jets == b->jets && equal(a->texel, b->texel) &&
            equal(a->error_estimate, b->error_estimate);
+}
+
+/* What was asked for; where less is attainable, what was aimed at is less. */
+static bool put_target(json_t *root, const sp_proposal *proposal, double clean_area)
+{
+    json_t *target = json_object();
+    bool done = put_real(target, "coverage", proposal->asked_area / clean_area) &&
+                put_real(target, "coverage_aimed_at", proposal->target_area / clean_area) &&
+                put(target, "reached", json_boolean(proposal->reached));
+    return put(root, "target", target) && done;
 }
 
 static bool put_front(json_t *root, const sp_proposal *proposal, double clean_area)
@@ -218,7 +260,8 @@ static bool fill(json_t *root, const sp_result *result, const sp_figures *figure
         done = put_layout(layouts, &figures[i], !one_geometry, !one_fidelity);
     done = put(root, "layouts", layouts) && done;
     if (result->proposal)
-        done = done && put_front(root, result->proposal, figures[0].clean_area) &&
+        done = done && put_target(root, result->proposal, figures[0].clean_area) &&
+               put_front(root, result->proposal, figures[0].clean_area) &&
                put_front_by_nozzles(root, result->proposal, figures[0].clean_area) &&
                (!result->proposal->certificate.computed || put_certificate(root, &result->proposal->certificate));
     done = done && put_stages(stages, result->stages, result->stage_count) &&

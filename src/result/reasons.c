@@ -1,4 +1,4 @@
-/* What reasons are called. */
+/* What reasons are called, and which parts they concern. */
 #include <sprayplan/result.h>
 
 static const struct {
@@ -19,4 +19,18 @@ const char *sp_reason_key(sp_reason reason)
 const char *sp_reason_text(sp_reason reason)
 {
     return names[reason].text;
+}
+
+size_t sp_missing_next(const sp_figures *figures, sp_reason reason, size_t last)
+{
+    const sp_missing_figures *parts = figures->missing;
+    double before = last == SP_UNKNOWN ? INFINITY : parts[last].areas[reason];
+    size_t next = SP_UNKNOWN;
+    for (size_t k = 0; k < figures->missing_count; k++) {
+        double area = parts[k].areas[reason];
+        bool after = area < before || (area == before && k > last);
+        if (area > 0 && after && (next == SP_UNKNOWN || area > parts[next].areas[reason]))
+            next = k;
+    }
+    return next;
 }

@@ -28,6 +28,18 @@ char *sp_scene_file_path(const sp_scene *scene, size_t index, sp_error *error)
     return sp_path_join(scene->directory, file->text, error);
 }
 
+/* The nozzle that a message "nozzles: NAME at [..." speaks of; the list where there is none. */
+static const sp_yaml *find_nozzle(const sp_yaml *list, const char *text)
+{
+    for (const sp_yaml *entry = list->first; entry; entry = entry->next) {
+        const sp_yaml *name = sp_yaml_get(entry, "name");
+        size_t size = name && name->text ? strlen(name->text) : 0;
+        if (size && !strncmp(text, name->text, size) && !strncmp(text + size, " at [", 5))
+            return entry;
+    }
+    return list;
+}
+
 /* The setting that a message "key: ..." speaks of, the scene as a whole where there is none. */
 static const sp_yaml *find_setting(const sp_yaml *tree, const char *message)
 {
@@ -38,6 +50,8 @@ static const sp_yaml *find_setting(const sp_yaml *tree, const char *message)
     memcpy(key, message, size);
     key[size] = '\0';
     const sp_yaml *found = sp_yaml_get(tree, key);
+    if (found && !strcmp(key, "nozzles") && !strncmp(message + size, ": ", 2))
+        found = find_nozzle(found, message + size + 2);
     if (!found)
         found = sp_yaml_get(sp_yaml_get(tree, "simulate"), key);
     if (!found)

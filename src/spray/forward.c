@@ -25,6 +25,7 @@ typedef struct {
     sp_deposits *deposits;
     double *counted;     /* [patches], m³/s per m² of the nozzle in hand */
     sp_lit lit;          /* by the nozzle in hand */
+    sp_balance *balance; /* of all */
     sp_ray *rays;        /* [BATCH] */
     double *flow;        /* [BATCH], m³/s */
     sp_hit *hits;        /* [BATCH] */
@@ -125,6 +126,17 @@ static size_t gather(jet_flight *flight, size_t count)
     return kept;
 }
 
+/* In the order of the jets, whatever the number of threads. */
+static void keep_balance(jet_flight *flight, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const jet_impact *impact = &flight->impacts[i];
+        bool hit = flight->hits[i].triangle != SP_NONE;
+        sp_balance_add(flight->balance, hit, impact->shares.count > 0, hit ? impact->flow : flight->flow[i],
+                       impact->goes_on ? flight->flow[i] : 0);
+    }
+}
+
 /* Flies `count` jets to their end. */
 static void fly(jet_flight *flight, size_t count)
 {
@@ -136,8 +148,11 @@ static void fly(jet_flight *flight, size_t count)
         for (size_t i = 0; i < count; i++)
             strike(flight, i);
         settle(flight, count);
+        keep_balance(flight, count);
         count = gather(flight, count);
     }
+    for (size_t i = 0; i < count; i++)
+        flight->balance->unfollowed += flight->flow[i];
 }
 
 static uint64_t nozzle_jets(const sp_evaluator *evaluator, const sp_nozzle *nozzle)
@@ -223,6 +238,7 @@ sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout 
     jet_flight flight = {.evaluator = evaluator,
                          .deposits = &coverage->deposits,
                          .counted = calloc(coverage->deposits.count + 1, sizeof *flight.counted),
+                         .balance = &coverage->balance,
                          .rays = malloc(BATCH * sizeof *flight.rays),
                          .flow = malloc(BATCH * sizeof *flight.flow),
                          .hits = malloc(BATCH * sizeof *flight.hits),
@@ -239,6 +255,7 @@ sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout 
     free(flight.flow);
     free(flight.hits);
     free(flight.impacts);
+    coverage->balance.known = done;
     if (done)
         return coverage;
     sp_coverage_destroy(coverage);

@@ -48,6 +48,10 @@ uint32_t sp_patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u,
 /* forward.c, inverse.c: what sp_evaluate calls. */
 sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
 
+/* balance.c: what a jet does to the balance where it arrives, or does not; `onward` (m³/s) of what arrives is thrown
+ * back. */
+void sp_balance_add(sp_balance *balance, bool hit, bool clean, double arrived, double onward);
+
 /* coverage.c: everything zero, [patches.count]. */
 sp_coverage *sp_coverage_create(const sp_evaluator *evaluator, sp_error *error);
 /* One arrival of `flux` (m³/s per m²) and `jets` at a patch. speed, incidence and impact are summed weighted by flux

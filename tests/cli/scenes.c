@@ -43,6 +43,39 @@ static void check_measures_the_room(void **state)
     json_decref(object);
 }
 
+/* The box of each part, and a warning where the file's unit can hardly be meant. */
+static void check_tells_how_large_everything_is(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *unit;
+        double metres;
+        int warnings;
+    } units[] = {{"m", 1, 0}, {"mm", 1e-3, 1}, {"km", 1e3, 1}};
+    for (size_t i = 0; i < 3; i++) {
+        char scene[256];
+        snprintf(scene, sizeof scene, "geometry:\n  - {file: room.obj, unit: %s}\ncavity: [%g, %g, %g]\n",
+                 units[i].unit, 0.5 * units[i].metres, 0.5 * units[i].metres, 0.5 * units[i].metres);
+        write_file("sized.yaml", scene);
+        json_t *object = expect_json("check sized.yaml --json", 0), *warnings = json_object_get(object, "warnings");
+        json_t *ceiling = json_array_get(json_object_get(object, "parts"), 1);
+        const double low[] = {0, 0, 1}, high[] = {1, 1, 1};
+        for (size_t k = 0; k < 3; k++) {
+            double a = json_number_value(json_array_get(json_object_get(ceiling, "minimum_m"), k));
+            double b = json_number_value(json_array_get(json_object_get(ceiling, "maximum_m"), k));
+            assert_true(fabs(a - low[k] * units[i].metres) < 1e-9 * units[i].metres);
+            assert_true(fabs(b - high[k] * units[i].metres) < 1e-9 * units[i].metres);
+        }
+        assert_int_equal(json_array_size(warnings), units[i].warnings);
+        assert_true(!units[i].warnings || strstr(json_string_value(json_array_get(warnings, 0)), "unit"));
+        json_decref(object);
+    }
+    outcome result = run_program("check room.yaml");
+    assert_non_null(
+        strstr(result.out, "0        ceiling                  0, 0, 1                              1, 1, 1\n"));
+    forget(&result);
+}
+
 static void check_warns_where_bodies_are_closed_and_no_cavity_is_named(void **state)
 {
     (void)state;
@@ -323,6 +356,171 @@ static void compare_sets_scenes_side_by_side(void **state)
     free(report);
 }
 
+/* The room with another text in place of a part of its scene. */
+static void write_room_with(const char *name, const char *part, const char *instead)
+{
+    char scene[sizeof room_yaml + 256];
+    const char *at = strstr(room_yaml, part);
+    assert_non_null(at);
+    snprintf(scene, sizeof scene, "%.*s%s%s", (int)(at - room_yaml), room_yaml, instead, at + strlen(part));
+    write_file(name, scene);
+}
+
+/* More is asked for than what arrives so steeply allows: what is out of reach comes first, the proposal aims at the
+ * share asked for of the rest, and place exits 4. */
+static void what_cannot_be_reached_is_said_first(void **state)
+{
+    (void)state;
+    write_room_with("steep.yaml", "{flux: 1 L/min/m2}", "{flux: 1 L/min/m2, incidence: 40 deg}");
+    outcome result = run_program("place steep.yaml -o steep");
+    assert_int_equal(result.status, 4);
+    assert_ptr_equal(strstr(result.out, "out of reach of every allowed nozzle: "), result.out);
+    assert_non_null(strstr(result.out, "too slanted: walls "));
+    assert_non_null(strstr(result.err, "90 % of the surface was asked for, of which no more than "));
+    forget(&result);
+
+    json_t *all = json_file("steep/result.json"), *geometry = json_object_get(all, "geometry");
+    json_t *target = json_object_get(all, "target"), *part;
+    double clean = number(geometry, "clean_area_m2"), attainable = number(geometry, "attainable_area_m2"), missing = 0;
+    size_t i;
+    json_array_foreach(json_object_get(geometry, "unattainable_by_part"), i, part) missing += number(part, "area_m2");
+    assert_true(attainable < 0.9 * clean && fabs(clean - attainable - missing) < 1e-9);
+    assert_true(fabs(number(target, "coverage") - 0.9) < 1e-12);
+    assert_true(number(target, "coverage_aimed_at") <= 0.9 * attainable / clean + 1e-12);
+    assert_true(json_is_false(json_object_get(target, "reached")));
+    json_t *proposed = layout_named(all, "proposed");
+    assert_true(fabs(number(proposed, "coverage") - number(proposed, "covered_area_m2") / clean) < 1e-12);
+    assert_true(fabs(number(proposed, "coverage_of_attainable") - number(proposed, "covered_area_m2") / attainable) <
+                1e-12);
+    json_decref(all);
+}
+
+/* What is asked for is of the whole surface; with as much attainable it is the target, and reaching it exits 0. */
+static void what_can_be_reached_is_the_target(void **state)
+{
+    (void)state;
+    write_room_with("steep.yaml", "{flux: 1 L/min/m2}", "{flux: 1 L/min/m2, incidence: 40 deg}");
+    json_t *all = expect_json("place steep.yaml --json --set 'place.coverage=20 %'", 0);
+    json_t *target = json_object_get(all, "target");
+    assert_true(number(target, "coverage_aimed_at") == number(target, "coverage"));
+    assert_true(number(layout_named(all, "proposed"), "coverage") >= 0.2);
+    assert_true(json_is_true(json_object_get(target, "reached")));
+    json_decref(all);
+}
+
+/* The line of a folder's report that begins with `title`. */
+static void row_of(const char *folder, const char *title, char row[512])
+{
+    char path[128];
+    snprintf(path, sizeof path, "%s/report.html", folder);
+    char *page = read_file(path, NULL);
+    const char *at = page ? strstr(page, title) : NULL;
+    assert_non_null(at);
+    snprintf(row, 512, "%.*s", (int)strcspn(at, "\n"), at);
+    free(page);
+}
+
+/* By scene, by result, by report: a layout has one coverage. */
+static void a_layout_has_one_coverage_wherever_it_is_read(void **state)
+{
+    (void)state;
+    write_room_with("steep.yaml", "{flux: 1 L/min/m2}", "{flux: 1 L/min/m2, incidence: 40 deg}");
+    ensure("steep", "place steep.yaml");
+    json_t *placed = json_file("steep/result.json");
+    double coverage = number(layout_named(placed, "proposed"), "coverage");
+    json_t *all = expect_json("compare steep/layout.yaml steep/result.json --json", 0), *layout;
+    size_t i, found = 0;
+    json_array_foreach(json_object_get(all, "layouts"), i, layout)
+    {
+        const char *name = json_string_value(json_object_get(layout, "name"));
+        if (!strstr(name, "layout.yaml") && !strstr(name, "proposed"))
+            continue;
+        assert_true(number(layout, "coverage") == coverage);
+        found++;
+    }
+    assert_int_equal(found, 2);
+    outcome result = run_program("compare steep/layout.yaml steep/result.json -o both --quiet");
+    assert_int_equal(result.status, 0);
+    forget(&result);
+    char percent[64], row[512];
+    snprintf(percent, sizeof percent, "<td>%.1f</td>", 100 * coverage);
+    row_of("steep", "Coverage of the surface to be cleaned", row);
+    assert_non_null(strstr(row, percent));
+    row_of("both", "Coverage of the surface to be cleaned", row);
+    const char *first = strstr(row, percent);
+    assert_true(first && strstr(first + 1, percent));
+    snprintf(percent, sizeof percent, "covers <strong>%.1f&nbsp;%%", 100 * coverage);
+    row_of("steep", "<p class=\"headline\">", row);
+    assert_non_null(strstr(row, percent));
+    json_decref(placed);
+    json_decref(all);
+}
+
+/* In the ceiling, and above it. */
+static void a_nozzle_must_stand_in_the_liquid(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *position, *complaint;
+    } wrong[] = {{"[0.5 m, 0.5 m, 1 m]", "N1 at [0.5 m, 0.5 m, 1 m] is in a wall, part \"ceiling\""},
+                 {"[0.5 m, 0.5 m, 1.9 m]", "N1 at [0.5 m, 0.5 m, 1.9 m] is not inside the cavity"}};
+    for (size_t i = 0; i < 2; i++) {
+        write_room_with("astray.yaml", "[0.5 m, 0.5 m, 0.9 m]", wrong[i].position);
+        static const char *const commands[] = {"simulate astray.yaml", "compare room.yaml astray.yaml"};
+        for (size_t c = 0; c < 2; c++) {
+            outcome result = run_program(commands[c]);
+            assert_int_equal(result.status, 3);
+            assert_ptr_equal(strstr(result.err, "astray.yaml:7:5: nozzles: "), result.err);
+            assert_non_null(strstr(result.err, wrong[i].complaint));
+            forget(&result);
+        }
+        json_t *object = expect_json("check astray.yaml --json", 0), *warning;
+        size_t w, told = 0;
+        json_array_foreach(json_object_get(object, "warnings"), w, warning) told +=
+            strstr(json_string_value(warning), wrong[i].complaint) != NULL;
+        assert_int_equal(told, 1);
+        json_decref(object);
+    }
+    outcome result = run_program("place astray.yaml --set 'place.coverage=10 %' --time-limit 1");
+    assert_int_equal(result.status, 0);
+    assert_non_null(strstr(result.err, "the layout compared with is in doubt: nozzles: N1 at "));
+    forget(&result);
+    write_room_with("astray.yaml", "[0.5 m, 0.5 m, 0.9 m]", "[0.5 m, 0.5 m, 1.9 m], keep: true");
+    result = run_program("place astray.yaml");
+    assert_int_equal(result.status, 3);
+    forget(&result);
+}
+
+/* In a closed room nothing gets lost; through an open ceiling it does. */
+static void simulate_says_where_the_liquid_goes(void **state)
+{
+    (void)state;
+    json_t *object = expect_json("simulate room.yaml --json", 0);
+    json_t *liquid = json_object_get(layout_named(object, "manual"), "liquid_l_min");
+    assert_true(fabs(number(liquid, "on_clean_surface") - 12) < 1e-9);
+    assert_true(number(liquid, "left") == 0 && number(liquid, "not_followed") == 0);
+    json_decref(object);
+    const char *ceiling = strstr(room_obj, "g ceiling\n"), *walls = strstr(room_obj, "g walls\n");
+    char open_obj[sizeof room_obj], scene[1024];
+    snprintf(open_obj, sizeof open_obj, "%.*s%s", (int)(ceiling - room_obj), room_obj, walls);
+    write_file("open.obj", open_obj);
+    snprintf(scene, sizeof scene,
+             "geometry:\n  - file: open.obj\n    clean_parts: [floor]\ncatalogue: catalogue.yaml\n"
+             "nozzles:\n  - {name: N1, type: ball, position: [0.5 m, 0.5 m, 0.5 m], axis: [0, 0, 1], "
+             "pressure: 2 bar}\nsimulate: {texel: 100 mm, trajectory: line}\n");
+    write_file("open.yaml", scene);
+    outcome result = run_program("simulate open.yaml -o opened");
+    assert_int_equal(result.status, 0);
+    assert_non_null(strstr(
+        result.out, "L/min   on surface to clean     on other surface            flies out         not followed\n"
+                    "manual          3.3  16.7 %         13.3  66.6 %          3.3  16.7 %          "
+                    "0.0   0.0 %\n"));
+    forget(&result);
+    char row[512];
+    row_of("opened", "Flies out of the geometry", row);
+    assert_non_null(strstr(row, "<td>3.3 <span class=\"unit\">(16.7&nbsp;%)"));
+}
+
 static void atlas_keeps_every_triangle(void **state)
 {
     (void)state;
@@ -419,34 +617,47 @@ static void out_of_time_place_writes_the_best_so_far(void **state)
     }
 }
 
-static void interrupting_place_writes_the_best_so_far(void **state)
+static void place_survives(int signal, const char *folder)
 {
-    (void)state;
     write_long_scene();
-    pid_t child = begin_long_place("interrupted");
+    pid_t child = begin_long_place(folder);
     assert_true(child > 0);
     struct timespec pause = {0, 10000000};
     int status;
-    while (!catches(child, SIGINT)) {
+    while (!catches(child, signal)) {
         assert_int_equal(waitpid(child, &status, WNOHANG), 0); /* it must not have ended by itself */
         nanosleep(&pause, NULL);
     }
     /* The evaluator of twelve triangles takes a few milliseconds. */
     sleep(2);
-    assert_int_equal(kill(child, SIGINT), 0);
+    assert_int_equal(kill(child, signal), 0);
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_true(WIFEXITED(status));
     assert_int_equal(WEXITSTATUS(status), 130);
     char *complaint = read_file(".err", NULL);
     assert_non_null(strstr(complaint, "interrupted"));
     free(complaint);
-    proposal_is_whole("interrupted", true); /* the signal may come before the first nozzle is found */
+    proposal_is_whole(folder, true); /* the signal may come before the first nozzle is found */
+}
+
+static void interrupting_place_writes_the_best_so_far(void **state)
+{
+    (void)state;
+    place_survives(SIGINT, "interrupted");
+}
+
+/* As timeout(1) and schedulers do. */
+static void so_does_asking_it_to_end(void **state)
+{
+    (void)state;
+    place_survives(SIGTERM, "terminated");
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(check_measures_the_room),
+        cmocka_unit_test(check_tells_how_large_everything_is),
         cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),
         cmocka_unit_test(check_reports_the_cavity),
         cmocka_unit_test(simulate_gives_the_figures),
@@ -462,9 +673,15 @@ int main(void)
         cmocka_unit_test(the_written_layout_gives_the_same_figures),
         cmocka_unit_test(place_says_whether_the_coverage_asked_for_is_reached),
         cmocka_unit_test(compare_sets_scenes_side_by_side),
+        cmocka_unit_test(what_cannot_be_reached_is_said_first),
+        cmocka_unit_test(what_can_be_reached_is_the_target),
+        cmocka_unit_test(a_layout_has_one_coverage_wherever_it_is_read),
+        cmocka_unit_test(a_nozzle_must_stand_in_the_liquid),
+        cmocka_unit_test(simulate_says_where_the_liquid_goes),
         cmocka_unit_test(atlas_keeps_every_triangle),
         cmocka_unit_test(out_of_time_place_writes_the_best_so_far),
         cmocka_unit_test(interrupting_place_writes_the_best_so_far),
+        cmocka_unit_test(so_does_asking_it_to_end),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }

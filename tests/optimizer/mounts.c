@@ -2,7 +2,7 @@
 #include "room.h"
 
 #include "candidates/candidates.h"
-#include "candidates/distance.h"
+#include "mesh/distance.h"
 
 /* A room of 2 m with a closed block of 0.4 m in its middle. */
 static void open_block_room(room *r)

@@ -139,7 +139,7 @@ static void flow_is_turned_down_while_the_target_holds(void **state)
     j.options.coverage = 0.98;
     j.options.refine.flow = INFINITY;
     sp_proposal *proposal = job_place(&j);
-    assert_true(proposal->reached);
+    assert_true(proposal->coverage->covered_area >= proposal->target_area);
     /* the rim needs 70 % of the flow; 2 % of the area may stay dry, and texels count whole */
     double share = proposal->coverage->flow / j.type.flow;
     assert_true(share > 0.64 && share < 0.73);

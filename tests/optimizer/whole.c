@@ -118,7 +118,7 @@ static void wherever_it_stops_the_best_so_far_is_valid(void **state)
                 assert_true(proposal->layout->count > 0);
             double area = area_of(&j, proposal->layout->nozzles, proposal->layout->count);
             assert_true(area == proposal->coverage->covered_area);
-            assert_true(proposal->reached == (proposal->target_area > 0 && area >= proposal->target_area));
+            assert_true(proposal->reached == (area >= proposal->asked_area));
             sp_proposal_destroy(proposal);
             room_close(&j.room);
         }

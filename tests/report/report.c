@@ -33,6 +33,7 @@ static int set_up(void **state)
     const char *const names[] = {"manual", "greedy", "proposed"};
     for (int i = 0; i < 3; i++) {
         f.coverages[i] = sp_evaluate(f.evaluator, f.layouts[i], &error);
+        sp_evaluate_balance(f.evaluator, f.layouts[i], f.coverages[i], &error);
         f.designs[i] = (sp_design){names[i], f.evaluator, f.layouts[i], f.coverages[i], NULL};
     }
     if (error.kind != SP_OK) {
@@ -61,7 +62,8 @@ static int set_up(void **state)
                                .attainable = attainable,
                                .reasons = reasons,
                                .attainable_area = 5,
-                               .target_area = 99,
+                               .asked_area = 99,
+                               .target_area = 50,
                                .positions = 100,
                                .candidates = 4000,
                                .front_count = 3,
@@ -181,7 +183,7 @@ static void coverage_is_told_by_number_of_nozzles(void **state)
     assert_non_null(table);
     for (size_t i = 0; i < 3; i++) {
         snprintf(row, sizeof row, ">%zu</th><td>%.1f&nbsp;%%</td><td>%.1f&nbsp;L/min</td>", i + 1,
-                 100 * f->front[i].area / figures[2].attainable_area, 6e4 * f->front[i].flow);
+                 100 * f->front[i].area / figures[2].clean_area, 6e4 * f->front[i].flow);
         table = strstr(table, row);
         if (!table)
             fail_msg("no row %s", row);
@@ -224,10 +226,10 @@ static void result_json_has_the_keys_of_the_contract(void **state)
     size_t size;
     char *text = read_whole("result.json", &size);
     json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
-    EXPECT_KEYS(all, "sprayplan", "command", "scene", "geometry", "fidelity", "layouts", "front", "front_by_nozzles",
-                "stages");
+    EXPECT_KEYS(all, "sprayplan", "command", "scene", "geometry", "fidelity", "layouts", "target", "front",
+                "front_by_nozzles", "stages");
     EXPECT_KEYS(json_object_get(all, "geometry"), "triangles", "area_m2", "clean_area_m2", "attainable_area_m2",
-                "unattainable_m2");
+                "unattainable_m2", "unattainable_by_part");
     EXPECT_KEYS(json_object_get(json_object_get(all, "geometry"), "unattainable_m2"), "no_line_of_reach",
                 "reflection_only", "too_slow", "too_slanted", "too_little_flux");
     EXPECT_KEYS(json_object_get(all, "fidelity"), "trajectory", "evaluator", "reflections", "texel_m");
@@ -235,7 +237,7 @@ static void result_json_has_the_keys_of_the_contract(void **state)
     assert_int_equal(json_array_size(layouts), 3);
     json_t *manual = json_array_get(layouts, 0);
     EXPECT_KEYS(manual, "name", "water_l_min", "covered_area_m2", "coverage", "coverage_of_attainable",
-                "area_per_water", "flux_l_min_m2", "shadows", "nozzles");
+                "area_per_water", "flux_l_min_m2", "liquid_l_min", "shadows", "nozzles");
     EXPECT_KEYS(json_object_get(manual, "flux_l_min_m2"), "min", "mean", "p05", "max");
     EXPECT_KEYS(json_array_get(json_object_get(manual, "shadows"), 0), "area_m2", "centroid_m", "part", "reachable");
     EXPECT_KEYS(json_array_get(json_object_get(manual, "nozzles"), 0), "name", "type", "position_m", "axis", "roll_rad",
@@ -248,6 +250,11 @@ static void result_json_has_the_keys_of_the_contract(void **state)
     double water = json_number_value(json_object_get(manual, "water_l_min"));
     assert_true(fabs(water - 6e4 * f->coverages[0]->flow) < 1e-9 * water);
     assert_true(json_number_value(json_object_get(manual, "coverage")) == f->coverages[0]->fraction);
+    static const char *const keys[] = {"on_clean_surface", "on_other_surface", "left", "not_followed"};
+    double liquid = 0;
+    for (size_t i = 0; i < 4; i++)
+        liquid += json_number_value(json_object_get(json_object_get(manual, "liquid_l_min"), keys[i]));
+    assert_true(fabs(liquid - water) < 1e-9 * water);
     json_decref(all);
     free(text);
 }
@@ -295,7 +302,103 @@ static void reasons_add_up(void **state)
     assert_non_null(strstr(text, "attainable_area_m2"));
     assert_null(strstr(text, "unattainable_m2"));
     assert_null(strstr(text, "\"reason\""));
+    assert_null(strstr(text, "unattainable_by_part"));
     free(text);
+    html = sp_report_html(&result, &error);
+    assert_non_null(strstr(html, "of every allowed nozzle, or was not looked into: "));
+    assert_null(strstr(html, "are attainable, so that"));
+    free(html);
+}
+
+/* Each by a value of its own, so that no two can be confused and none be off by a factor. */
+static void flux_is_told_as_it_is(void **state)
+{
+    const fixture *f = *state;
+    static const char *const keys[] = {"min", "p05", "mean", "max"};
+    sp_error error = {0};
+    sp_coverage coverage = *f->coverages[0];
+    coverage.flux_min = 0.5 / 6e4;
+    coverage.flux_p05 = 1.25 / 6e4;
+    coverage.flux_mean = 7.5 / 6e4;
+    coverage.flux_max = 80 / 6e4;
+    const double expected[] = {0.5, 1.25, 7.5, 80};
+    sp_design design = f->designs[0];
+    design.coverage = &coverage;
+    sp_result result = {"simulate", "vessel.yaml", 1, &design, NULL, 0, NULL};
+    char *text = sp_result_json(&result, &error);
+    json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
+    const json_t *flux = json_object_get(json_array_get(json_object_get(all, "layouts"), 0), "flux_l_min_m2");
+    for (size_t i = 0; i < 4; i++)
+        assert_true(fabs(real_of(flux, keys[i]) - expected[i]) < 1e-9);
+    json_decref(all);
+    free(text);
+}
+
+static void same_real(double a, double b)
+{
+    assert_true((isnan(a) && isnan(b)) || fabs(a - b) <= 1e-12 * fabs(a));
+}
+
+/* What is read back from result.json is what was written. */
+static void figures_survive_the_file(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    size_t count;
+    write_report(f);
+    sp_figures *written = sp_result_figures(&f->result, &error);
+    sp_figures *read = sp_figures_read(FOLDER "/result.json", &count, &error);
+    assert_non_null(read);
+    assert_int_equal(count, 3);
+    assert_true(written[0].missing_count > 0 && written[0].flux_mean > 0 && written[0].landed_clean > 0);
+    for (size_t i = 0; i < 3; i++) {
+        const sp_figures *a = &written[i], *b = &read[i];
+        assert_int_equal(a->missing_count, b->missing_count);
+        for (size_t k = 0; k < a->missing_count; k++) {
+            assert_string_equal(a->missing[k].part, b->missing[k].part);
+            same_real(a->missing[k].area, b->missing[k].area);
+            for (sp_reason reason = SP_REASON_NO_LINE; reason < SP_REASONS; reason++)
+                same_real(a->missing[k].areas[reason], b->missing[k].areas[reason]);
+        }
+        const double first[] = {a->flow,         a->covered_area, a->coverage,   a->of_attainable,  a->area_per_water,
+                                a->flux_min,     a->flux_mean,    a->flux_p05,   a->flux_max,       a->landed_clean,
+                                a->landed_other, a->left,         a->unfollowed, a->attainable_area};
+        const double second[] = {b->flow,         b->covered_area, b->coverage,   b->of_attainable,  b->area_per_water,
+                                 b->flux_min,     b->flux_mean,    b->flux_p05,   b->flux_max,       b->landed_clean,
+                                 b->landed_other, b->left,         b->unfollowed, b->attainable_area};
+        for (size_t k = 0; k < sizeof first / sizeof *first; k++)
+            same_real(first[k], second[k]);
+    }
+    sp_figures_destroy(written, 3);
+    sp_figures_destroy(read, count);
+}
+
+/* Before anything else: how much, why, and of which parts. */
+static void what_is_out_of_reach_is_said_first(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    char *html = sp_report_html(&f->result, &error), text[200];
+    sp_figures *figures = sp_result_figures(&f->result, &error);
+    const char *first = strstr(html, "<p id=\"out-of-reach\" class=\"warning\">");
+    assert_true(first && first < strstr(html, "class=\"headline\""));
+    assert_true(strstr(html, "<section id=\"attainable\">") < strstr(html, "<section id=\"figures\">"));
+    const char *warning = strstr(html, "The coverage asked for is not reached");
+    snprintf(text, sizeof text, "no more than %.1f&nbsp;%% are attainable, so that %.1f&nbsp;%% were aimed at",
+             100 * figures[2].attainable_area / figures[2].clean_area, 5000 / figures[2].clean_area);
+    assert_true(warning && strstr(warning, text));
+    const char *table = strstr(html, "<caption>Out of reach, ");
+    assert_non_null(table);
+    for (size_t i = 0; i < figures[2].missing_count; i++) {
+        double sum = 0;
+        for (sp_reason reason = 0; reason < SP_REASONS; reason++)
+            sum += figures[2].missing[i].areas[reason];
+        same_real(sum, figures[2].missing[i].area);
+        snprintf(text, sizeof text, "%.4f</td></tr>", figures[2].missing[i].area);
+        assert_non_null(strstr(table, text));
+    }
+    sp_figures_destroy(figures, f->result.design_count);
+    free(html);
 }
 
 /* The words of the report are the promise: rounded so that they stay true. */
@@ -314,17 +417,20 @@ static void a_certificate_is_told_in_full(void **state)
         front[i] = f->front[i];
         front[i].counted = 6 + i;
         front[i].bound = 8 + 0.5 * i;
+        front[i].every_aim_bound = 9 + 0.25 * i;
     }
     proposal.front = front;
-    proposal.certificate = (sp_certificate){.computed = true,
-                                            .texels = 20011,
-                                            .candidates = 123456,
-                                            .own = 7,
-                                            .whole = 10,
-                                            .counted = 8.0401,
-                                            .area_bound = 9.0001,
-                                            .water_bound = 31.29 / 6e4,
-                                            .gap = 0.10667};
+    proposal.certificate = (sp_certificate){
+        .computed = true,
+        .texels = 20011,
+        .candidates = 123456,
+        .own = 7,
+        .whole = 10,
+        .counted = 8.0401,
+        .area_bound = 9.0001,
+        .water_bound = 31.29 / 6e4,
+        .gap = 0.10667,
+        .every_aim = {.computed = true, .places = 56, .area_bound = 9.5, .water_bound = 23.45 / 6e4, .gap = 0.1537}};
     sp_result result = f->result;
     result.proposal = &proposal;
     html = sp_report_html(&result, &error);
@@ -340,10 +446,24 @@ static void a_certificate_is_told_in_full(void **state)
     text = sp_result_json(&result, &error);
     json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL), *certificate = json_object_get(all, "certificate");
     EXPECT_KEYS(certificate, "method", "coverage", "coverage_bound_same_water", "water_bound_same_coverage_l_min",
-                "gap", "candidates", "own_poses", "texels");
+                "gap", "candidates", "own_poses", "texels", "every_aim");
     EXPECT_KEYS(json_array_get(json_object_get(all, "front"), 0), "water_l_min", "coverage", "nozzles",
-                "coverage_on_texels", "coverage_bound");
+                "coverage_on_texels", "coverage_bound", "coverage_bound_every_aim");
     assert_true(fabs(json_number_value(json_object_get(certificate, "coverage_bound_same_water")) - 0.90001) < 1e-12);
+    assert_true(fabs(real_of(certificate, "water_bound_same_coverage_l_min") - 31.29) < 1e-9);
+    assert_true(fabs(real_of(certificate, "coverage") - 0.80401) < 1e-12);
+    assert_true(real_of(certificate, "gap") == 0.10667);
+    const json_t *every = json_object_get(certificate, "every_aim");
+    assert_true(fabs(real_of(every, "water_bound_same_coverage_l_min") - 23.45) < 1e-9);
+    assert_true(fabs(real_of(every, "coverage_bound_same_water") - 0.95) < 1e-12);
+    assert_true(real_of(every, "gap") == 0.1537 && real_of(every, "mounting_points") == 56);
+    for (size_t i = 0; i < 3; i++) {
+        const json_t *point = json_array_get(json_object_get(all, "front"), i);
+        assert_true(fabs(real_of(point, "water_l_min") - 6e4 * front[i].flow) < 1e-9);
+        assert_true(fabs(real_of(point, "coverage_on_texels") - front[i].counted / 10) < 1e-12);
+        assert_true(fabs(real_of(point, "coverage_bound") - front[i].bound / 10) < 1e-12);
+        assert_true(fabs(real_of(point, "coverage_bound_every_aim") - front[i].every_aim_bound / 10) < 1e-12);
+    }
     json_decref(all);
     free(text);
 }
@@ -412,6 +532,9 @@ int main(void)
         cmocka_unit_test(names_from_strangers_stay_text),
         cmocka_unit_test(result_json_has_the_keys_of_the_contract),
         cmocka_unit_test(reasons_add_up),
+        cmocka_unit_test(flux_is_told_as_it_is),
+        cmocka_unit_test(figures_survive_the_file),
+        cmocka_unit_test(what_is_out_of_reach_is_said_first),
         cmocka_unit_test(a_certificate_is_told_in_full),
         cmocka_unit_test(the_model_is_a_gltf),
     };

@@ -1,6 +1,6 @@
 /* How far a point is from surfaces. */
-#ifndef OPTIMIZER_DISTANCE_H
-#define OPTIMIZER_DISTANCE_H
+#ifndef MESH_DISTANCE_H
+#define MESH_DISTANCE_H
 
 #include <sprayplan/mesh.h>
 

@@ -1,4 +1,4 @@
-#include "candidates/distance.h"
+#include "mesh/distance.h"
 
 /* Ericson, Real-Time Collision Detection, 5.1.5: by the Voronoi region of the triangle's corners, edges and face. */
 sp_vec3 sp_triangle_nearest(const sp_mesh *mesh, uint32_t triangle, sp_vec3 point)

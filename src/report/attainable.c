@@ -1,0 +1,189 @@
+/* What no allowed nozzle reaches, and why: said before any layout is praised or blamed for it. */
+#include "page.h"
+
+#define PARTS_SHOWN 12
+#define PARTS_NAMED 3
+#define NEGLIGIBLE 1e-6 /* share of the surface to be cleaned */
+
+static const char *const explanations[SP_REASONS] = {
+    [SP_REASON_UNKNOWN] = "the search was stopped before it was looked into",
+    [SP_REASON_NO_LINE] = "nothing that leaves an allowed place in an allowed direction arrives there",
+    [SP_REASON_REFLECTION] = "only liquid that a wall throws back arrives",
+    [SP_REASON_SLOW] = "what arrives is slower than the criterion asks",
+    [SP_REASON_SLANTED] = "what arrives fast enough is more slanted than the criterion allows",
+    [SP_REASON_FLUX] = "what arrives so is too little, within the limits of number and water",
+};
+
+/* Areas in the unit that suits all that is missing. */
+typedef struct {
+    double per_m2;
+    int decimals;
+    const char *name;
+} area_unit;
+
+static area_unit unit_for(double missing)
+{
+    return missing < 0.1 ? (area_unit){1e4, 1, "cm\xc2\xb2"} : (area_unit){1, 4, "m\xc2\xb2"};
+}
+
+/* The figures that speak of it; NULL where it is not known. */
+static const sp_figures *known(const sp_page *page)
+{
+    const sp_figures *figures = page->main == SP_UNKNOWN ? NULL : &page->figures[page->main];
+    return figures && isfinite(figures->attainable_area) ? figures : NULL;
+}
+
+static double missing_area(const sp_figures *figures)
+{
+    return fmax(figures->clean_area - figures->attainable_area, 0);
+}
+
+static const char *reason_text(sp_reason reason)
+{
+    return reason == SP_REASON_UNKNOWN ? "not looked into" : sp_reason_text(reason);
+}
+
+/* Reasons that have area, largest first; returns how many. */
+static size_t rank_reasons(const double areas[SP_REASONS], sp_reason ranked[SP_REASONS])
+{
+    size_t count = 0;
+    for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
+        if (!reason_text(reason) || !(areas[reason] > 0))
+            continue;
+        size_t at = count++;
+        for (; at > 0 && areas[reason] > areas[ranked[at - 1]]; at--)
+            ranked[at] = ranked[at - 1];
+        ranked[at] = reason;
+    }
+    return count;
+}
+
+/* Area, reason and the parts that it is most of. */
+static void add_reason(sp_text *text, const sp_figures *figures, const area_unit *unit, sp_reason reason)
+{
+    double others = figures->missing_area[reason];
+    size_t part = SP_UNKNOWN;
+    sp_markup_decimals(text, unit->per_m2 * figures->missing_area[reason], unit->decimals);
+    sp_text_add(text, "&nbsp;%s %s", unit->name, reason_text(reason));
+    for (int i = 0; i < PARTS_NAMED && (part = sp_missing_next(figures, reason, part)) != SP_UNKNOWN; i++) {
+        sp_text_add(text, i ? ", " : " (");
+        sp_markup_escape(text, figures->missing[part].part);
+        sp_text_add(text, "&nbsp;");
+        sp_markup_decimals(text, unit->per_m2 * figures->missing[part].areas[reason], unit->decimals);
+        others -= figures->missing[part].areas[reason];
+    }
+    if (others > NEGLIGIBLE * figures->clean_area) {
+        sp_text_add(text, ", others ");
+        sp_markup_decimals(text, unit->per_m2 * others, unit->decimals);
+    }
+    sp_text_add(text, figures->missing_count ? ")" : "");
+}
+
+void sp_page_out_of_reach(const sp_page *page, sp_text *text)
+{
+    const sp_figures *figures = known(page);
+    double missing = figures ? missing_area(figures) : 0;
+    if (!figures || !(missing > NEGLIGIBLE * figures->clean_area))
+        return;
+    const sp_proposal *proposal = page->result->proposal;
+    area_unit unit = unit_for(missing);
+    sp_reason ranked[SP_REASONS];
+    size_t count = rank_reasons(figures->missing_area, ranked);
+    sp_text_add(text, "<p id=\"out-of-reach\" class=\"%s\"><strong>",
+                proposal && figures->attainable_area < proposal->asked_area ? "warning" : "note");
+    double percent = 100 * missing / figures->clean_area;
+    sp_markup_decimals(text, percent, percent < 1 ? 3 : 1);
+    sp_text_add(text, "&nbsp;%% of the surface to be cleaned is out of reach</strong> of every allowed nozzle%s: ",
+                figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or was not looked into" : "");
+    for (size_t i = 0; i < count; i++) {
+        sp_text_add(text, i ? "; " : "");
+        add_reason(text, figures, &unit, ranked[i]);
+    }
+    sp_text_add(text, ". <a href=\"#attainable\">All parts</a>.</p>\n");
+}
+
+static void add_row(sp_text *text, const area_unit *unit, const sp_missing_figures *row, const sp_reason *ranked,
+                    size_t count)
+{
+    sp_text_add(text, "<tr><th scope=\"row\">");
+    sp_markup_escape(text, row->part);
+    sp_text_add(text, "</th>");
+    for (size_t i = 0; i < count; i++) {
+        sp_text_add(text, "<td>");
+        sp_markup_decimals(text, unit->per_m2 * row->areas[ranked[i]], unit->decimals);
+        sp_text_add(text, "</td>");
+    }
+    sp_text_add(text, "<td>");
+    sp_markup_decimals(text, unit->per_m2 * row->area, unit->decimals);
+    sp_text_add(text, "</td></tr>\n");
+}
+
+/* The parts that miss most, all the others together, and the sum. */
+static void add_rows(sp_text *text, const sp_figures *figures, const area_unit *unit, const sp_reason *ranked,
+                     size_t count)
+{
+    sp_missing_figures others = {.part = "all other parts"}, all = {.part = "together"};
+    for (size_t i = 0; i < figures->missing_count; i++) {
+        const sp_missing_figures *row = &figures->missing[i];
+        if (i < PARTS_SHOWN)
+            add_row(text, unit, row, ranked, count);
+        for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
+            others.areas[reason] += i < PARTS_SHOWN ? 0 : row->areas[reason];
+            all.areas[reason] += row->areas[reason];
+        }
+        others.area += i < PARTS_SHOWN ? 0 : row->area;
+        all.area += row->area;
+    }
+    if (others.area > 0)
+        add_row(text, unit, &others, ranked, count);
+    if (figures->missing_count > 1)
+        add_row(text, unit, &all, ranked, count);
+}
+
+static void add_table(sp_text *text, const sp_figures *figures)
+{
+    sp_reason ranked[SP_REASONS];
+    size_t count = rank_reasons(figures->missing_area, ranked);
+    area_unit unit = unit_for(missing_area(figures));
+    sp_text_add(text, "<ul id=\"reasons\">\n");
+    for (size_t i = 0; i < count; i++) {
+        sp_text_add(text, "<li>");
+        sp_markup_decimals(text, unit.per_m2 * figures->missing_area[ranked[i]], unit.decimals);
+        sp_text_add(text, "&nbsp;%s %s: %s.</li>\n", unit.name, reason_text(ranked[i]), explanations[ranked[i]]);
+    }
+    sp_text_add(text,
+                "</ul>\n<div class=\"wide\"><table class=\"numbers small narrow\"><caption>Out of reach, %s</caption>\n"
+                "<thead><tr><th scope=\"col\">Part</th>",
+                unit.name);
+    for (size_t i = 0; i < count; i++)
+        sp_text_add(text, "<th scope=\"col\">%s</th>", reason_text(ranked[i]));
+    sp_text_add(text, "<th scope=\"col\">all</th></tr></thead>\n<tbody>\n");
+    add_rows(text, figures, &unit, ranked, count);
+    sp_text_add(text, "</tbody></table></div>\n");
+}
+
+void sp_page_attainable(const sp_page *page, sp_text *text)
+{
+    const sp_figures *figures = known(page);
+    if (!figures)
+        return;
+    double missing = missing_area(figures);
+    sp_text_add(text, "<section id=\"attainable\"><h2>What can be reached at all</h2>\n<p>Of ");
+    sp_markup_significant(text, figures->clean_area, 4);
+    sp_text_add(text, "&nbsp;m\xc2\xb2 to be cleaned, ");
+    sp_markup_significant(text, figures->attainable_area, 4);
+    sp_text_add(text, "&nbsp;m\xc2\xb2 (");
+    sp_markup_decimals(text, 100 * figures->attainable_area / figures->clean_area, 1);
+    sp_text_add(
+        text, "&nbsp;%%) are attainable: some allowed nozzle, at some allowed place and direction, reaches them as the "
+              "criterion asks, or a layout of this report covers them.");
+    if (missing > NEGLIGIBLE * figures->clean_area)
+        sp_text_add(text,
+                    " What is out of reach of every allowed nozzle is a fault of the vessel or of the mounts allowed, "
+                    "which no choice among them mends: another port, another type of nozzle or a change of the part "
+                    "would.");
+    sp_text_add(text, "</p>\n");
+    if (missing > NEGLIGIBLE * figures->clean_area)
+        add_table(text, figures);
+    sp_text_add(text, "</section>\n");
+}

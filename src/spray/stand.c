@@ -1,0 +1,47 @@
+/* Whether a nozzle can stand where a layout puts it. */
+#include "state.h"
+
+#include "mesh/distance.h"
+
+#define TOUCH 1e-6 /* of the geometry's diagonal: nearer than this a nozzle is in the wall */
+
+static double diagonal(const sp_mesh *mesh)
+{
+    sp_vec3 low = mesh->vertices[mesh->triangles[0][0]], high = low;
+    for (size_t i = 0; i < mesh->triangle_count; i++)
+        for (int corner = 0; corner < 3; corner++) {
+            sp_vec3 p = mesh->vertices[mesh->triangles[i][corner]];
+            low = sp_v(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
+            high = sp_v(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
+        }
+    return sp_distance(low, high);
+}
+
+/* What sees the cavity's point is in its space, though it may see more of the sky than of walls: above an open tank. */
+static bool sees_cavity(const sp_evaluator *evaluator, sp_vec3 point)
+{
+    sp_ray sight = {
+        .origin = point, .velocity = sp_sub(evaluator->setup.cavity_point, point), .t_max = 1, .skip = SP_NONE};
+    return evaluator->setup.cavity == SP_CAVITY_POINT &&
+           (!(sp_length(sight.velocity) > 0) || !sp_trace_occluded(evaluator->tracer, &sight, sp_v(0, 0, 0)));
+}
+
+bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle, sp_error *error)
+{
+    const sp_mesh *mesh = evaluator->setup.mesh;
+    sp_vec3 p = nozzle->position;
+    double touch = TOUCH * diagonal(mesh);
+    if (!sp_is_clear(mesh, p, touch, SP_NONE)) {
+        uint32_t triangle = sp_nearest_triangle(mesh, SP_NONE, p);
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "nozzles: %s at [%.6g m, %.6g m, %.6g m] is in a wall, part \"%s\"; expected a place clear of "
+                       "all surfaces",
+                       nozzle->name, p.x, p.y, p.z, mesh->parts[mesh->part[triangle]].name);
+    }
+    if (sp_evaluator_inside(evaluator, p) || sees_cavity(evaluator, p))
+        return true;
+    return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "nozzles: %s at [%.6g m, %.6g m, %.6g m] is not inside the cavity; expected a place in the space "
+                   "where the liquid flies",
+                   nozzle->name, p.x, p.y, p.z);
+}
