@@ -42,6 +42,8 @@ const sp_setup *sp_evaluator_setup(const sp_evaluator *evaluator);
 const sp_fidelity *sp_evaluator_fidelity(const sp_evaluator *evaluator); /* nothing left to auto */
 const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator);
 const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator);
+/* The length of the texel that a patch lies in, m: that of the fidelity, or less on thin parts. */
+double sp_evaluator_texel_length(const sp_evaluator *evaluator, uint32_t patch);
 const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator);
 /* Which sides of a triangle face the liquid: bit 0 front, bit 1 back. Both where no cavity is named. */
 unsigned sp_evaluator_wet(const sp_evaluator *evaluator, uint32_t triangle);

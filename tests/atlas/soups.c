@@ -312,7 +312,7 @@ static void expect_atlas(const sp_mesh *mesh, const sp_atlas *atlas)
 }
 
 /* Patches over the whole, and one nozzle in its midst. */
-static void expect_patches(const sp_mesh *mesh, double texel)
+static void expect_patches(const sp_mesh *mesh, double width, double texel)
 {
     sp_surface surface = {.clean = true, .rebound = 1};
     sp_setup setup = sp_setup_default();
@@ -324,8 +324,12 @@ static void expect_patches(const sp_mesh *mesh, double texel)
     sp_evaluator *evaluator = sp_evaluator_create(&setup, &error);
     if (!evaluator)
         fail_msg("%s", error.message);
-    double area = sp_mesh_area(mesh);
-    assert_true(fabs(sp_evaluator_patches(evaluator)->total_area - area) <= 1e-6 * area);
+    double area = sp_mesh_area(mesh), reach = 0;
+    for (size_t v = 0; v < mesh->vertex_count; v++)
+        reach = fmax(reach, sp_length(mesh->vertices[v]));
+    /* Strips that are thinner than the rounding of their coordinates may go missing. */
+    double off = fabs(sp_evaluator_patches(evaluator)->total_area - area);
+    assert_true(off <= 1e-9 * area + 1e-14 * reach * width);
     sp_evaluator_destroy(evaluator);
 }
 
@@ -355,7 +359,7 @@ static bool lay_out(uint64_t number, int fineness)
         expect_atlas(mesh, atlas);
         sp_atlas_destroy(atlas);
         if (one_in(&s, 2))
-            expect_patches(mesh, fmax(texel, width / 4000));
+            expect_patches(mesh, width, fmax(texel, width / 4000));
     }
     sp_charts_destroy(charts);
     sp_mesh_destroy(mesh);

@@ -1,0 +1,112 @@
+#include "density.h"
+
+#include <stdlib.h>
+
+#define AROUND 8 /* texels around a thin part */
+/* Thin parts may double the number of texels; where there are few, there may be so many. */
+#define MOST_TIMES 2
+#define FEW_TEXELS 50000
+#define HALVINGS 40
+
+typedef struct {
+    double area, counted, low[2], high[2];
+} chart_size;
+
+static double span(const chart_size *c)
+{
+    return fmax(c->high[0] - c->low[0], c->high[1] - c->low[1]);
+}
+
+static void measure(const sp_evaluator *evaluator, const sp_charts *charts, chart_size *sizes)
+{
+    for (size_t c = 0; c < charts->chart_count; c++)
+        sizes[c] = (chart_size){.low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
+    for (uint32_t t = 0; t < charts->triangle_count; t++) {
+        chart_size *size = &sizes[charts->chart[t]];
+        size->area += sp_triangle_area(evaluator->setup.mesh, t);
+        size->counted += sp_counted_area(evaluator, t);
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 2; k++) {
+                size->low[k] = fmin(size->low[k], charts->flat[t][i][k]);
+                size->high[k] = fmax(size->high[k], charts->flat[t][i][k]);
+            }
+    }
+}
+
+/* How many texels charts with anything to be cleaned have if none is shorter than `times` what it wants. */
+static double count_texels(const chart_size *sizes, const double *wanted, size_t count, double texel, double times)
+{
+    double texels = 0;
+    for (size_t c = 0; c < count; c++) {
+        double length = fmin(texel, times * wanted[c]);
+        texels += sizes[c].counted > 0 ? sizes[c].area / (length * length) : 0;
+    }
+    return texels;
+}
+
+/* By how much all that want shorter texels must be content with longer ones. */
+static double find_times(const chart_size *sizes, const double *wanted, size_t count, double texel)
+{
+    double most = fmax(MOST_TIMES * count_texels(sizes, wanted, count, texel, INFINITY), FEW_TEXELS);
+    double low = 1, high = 1;
+    if (count_texels(sizes, wanted, count, texel, 1) <= most)
+        return 1;
+    for (size_t c = 0; c < count; c++)
+        high = fmax(high, texel / wanted[c]);
+    for (int i = 0; i < HALVINGS; i++) {
+        double middle = sqrt(low * high);
+        bool few = count_texels(sizes, wanted, count, texel, middle) <= most;
+        *(few ? &high : &low) = middle;
+    }
+    return high;
+}
+
+/* The length on charts where nothing is to be cleaned. */
+static double dry_length(const chart_size *sizes, size_t count, double texel, double texels)
+{
+    double dry = 0;
+    for (size_t c = 0; c < count; c++)
+        dry += sizes[c].counted > 0 ? 0 : sizes[c].area;
+    return fmax(texel, sqrt(dry / fmax(texels, FEW_TEXELS)));
+}
+
+/* From girths to lengths of texels. */
+static void choose(const chart_size *sizes, size_t count, double texel, double least, double page, sp_density *density)
+{
+    double *length = density->texel;
+    for (size_t c = 0; c < count; c++)
+        length[c] = fmin(texel, fmax(fmax(length[c] / AROUND, least), span(&sizes[c]) / page));
+    double times = find_times(sizes, length, count, texel);
+    double dry = dry_length(sizes, count, texel, count_texels(sizes, length, count, texel, INFINITY));
+    density->finest = texel;
+    for (size_t c = 0; c < count; c++) {
+        bool clean = sizes[c].counted > 0;
+        length[c] = clean ? fmin(texel, times * length[c]) : fmax(dry, span(&sizes[c]) / page);
+        density->finest = clean ? fmin(density->finest, length[c]) : density->finest;
+        density->texels += sizes[c].area / (length[c] * length[c]);
+        density->longest = fmax(density->longest, span(&sizes[c]) / length[c]);
+    }
+}
+
+bool sp_density_create(const sp_evaluator *evaluator, const sp_charts *charts, double texel, double least, double page,
+                       sp_density *density, sp_error *error)
+{
+    *density = (sp_density){.texel = sp_charts_girth(charts, evaluator->setup.mesh, error)};
+    if (!density->texel)
+        return false;
+    chart_size *sizes = malloc((charts->chart_count + 1) * sizeof *sizes);
+    if (!sizes) {
+        sp_density_free(density);
+        return sp_fail_memory(error);
+    }
+    measure(evaluator, charts, sizes);
+    choose(sizes, charts->chart_count, texel, least, page, density);
+    free(sizes);
+    return true;
+}
+
+void sp_density_free(sp_density *density)
+{
+    free(density->texel);
+    *density = (sp_density){0};
+}
