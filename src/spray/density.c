@@ -7,6 +7,7 @@
 #define MOST_TIMES 2
 #define FEW_TEXELS 50000
 #define HALVINGS 40
+#define DRY_SHARE 0.25 /* of these texels, for all that is not cleaned: nothing is recorded there */
 
 typedef struct {
     double area, counted, low[2], high[2];
@@ -67,42 +68,76 @@ static double dry_length(const chart_size *sizes, size_t count, double texel, do
     double dry = 0;
     for (size_t c = 0; c < count; c++)
         dry += sizes[c].counted > 0 ? 0 : sizes[c].area;
-    return fmax(texel, sqrt(dry / fmax(texels, FEW_TEXELS)));
+    return fmax(texel, sqrt(dry / fmax(DRY_SHARE * texels, FEW_TEXELS)));
 }
 
-/* From girths to lengths of texels. */
-static void choose(const chart_size *sizes, size_t count, double texel, double least, double page, sp_density *density)
+typedef struct {
+    double length, counted;
+} chart_length;
+
+static int by_length(const void *left, const void *right)
 {
-    double *length = density->texel;
+    const chart_length *a = left, *b = right;
+    if (a->length != b->length)
+        return a->length < b->length ? -1 : 1;
+    return (a->counted > b->counted) - (a->counted < b->counted);
+}
+
+/* The length that charts with no more than a share `spare` of what is to be cleaned may fall short of. */
+static double spare_length(chart_length *lengths, size_t count, double spare)
+{
+    double counted = 0, shorter = 0;
     for (size_t c = 0; c < count; c++)
-        length[c] = fmin(texel, fmax(fmax(length[c] / AROUND, least), span(&sizes[c]) / page));
-    double times = find_times(sizes, length, count, texel);
+        counted += lengths[c].counted;
+    qsort(lengths, count, sizeof *lengths, by_length);
+    for (size_t c = 0; c < count; c++) {
+        shorter += lengths[c].counted;
+        if (shorter > spare * counted)
+            return lengths[c].length;
+    }
+    return 0;
+}
+
+/* From girths to lengths of texels. `lengths` is room for the charts. */
+static void choose(const chart_size *sizes, chart_length *lengths, size_t count, const sp_density_limits *limits,
+                   sp_density *density)
+{
+    double *length = density->texel, texel = limits->texel;
+    for (size_t c = 0; c < count; c++) {
+        length[c] = fmin(texel, fmax(fmax(length[c] / AROUND, limits->least), span(&sizes[c]) / limits->page));
+        lengths[c] = (chart_length){length[c], sizes[c].counted};
+    }
+    double spare = spare_length(lengths, count, limits->spare), times = find_times(sizes, length, count, texel);
     double dry = dry_length(sizes, count, texel, count_texels(sizes, length, count, texel, INFINITY));
     density->finest = texel;
     for (size_t c = 0; c < count; c++) {
         bool clean = sizes[c].counted > 0;
-        length[c] = clean ? fmin(texel, times * length[c]) : fmax(dry, span(&sizes[c]) / page);
+        length[c] = clean ? fmin(texel, times * fmax(length[c], spare)) : fmax(dry, span(&sizes[c]) / limits->page);
         density->finest = clean ? fmin(density->finest, length[c]) : density->finest;
         density->texels += sizes[c].area / (length[c] * length[c]);
         density->longest = fmax(density->longest, span(&sizes[c]) / length[c]);
     }
 }
 
-bool sp_density_create(const sp_evaluator *evaluator, const sp_charts *charts, double texel, double least, double page,
+bool sp_density_create(const sp_evaluator *evaluator, const sp_charts *charts, const sp_density_limits *limits,
                        sp_density *density, sp_error *error)
 {
     *density = (sp_density){.texel = sp_charts_girth(charts, evaluator->setup.mesh, error)};
     if (!density->texel)
         return false;
     chart_size *sizes = malloc((charts->chart_count + 1) * sizeof *sizes);
-    if (!sizes) {
-        sp_density_free(density);
-        return sp_fail_memory(error);
+    chart_length *lengths = malloc((charts->chart_count + 1) * sizeof *lengths);
+    bool done = sizes && lengths;
+    if (done) {
+        measure(evaluator, charts, sizes);
+        choose(sizes, lengths, charts->chart_count, limits, density);
     }
-    measure(evaluator, charts, sizes);
-    choose(sizes, charts->chart_count, texel, least, page, density);
     free(sizes);
-    return true;
+    free(lengths);
+    if (done)
+        return true;
+    sp_density_free(density);
+    return sp_fail_memory(error);
 }
 
 void sp_density_free(sp_density *density)

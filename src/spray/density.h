@@ -11,11 +11,19 @@ typedef struct {
     double longest; /* texels, the longest side of a chart's box */
 } sp_density;
 
-/* A chart with anything to be cleaned gets texels of `texel` (m) or, if that is less, an eighth of its girth, so that
- * what a texel holds turns by 45 degrees at most; but none below `least` (m), none below what puts its chart on a page
- * of `page` texels, and, where they became too many, longer ones. All others share no more texels than these have, and
- * fit the page. Needs the wet sides. */
-bool sp_density_create(const sp_evaluator *evaluator, const sp_charts *charts, double texel, double least, double page,
+typedef struct {
+    double texel; /* m, on what is not thin */
+    double least; /* m, no shorter ones */
+    double spare; /* the smallest thin charts, with no more than this share of what is cleaned, have no shorter ones
+                     than the others */
+    double page;  /* texels: no chart is longer for having shorter ones */
+} sp_density_limits;
+
+/* A chart with anything to be cleaned gets texels as asked or, if that is less, of an eighth of its girth, so that what
+ * a texel holds turns by 45 degrees at most; longer ones where they became more than twice as many as without thin
+ * parts (and more than 50,000). All other charts share no more than a quarter as many as these have, and fit the page.
+ * Needs the wet sides. */
+bool sp_density_create(const sp_evaluator *evaluator, const sp_charts *charts, const sp_density_limits *limits,
                        sp_density *density, sp_error *error);
 void sp_density_free(sp_density *density);
 

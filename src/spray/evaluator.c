@@ -12,7 +12,8 @@
 #define AUTO_MOST_JETS 4e6
 #define AUTO_JETS_AT_THRESHOLD 150
 #define AUTO_JETS_TO_TOUCH 20
-#define PAGE_EDGE 4096       /* texels */
+#define SPARE 0.1      /* of the accuracy asked for, that may be lost on thin parts which the jets do not follow */
+#define PAGE_EDGE 4096 /* texels */
 #define MOST_PAGE_EDGE 16384 /* texels, for a triangle longer than PAGE_EDGE */
 #define PAGE_MARGIN 4        /* texels that a page needs beyond its chart */
 #define MOST_TEXELS 1e9
@@ -126,14 +127,23 @@ static double jets_per_texel(const sp_evaluator *evaluator)
     return evaluator->setup.criterion.flux > 0 ? AUTO_JETS_AT_THRESHOLD : AUTO_JETS_TO_TOUCH;
 }
 
-/* The length below which texels of thin parts would be missed by the jets: no reason for shorter ones. */
-static double least_texel(const sp_evaluator *evaluator)
+static uint64_t jets_for(const sp_evaluator *evaluator, double texel)
+{
+    double texels = counted_area(evaluator) / (texel * texel);
+    return (uint64_t)fmin(AUTO_MOST_JETS, ceil(jets_per_texel(evaluator) * texels));
+}
+
+/* Shorter texels than the jets can meet each would look dry, and few thin parts are not worth more jets for all. */
+static sp_density_limits density_limits(const sp_evaluator *evaluator)
 {
     const sp_fidelity *fidelity = &evaluator->fidelity;
+    sp_density_limits limits = {.texel = fidelity->texel, .page = PAGE_EDGE - PAGE_MARGIN};
     if (fidelity->method == SP_METHOD_INVERSE)
-        return 0;
+        return limits;
     double jets = fidelity->jets > 0 ? (double)fidelity->jets : AUTO_MOST_JETS;
-    return sqrt(counted_area(evaluator) * jets_per_texel(evaluator) / jets);
+    limits.least = sqrt(counted_area(evaluator) * jets_per_texel(evaluator) / jets);
+    limits.spare = SPARE * fidelity->accuracy;
+    return limits;
 }
 
 static bool check_number(double texel, double texels, sp_error *error)
@@ -149,16 +159,15 @@ static bool build_atlas(sp_evaluator *evaluator, const sp_charts *charts, sp_err
 {
     sp_density density;
     sp_fidelity *fidelity = &evaluator->fidelity;
-    if (!sp_density_create(evaluator, charts, fidelity->texel, least_texel(evaluator), PAGE_EDGE - PAGE_MARGIN,
-                           &density, error))
+    sp_density_limits limits = density_limits(evaluator);
+    if (!sp_density_create(evaluator, charts, &limits, &density, error))
         return false;
     double page = fmin(fmax(ceil(density.longest) + PAGE_MARGIN, PAGE_EDGE), MOST_PAGE_EDGE);
     sp_atlas_options options = {.texel = fidelity->texel, .page_edge = (uint32_t)page, .chart_texel = density.texel};
     if (check_number(fidelity->texel, density.texels, error))
         evaluator->atlas = sp_atlas_create(evaluator->setup.mesh, charts, &options, error);
-    double texels = counted_area(evaluator) / (density.finest * density.finest);
     if (fidelity->jets == 0)
-        fidelity->jets = (uint64_t)fmin(AUTO_MOST_JETS, ceil(jets_per_texel(evaluator) * texels));
+        fidelity->jets = jets_for(evaluator, fidelity->method == SP_METHOD_INVERSE ? fidelity->texel : density.finest);
     sp_density_free(&density);
     return evaluator->atlas;
 }

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-/* Adds a share in proportion to the patch's area, unless that texel has no patch on the side that was hit, or has its
- * share already. */
+/* Adds a share in proportion to the patch's area in pixels, unless that texel has no patch on the side that was hit, or
+ * has its share already. */
 static void add_share(const sp_evaluator *evaluator, uint32_t texel, bool back, double weight, sp_shares *shares)
 {
     uint32_t patch = evaluator->texel_patch[texel][evaluator->setup.cavity != SP_CAVITY_NONE && back];
@@ -13,7 +13,8 @@ static void add_share(const sp_evaluator *evaluator, uint32_t texel, bool back, 
     if (known)
         return;
     shares->patch[shares->count] = patch;
-    shares->share[shares->count++] = weight * evaluator->patches.area[patch];
+    double density = evaluator->fidelity.texel / sp_evaluator_texel_length(evaluator, patch);
+    shares->share[shares->count++] = weight * evaluator->patches.area[patch] * density * density;
 }
 
 /* The first texel of a pixel on the page of `home`, SP_NONE where it is not of that chart. */
