@@ -276,14 +276,35 @@ static double length_of(const sp_charts *charts)
     return longest;
 }
 
+/* By how much the worst of a triangle's edges is longer or shorter than it is on the surface. */
+static double strain_of(const sp_mesh *mesh, const sp_charts *charts, size_t t)
+{
+    double worst = 0;
+    for (int i = 0; i < 3; i++) {
+        const double *p = charts->flat[t][i], *q = charts->flat[t][(i + 1) % 3];
+        double length =
+            sp_distance(mesh->vertices[mesh->triangles[t][i]], mesh->vertices[mesh->triangles[t][(i + 1) % 3]]);
+        worst = fmax(worst, fabs(hypot(q[0] - p[0], q[1] - p[1]) / length - 1));
+    }
+    return worst;
+}
+
+/* Every triangle lies in a chart, and at most 5 % of a chart's area has more than 5 % strain. */
 static void expect_charts(const sp_mesh *mesh, const sp_charts *charts)
 {
     assert_int_equal(charts->triangle_count, mesh->triangle_count);
+    double(*area)[2] = calloc(charts->chart_count + 1, sizeof *area);
     for (size_t t = 0; t < mesh->triangle_count; t++) {
         assert_true(charts->chart[t] < charts->chart_count);
         for (int i = 0; i < 3; i++)
             assert_true(isfinite(charts->flat[t][i][0]) && isfinite(charts->flat[t][i][1]));
+        area[charts->chart[t]][0] += sp_triangle_area(mesh, (uint32_t)t);
+        area[charts->chart[t]][1] +=
+            strain_of(mesh, charts, t) <= 0.05 * (1 + 1e-6) ? 0 : sp_triangle_area(mesh, (uint32_t)t);
     }
+    for (size_t c = 0; c < charts->chart_count; c++)
+        assert_true(area[c][0] > 0 && area[c][1] <= 0.05 * (1 + 1e-6) * area[c][0]);
+    free(area);
 }
 
 /* What is reckoned from an atlas, each part of it touched. */
@@ -351,7 +372,7 @@ static bool lay_out(uint64_t number, int fineness)
         fail_msg("soup %llu: %s", (unsigned long long)number, error.message);
     expect_charts(mesh, charts);
     if (triangles > 0) {
-        texel = fmax(texel, length_of(charts) / 4000);
+        texel = fmax(texel, length_of(charts) / 1000); /* needles in great number take long to pack */
         sp_atlas_options options = {.texel = texel, .page_edge = 16384, .packing = any(&s, 2)};
         sp_atlas *atlas = sp_atlas_create(mesh, charts, &options, &error);
         if (!atlas)
@@ -359,7 +380,7 @@ static bool lay_out(uint64_t number, int fineness)
         expect_atlas(mesh, atlas);
         sp_atlas_destroy(atlas);
         if (one_in(&s, 2))
-            expect_patches(mesh, width, fmax(texel, width / 4000));
+            expect_patches(mesh, width, fmax(texel, width / 1000));
     }
     sp_charts_destroy(charts);
     sp_mesh_destroy(mesh);
