@@ -96,10 +96,106 @@ static void a_rod_is_lit_by_half(void **state)
     }
 }
 
+/* A closed tank of 1 m, a baffle of 4 mm in it, and a roof far above and far larger. */
+static shape tank_under_roof(double roof)
+{
+    shape s = shape_create();
+    shape_part(&s, "tank");
+    for (int i = 0; i < 64; i++) {
+        double a = 2 * M_PI * i / 64, b = i < 63 ? 2 * M_PI * (i + 1) / 64 : 0;
+        sp_vec3 p = sp_v(0.5 * cos(a), 0.5 * sin(a), 0), q = sp_v(0.5 * cos(b), 0.5 * sin(b), 0), up = sp_v(0, 0, 1);
+        shape_triangle(&s, q, p, sp_add(p, up));
+        shape_triangle(&s, q, sp_add(p, up), sp_add(q, up));
+        shape_triangle(&s, sp_v(0, 0, 0), p, q);
+        shape_triangle(&s, up, sp_add(q, up), sp_add(p, up));
+    }
+    shape_part(&s, "baffle");
+    shape_box(&s, sp_v(-0.002, -0.3, 0.2), sp_v(0.002, 0.3, 0.8), false);
+    shape_part(&s, "roof");
+    if (roof > 0)
+        shape_sheet(&s, sp_v(-0.5 * roof, -0.5 * roof, 8), sp_v(roof, 0, 0), sp_v(0, roof, 0), 1);
+    return s;
+}
+
+/* What needs no cleaning, however large, does not make the texels of the rest longer, nor takes many itself. */
+static void a_roof_leaves_the_texels_short(void **state)
+{
+    (void)state;
+    const sp_surface surfaces[] = {{true, 0, 1}, {true, 0, 1}, {false, 0, 1}};
+    double texel[2];
+    uint64_t jets[2];
+    for (int with = 0; with < 2; with++) {
+        shape s = tank_under_roof(with ? 100 : 0);
+        sp_mesh *mesh = shape_mesh(&s);
+        sp_setup setup = setup_of(mesh, surfaces, 0);
+        setup.cavity = SP_CAVITY_POINT;
+        setup.cavity_point = sp_v(0.1, 0, 0.5);
+        setup.criterion.flux = 1e-5;
+        sp_error error = {0};
+        sp_evaluator *evaluator = sp_evaluator_create(&setup, &error);
+        if (!evaluator)
+            fail_msg("%s", error.message);
+        const sp_patches *patches = sp_evaluator_patches(evaluator);
+        texel[with] = sp_evaluator_fidelity(evaluator)->texel;
+        jets[with] = sp_evaluator_fidelity(evaluator)->jets;
+        print_message("texel %g mm, %zu patches, %zu texels\n", 1e3 * texel[with], patches->count,
+                      sp_evaluator_atlas(evaluator)->texel_count);
+        assert_true(fabs(texel[with] - sqrt(patches->total_area / 200000)) < 1e-3 * texel[with]);
+        assert_true(sp_evaluator_atlas(evaluator)->texel_count < 400000);
+        sp_evaluator_destroy(evaluator);
+        sp_mesh_destroy(mesh);
+    }
+    assert_true(fabs(texel[1] - texel[0]) < 1e-12 && jets[1] == jets[0]);
+}
+
+/* Walls of a tank and faces of a baffle have the texels that were asked for; its edges take few more. */
+static void a_tank_keeps_its_texels(void **state)
+{
+    (void)state;
+    const sp_surface surfaces[] = {{true, 0, 1}, {true, 0, 1}};
+    shape s = tank_under_roof(0);
+    s.part_count = 2;
+    sp_mesh *mesh = shape_mesh(&s);
+    for (double texel = 0.005; texel < 0.05; texel *= 2) {
+        sp_evaluator *evaluator = evaluator_of(mesh, surfaces, texel);
+        const sp_patches *patches = sp_evaluator_patches(evaluator);
+        double usual = 0;
+        for (uint32_t p = 0; p < patches->count; p++)
+            usual += sp_evaluator_texel_length(evaluator, p) == texel ? patches->area[p] : 0;
+        print_message("%g mm: %zu patches, %g of %g m2 as asked\n", 1e3 * texel, patches->count, usual,
+                      patches->total_area);
+        assert_true(usual > 0.99 * patches->total_area);
+        sp_evaluator_destroy(evaluator);
+    }
+    sp_mesh_destroy(mesh);
+}
+
+/* Many rods may double the number of texels, and are then content with longer ones. */
+static void many_rods_are_not_without_end(void **state)
+{
+    (void)state;
+    const sp_surface surface = {.clean = true, .rebound = 1};
+    shape s = shape_create();
+    shape_part(&s, "rods");
+    for (int i = 0; i < 60; i++)
+        add_rod(&s, sp_v(0.01 * i, 0, 0), RADIUS, 4, 12, 1);
+    sp_mesh *mesh = shape_mesh(&s);
+    sp_evaluator *evaluator = evaluator_of(mesh, &surface, 0.0105);
+    double length = sp_evaluator_texel_length(evaluator, 0);
+    print_message("%zu texels of %g mm\n", evaluator->atlas->texel_count, 1e3 * length);
+    assert_true(length > 0.0012 && length < 0.0105);
+    assert_true(fabs(sp_mesh_area(mesh) / (length * length) - 50000) < 1000);
+    sp_evaluator_destroy(evaluator);
+    sp_mesh_destroy(mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_rod_is_lit_by_half),
+        cmocka_unit_test(a_roof_leaves_the_texels_short),
+        cmocka_unit_test(a_tank_keeps_its_texels),
+        cmocka_unit_test(many_rods_are_not_without_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
