@@ -34,7 +34,8 @@ typedef struct sp_evaluator sp_evaluator;
  * outlive the evaluator. Settings left to auto are chosen now. Given NULL it returns NULL and keeps the error. */
 sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error);
 /* A second evaluator on the same geometry with another texel size (m), sharing accelerator, charts and wet sides with
- * `fine`, which must outlive it. Inverse, whatever the setup asks: for searching. */
+ * `fine`, which must outlive it. On thin parts and on what is not cleaned its texels differ from `texel` in proportion
+ * to those of `fine`. Inverse, whatever the setup asks: for searching. */
 sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_error *error);
 void sp_evaluator_destroy(sp_evaluator *evaluator);
 

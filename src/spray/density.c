@@ -109,13 +109,20 @@ static void choose(const chart_size *sizes, chart_length *lengths, size_t count,
     }
     double spare = spare_length(lengths, count, limits->spare), times = find_times(sizes, length, count, texel);
     double dry = dry_length(sizes, count, texel, count_texels(sizes, length, count, texel, INFINITY));
-    density->finest = texel;
+    for (size_t c = 0; c < count; c++)
+        length[c] = sizes[c].counted > 0 ? fmin(texel, times * fmax(length[c], spare))
+                                         : fmax(dry, span(&sizes[c]) / limits->page);
+}
+
+/* What follows from the lengths. */
+static void conclude(const chart_size *sizes, size_t count, sp_density *density)
+{
+    density->finest = INFINITY;
     for (size_t c = 0; c < count; c++) {
-        bool clean = sizes[c].counted > 0;
-        length[c] = clean ? fmin(texel, times * fmax(length[c], spare)) : fmax(dry, span(&sizes[c]) / limits->page);
-        density->finest = clean ? fmin(density->finest, length[c]) : density->finest;
-        density->texels += sizes[c].area / (length[c] * length[c]);
-        density->longest = fmax(density->longest, span(&sizes[c]) / length[c]);
+        double length = density->texel[c];
+        density->finest = sizes[c].counted > 0 ? fmin(density->finest, length) : density->finest;
+        density->texels += sizes[c].area / (length * length);
+        density->longest = fmax(density->longest, span(&sizes[c]) / length);
     }
 }
 
@@ -131,9 +138,30 @@ bool sp_density_create(const sp_evaluator *evaluator, const sp_charts *charts, c
     if (done) {
         measure(evaluator, charts, sizes);
         choose(sizes, lengths, charts->chart_count, limits, density);
+        conclude(sizes, charts->chart_count, density);
     }
     free(sizes);
     free(lengths);
+    if (done)
+        return true;
+    sp_density_free(density);
+    return sp_fail_memory(error);
+}
+
+bool sp_density_like(const sp_evaluator *evaluator, const sp_charts *charts, const sp_evaluator *fine,
+                     sp_density *density, sp_error *error)
+{
+    size_t count = charts->chart_count;
+    *density = (sp_density){.texel = malloc((count + 1) * sizeof *density->texel)};
+    chart_size *sizes = malloc((count + 1) * sizeof *sizes);
+    bool done = density->texel && sizes;
+    for (size_t c = 0; done && c < count; c++)
+        density->texel[c] = fine->atlas->chart_texel[c] / fine->fidelity.texel * evaluator->fidelity.texel;
+    if (done) {
+        measure(evaluator, charts, sizes);
+        conclude(sizes, count, density);
+    }
+    free(sizes);
     if (done)
         return true;
     sp_density_free(density);

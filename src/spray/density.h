@@ -25,6 +25,9 @@ typedef struct {
  * Needs the wet sides. */
 bool sp_density_create(const sp_evaluator *evaluator, const sp_charts *charts, const sp_density_limits *limits,
                        sp_density *density, sp_error *error);
+/* In proportion to those of a finer evaluator: what is thin there is here, and nothing else. */
+bool sp_density_like(const sp_evaluator *evaluator, const sp_charts *charts, const sp_evaluator *fine,
+                     sp_density *density, sp_error *error);
 void sp_density_free(sp_density *density);
 
 #endif

@@ -155,28 +155,32 @@ static bool check_number(double texel, double texels, sp_error *error)
 }
 
 /* The atlas on pages of the usual size, or larger ones where a single triangle must have them. */
-static bool build_atlas(sp_evaluator *evaluator, const sp_charts *charts, sp_error *error)
+static bool build_atlas(sp_evaluator *evaluator, const sp_charts *charts, const sp_density *density, sp_error *error)
+{
+    double texel = evaluator->fidelity.texel;
+    double page = fmin(fmax(ceil(density->longest) + PAGE_MARGIN, PAGE_EDGE), MOST_PAGE_EDGE);
+    sp_atlas_options options = {.texel = texel, .page_edge = (uint32_t)page, .chart_texel = density->texel};
+    if (check_number(texel, density->texels, error))
+        evaluator->atlas = sp_atlas_create(evaluator->setup.mesh, charts, &options, error);
+    return evaluator->atlas &&
+           sp_fragments_create(&evaluator->fragments, evaluator->atlas, evaluator->setup.mesh, error) &&
+           sp_patches_create(evaluator, error) && (evaluator->patches.total_area > 0 || fail_nothing(error));
+}
+
+/* Texels of the evaluator's own lengths, or in proportion to those of `fine`. */
+static bool build_texels(sp_evaluator *evaluator, const sp_charts *charts, const sp_evaluator *fine, sp_error *error)
 {
     sp_density density;
     sp_fidelity *fidelity = &evaluator->fidelity;
     sp_density_limits limits = density_limits(evaluator);
-    if (!sp_density_create(evaluator, charts, &limits, &density, error))
+    if (!(fine ? sp_density_like(evaluator, charts, fine, &density, error)
+               : sp_density_create(evaluator, charts, &limits, &density, error)))
         return false;
-    double page = fmin(fmax(ceil(density.longest) + PAGE_MARGIN, PAGE_EDGE), MOST_PAGE_EDGE);
-    sp_atlas_options options = {.texel = fidelity->texel, .page_edge = (uint32_t)page, .chart_texel = density.texel};
-    if (check_number(fidelity->texel, density.texels, error))
-        evaluator->atlas = sp_atlas_create(evaluator->setup.mesh, charts, &options, error);
     if (fidelity->jets == 0)
         fidelity->jets = jets_for(evaluator, fidelity->method == SP_METHOD_INVERSE ? fidelity->texel : density.finest);
+    bool done = build_atlas(evaluator, charts, &density, error);
     sp_density_free(&density);
-    return evaluator->atlas;
-}
-
-static bool build_texels(sp_evaluator *evaluator, const sp_charts *charts, sp_error *error)
-{
-    return build_atlas(evaluator, charts, error) &&
-           sp_fragments_create(&evaluator->fragments, evaluator->atlas, evaluator->setup.mesh, error) &&
-           sp_patches_create(evaluator, error) && (evaluator->patches.total_area > 0 || fail_nothing(error));
+    return done;
 }
 
 static bool build(sp_evaluator *evaluator, sp_error *error)
@@ -197,7 +201,7 @@ static bool build(sp_evaluator *evaluator, sp_error *error)
         evaluator->fidelity.texel = sqrt(counted / AUTO_TEXELS);
     double extent = (PAGE_EDGE - PAGE_MARGIN) * evaluator->fidelity.texel;
     evaluator->charts = sp_charts_create(setup->mesh, extent, error);
-    return evaluator->charts && build_texels(evaluator, evaluator->charts, error) &&
+    return evaluator->charts && build_texels(evaluator, evaluator->charts, NULL, error) &&
            sp_evaluator_progress(setup, "atlas", 1, error);
 }
 
@@ -249,7 +253,7 @@ sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_e
     evaluator->tracer = origin->tracer;
     evaluator->charts = origin->charts;
     evaluator->wet = origin->wet;
-    if (!build_texels(evaluator, origin->charts, error)) {
+    if (!build_texels(evaluator, origin->charts, fine, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;
     }
