@@ -26,6 +26,11 @@ typedef struct {
  * size, place and attitude do not matter but for their round-off. */
 sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error);
 void sp_charts_destroy(sp_charts *charts);
+/* How far it is around the part that each chart lies on, m: 2π times the chart's area over how far its surface turns
+ * about the direction in which it turns most, summed over the edges of the mesh in it (half of those on its rim). That
+ * is exact for convex prisms and cylinders and for spheres, whatever they were cut into; the larger the flatter a chart
+ * is, INFINITY where it is flat; bends of opposite sense cancel out. [chart_count]; the caller frees. */
+double *sp_charts_girth(const sp_charts *charts, const sp_mesh *mesh, sp_error *error);
 
 /* Used pixels side by side in one row of a page. Charts keep a pixel apart, so they are of one chart. */
 typedef struct {
@@ -56,11 +61,12 @@ typedef struct {
  * pixels. A pixel is the square [x, x+1] × [y, y+1]. Only used pixels are numbered, and what is kept for one is its
  * area: memory follows the surface, not the pages. Nothing is spread over unused pixels. Read-only. */
 typedef struct {
-    double texel; /* edge length of a pixel, m */
+    double texel; /* edge length of a pixel, m, unless its chart has another */
     size_t triangle_count, chart_count, page_count;
     uint32_t page_edge;   /* every page is page_edge × page_edge pixels */
     uint32_t *chart;      /* [triangle_count] */
     uint32_t *chart_page; /* [chart_count] */
+    double *chart_texel;  /* [chart_count], edge length of the pixels of each chart, m */
     double (*uv)[3][2];   /* [triangle_count], corners on the page, in pixels */
     size_t texel_count, pixel_count;
     double *texel_area; /* [texel_count], m², on the surface; sums to the surface's area */
@@ -83,6 +89,7 @@ typedef struct {
     double texel;       /* edge length, m, > 0 */
     uint32_t page_edge; /* largest page in texels; 0: 4096 */
     sp_packing packing;
+    const double *chart_texel; /* [chart_count], borrowed: another length for each chart, m, > 0; NULL: texel for all */
 } sp_atlas_options;
 
 /* Packs the charts with one pixel between any two, into the smallest square page found, or as many pages as needed, and
@@ -101,6 +108,12 @@ void sp_atlas_destroy(sp_atlas *atlas);
 
 /* The texel that holds the point (1-u-v, u, v) of a triangle; always one that the triangle has a part in. */
 uint32_t sp_atlas_texel(const sp_atlas *atlas, uint32_t triangle, double u, double v);
+
+/* The length of a triangle's texels, m. */
+static inline double sp_atlas_texel_length(const sp_atlas *atlas, uint32_t triangle)
+{
+    return atlas->chart_texel[atlas->chart[triangle]];
+}
 
 /* Where a texel lies. */
 typedef struct {
@@ -157,7 +170,8 @@ typedef struct {
 bool sp_atlas_measure(const sp_atlas *atlas, const sp_mesh *mesh, sp_atlas_figures *figures, sp_error *error);
 
 /* The mesh with its UVs as OBJ text: every source triangle in order, groups as they came, `v` and `vt` with 17
- * significant digits, usemtl page_0, page_1, ... Malloc'd, terminated; the caller frees. */
+ * significant digits, usemtl page_0, page_1, ... Malloc'd, terminated; the caller frees. Only an atlas of one texel
+ * length can be read back by sp_atlas_reuse. */
 char *sp_atlas_obj(const sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
 
 #ifdef __cplusplus

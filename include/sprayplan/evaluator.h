@@ -36,7 +36,8 @@ typedef struct sp_evaluator sp_evaluator;
  * outlive the evaluator. Settings left to auto are chosen now. Given NULL it returns NULL and keeps the error. */
 sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error);
 /* A second evaluator on the same geometry with another texel size (m), sharing accelerator, charts and wet sides with
- * `fine`, which must outlive it. Inverse, whatever the setup asks: for searching. */
+ * `fine`, which must outlive it. On thin parts and on what is not cleaned its texels differ from `texel` in proportion
+ * to those of `fine`. Inverse, whatever the setup asks: for searching. */
 sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_error *error);
 void sp_evaluator_destroy(sp_evaluator *evaluator);
 
@@ -44,6 +45,8 @@ const sp_setup *sp_evaluator_setup(const sp_evaluator *evaluator);
 const sp_fidelity *sp_evaluator_fidelity(const sp_evaluator *evaluator); /* nothing left to auto */
 const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator);
 const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator);
+/* The length of the texel that a patch lies in, m: that of the fidelity, or less on thin parts. */
+double sp_evaluator_texel_length(const sp_evaluator *evaluator, uint32_t patch);
 const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator);
 /* Which sides of a triangle face the liquid: bit 0 front, bit 1 back. Both where no cavity is named. */
 unsigned sp_evaluator_wet(const sp_evaluator *evaluator, uint32_t triangle);

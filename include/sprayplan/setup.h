@@ -37,13 +37,14 @@ typedef enum { SP_TRAJECTORY_AUTO, SP_TRAJECTORY_LINE, SP_TRAJECTORY_PARABOLA } 
 typedef enum { SP_METHOD_AUTO, SP_METHOD_FORWARD, SP_METHOD_INVERSE } sp_method;
 typedef enum { SP_SPLAT_NEAREST, SP_SPLAT_LINEAR } sp_splat;
 
-/* The scene's `simulate:` block; in sp_evaluator_fidelity nothing is left to auto. */
+/* The scene's `simulate:` block; in sp_evaluator_fidelity nothing is left to auto: the texel is then such that all that
+ * is cleaned and counted, sides that are wet each for itself, has 200,000 texels, however large what else there is. */
 typedef struct {
     sp_trajectory trajectory;
     sp_method method;
     int reflections; /* -1: auto */
     uint64_t jets;   /* per nozzle; 0: auto */
-    double texel;    /* m; 0: auto */
+    double texel;    /* m; 0: auto. Shorter on thin parts: at most an eighth of their girth */
     sp_splat splat;
     double accuracy; /* points of coverage, as a fraction */
     uint64_t seed;

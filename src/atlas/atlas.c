@@ -37,11 +37,14 @@ sp_atlas *sp_atlas_create(const sp_mesh *mesh, const sp_charts *charts, const sp
     atlas->chart = malloc((charts->triangle_count + 1) * sizeof *atlas->chart);
     atlas->uv = malloc((charts->triangle_count + 1) * sizeof *atlas->uv);
     atlas->chart_page = malloc((charts->chart_count + 1) * sizeof *atlas->chart_page);
-    bool done = atlas->chart && atlas->uv && atlas->chart_page;
+    atlas->chart_texel = malloc((charts->chart_count + 1) * sizeof *atlas->chart_texel);
+    bool done = atlas->chart && atlas->uv && atlas->chart_page && atlas->chart_texel;
     if (!done)
         sp_fail_memory(error);
     else
         memcpy(atlas->chart, charts->chart, charts->triangle_count * sizeof *atlas->chart);
+    for (size_t c = 0; done && c < charts->chart_count; c++)
+        atlas->chart_texel[c] = options->chart_texel ? options->chart_texel[c] : options->texel;
     done = done && sp_atlas_pack(atlas, charts, options->packing, limit, error) && sp_atlas_cut(atlas, mesh, error);
     if (done)
         return atlas;
@@ -55,6 +58,7 @@ void sp_atlas_destroy(sp_atlas *atlas)
         return;
     free(atlas->chart);
     free(atlas->chart_page);
+    free(atlas->chart_texel);
     free(atlas->uv);
     free(atlas->texel_area);
     free(atlas->behind);

@@ -39,9 +39,9 @@ double sp_strain_of(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangl
     /* On the surface b lies along x; the map's matrix is the laid edges times the inverse of (b, c). */
     double bx = sp_length(b), cx = sp_dot(b, c) / bx, cy = sp_length(sp_cross(b, c)) / bx;
     const double(*uv)[2] = (const double(*)[2])atlas->uv[triangle];
-    double column[2][2];
+    double column[2][2], texel = sp_atlas_texel_length(atlas, triangle);
     for (int k = 0; k < 2; k++) {
-        double laid_b = (uv[1][k] - uv[0][k]) * atlas->texel, laid_c = (uv[2][k] - uv[0][k]) * atlas->texel;
+        double laid_b = (uv[1][k] - uv[0][k]) * texel, laid_c = (uv[2][k] - uv[0][k]) * texel;
         column[0][k] = laid_b / bx;
         column[1][k] = (laid_c - column[0][k] * cx) / cy;
     }

@@ -147,6 +147,7 @@ static bool find_charts(reuse *r)
         if (root_of(root, t) == t) { /* the lowest of its chart, so that the chart's others come later */
             size_t page = atlas->chart[t];
             atlas->chart_page[atlas->chart_count] = (uint32_t)page;
+            atlas->chart_texel[atlas->chart_count] = atlas->texel;
             atlas->page_count = page >= atlas->page_count ? page + 1 : atlas->page_count;
             atlas->chart[t] = (uint32_t)atlas->chart_count++;
         } else {
@@ -252,7 +253,8 @@ static bool build(reuse *r, double texel)
     atlas->chart = malloc((mesh->triangle_count + 1) * sizeof *atlas->chart);
     atlas->uv = malloc((mesh->triangle_count + 1) * sizeof *atlas->uv);
     atlas->chart_page = malloc((mesh->triangle_count + 1) * sizeof *atlas->chart_page);
-    if (!atlas->chart || !atlas->uv || !atlas->chart_page)
+    atlas->chart_texel = malloc((mesh->triangle_count + 1) * sizeof *atlas->chart_texel);
+    if (!atlas->chart || !atlas->uv || !atlas->chart_page || !atlas->chart_texel)
         return sp_fail_memory(r->error);
     if (!check_corners(r) || !choose_texel(r, texel))
         return false;

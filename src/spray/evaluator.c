@@ -1,17 +1,19 @@
 /* Building an evaluator, choosing what is left to auto, and asking it. */
+#include "density.h"
 #include "state.h"
 
 #include <stdlib.h>
 
 #define AUTO_TEXELS 200000
 #define AUTO_REFLECTIONS 3
-/* Jets per nozzle and texel of the whole surface: with a flux criterion what a texel at the threshold then receives
- * from a nozzle that would flood the whole surface at the threshold; without one a texel must merely not be missed. The
+/* Jets per nozzle and texel of all that is to be cleaned: with a flux criterion what a texel at the threshold then
+ * receives from a nozzle that would flood it all at the threshold; without one a texel must merely not be missed. The
  * bound, for the time that tracing takes, binds where the texel is left to auto too. */
 #define AUTO_MOST_JETS 4e6
 #define AUTO_JETS_AT_THRESHOLD 150
 #define AUTO_JETS_TO_TOUCH 20
-#define PAGE_EDGE 4096       /* texels */
+#define SPARE 0.1      /* of the accuracy asked for, that may be lost on thin parts which the jets do not follow */
+#define PAGE_EDGE 4096 /* texels */
 #define MOST_PAGE_EDGE 16384 /* texels, for a triangle longer than PAGE_EDGE */
 #define PAGE_MARGIN 4        /* texels that a page needs beyond its chart */
 #define MOST_TEXELS 1e9
@@ -96,57 +98,89 @@ static bool resolve_method(const sp_setup *setup, sp_fidelity *fidelity, sp_erro
     return true;
 }
 
-/* The plain safe choice for whatever the setup leaves to auto. */
+/* The plain safe choice for what the setup leaves to auto, but for sizes, which wait for the wet sides. */
 static bool resolve(const sp_setup *setup, sp_fidelity *fidelity, sp_error *error)
 {
     *fidelity = setup->fidelity;
     if (fidelity->trajectory == SP_TRAJECTORY_AUTO)
         fidelity->trajectory = SP_TRAJECTORY_PARABOLA;
-    if (!resolve_method(setup, fidelity, error))
-        return false;
-    double area = sp_mesh_area(setup->mesh);
-    if (!(fidelity->texel > 0))
-        fidelity->texel = sqrt(area / AUTO_TEXELS);
-    double texels = area / (fidelity->texel * fidelity->texel);
-    double per_texel = setup->criterion.flux > 0 ? AUTO_JETS_AT_THRESHOLD : AUTO_JETS_TO_TOUCH;
-    if (fidelity->jets == 0)
-        fidelity->jets = (uint64_t)fmin(AUTO_MOST_JETS, ceil(per_texel * texels));
-    return true;
+    return resolve_method(setup, fidelity, error);
 }
 
-static double longest_edge(const sp_mesh *mesh)
+static bool fail_nothing(sp_error *error)
 {
-    double longest = 0;
-    for (size_t i = 0; i < mesh->triangle_count; i++)
-        for (int corner = 0; corner < 3; corner++)
-            longest = fmax(longest, sp_distance(mesh->vertices[mesh->triangles[i][corner]],
-                                                mesh->vertices[mesh->triangles[i][(corner + 1) % 3]]));
-    return longest;
-}
-
-/* The page that a single chart of `extent` (m) needs, in texels: the usual one, or a larger one where it must be. */
-static uint32_t page_edge(double extent, double texel)
-{
-    return (uint32_t)fmin(fmax(ceil(extent / texel) + PAGE_MARGIN, PAGE_EDGE), MOST_PAGE_EDGE);
-}
-
-static bool build_texels(sp_evaluator *evaluator, const sp_charts *charts, double extent, sp_error *error)
-{
-    double texel = evaluator->fidelity.texel, area = sp_mesh_area(evaluator->setup.mesh);
-    if (!(area <= MOST_TEXELS * texel * texel))
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                       "texel: %g m found, too small for a surface of %g m2; expected at least %.3g m", texel, area,
-                       sqrt(area / MOST_TEXELS));
-    sp_atlas_options options = {.texel = texel, .page_edge = page_edge(extent, texel)};
-    evaluator->atlas = sp_atlas_create(evaluator->setup.mesh, charts, &options, error);
-    if (!evaluator->atlas ||
-        !sp_fragments_create(&evaluator->fragments, evaluator->atlas, evaluator->setup.mesh, error) ||
-        !sp_patches_create(evaluator, error))
-        return false;
-    if (evaluator->patches.total_area > 0)
-        return true;
     return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "nothing is to be cleaned: no part with role clean faces the cavity");
+}
+
+/* What is cleaned and counted, m²; what else there is, however large, does not make texels longer. */
+static double counted_area(const sp_evaluator *evaluator)
+{
+    double area = 0;
+    for (uint32_t t = 0; t < evaluator->setup.mesh->triangle_count; t++)
+        area += sp_counted_area(evaluator, t);
+    return area;
+}
+
+static double jets_per_texel(const sp_evaluator *evaluator)
+{
+    return evaluator->setup.criterion.flux > 0 ? AUTO_JETS_AT_THRESHOLD : AUTO_JETS_TO_TOUCH;
+}
+
+static uint64_t jets_for(const sp_evaluator *evaluator, double texel)
+{
+    double texels = counted_area(evaluator) / (texel * texel);
+    return (uint64_t)fmin(AUTO_MOST_JETS, ceil(jets_per_texel(evaluator) * texels));
+}
+
+/* Shorter texels than the jets can meet each would look dry, and few thin parts are not worth more jets for all. */
+static sp_density_limits density_limits(const sp_evaluator *evaluator)
+{
+    const sp_fidelity *fidelity = &evaluator->fidelity;
+    sp_density_limits limits = {.texel = fidelity->texel, .page = PAGE_EDGE - PAGE_MARGIN};
+    if (fidelity->method == SP_METHOD_INVERSE)
+        return limits;
+    double jets = fidelity->jets > 0 ? (double)fidelity->jets : AUTO_MOST_JETS;
+    limits.least = sqrt(counted_area(evaluator) * jets_per_texel(evaluator) / jets);
+    limits.spare = SPARE * fidelity->accuracy;
+    return limits;
+}
+
+static bool check_number(double texel, double texels, sp_error *error)
+{
+    return texels <= MOST_TEXELS ||
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "texel: %g m found, too small for a surface of %g m2; expected at least %.3g m", texel,
+                   texels * texel * texel, texel * sqrt(texels / MOST_TEXELS));
+}
+
+/* The atlas on pages of the usual size, or larger ones where a single triangle must have them. */
+static bool build_atlas(sp_evaluator *evaluator, const sp_charts *charts, const sp_density *density, sp_error *error)
+{
+    double texel = evaluator->fidelity.texel;
+    double page = fmin(fmax(ceil(density->longest) + PAGE_MARGIN, PAGE_EDGE), MOST_PAGE_EDGE);
+    sp_atlas_options options = {.texel = texel, .page_edge = (uint32_t)page, .chart_texel = density->texel};
+    if (check_number(texel, density->texels, error))
+        evaluator->atlas = sp_atlas_create(evaluator->setup.mesh, charts, &options, error);
+    return evaluator->atlas &&
+           sp_fragments_create(&evaluator->fragments, evaluator->atlas, evaluator->setup.mesh, error) &&
+           sp_patches_create(evaluator, error) && (evaluator->patches.total_area > 0 || fail_nothing(error));
+}
+
+/* Texels of the evaluator's own lengths, or in proportion to those of `fine`. */
+static bool build_texels(sp_evaluator *evaluator, const sp_charts *charts, const sp_evaluator *fine, sp_error *error)
+{
+    sp_density density;
+    sp_fidelity *fidelity = &evaluator->fidelity;
+    sp_density_limits limits = density_limits(evaluator);
+    if (!(fine ? sp_density_like(evaluator, charts, fine, &density, error)
+               : sp_density_create(evaluator, charts, &limits, &density, error)))
+        return false;
+    if (fidelity->jets == 0)
+        fidelity->jets = jets_for(evaluator, fidelity->method == SP_METHOD_INVERSE ? fidelity->texel : density.finest);
+    bool done = build_atlas(evaluator, charts, &density, error);
+    sp_density_free(&density);
+    return done;
 }
 
 static bool build(sp_evaluator *evaluator, sp_error *error)
@@ -160,9 +194,14 @@ static bool build(sp_evaluator *evaluator, sp_error *error)
     evaluator->wet = sp_wet_sides(setup, evaluator->tracer, error);
     if (!evaluator->wet || !sp_evaluator_progress(setup, "atlas", 0, error))
         return false;
+    double counted = counted_area(evaluator);
+    if (!(counted > 0))
+        return fail_nothing(error);
+    if (!(evaluator->fidelity.texel > 0))
+        evaluator->fidelity.texel = sqrt(counted / AUTO_TEXELS);
     double extent = (PAGE_EDGE - PAGE_MARGIN) * evaluator->fidelity.texel;
     evaluator->charts = sp_charts_create(setup->mesh, extent, error);
-    return evaluator->charts && build_texels(evaluator, evaluator->charts, longest_edge(setup->mesh), error) &&
+    return evaluator->charts && build_texels(evaluator, evaluator->charts, NULL, error) &&
            sp_evaluator_progress(setup, "atlas", 1, error);
 }
 
@@ -214,8 +253,7 @@ sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_e
     evaluator->tracer = origin->tracer;
     evaluator->charts = origin->charts;
     evaluator->wet = origin->wet;
-    double extent = fmax(origin->charts->extent, longest_edge(origin->setup.mesh));
-    if (!build_texels(evaluator, origin->charts, extent, error)) {
+    if (!build_texels(evaluator, origin->charts, fine, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;
     }
@@ -256,6 +294,11 @@ const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator)
 const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator)
 {
     return &evaluator->patches;
+}
+
+double sp_evaluator_texel_length(const sp_evaluator *evaluator, uint32_t patch)
+{
+    return sp_atlas_texel_length(evaluator->atlas, evaluator->patches.triangle[patch]);
 }
 
 const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator)

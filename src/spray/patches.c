@@ -15,6 +15,12 @@ bool sp_side_is_counted(const sp_evaluator *evaluator, uint32_t triangle, unsign
     return setup->cavity == SP_CAVITY_NONE ? side == 0 : (evaluator->wet[triangle] >> side) & 1;
 }
 
+double sp_counted_area(const sp_evaluator *evaluator, uint32_t triangle)
+{
+    int sides = sp_side_is_counted(evaluator, triangle, 0) + sp_side_is_counted(evaluator, triangle, 1);
+    return sides * sp_triangle_area(evaluator->setup.mesh, triangle);
+}
+
 uint32_t sp_patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back)
 {
     unsigned side = evaluator->setup.cavity != SP_CAVITY_NONE && back;

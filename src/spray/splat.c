@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-/* Adds a share in proportion to the patch's area, unless that texel has no patch on the side that was hit, or has its
- * share already. */
+/* Adds a share in proportion to the patch's area, unless that texel has no patch on the side that was hit, or
+ * has its share already. */
 static void add_share(const sp_evaluator *evaluator, uint32_t texel, bool back, double weight, sp_shares *shares)
 {
     uint32_t patch = evaluator->texel_patch[texel][evaluator->setup.cavity != SP_CAVITY_NONE && back];
@@ -58,7 +58,8 @@ static bool is_known(const sp_atlas *atlas, const whereabouts *found, uint32_t c
     return false;
 }
 
-/* Adds where what lies at found->place[from] lies across the seams of a texel beside it. */
+/* Adds where what lies at found->place[from] lies across the seams of a texel beside it. Where the texels there are of
+ * another length it is taken for nowhere: each side shares by itself, as at a rim, and neither takes from the other. */
 static void look_across(const sp_evaluator *evaluator, uint32_t texel, int from, whereabouts *found)
 {
     const sp_atlas *atlas = evaluator->atlas;
@@ -66,6 +67,8 @@ static void look_across(const sp_evaluator *evaluator, uint32_t texel, int from,
     const sp_seam *seams = sp_atlas_seams(atlas, texel, &count);
     for (size_t i = 0; i < count && found->count < SP_SPLAT_SIDES; i++) {
         double there[2];
+        if (sp_atlas_texel_length(atlas, seams[i].edge / 3) != sp_atlas_texel_length(atlas, seams[i].across / 3))
+            continue;
         sp_atlas_across(atlas, evaluator->setup.mesh, &seams[i], found->place[from], there);
         if (is_known(atlas, found, sp_atlas_place(atlas, seams[i].other).chart, there))
             continue;

@@ -15,7 +15,7 @@ typedef struct {
 
 /* Shares an impact on `patch`, at `hit`, among the patches whose texels' centres are nearest, the nearer the more (the
  * study's weighted average, 3.3.1), and in proportion to their area: an even flux stays even at the rim of a chart.
- * Across a seam that is as if the chart went on. */
+ * Across a seam that is as if the chart went on, unless its texels are of another length there. */
 void sp_share_linearly(const sp_evaluator *evaluator, const sp_hit *hit, bool back, uint32_t patch, sp_shares *shares);
 
 #endif

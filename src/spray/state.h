@@ -41,6 +41,8 @@ bool sp_patches_create(sp_evaluator *evaluator, sp_error *error);
 void sp_patches_free(sp_patches *patches);
 /* Whether a triangle's `side` (0 front, or both where no cavity is named; 1 back) is cleaned and counted. */
 bool sp_side_is_counted(const sp_evaluator *evaluator, uint32_t triangle, unsigned side);
+/* What of a triangle is cleaned and counted, m²: its area once for every such side. */
+double sp_counted_area(const sp_evaluator *evaluator, uint32_t triangle);
 /* The patch that takes what arrives at the point (1-u-v, u, v) of a triangle, on its back or else its front; SP_NONE
  * where that side is dry or an obstacle. */
 uint32_t sp_patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back);

@@ -1,6 +1,7 @@
 /* Liquid beside a cut is shared with what lies across it, as if there were no cut. */
 #include "shapes.h"
 
+#include "spray/splat.h"
 #include "spray/state.h"
 
 #define TEXEL 0.02
@@ -140,10 +141,81 @@ static void a_cut_changes_nothing(void **state)
     }
 }
 
+/* Gives every second chart texels of another length. */
+static void make_uneven(sp_evaluator *evaluator, double times)
+{
+    sp_error error = {0};
+    double length[16];
+    assert_true(evaluator->charts->chart_count <= 16);
+    for (size_t c = 0; c < evaluator->charts->chart_count; c++)
+        length[c] = c % 2 ? TEXEL / times : TEXEL;
+    sp_atlas_options options = {.texel = TEXEL, .chart_texel = length};
+    sp_patches_free(&evaluator->patches);
+    sp_fragments_destroy(&evaluator->fragments);
+    sp_atlas_destroy(evaluator->atlas);
+    free(evaluator->texel_patch);
+    evaluator->atlas = sp_atlas_create(evaluator->setup.mesh, evaluator->charts, &options, &error);
+    assert_non_null(evaluator->atlas);
+    assert_true(sp_fragments_create(&evaluator->fragments, evaluator->atlas, evaluator->setup.mesh, &error));
+    assert_true(sp_patches_create(evaluator, &error));
+}
+
+/* What each patch gets of even rain, over its area. [patches.count] */
+static double *rain_on(const sp_evaluator *evaluator, int drops)
+{
+    double *got = calloc(evaluator->patches.count, sizeof *got);
+    for (uint32_t t = 0; t < evaluator->setup.mesh->triangle_count; t++)
+        for (int i = 0; i < drops; i++)
+            for (int k = 0; i + k < drops; k++) /* the middles of equal small triangles, half of them upside down */
+                for (int over = 0; over < 2 && i + k + over < drops; over++) {
+                    sp_hit hit = {
+                        .triangle = t, .u = (i + (1 + over) / 3.0) / drops, .v = (k + (1 + over) / 3.0) / drops};
+                    sp_shares shares;
+                    uint32_t patch = sp_patch_at(evaluator, t, hit.u, hit.v, false);
+                    sp_share_linearly(evaluator, &hit, false, patch, &shares);
+                    for (int n = 0; n < shares.count; n++)
+                        got[shares.patch[n]] +=
+                            shares.share[n] * sp_triangle_area(evaluator->setup.mesh, t) / drops / drops;
+                }
+    for (size_t p = 0; p < evaluator->patches.count; p++)
+        got[p] /= evaluator->patches.area[p];
+    return got;
+}
+
+/* Where charts of unequal texels meet, neither side takes liquid from the other: every patch that is no sliver gets as
+ * much of even rain as all others, but for what the two grids do not share. */
+static void rain_stays_even_between_densities(void **state)
+{
+    (void)state;
+    const sp_surface surface = {.clean = true, .rebound = 1};
+    sp_mesh *mesh = floor_of_quarters(6, 0);
+    sp_evaluator *evaluator = evaluator_of(mesh, &surface);
+    assert_int_equal(evaluator->atlas->chart_count, 4);
+    for (int times = 1; times <= 4; times *= 2) {
+        make_uneven(evaluator, times);
+        double *got = rain_on(evaluator, 150), off[2] = {0, 0}, sum[2] = {0, 0}, area[2] = {0, 0};
+        for (uint32_t p = 0; p < evaluator->patches.count; p++) {
+            double length = sp_evaluator_texel_length(evaluator, p);
+            int fine = length < TEXEL;
+            if (evaluator->patches.area[p] > 0.5 * length * length)
+                off[fine] = fmax(off[fine], fabs(got[p] - 1));
+            sum[fine] += got[p] * evaluator->patches.area[p];
+            area[fine] += evaluator->patches.area[p];
+        }
+        print_message("%d times finer: patches off by at most %.3f and %.3f, sides by %.5f\n", times, off[0], off[1],
+                      sum[0] / area[0] - 1);
+        assert_true(off[0] <= 0.25 && off[1] <= 0.25 && fabs(sum[0] / area[0] - 1) <= 1e-3);
+        free(got);
+    }
+    sp_evaluator_destroy(evaluator);
+    sp_mesh_destroy(mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cut_changes_nothing),
+        cmocka_unit_test(rain_stays_even_between_densities),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
  * joined as long as what results can be flattened, too. */
 #include <sprayplan/atlas.h>
 
+#include "atlas/charts/charts.h"
 #include "atlas/charts/judge.h"
 #include "atlas/charts/levels.h"
 #include "atlas/charts/making.h"
@@ -13,7 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LARGE 30000 /* triangles that are worth a coarse mesh */
+#define LARGE 30000  /* triangles that are worth a coarse mesh */
+#define COARSE 12000 /* triangles of the coarse mesh */
 
 /* Turns a sheet to waste little of its page, unless round-off then makes triangles touch. */
 static bool turn(sp_making *m, uint32_t number)
@@ -66,12 +68,14 @@ static bool write_charts(const sp_making *m, const uint32_t *old, sp_charts *cha
     return true;
 }
 
-static bool make(sp_charts *charts, const sp_mesh *mesh, const uint32_t *twin, const uint32_t *old, sp_error *error)
+/* By way of a coarse mesh of `coarse` triangles unless that is 0. */
+static bool make(sp_charts *charts, const sp_mesh *mesh, const uint32_t *twin, const uint32_t *old, size_t coarse,
+                 sp_error *error)
 {
     sp_making m = {.extent = charts->extent};
     if (!sp_sheets_create(&m.sheets, mesh, twin, error))
         return false;
-    bool good = mesh->triangle_count > LARGE ? sp_make_coarsely(&m, error) : sp_make_all(&m, error);
+    bool good = coarse ? sp_make_coarsely(&m, coarse, error) : sp_make_all(&m, error);
     for (uint32_t i = 0; good && i < m.sheets.count; i++)
         if (m.sheets.items[i].triangle_count > 0 && !turn(&m, i))
             good = sp_fail_memory(error);
@@ -81,26 +85,31 @@ static bool make(sp_charts *charts, const sp_mesh *mesh, const uint32_t *twin, c
     return good;
 }
 
-/* Large meshes are put in order first. */
-static bool make_of(sp_charts *charts, const sp_mesh *mesh, sp_error *error)
+/* Meshes of more than `most` triangles are put in order first. */
+static bool make_of(sp_charts *charts, const sp_mesh *mesh, size_t most, size_t coarse, sp_error *error)
 {
     sp_half_edges edges = {0};
     sp_renumbered ordered = {0};
-    bool done = sp_adjacent_create(mesh, &edges, error), large = mesh->triangle_count > LARGE;
+    bool done = sp_adjacent_create(mesh, &edges, error), large = mesh->triangle_count > most;
     if (done && large) {
         done = sp_renumber(mesh, edges.opposite, &ordered);
         sp_half_edges_destroy(&edges);
         if (!done)
             sp_fail_memory(error);
     }
-    done = done && (large ? make(charts, &ordered.mesh, ordered.twin, ordered.old, error)
-                          : make(charts, mesh, edges.opposite, NULL, error));
+    done = done && (large ? make(charts, &ordered.mesh, ordered.twin, ordered.old, coarse, error)
+                          : make(charts, mesh, edges.opposite, NULL, 0, error));
     sp_renumbered_free(&ordered);
     sp_half_edges_destroy(&edges);
     return done;
 }
 
 sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error)
+{
+    return sp_charts_by_levels(mesh, extent, LARGE, COARSE, error);
+}
+
+sp_charts *sp_charts_by_levels(const sp_mesh *mesh, double extent, size_t large, size_t coarse, sp_error *error)
 {
     if (!mesh)
         return NULL;
@@ -124,7 +133,7 @@ sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error)
     bool done = charts->chart && charts->flat;
     if (!done)
         sp_fail_memory(error);
-    if (done && make_of(charts, mesh, error))
+    if (done && make_of(charts, mesh, large, coarse, error))
         return charts;
     sp_charts_destroy(charts);
     return NULL;

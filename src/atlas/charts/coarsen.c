@@ -147,12 +147,24 @@ static void appraise(mesh_of *m, uint32_t vertex)
     }
 }
 
+/* Whether a star is of three triangles or more, no neighbour reached twice. Two triangles laid on each other, as at the
+ * corner of a doubled sheet, would otherwise be folded into each other, and neither would be left to stand for both. */
+static bool is_simple(const mesh_of *m, const uint32_t *out, int count)
+{
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < i; k++)
+            if (begin(m, sp_around(out[i])) == begin(m, sp_around(out[k])))
+                return false;
+    return count >= 3;
+}
+
 /* Whether the ends of an edge have but two neighbours in common, so that the surface stays one. */
 static bool may_join(const mesh_of *m, const uint32_t *out, int count, uint32_t half_edge)
 {
     uint32_t twin = m->twin[half_edge], to = begin(m, twin);
     uint32_t left = m->twin[sp_around(half_edge)], right = m->twin[sp_around(sp_around(twin))];
-    if (m->around[to] + count - 4 > MOST_AROUND || (left != SP_NONE && right != SP_NONE && left / 3 == right / 3))
+    if (m->around[to] + count - 4 > MOST_AROUND || !is_simple(m, out, count) ||
+        (left != SP_NONE && right != SP_NONE && left / 3 == right / 3))
         return false;
     int common = 0;
     uint32_t h = twin, last = SP_NONE;
@@ -204,8 +216,8 @@ static void collapse(mesh_of *m, uint32_t vertex, const uint32_t *out, int count
     m->first[left] = sp_around(kept);
     m->first[right] = other_kept;
     m->around[to] = (uint8_t)(m->around[to] + count - 4);
-    m->around[left]--;
-    m->around[right]--;
+    m->around[left] -= m->around[left] != PINCHED;
+    m->around[right] -= m->around[right] != PINCHED;
     m->first[vertex] = SP_NONE;
     m->key[vertex] = NEVER;
     m->vertex_into[vertex] = to;

@@ -12,7 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COARSE 12000      /* triangles of the coarse mesh */
 #define COARSE_SHARE 0.04 /* of area that may have much strain there: the fine mesh has some more */
 #define REPEATS 1         /* of making what does not fit again */
 #define STRICTER 0.5      /* times the share, in each */
@@ -149,11 +148,11 @@ static bool make(levels *l, sp_error *error)
     return halve_rest(l, error);
 }
 
-bool sp_make_coarsely(sp_making *making, sp_error *error)
+bool sp_make_coarsely(sp_making *making, size_t coarse, sp_error *error)
 {
     sp_making rough = {.extent = making->extent};
     levels l = {.fine = making, .rough = &rough};
-    if (!sp_coarsen(&making->sheets, COARSE, &l.coarse))
+    if (!sp_coarsen(&making->sheets, coarse, &l.coarse))
         return sp_fail_memory(error);
     bool good = sp_sheets_create(&rough.sheets, &l.coarse.mesh, l.coarse.twin, error) && make(&l, error);
     sp_making_destroy(&rough);

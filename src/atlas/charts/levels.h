@@ -4,7 +4,7 @@
 
 #include "atlas/charts/making.h"
 
-/* Makes sheets of the whole mesh on a coarser one and carries them over. */
-bool sp_make_coarsely(sp_making *making, sp_error *error);
+/* Makes sheets of the whole mesh on a coarser one, of about `coarse` triangles, and carries them over. */
+bool sp_make_coarsely(sp_making *making, size_t coarse, sp_error *error);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define BATCHES 4            /* of flattening, the strain measured after each */
 #define FURTHER 3            /* more batches, where they promise to reach what is asked for */
@@ -64,14 +65,25 @@ static bool is_near(double before, double now, double share)
     return now < before && now - FURTHER * (before - now) <= share;
 }
 
+/* What is left of a larger sheet lies there as that strained it; alone it has no reason to. */
+static void lay_alone(const sp_sheets *sheets, sp_sheet *sheet)
+{
+    const double *shape = sheets->shape[sheet->triangle[0]];
+    const double rest[3][2] = {{0, 0}, {shape[0], 0}, {shape[1], shape[2]}};
+    for (int i = 0; i < 3; i++)
+        memcpy(sheet->at[sheet->corner[0][i]], rest[i], sizeof rest[i]);
+}
+
 sp_verdict sp_settle(sp_sheets *sheets, uint32_t number, double extent, sp_relaxer *relaxer)
 {
     sp_sheet *sheet = &sheets->items[number];
+    sp_strain strain = sp_measure_strain(sheets, sheet);
     if (sheet->triangle_count == 1) {
+        if (!(strain.most <= SP_EXACT_STRAIN) || strain.flipped)
+            lay_alone(sheets, sheet);
         sheet->strain = 0; /* however large or thin */
         return SP_SHEET_FITS;
     }
-    sp_strain strain = sp_measure_strain(sheets, sheet);
     bool exact = strain.most <= SP_EXACT_STRAIN && !strain.flipped;
     if (exact && !close_cuts(sheets, sheet, number))
         return SP_SHEET_MEMORY;

@@ -38,9 +38,10 @@ static void place_triangles(sp_atlas *atlas, const sp_charts *charts, const sp_s
 {
     for (size_t t = 0; t < charts->triangle_count; t++) {
         const sp_shape *shape = &shapes[charts->chart[t]];
+        double texel = atlas->chart_texel[charts->chart[t]];
         for (int i = 0; i < 3; i++) {
-            const double point[2] = {charts->flat[t][i][0] / atlas->texel + shape->left,
-                                     charts->flat[t][i][1] / atlas->texel + shape->low};
+            const double point[2] = {charts->flat[t][i][0] / texel + shape->left,
+                                     charts->flat[t][i][1] / texel + shape->low};
             place_point(shape, &spots[charts->chart[t]], point, atlas->uv[t][i]);
         }
     }
@@ -51,7 +52,7 @@ static void place_triangles(sp_atlas *atlas, const sp_charts *charts, const sp_s
 bool sp_atlas_pack(sp_atlas *atlas, const sp_charts *charts, sp_packing packing, uint32_t limit, sp_error *error)
 {
     size_t count = charts->chart_count;
-    sp_shape *shapes = sp_shapes_create(charts, atlas->texel, limit, error);
+    sp_shape *shapes = sp_shapes_create(charts, atlas->chart_texel, limit, error);
     sp_spot *spots = malloc((count + 1) * sizeof *spots);
     bool done = shapes && (spots || sp_fail_memory(error));
     done = done && (packing == SP_PACKING_SKYLINE ? pack_boxes : sp_nest)(shapes, count, limit, spots,

@@ -133,7 +133,7 @@ static bool paint(const chart *c, sp_shape *shape, canvas *picture, sp_cover *co
     return take_runs(picture, shape);
 }
 
-sp_shape *sp_shapes_create(const sp_charts *charts, double texel, uint32_t limit, sp_error *error)
+sp_shape *sp_shapes_create(const sp_charts *charts, const double *texel, uint32_t limit, sp_error *error)
 {
     size_t count = charts->chart_count;
     uint32_t *start = malloc((count + 1) * sizeof *start);
@@ -145,7 +145,7 @@ sp_shape *sp_shapes_create(const sp_charts *charts, double texel, uint32_t limit
     if (done)
         list_members(charts, start, members);
     for (size_t i = 0; done && i < count; i++) {
-        chart c = {charts, members + start[i], start[i + 1] - start[i], texel};
+        chart c = {charts, members + start[i], start[i + 1] - start[i], texel[i]};
         done = frame(&c, limit, &shapes[i], error);
         memory = !done || paint(&c, &shapes[i], &picture, &cover);
         done = done && memory;

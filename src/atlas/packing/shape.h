@@ -18,11 +18,11 @@ typedef struct {
     sp_shape_run *runs;
 } sp_shape;
 
-/* The pixels that each chart touches at this texel (m), [chart_count]. A chart stands in the middle of its frame and
- * keeps off the frame's border, where round-off could push it over; one of a whole number of pixels lies along their
- * borders, with a pixel more on either side; if only then it fits, a chart fills its `limit` pixels. Fails with
- * SP_ERROR_INPUT where a chart is larger than that. */
-sp_shape *sp_shapes_create(const sp_charts *charts, double texel, uint32_t limit, sp_error *error);
+/* The pixels that each chart touches at its texel [chart_count] (m), [chart_count]. A chart stands in the middle of its
+ * frame and keeps off the frame's border, where round-off could push it over; one of a whole number of pixels lies
+ * along their borders, with a pixel more on either side; if only then it fits, a chart fills its `limit` pixels. Fails
+ * with SP_ERROR_INPUT where a chart is larger than that. */
+sp_shape *sp_shapes_create(const sp_charts *charts, const double *texel, uint32_t limit, sp_error *error);
 void sp_shapes_destroy(sp_shape *shapes, size_t count);
 
 /* The shape a quarter turn on, anticlockwise: what was at (x, y) is at (height - y, x). left and low stay those of the
