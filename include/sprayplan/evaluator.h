@@ -23,8 +23,8 @@ typedef struct {
     sp_vec3 *point;            /* [count], where it is judged: its point nearest to its centroid, m */
     sp_vec3 *normal;           /* [count], unit, towards the side that is wet (the front where both are) */
     uint32_t *triangle;        /* [count], the one that holds `point` */
-    double *length;            /* [count], m, edge of a square as large as its surroundings allow: the texel's, or where
-                                * its chart has less area than a texel, that area's root */
+    double *length;            /* [count], m: its texel's edge, or where its chart has less area than a texel, the root
+                                * of that */
     uint32_t *neighbour_start; /* [count + 1] */
     uint32_t *neighbours;      /* patches of the same side that touch, ascending */
     double total_area;         /* Σ area, m² */
@@ -45,8 +45,6 @@ const sp_setup *sp_evaluator_setup(const sp_evaluator *evaluator);
 const sp_fidelity *sp_evaluator_fidelity(const sp_evaluator *evaluator); /* nothing left to auto */
 const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator);
 const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator);
-/* The length of the texel that a patch lies in, m: that of the fidelity, or less on thin parts. */
-double sp_evaluator_texel_length(const sp_evaluator *evaluator, uint32_t patch);
 const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator);
 /* Which sides of a triangle face the liquid: bit 0 front, bit 1 back. Both where no cavity is named. */
 unsigned sp_evaluator_wet(const sp_evaluator *evaluator, uint32_t triangle);

@@ -56,7 +56,8 @@ bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_
         .search = search, .pool = pool, .watch = watch, .rough = *search, .threads = sp_threads(&search->options->run)};
     bool done = sp_tuned_create(search, pool, &polishing->tuned, error);
     if (done && (double)patches->count > 1.5 * ROUGH_PATCHES) {
-        polishing->rough_evaluator = sp_evaluator_resample(fine, sqrt(patches->total_area / ROUGH_PATCHES), error);
+        polishing->rough_evaluator = sp_evaluator_resample(
+            fine, sp_evaluator_fidelity(search->coarse)->texel * sqrt((double)patches->count / ROUGH_PATCHES), error);
         done = polishing->rough_evaluator &&
                sp_search_create(polishing->rough_evaluator, search->options, search->sites, search->candidates,
                                 search->visibility, &polishing->rough, error);

@@ -5,6 +5,7 @@
 
 #define PATCHES_MOST 20000.0
 #define PATCHES_LEAST 500.0
+#define SAME 1.2       /* times longer texels are not worth patches of the search's own */
 #define RAYS_MOST 1e8  /* patches times views */
 #define MEMORY 1e9     /* bytes, for all views, where the options do not say */
 #define BATCH 16       /* sites traced between two looks at clock and memory */
@@ -265,9 +266,10 @@ bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options
 {
     double views = (double)sites->count * (double)candidates->speed_count;
     double patches = fmax(PATCHES_LEAST, fmin(PATCHES_MOST, RAYS_MOST / views));
-    double texel = sqrt(sp_evaluator_patches(fine)->total_area / patches);
+    double finer = sp_evaluator_fidelity(fine)->texel,
+           texel = finer * sqrt((double)sp_evaluator_patches(fine)->count / patches);
     *resampled = NULL;
-    if (texel > 1.1 * sp_evaluator_fidelity(fine)->texel) {
+    if (texel > SAME * finer) {
         *resampled = sp_evaluator_resample(fine, texel, error);
         if (!*resampled)
             return false;

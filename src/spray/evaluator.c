@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#define AUTO_TEXELS 200000
+#define AUTO_TEXELS 100000 /* on what is cleaned and counted */
 #define AUTO_REFLECTIONS 3
 /* Jets per nozzle and texel of all that is to be cleaned: with a flux criterion what a texel at the threshold then
  * receives from a nozzle that would flood it all at the threshold; without one a texel must merely not be missed. The
@@ -294,11 +294,6 @@ const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator)
 const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator)
 {
     return &evaluator->patches;
-}
-
-double sp_evaluator_texel_length(const sp_evaluator *evaluator, uint32_t patch)
-{
-    return sp_atlas_texel_length(evaluator->atlas, evaluator->patches.triangle[patch]);
 }
 
 const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator)

@@ -180,7 +180,8 @@ static bool set_lengths(sp_evaluator *evaluator)
     for (size_t texel = 0; area && texel < atlas->texel_count; texel++)
         area[sp_atlas_place(atlas, (uint32_t)texel).chart] += atlas->texel_area[texel];
     for (size_t patch = 0; area && patch < patches->count; patch++)
-        patches->length[patch] = fmin(atlas->texel, sqrt(area[sp_atlas_place(atlas, patches->texel[patch]).chart]));
+        patches->length[patch] = fmin(sp_atlas_texel_length(atlas, patches->triangle[patch]),
+                                      sqrt(area[sp_atlas_place(atlas, patches->texel[patch]).chart]));
     bool done = area != NULL;
     free(area);
     return done;

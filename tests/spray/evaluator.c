@@ -50,7 +50,7 @@ static void auto_chooses(void **state)
     assert_int_equal(fidelity.trajectory, SP_TRAJECTORY_PARABOLA);
     assert_int_equal(fidelity.method, SP_METHOD_INVERSE);
     assert_int_equal(fidelity.reflections, 0);
-    assert_true(fabs(fidelity.texel - sqrt(1.25 / 200000)) < 1e-12);
+    assert_true(fabs(fidelity.texel - sqrt(1.25 / 100000)) < 1e-12);
     assert_true(fidelity.jets > 0);
 
     f.setup.fidelity.texel = 0.05;

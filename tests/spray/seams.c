@@ -195,7 +195,7 @@ static void rain_stays_even_between_densities(void **state)
         make_uneven(evaluator, times);
         double *got = rain_on(evaluator, 150), off[2] = {0, 0}, sum[2] = {0, 0}, area[2] = {0, 0};
         for (uint32_t p = 0; p < evaluator->patches.count; p++) {
-            double length = sp_evaluator_texel_length(evaluator, p);
+            double length = sp_evaluator_patches(evaluator)->length[p];
             int fine = length < TEXEL;
             if (evaluator->patches.area[p] > 0.5 * length * length)
                 off[fine] = fmax(off[fine], fabs(got[p] - 1));
