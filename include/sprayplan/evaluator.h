@@ -84,7 +84,8 @@ typedef struct {
     sp_arrival *arrivals; /* ascending by patch; low arc before high arc */
 } sp_reach;
 
-/* All unoccluded arrivals from `position` at `speed` within `half_angle` (rad, π for all) about the unit `axis`.
+/* All unoccluded arrivals from `position` at `speed` within `half_angle` (rad, π for all) about the unit `axis`, or so
+ * near beyond it that a spray which ends there may have a share of their patch (sp_spray_fringe).
  * The caller destroys. Uses the setup's threads; inside a parallel region it runs on one. */
 sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                              double half_angle, sp_error *error);

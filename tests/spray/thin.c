@@ -90,7 +90,7 @@ static void a_rod_is_lit_by_half(void **state)
                 fail_msg("%d faces, from %g: %g", around, turn, share);
         }
         print_message("%d faces: %zu texels of %g mm\n", around, evaluator->atlas->texel_count,
-                      1e3 * sp_evaluator_texel_length(evaluator, 0));
+                      1e3 * sp_evaluator_patches(evaluator)->length[0]);
         sp_evaluator_destroy(evaluator);
         sp_mesh_destroy(mesh);
     }
@@ -161,7 +161,7 @@ static void a_tank_keeps_its_texels(void **state)
         const sp_patches *patches = sp_evaluator_patches(evaluator);
         double usual = 0;
         for (uint32_t p = 0; p < patches->count; p++)
-            usual += sp_evaluator_texel_length(evaluator, p) == texel ? patches->area[p] : 0;
+            usual += sp_evaluator_patches(evaluator)->length[p] == texel ? patches->area[p] : 0;
         print_message("%g mm: %zu patches, %g of %g m2 as asked\n", 1e3 * texel, patches->count, usual,
                       patches->total_area);
         assert_true(usual > 0.99 * patches->total_area);
@@ -181,7 +181,7 @@ static void many_rods_are_not_without_end(void **state)
         add_rod(&s, sp_v(0.01 * i, 0, 0), RADIUS, 4, 12, 1);
     sp_mesh *mesh = shape_mesh(&s);
     sp_evaluator *evaluator = evaluator_of(mesh, &surface, 0.0105);
-    double length = sp_evaluator_texel_length(evaluator, 0);
+    double length = sp_evaluator_patches(evaluator)->length[0];
     print_message("%zu texels of %g mm\n", evaluator->atlas->texel_count, 1e3 * length);
     assert_true(length > 0.0012 && length < 0.0105);
     assert_true(fabs(sp_mesh_area(mesh) / (length * length) - 50000) < 1000);
