@@ -1,5 +1,5 @@
 /* Building an evaluator, choosing what is left to auto, and asking it. */
-#include "state.h"
+#include "spray/wet.h"
 
 #include <stdlib.h>
 
@@ -157,7 +157,7 @@ static bool build(sp_evaluator *evaluator, sp_error *error)
     evaluator->tracer = sp_tracer_create(setup->mesh, SP_ACCELERATOR_BVH, setup->run.threads, error);
     if (!evaluator->tracer || !sp_evaluator_progress(setup, "wet sides", 0, error))
         return false;
-    evaluator->wet = sp_wet_sides(setup, evaluator->tracer, error);
+    evaluator->wet = sp_wet_create(setup, evaluator->tracer, error);
     if (!evaluator->wet || !sp_evaluator_progress(setup, "atlas", 0, error))
         return false;
     double extent = (PAGE_EDGE - PAGE_MARGIN) * evaluator->fidelity.texel;
@@ -229,7 +229,7 @@ void sp_evaluator_destroy(sp_evaluator *evaluator)
     if (!evaluator->origin) {
         sp_tracer_destroy(evaluator->tracer);
         sp_charts_destroy(evaluator->charts);
-        free(evaluator->wet);
+        sp_wet_destroy(evaluator->wet);
     }
     sp_atlas_destroy(evaluator->atlas);
     sp_fragments_destroy(&evaluator->fragments);
@@ -265,7 +265,12 @@ const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator)
 
 unsigned sp_evaluator_wet(const sp_evaluator *evaluator, uint32_t triangle)
 {
-    return evaluator->wet[triangle];
+    return evaluator->wet->sides[triangle];
+}
+
+unsigned sp_evaluator_wet_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v)
+{
+    return sp_wet_at(evaluator->wet, triangle, u, v);
 }
 
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator)

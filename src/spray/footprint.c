@@ -204,6 +204,13 @@ static void integrate_cell(patch_integral *integral, const cell *whole)
         add_sample(integral, flight, share, area);
 }
 
+static void integrate_piece(void *integral, const sp_vec3 *polygon, int corners, double area)
+{
+    (void)area;
+    for (int i = 2; i < corners; i++)
+        integrate_cell(integral, &(cell){{polygon[0], polygon[i - 1], polygon[i]}});
+}
+
 static sp_footprint integrate_patch(const sp_emitter *emitter, uint32_t patch)
 {
     const sp_evaluator *evaluator = emitter->source.evaluator;
@@ -215,14 +222,11 @@ static sp_footprint integrate_patch(const sp_emitter *emitter, uint32_t patch)
         double before = integral.sum.gain;
         for (uint32_t f = fragments->start[texel]; f < fragments->start[texel + 1]; f++) {
             uint32_t triangle = fragments->items[f].triangle;
-            if (!sp_side_is_counted(evaluator, triangle, integral.target.side == SP_SIDE_BACK))
-                continue;
-            sp_vec3 polygon[SP_FRAGMENT_POINTS], normal = sp_triangle_normal(evaluator->setup.mesh, triangle);
+            sp_vec3 normal = sp_triangle_normal(evaluator->setup.mesh, triangle);
             integral.target.triangle = triangle;
             integral.target.normal = integral.target.side == SP_SIDE_BACK ? sp_scale(normal, -1) : normal;
-            int corners = sp_atlas_fragment_polygon(evaluator->atlas, evaluator->setup.mesh, texel, triangle, polygon);
-            for (int i = 2; i < corners; i++)
-                integrate_cell(&integral, &(cell){{polygon[0], polygon[i - 1], polygon[i]}});
+            sp_counted_pieces(evaluator, texel, &fragments->items[f], integral.target.side == SP_SIDE_BACK,
+                              integrate_piece, &integral);
         }
         integral.sum.arcs += integral.sum.gain > before;
     }

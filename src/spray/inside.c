@@ -1,5 +1,5 @@
 /* Whether a point lies in the space that the wet sides face. */
-#include "state.h"
+#include "spray/wet.h"
 
 #define SIGHTS 32
 
@@ -16,6 +16,8 @@ bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point)
 {
     if (evaluator->setup.cavity == SP_CAVITY_NONE)
         return true;
+    if (sp_wet_is_material(evaluator->wet, point))
+        return false;
     int votes = 0;
     for (int i = 0; i < SIGHTS; i++) {
         sp_ray sight = {.origin = point,
@@ -29,7 +31,7 @@ bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point)
             continue;
         }
         bool back = sp_dot(sp_triangle_normal(evaluator->setup.mesh, hit.triangle), sight.velocity) > 0;
-        votes += (evaluator->wet[hit.triangle] >> back) & 1;
+        votes += (sp_wet_at(evaluator->wet, hit.triangle, hit.u, hit.v) >> back) & 1;
     }
     return 2 * votes > SIGHTS;
 }

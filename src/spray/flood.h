@@ -1,0 +1,54 @@
+/* The flood: which free sides of faces look into the liquid. */
+#ifndef SPRAY_FLOOD_H
+#define SPRAY_FLOOD_H
+
+#include "spray/faces.h"
+
+/* What lines of sight met: side `to` of a face, or one of these. */
+#define SP_SKY (SP_NONE - 1)
+#define SP_UNTOLD (SP_NONE - 2) /* an edge, or what is not free */
+
+typedef struct {
+    uint32_t from, to;
+} sp_sight;
+
+typedef struct {
+    const sp_setup *setup;
+    const sp_tracer *tracer;
+    const sp_faces *faces;
+    const sp_shells *shells;
+    size_t sides;     /* 2 faces->count */
+    uint32_t *parent; /* [sides + 1], disjoint sets of sides that look into one space; the last is the liquid */
+    size_t sight_count, sight_room;
+    sp_sight *sights;
+    uint16_t *seen; /* [sides], how many lines from the cavity's point met the side */
+} sp_flood;
+
+static inline uint32_t sp_flood_root(uint32_t *parent, uint32_t node)
+{
+    while (parent[node] != node) {
+        parent[node] = parent[parent[node]];
+        node = parent[node];
+    }
+    return node;
+}
+/* False where they were one already. */
+static inline bool sp_flood_join(uint32_t *parent, uint32_t a, uint32_t b)
+{
+    a = sp_flood_root(parent, a);
+    b = sp_flood_root(parent, b);
+    if (a < b)
+        parent[b] = a;
+    else
+        parent[a] = b;
+    return a != b;
+}
+
+/* flood.c: sets liquid[side] where lines of sight lead from the cavity, directly or on and on. [2 faces->count]. */
+bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_faces *faces, const sp_shells *shells,
+                    bool *liquid, sp_error *error);
+
+/* outdoors.c: clears liquid[side] of what is reached through openings alone but lies under the sky. */
+bool sp_flood_keep_indoors(const sp_flood *flood, bool *liquid, sp_error *error);
+
+#endif
