@@ -43,13 +43,14 @@ const sp_fidelity *sp_evaluator_fidelity(const sp_evaluator *evaluator); /* noth
 const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator);
 const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator);
 const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator);
-/* On which sides some of a triangle faces the liquid: bit 0 front, bit 1 back. Both where no cavity is named. A triangle
- * that others cross or touch may face it in parts. */
+/* On which sides some of a triangle faces the liquid: bit 0 front, bit 1 back. Both where no cavity is named. A
+ * triangle that others cross or touch may face it in parts. */
 unsigned sp_evaluator_wet(const sp_evaluator *evaluator, uint32_t triangle);
 /* On which sides the point (1-u-v, u, v) of a triangle does. */
 unsigned sp_evaluator_wet_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v);
-/* True where the point lies in the space that the wet sides face (no cavity: everywhere). Never in a solid; else by lines of sight in
- * at least 16 directions: what most of them first meet is a wet side (or, with the cavity outside, nothing). */
+/* True where the point lies in the space that the wet sides face (no cavity: everywhere). Never in a solid; else by
+ * lines of sight in at least 16 directions: what most of them first meet is a wet side (or, with the cavity outside,
+ * nothing). */
 bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point);
 /* g, m/s²; zero for trajectory line. */
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator);

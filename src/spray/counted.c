@@ -1,6 +1,8 @@
 /* What of the surface is counted: clean, and wet. */
 #include "spray/wet.h"
 
+#define ROUND_OFF 1e-6 /* of a fragment */
+
 bool sp_side_is_counted(const sp_evaluator *evaluator, uint32_t triangle, unsigned side)
 {
     const sp_setup *setup = &evaluator->setup;
@@ -28,6 +30,7 @@ typedef struct {
     uint32_t triangle;
     unsigned side;
     double scale; /* m² as the atlas measured it, per unit of weights */
+    double least; /* m²: smaller pieces are round-off at a cut */
     sp_counted_visitor *visit;
     void *user;
 } cell_walk;
@@ -48,7 +51,7 @@ static void visit_cell(void *user, uint32_t cell, const sp_triangle_piece *part)
     const sp_mesh *mesh = walk->evaluator->setup.mesh;
     size_t face = mesh->triangle_count + cell;
     double area = area_in_weights(part) * walk->scale;
-    if (!walk->evaluator->wet->liquid[2 * face + walk->side] || !(area > 0))
+    if (!walk->evaluator->wet->liquid[2 * face + walk->side] || !(area > walk->least))
         return;
     sp_vec3 polygon[SP_PIECE_POINTS];
     for (int i = 0; i < part->count; i++)
@@ -74,6 +77,7 @@ void sp_counted_pieces(const sp_evaluator *evaluator, uint32_t texel, const sp_f
     for (int i = 0; i < corners; i++)
         sp_weights_of(mesh, triangle, polygon[i], whole.at[i]);
     double area = area_in_weights(&whole);
-    cell_walk walk = {evaluator, triangle, side, area > 0 ? fragment->area / area : 0, visit, user};
+    cell_walk walk = {evaluator, triangle, side, area > 0 ? fragment->area / area : 0, ROUND_OFF * fragment->area,
+                      visit,     user};
     sp_cuts_split(&wet->cuts, triangle, &whole, visit_cell, &walk);
 }

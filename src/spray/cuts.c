@@ -242,8 +242,8 @@ static void apply(cutter *cutter, const scratch *scratch)
         return;
     sp_cut line = line_through(mesh, scratch->triangle, p, q);
     for (int i = 0; i < 3; i++) {
-        sp_cut edge = line_through(mesh, scratch->triangle, mesh->vertices[corner[i]],
-                                   mesh->vertices[corner[(i + 1) % 3]]);
+        sp_cut edge =
+            line_through(mesh, scratch->triangle, mesh->vertices[corner[i]], mesh->vertices[corner[(i + 1) % 3]]);
         if (!clip_stretch(&whole, &edge, 1, cutter->cuts->contact))
             return;
     }

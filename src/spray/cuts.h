@@ -18,9 +18,9 @@ typedef struct {
     size_t cut_count;
     sp_cut *cuts;
     size_t cell_count;
-    uint32_t *cell_triangle;           /* [cell_count], ascending */
-    uint32_t *cover_start, *covers;    /* triangles that lie in the plane of triangle t, some of it covered: covers
-                                          [cover_start[t], cover_start[t + 1]), ascending */
+    uint32_t *cell_triangle;        /* [cell_count], ascending */
+    uint32_t *cover_start, *covers; /* triangles that lie in the plane of triangle t, some of it covered: covers
+                                       [cover_start[t], cover_start[t + 1]), ascending */
 } sp_cuts;
 
 bool sp_cuts_create(sp_cuts *cuts, const sp_mesh *mesh, const sp_shells *shells, double contact, sp_error *error);

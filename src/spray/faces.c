@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BEYOND 2.0      /* contacts: how far beyond a side its space is judged */
-#define OFF_EDGES 0.05  /* of the way to the middle: lines of sight start no nearer to an edge */
+#define BEYOND 2.0     /* contacts: how far beyond a side its space is judged */
+#define OFF_EDGES 0.05 /* of the way to the middle: lines of sight start no nearer to an edge */
 
 static double area_of_piece(const sp_triangle_piece *piece)
 {
@@ -133,7 +133,8 @@ sp_vec3 sp_face_point(const sp_faces *faces, uint32_t face, double first, double
         rest -= fan_area(corners, chosen++);
     double part = fan_area(corners, chosen), root = sqrt(part > 0 ? fmin(1, rest / part) : 0);
     for (int k = 0; k < 2; k++) {
-        at[k] = (1 - root) * corners[0][k] + root * ((1 - second) * corners[chosen - 1][k] + second * corners[chosen][k]);
+        at[k] =
+            (1 - root) * corners[0][k] + root * ((1 - second) * corners[chosen - 1][k] + second * corners[chosen][k]);
         at[k] += OFF_EDGES * (middle[k] - at[k]);
     }
     return sp_triangle_point(faces->mesh, sp_face_triangle(faces, face), at[0], at[1]);
@@ -174,7 +175,8 @@ static void judge(const face_judge *judge, uint32_t face)
         return;
     double middle[2], weights[2], at[2];
     face_middle(corners, count, middle);
-    sp_vec3 point = sp_triangle_point(mesh, triangle, middle[0], middle[1]), normal = sp_triangle_normal(mesh, triangle);
+    sp_vec3 point = sp_triangle_point(mesh, triangle, middle[0], middle[1]),
+            normal = sp_triangle_normal(mesh, triangle);
     bool touches = false;
     for (uint32_t i = faces->cuts->cover_start[triangle]; i < faces->cuts->cover_start[triangle + 1]; i++) {
         uint32_t other = faces->cuts->covers[i];
@@ -210,7 +212,8 @@ bool sp_faces_create(sp_faces *faces, const sp_mesh *mesh, const sp_shells *shel
     size_t count = mesh->triangle_count + cuts->cell_count;
     *faces = (sp_faces){.mesh = mesh, .cuts = cuts, .count = count};
     if (count > SP_NONE / 2 - 1)
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "geometry: bodies cut each other into %zu pieces, too many", count);
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "geometry: bodies cut each other into %zu pieces, too many",
+                       count);
     faces->area = calloc(count + 1, sizeof *faces->area);
     faces->corner_start = calloc(cuts->cell_count + 1, sizeof *faces->corner_start);
     faces->state = malloc(2 * count + 1);

@@ -1,6 +1,6 @@
 /* Lines of sight are cast from every free side, and two sides that see each other look into the same space. What is
- * joined, however indirectly, with what the cavity's point sees is wet. The lines come in rounds: a few from every side,
- * then more from those that are not wet yet, until further rounds join nothing. Large faces cast more. */
+ * joined, however indirectly, with what the cavity's point sees is wet. The lines come in rounds: a few from every
+ * side, then more from those that are not wet yet, until further rounds join nothing. Large faces cast more. */
 #include "spray/flood.h"
 
 #include <stdlib.h>

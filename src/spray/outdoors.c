@@ -3,29 +3,29 @@
  *
  * Think of the sides as rooms between which one walks along lines of sight: how likely is it to arrive in the liquid
  * before one gets under the sky? The liquid begins with what the cavity's point sees that hardly looks at the
- * sky, or that hangs together with much of what the point sees (an open tray). Sides from where the liquid is the likely
- * end belong to it, and so do flat and concave neighbours of what does, and whatever can be reached and sees no sky even
- * by way of others. The rest is outdoors. An opening that is narrow against what is behind it is never passed; what is
- * half open, such as a bell over a pot, may fall on either side. */
+ * sky, or that hangs together with much of what the point sees (an open tray). Sides from where the liquid is the
+ * likely end belong to it, and so do flat and concave neighbours of what does, and whatever can be reached and sees no
+ * sky even by way of others. The rest is outdoors. An opening that is narrow against what is behind it is never passed;
+ * what is half open, such as a bell over a pot, may fall on either side. */
 #include "spray/flood.h"
 
 #include "mesh/half_edge.h"
 
 #include <stdlib.h>
 
-#define LIKELY 0.25       /* the least chance to end in the liquid */
-#define MUCH (1.0 / 16)   /* of the directions from the cavity's point */
-#define SKY_LEAST 4        /* one line in so many may reach the sky where the liquid begins */
-#define STILL 1e-3        /* chances that change less are known */
+#define LIKELY 0.25     /* the least chance to end in the liquid */
+#define MUCH (1.0 / 16) /* of the directions from the cavity's point */
+#define SKY_LEAST 4     /* one line in so many may reach the sky where the liquid begins */
+#define STILL 1e-3      /* chances that change less are known */
 #define MOST_SWEEPS 400
 #define FLAT 1e-4 /* sine of the angle up to which two triangles are one plane */
 
 typedef struct {
     const sp_flood *flood;
-    bool *liquid;   /* candidates, from the flood */
-    bool *in;       /* [sides], of them: known to be liquid */
-    double *chance; /* [sides] */
-    double *sum;    /* [sides] */
+    bool *liquid;    /* candidates, from the flood */
+    bool *in;        /* [sides], of them: known to be liquid */
+    double *chance;  /* [sides] */
+    double *sum;     /* [sides] */
     uint32_t *lines; /* [sides] */
     sp_half_edges edges;
 } indoors;

@@ -5,8 +5,8 @@
 
 #include <stdlib.h>
 
-#define FEW 24        /* triangles that are compared one by one */
-#define MOST_HALVES 60 /* how often space is halved */
+#define FEW 24          /* triangles that are compared one by one */
+#define MOST_HALVES 60  /* how often space is halved */
 #define MOST_SHELLS 256 /* beyond it shells' boxes are not compared with each other */
 #define FOLDED 1e-6     /* rad: neighbours at a smaller angle lie on each other */
 
@@ -128,7 +128,8 @@ static void search_space(pair_search *search, const space_box *space, const uint
         int order[3] = {0, 1, 2}; /* the longest axis first */
         for (int i = 0; i < 2; i++)
             for (int k = i + 1; k < 3; k++) {
-                double a = space->high[order[i]] - space->low[order[i]], b = space->high[order[k]] - space->low[order[k]];
+                double a = space->high[order[i]] - space->low[order[i]],
+                       b = space->high[order[k]] - space->low[order[k]];
                 if (b > a) {
                     int swap = order[i];
                     order[i] = order[k];

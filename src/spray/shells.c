@@ -1,7 +1,9 @@
-/* A part whose triangles close is a solid by itself, also where it is welded to others along edges: bodies that touch in
- * one file share their corners. What is left over may be closed by several parts together, as a vessel is by its shell
- * and its heads; sheets welded to it, which have free edges, are peeled off before that is asked. */
+/* A part whose triangles close is a solid by itself, also where it is welded to others along edges: bodies that touch
+ * in one file share their corners. What is left over may be closed by several parts together, as a vessel is by its
+ * shell and its heads; sheets welded to it, which have free edges, are peeled off before that is asked. */
 #include "spray/shells.h"
+
+#include "spray/same_corners.h"
 
 #include "mesh/half_edge.h"
 
@@ -40,8 +42,7 @@ static void unite(uint32_t *parent, uint32_t a, uint32_t b)
 /* Whether two triangles at one edge hang together there. */
 static bool hang_together(const shell_search *search, uint32_t a, uint32_t b)
 {
-    return search->loose[a] == search->loose[b] &&
-           (!search->apart || search->mesh->part[a] == search->mesh->part[b]);
+    return search->loose[a] == search->loose[b] && (!search->apart || search->mesh->part[a] == search->mesh->part[b]);
 }
 
 /* How often the edge of half edge `h` runs its way more than the other, among what hangs together with it. */
@@ -229,11 +230,15 @@ static bool number_shells(sp_shells *shells, shell_search *search, const bool *c
     return true;
 }
 
-bool sp_shells_create(sp_shells *shells, const sp_mesh *mesh, sp_error *error)
+bool sp_shells_create(sp_shells *shells, const sp_mesh *mesh, double same, sp_error *error)
 {
     *shells = (sp_shells){0};
     size_t triangles = mesh->triangle_count;
-    shell_search search = {.mesh = mesh,
+    sp_mesh welded = *mesh; /* but for its triangles borrowed */
+    welded.triangles = sp_same_corners(mesh, same, error);
+    if (!welded.triangles)
+        return false;
+    shell_search search = {.mesh = &welded,
                            .edge = malloc((3 * triangles + 1) * sizeof *search.edge),
                            .parent = malloc((triangles + 1) * sizeof *search.parent),
                            .open = calloc(triangles + 1, 1),
@@ -243,19 +248,21 @@ bool sp_shells_create(sp_shells *shells, const sp_mesh *mesh, sp_error *error)
     bool done = search.edge && search.parent && search.open && search.loose && closed && shells->of;
     if (!done)
         sp_fail_memory(error);
-    done = done && sp_half_edges_create(mesh, &search.edges, error);
+    done = done && sp_half_edges_create(&welded, &search.edges, error);
     for (size_t first = 0, count; done && first < 3 * triangles; first += count) {
-        count = sp_half_edges_of_edge(mesh, &search.edges, first);
+        count = sp_half_edges_of_edge(&welded, &search.edges, first);
         for (size_t i = first; i < first + count; i++)
             search.edge[search.edges.order[i]] = (uint32_t)first;
     }
-    done = done && find_shells(&search, closed, error) && (number_shells(shells, &search, closed) || sp_fail_memory(error));
+    done = done && find_shells(&search, closed, error) &&
+           (number_shells(shells, &search, closed) || sp_fail_memory(error));
     sp_half_edges_destroy(&search.edges);
     free(search.edge);
     free(search.parent);
     free(search.open);
     free(search.loose);
     free(closed);
+    free(welded.triangles);
     if (!done)
         sp_shells_destroy(shells);
     return done;

@@ -13,7 +13,7 @@ struct sp_evaluator {
     const sp_evaluator *origin; /* of a resampled evaluator: owns tracer, charts and wet; else NULL */
     sp_tracer *tracer;
     sp_charts *charts;
-    struct sp_wet *wet;         /* wet.h */
+    struct sp_wet *wet; /* wet.h */
     sp_atlas *atlas;
     sp_fragments fragments; /* of the atlas */
     sp_patches patches;

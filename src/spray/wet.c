@@ -9,9 +9,9 @@
  *    out: it is turned round.
  *  - The outermost shell around the cavity's point, turned outwards, is a room drawn inside out where most of the
  *    remaining surface lies in it (a tank as simulations of flow draw it, around its stirrer): it is turned round.
- *  - A room drawn as one shell turned inwards has a wall without end: what is behind it, and what sticks out through it,
- *    must count as material, and so 1 is added everywhere.
- * A winding number above 0 at the cavity's point then means that it lies in steel. */
+ *  - A room drawn as one shell turned inwards has a wall without end: what is behind it, and what sticks out through
+ * it, must count as material, and so 1 is added everywhere. A winding number above 0 at the cavity's point then means
+ * that it lies in steel. */
 #include "spray/wet.h"
 
 #include "spray/flood.h"
@@ -21,6 +21,7 @@
 #include <string.h>
 
 #define CONTACT 1e-6 /* of the geometry's diagonal: surfaces nearer than this to each other touch */
+#define SAME 1e-9    /* of the diagonal: corners nearer than this are one */
 #define BEYOND 2.0   /* contacts */
 #define SAMPLES 16   /* triangles of a shell that tell what it lies in */
 
@@ -44,8 +45,7 @@ static int winding_beside(const sp_wet *wet, const sp_mesh *mesh, uint32_t shell
     for (uint32_t t = wet->shells.widest[shell]; t < mesh->triangle_count && looked < SAMPLES; t++) {
         if (wet->shells.of[t] != shell)
             continue;
-        sp_vec3 beside =
-            sp_along(sp_triangle_point(mesh, t, 0.3, 0.35), BEYOND * contact, sp_triangle_normal(mesh, t));
+        sp_vec3 beside = sp_along(sp_triangle_point(mesh, t, 0.3, 0.35), BEYOND * contact, sp_triangle_normal(mesh, t));
         int winding = sp_winding_without(wet->solids, beside, shell);
         least = winding < least ? winding : least;
         looked++;
@@ -53,7 +53,8 @@ static int winding_beside(const sp_wet *wet, const sp_mesh *mesh, uint32_t shell
     return least;
 }
 
-/* Whether more than half of the surface of the other shells lies in this one. */
+/* Whether more than half of the surface of the other shells lies in this one. Not what is turned inwards: it bounds a
+ * hollow, and the shell around it is a thick wall. */
 static bool holds_most(const sp_wet *wet, const sp_mesh *mesh, uint32_t shell)
 {
     double held = 0, all = 0;
@@ -62,7 +63,9 @@ static bool holds_most(const sp_wet *wet, const sp_mesh *mesh, uint32_t shell)
             continue;
         double area = sp_triangle_area(mesh, t);
         all += area;
-        held += sp_winding_of(wet->solids, sp_triangle_point(mesh, t, 1.0 / 3, 1.0 / 3), shell) > 0 ? area : 0;
+        bool hollow = wet->shells.closed[wet->shells.of[t]] && wet->shells.volume[wet->shells.of[t]] < 0;
+        held +=
+            !hollow && sp_winding_of(wet->solids, sp_triangle_point(mesh, t, 1.0 / 3, 1.0 / 3), shell) > 0 ? area : 0;
     }
     return 2 * held > all;
 }
@@ -112,19 +115,20 @@ static bool find_solids(sp_wet *wet, const sp_setup *setup, double contact, sp_e
     if (setup->cavity != SP_CAVITY_POINT)
         return true;
     sp_vec3 point = setup->cavity_point;
-    return !sp_wet_is_material(wet, point) || sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                                   "cavity: the point (%g m, %g m, %g m) lies in the material of part \"%s\", whose "
-                                   "normals point outwards; expected a point of the space where the liquid flies (a "
-                                   "room drawn as one shell has its normals inwards)",
-                                   point.x, point.y, point.z, body_around(wet, setup->mesh, point));
+    return !sp_wet_is_material(wet, point) ||
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "cavity: the point (%g m, %g m, %g m) lies in the material of part \"%s\", whose "
+                   "normals point outwards; expected a point of the space where the liquid flies (a "
+                   "room drawn as one shell has its normals inwards)",
+                   point.x, point.y, point.z, body_around(wet, setup->mesh, point));
 }
 
 static bool find_wet(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer, sp_error *error)
 {
     const sp_mesh *mesh = setup->mesh;
     double contact = CONTACT * mesh_diagonal(mesh);
-    if (!sp_shells_create(&wet->shells, mesh, error) || !find_solids(wet, setup, contact, error) ||
-        !sp_cuts_create(&wet->cuts, mesh, &wet->shells, contact, error) ||
+    if (!sp_shells_create(&wet->shells, mesh, SAME * mesh_diagonal(mesh), error) ||
+        !find_solids(wet, setup, contact, error) || !sp_cuts_create(&wet->cuts, mesh, &wet->shells, contact, error) ||
         !sp_faces_create(&wet->faces, mesh, &wet->shells, &wet->cuts, wet->solids, wet->base, setup->run.threads,
                          error))
         return false;
