@@ -30,7 +30,7 @@ static sp_ray side_line(const sp_flood *flood, uint32_t side, uint64_t line)
 {
     const sp_mesh *mesh = flood->setup->mesh;
     uint32_t triangle = sp_face_triangle(flood->faces, side / 2);
-    uint64_t index = (uint64_t)side * MOST_LINES * MOST_ROUNDS + line;
+    uint64_t index = (uint64_t)side * 2 * SP_FLOOD_LINES + line;
     sp_vec3 z = sp_triangle_normal(mesh, triangle);
     if (side % 2)
         z = sp_scale(z, -1);
@@ -111,59 +111,66 @@ static bool trace_block(sp_flood *flood, line_block *block)
     return done;
 }
 
-static uint64_t lines_of(const sp_flood *flood, uint32_t side, double area)
+static uint64_t lines_of(const sp_flood *flood, uint32_t side)
 {
-    return (uint64_t)fmin(1 + floor(LINES_BY_AREA * flood->faces->area[side / 2] / area), MOST_LINES);
+    return (uint64_t)fmin(1 + floor(LINES_BY_AREA * flood->faces->area[side / 2] / flood->area), MOST_LINES);
 }
 
-/* Casts a round of lines from all free sides, or from those that are dry so far. */
-static bool cast_round(sp_flood *flood, line_block *block, uint64_t round, double area)
-{
-    bool done = true;
-    for (uint32_t side = 0; side < flood->sides && done; side++) {
-        if (flood->faces->state[side] != SP_FACE_FREE)
-            continue;
-        if (round >= ROUNDS_OF_ALL &&
-            sp_flood_root(flood->parent, side) == sp_flood_root(flood->parent, (uint32_t)flood->sides))
-            continue;
-        uint64_t lines = lines_of(flood, side, area);
-        for (uint64_t i = 0; i < lines && done; i++) {
-            block->side[block->count] = side;
-            block->line[block->count++] = round * MOST_LINES + i;
-            if (block->count == BLOCK)
-                done = trace_block(flood, block);
-        }
-    }
-    return done && trace_block(flood, block);
-}
-
-static bool cast_rounds(sp_flood *flood, sp_error *error)
+bool sp_flood_cast(sp_flood *flood, const bool *sides, uint64_t first, uint64_t least, size_t *joined, sp_error *error)
 {
     line_block block = {.side = malloc(BLOCK * sizeof *block.side),
                         .rays = malloc(BLOCK * sizeof *block.rays),
                         .line = malloc(BLOCK * sizeof *block.line),
                         .hits = malloc(BLOCK * sizeof *block.hits)};
     bool done = block.side && block.rays && block.line && block.hits;
-    double area = 0;
-    for (uint32_t side = 0; side < flood->sides; side++)
-        area += flood->faces->state[side] == SP_FACE_FREE ? flood->faces->area[side / 2] : 0;
-    if (!done)
-        sp_fail_memory(error);
-    int silent = 0;
-    for (uint64_t round = 0; done && round < MOST_ROUNDS; round++) {
-        size_t before = block.joined, sights = flood->sight_count;
-        done = cast_round(flood, &block, round, area) || sp_fail_memory(error);
-        silent = block.joined > before ? 0 : silent + 1;
-        if (round + 1 >= ROUNDS_OF_ALL && sights == flood->sight_count)
-            break;
-        if (round + 1 >= LEAST_ROUNDS && silent >= SILENT_ROUNDS)
-            break;
-        done = done && sp_evaluator_progress(flood->setup, "wet sides", (double)(round + 1) / MOST_ROUNDS, error);
+    for (uint32_t side = 0; side < flood->sides && done; side++) {
+        uint64_t lines = sides[side] ? lines_of(flood, side) : 0;
+        if (sides[side] && lines < least)
+            lines = least;
+        for (uint64_t i = 0; i < lines && done; i++) {
+            block.side[block.count] = side;
+            block.line[block.count++] = first + i;
+            if (block.count == BLOCK)
+                done = trace_block(flood, &block);
+        }
     }
+    done = done && trace_block(flood, &block);
+    *joined = block.joined;
     free(block.side);
     free(block.rays);
     free(block.line);
     free(block.hits);
+    return done || sp_fail_memory(error);
+}
+
+/* The sides that cast lines in a round: all free ones, later those that are dry so far. Returns how many. */
+static size_t choose_sides(sp_flood *flood, uint64_t round, bool *sides)
+{
+    size_t chosen = 0;
+    uint32_t liquid = sp_flood_root(flood->parent, (uint32_t)flood->sides);
+    for (uint32_t side = 0; side < flood->sides; side++) {
+        sides[side] = flood->faces->state[side] == SP_FACE_FREE &&
+                      (round < ROUNDS_OF_ALL || sp_flood_root(flood->parent, side) != liquid);
+        chosen += sides[side];
+    }
+    return chosen;
+}
+
+static bool cast_rounds(sp_flood *flood, sp_error *error)
+{
+    bool *sides = malloc(flood->sides + 1), done = true;
+    if (!sides)
+        return sp_fail_memory(error);
+    int silent = 0;
+    for (uint64_t round = 0; done && round < MOST_ROUNDS; round++) {
+        if (choose_sides(flood, round, sides) == 0 || (round >= LEAST_ROUNDS && silent >= SILENT_ROUNDS))
+            break;
+        size_t joined = 0;
+        done = sp_flood_cast(flood, sides, round * MOST_LINES, 1, &joined, error) &&
+               sp_evaluator_progress(flood->setup, "wet sides", (double)(round + 1) / MOST_ROUNDS, error);
+        silent = joined > 0 ? 0 : silent + 1;
+    }
+    free(sides);
     return done;
 }
 
@@ -212,8 +219,10 @@ bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_fac
     bool done = flood.parent && flood.seen;
     if (!done)
         sp_fail_memory(error);
-    for (size_t i = 0; done && i <= flood.sides; i++)
-        flood.parent[i] = (uint32_t)i;
+    for (uint32_t i = 0; done && i <= flood.sides; i++) {
+        flood.parent[i] = i;
+        flood.area += i < flood.sides && faces->state[i] == SP_FACE_FREE ? faces->area[i / 2] : 0;
+    }
     done = done && (setup->cavity == SP_CAVITY_OUTSIDE || join_seen(&flood, error)) && cast_rounds(&flood, error);
     if (done) {
         uint32_t root = sp_flood_root(flood.parent, (uint32_t)flood.sides);

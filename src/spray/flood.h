@@ -18,6 +18,7 @@ typedef struct {
     const sp_faces *faces;
     const sp_shells *shells;
     size_t sides;     /* 2 faces->count */
+    double area;      /* m², of the free ones */
     uint32_t *parent; /* [sides + 1], disjoint sets of sides that look into one space; the last is the liquid */
     size_t sight_count, sight_room;
     sp_sight *sights;
@@ -48,7 +49,12 @@ static inline bool sp_flood_join(uint32_t *parent, uint32_t a, uint32_t b)
 bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_faces *faces, const sp_shells *shells,
                     bool *liquid, sp_error *error);
 
+/* Casts lines number `first` and following from the sides that are marked, `least` or more of each, keeps what they met
+ * in `sights`, and joins. *joined becomes how many joins were new. */
+#define SP_FLOOD_LINES 32768 /* numbers of lines that the flood itself uses */
+bool sp_flood_cast(sp_flood *flood, const bool *sides, uint64_t first, uint64_t least, size_t *joined, sp_error *error);
+
 /* outdoors.c: clears liquid[side] of what is reached through openings alone but lies under the sky. */
-bool sp_flood_keep_indoors(const sp_flood *flood, bool *liquid, sp_error *error);
+bool sp_flood_keep_indoors(sp_flood *flood, bool *liquid, sp_error *error);
 
 #endif

@@ -13,7 +13,11 @@
 
 #include <stdlib.h>
 
-#define LIKELY 0.25     /* the least chance to end in the liquid */
+#define CERTAIN 0.75 /* a chance to end in the liquid that few lines are enough to tell */
+#define LIKELY 0.25  /* the least chance that belongs to the liquid */
+#define FAINT 0.02   /* the least chance of what liquid spreads to over flat and hollow edges */
+#define FEW_LINES 3  /* the least that tell of a chance */
+#define LINES 48     /* from each side that is still in doubt */
 #define MUCH (1.0 / 16) /* of the directions from the cavity's point */
 #define SKY_LEAST 4     /* one line in so many may reach the sky where the liquid begins */
 #define STILL 1e-3      /* chances that change less are known */
@@ -76,7 +80,7 @@ static bool begin(indoors *known, sp_error *error)
 }
 
 /* One step of the walk for all; returns how many sides turn out to be liquid. */
-static size_t sweep(indoors *known, double *change)
+static size_t sweep(indoors *known, double bound, double *change)
 {
     const sp_flood *flood = known->flood;
     size_t joined = 0;
@@ -99,7 +103,7 @@ static size_t sweep(indoors *known, double *change)
         double chance = known->sum[side] / known->lines[side];
         *change = fmax(*change, fabs(chance - known->chance[side]));
         known->chance[side] = chance;
-        if (chance >= LIKELY) {
+        if (chance >= bound && known->lines[side] >= FEW_LINES) {
             known->in[side] = true;
             joined++;
         }
@@ -130,7 +134,7 @@ static size_t spread(indoors *known)
             continue;
         for (uint32_t side = 0; side < 2; side++) {
             uint32_t from = 2 * a + side, to = 2 * (other / 3) + side;
-            if (!known->in[from] || known->in[to] || !known->liquid[to] ||
+            if (!known->in[from] || known->in[to] || !known->liquid[to] || known->chance[to] < FAINT ||
                 !flat_or_concave(mesh, a, other / 3, (other % 3 + 2) % 3, side))
                 continue;
             known->in[to] = true;
@@ -166,7 +170,7 @@ static size_t take_skyless(indoors *known, uint32_t *parent, bool *sky)
     return joined;
 }
 
-static bool settle(indoors *known, sp_error *error)
+static bool settle(indoors *known, double bound, sp_error *error)
 {
     size_t sides = known->flood->sides, joined = 1;
     uint32_t *parent = malloc((sides + 1) * sizeof *parent);
@@ -180,7 +184,7 @@ static bool settle(indoors *known, sp_error *error)
         double change = 1;
         joined = 0;
         for (int i = 0; i < MOST_SWEEPS && change > STILL; i++) {
-            size_t more = sweep(known, &change) + spread(known);
+            size_t more = sweep(known, bound, &change) + spread(known);
             joined += more;
             change = more ? 1 : change;
         }
@@ -191,7 +195,21 @@ static bool settle(indoors *known, sp_error *error)
     return true;
 }
 
-bool sp_flood_keep_indoors(const sp_flood *flood, bool *liquid, sp_error *error)
+/* Casts more lines from what is still in doubt. */
+static bool look_again(indoors *known, sp_flood *flood, sp_error *error)
+{
+    bool *doubt = malloc(flood->sides + 1);
+    if (!doubt)
+        return sp_fail_memory(error);
+    for (size_t side = 0; side < flood->sides; side++)
+        doubt[side] = known->liquid[side] && !known->in[side];
+    size_t joined;
+    bool done = sp_flood_cast(flood, doubt, SP_FLOOD_LINES, LINES, &joined, error);
+    free(doubt);
+    return done;
+}
+
+bool sp_flood_keep_indoors(sp_flood *flood, bool *liquid, sp_error *error)
 {
     if (!sees_sky(flood, liquid))
         return true;
@@ -206,7 +224,7 @@ bool sp_flood_keep_indoors(const sp_flood *flood, bool *liquid, sp_error *error)
     if (!done)
         sp_fail_memory(error);
     done = done && sp_half_edges_create(flood->setup->mesh, &known.edges, error) && begin(&known, error) &&
-           settle(&known, error);
+           settle(&known, CERTAIN, error) && look_again(&known, flood, error) && settle(&known, LIKELY, error);
     for (size_t side = 0; done && side < flood->sides; side++)
         liquid[side] = liquid[side] && known.in[side];
     free(known.in);
