@@ -13,11 +13,11 @@
 
 #include <stdlib.h>
 
-#define CERTAIN 0.75 /* a chance to end in the liquid that few lines are enough to tell */
-#define LIKELY 0.25  /* the least chance that belongs to the liquid */
-#define FAINT 0.02   /* the least chance of what liquid spreads to over flat and hollow edges */
-#define FEW_LINES 3  /* the least that tell of a chance */
-#define LINES 48     /* from each side that is still in doubt */
+#define CERTAIN 0.75    /* a chance to end in the liquid that few lines are enough to tell */
+#define LIKELY 0.25     /* the least chance that belongs to the liquid */
+#define FAINT 0.02      /* the least chance of what liquid spreads to over flat and hollow edges */
+#define FEW_LINES 3     /* the least that tell of a chance */
+#define LINES 48        /* from each side that is still in doubt */
 #define MUCH (1.0 / 16) /* of the directions from the cavity's point */
 #define SKY_LEAST 4     /* one line in so many may reach the sky where the liquid begins */
 #define STILL 1e-3      /* chances that change less are known */

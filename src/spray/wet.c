@@ -7,8 +7,9 @@
  * towards the hollow, takes away what the outer one adds. Three things are put right first.
  *  - A shell turned inwards that does not enclose the cavity's point and lies in no other body is a solid drawn inside
  *    out: it is turned round.
- *  - The outermost shell around the cavity's point, turned outwards, is a room drawn inside out where most of the
- *    remaining surface lies in it (a tank as simulations of flow draw it, around its stirrer): it is turned round.
+ *  - The outermost shell around the cavity's point, turned outwards, is a room drawn inside out (a tank as simulations
+ *    of flow draw it) where nearly all that leaves it outwards reaches the sky, and no hollow lies in it: it is turned
+ *    round. A wall has an inner side too, from which one sees wall, and what stands in a vessel sees that.
  *  - A room drawn as one shell turned inwards has a wall without end: what is behind it, and what sticks out through
  * it, must count as material, and so 1 is added everywhere. A winding number above 0 at the cavity's point then means
  * that it lies in steel. */
@@ -20,10 +21,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CONTACT 1e-6 /* of the geometry's diagonal: surfaces nearer than this to each other touch */
-#define SAME 1e-9    /* of the diagonal: corners nearer than this are one */
-#define BEYOND 2.0   /* contacts */
-#define SAMPLES 16   /* triangles of a shell that tell what it lies in */
+#define CONTACT 1e-6   /* of the geometry's diagonal: surfaces nearer than this to each other touch */
+#define SAME 1e-9      /* of the diagonal: corners nearer than this are one */
+#define BEYOND 2.0     /* contacts */
+#define SAMPLES 16     /* triangles of a shell that tell what it lies in */
+#define SKY_LINES 1024 /* from a shell, to tell whether it lies under the sky */
+#define SKY_STRIDE 387 /* mixes their directions */
+#define SKY_LEAST 4    /* one line in so many may meet something */
 
 static double mesh_diagonal(const sp_mesh *mesh)
 {
@@ -53,25 +57,46 @@ static int winding_beside(const sp_wet *wet, const sp_mesh *mesh, uint32_t shell
     return least;
 }
 
-/* Whether more than half of the surface of the other shells lies in this one. Not what is turned inwards: it bounds a
- * hollow, and the shell around it is a thick wall. */
-static bool holds_most(const sp_wet *wet, const sp_mesh *mesh, uint32_t shell)
+/* Whether a hollow lies in a shell. */
+static bool holds_hollow(const sp_wet *wet, const sp_mesh *mesh, uint32_t shell)
 {
-    double held = 0, all = 0;
-    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        if (wet->shells.of[t] == shell)
+    for (uint32_t s = 0; s < wet->shells.count; s++) {
+        if (s == shell || !wet->shells.closed[s] || !(wet->shells.volume[s] < 0))
             continue;
-        double area = sp_triangle_area(mesh, t);
-        all += area;
-        bool hollow = wet->shells.closed[wet->shells.of[t]] && wet->shells.volume[wet->shells.of[t]] < 0;
-        held +=
-            !hollow && sp_winding_of(wet->solids, sp_triangle_point(mesh, t, 1.0 / 3, 1.0 / 3), shell) > 0 ? area : 0;
+        sp_vec3 point = sp_triangle_point(mesh, wet->shells.widest[s], 0.3, 0.35);
+        if (sp_winding_of(wet->solids, point, shell) > 0)
+            return true;
     }
-    return 2 * held > all;
+    return false;
+}
+
+/* Whether nearly all lines that leave a shell outwards, evenly spread over it, reach the sky. */
+static bool lies_under_sky(const sp_wet *wet, const sp_tracer *tracer, uint32_t shell, double contact)
+{
+    const sp_mesh *mesh = sp_tracer_mesh(tracer);
+    double area = 0, passed = 0;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        area += wet->shells.of[t] == shell ? sp_triangle_area(mesh, t) : 0;
+    int cast = 0, met = 0;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        passed += wet->shells.of[t] == shell ? sp_triangle_area(mesh, t) / area * SKY_LINES : 0;
+        sp_vec3 normal = sp_triangle_normal(mesh, t);
+        for (; cast + 0.5 < passed; cast++) {
+            sp_vec3 direction = sp_sphere_direction(cast * SKY_STRIDE % SKY_LINES, SKY_LINES);
+            if (sp_dot(direction, normal) < 0)
+                direction = sp_scale(direction, -1);
+            sp_ray line = {.origin = sp_along(sp_triangle_point(mesh, t, 0.3, 0.35), BEYOND * contact, normal),
+                           .velocity = direction,
+                           .t_max = INFINITY,
+                           .skip = t};
+            met += sp_trace_occluded(tracer, &line, sp_v(0, 0, 0));
+        }
+    }
+    return SKY_LEAST * met < cast;
 }
 
 /* Turns round what is drawn inside out, and finds how much is to be added to winding numbers. */
-static void turn_shells(sp_wet *wet, const sp_setup *setup, double contact)
+static void turn_shells(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer, double contact)
 {
     const sp_shells *shells = &wet->shells;
     for (uint32_t s = 0; s < shells->count; s++) {
@@ -81,7 +106,8 @@ static void turn_shells(sp_wet *wet, const sp_setup *setup, double contact)
         bool inwards = shells->volume[s] < 0;
         if (around == inwards)
             continue;
-        if (winding_beside(wet, setup->mesh, s, contact) <= 0 && (!around || holds_most(wet, setup->mesh, s)))
+        if (winding_beside(wet, setup->mesh, s, contact) <= 0 &&
+            (!around || (!holds_hollow(wet, setup->mesh, s) && lies_under_sky(wet, tracer, s, contact))))
             shells->turn[s] = -1;
     }
     for (uint32_t s = 0; s < shells->count && setup->cavity == SP_CAVITY_POINT; s++) {
@@ -101,7 +127,7 @@ static const char *body_around(const sp_wet *wet, const sp_mesh *mesh, sp_vec3 p
     return "";
 }
 
-static bool find_solids(sp_wet *wet, const sp_setup *setup, double contact, sp_error *error)
+static bool find_solids(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer, double contact, sp_error *error)
 {
     bool any = false;
     for (size_t s = 0; s < wet->shells.count; s++)
@@ -111,7 +137,7 @@ static bool find_solids(sp_wet *wet, const sp_setup *setup, double contact, sp_e
     wet->solids = sp_winding_create(setup->mesh, &wet->shells, error);
     if (!wet->solids)
         return false;
-    turn_shells(wet, setup, contact);
+    turn_shells(wet, setup, tracer, contact);
     if (setup->cavity != SP_CAVITY_POINT)
         return true;
     sp_vec3 point = setup->cavity_point;
@@ -128,7 +154,8 @@ static bool find_wet(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer
     const sp_mesh *mesh = setup->mesh;
     double contact = CONTACT * mesh_diagonal(mesh);
     if (!sp_shells_create(&wet->shells, mesh, SAME * mesh_diagonal(mesh), error) ||
-        !find_solids(wet, setup, contact, error) || !sp_cuts_create(&wet->cuts, mesh, &wet->shells, contact, error) ||
+        !find_solids(wet, setup, tracer, contact, error) ||
+        !sp_cuts_create(&wet->cuts, mesh, &wet->shells, contact, error) ||
         !sp_faces_create(&wet->faces, mesh, &wet->shells, &wet->cuts, wet->solids, wet->base, setup->run.threads,
                          error))
         return false;
