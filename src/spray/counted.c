@@ -51,7 +51,7 @@ static void visit_cell(void *user, uint32_t cell, const sp_triangle_piece *part)
     const sp_mesh *mesh = walk->evaluator->setup.mesh;
     size_t face = mesh->triangle_count + cell;
     double area = area_in_weights(part) * walk->scale;
-    if (!walk->evaluator->wet->liquid[2 * face + walk->side] || !(area > walk->least))
+    if (!walk->evaluator->wet->flooded.liquid[2 * face + walk->side] || !(area > walk->least))
         return;
     sp_vec3 polygon[SP_PIECE_POINTS];
     for (int i = 0; i < part->count; i++)

@@ -4,6 +4,7 @@
 
 #include "spray/shells.h"
 
+#define SP_CONTACT 1e-6     /* of the geometry's diagonal: surfaces nearer than this to each other touch */
 #define SP_CELL 0x80000000u /* a child that is a cell: its number with this bit */
 
 /* A straight cut through a triangle: the distance (m) of the point (1-u-v, u, v) from it is a u + b v + c. */

@@ -43,6 +43,18 @@ static bool check_surfaces(const sp_setup *setup, sp_error *error)
     return clean || sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "nothing is to be cleaned: every part is an obstacle");
 }
 
+static bool check_caps(const sp_setup *setup, sp_error *error)
+{
+    for (size_t i = 0; i < setup->cap_count; i++) {
+        const sp_cap *cap = &setup->caps[i];
+        if (!isfinite(sp_length(cap->point)) || !in_range(sp_length(cap->normal), 1e-300, 1e300) ||
+            !in_range(cap->radius, 1e-300, 1e300))
+            return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0,
+                           "cap %zu: expected a finite point, a normal of some length and a radius above 0", i + 1);
+    }
+    return true;
+}
+
 static bool check_setup(const sp_setup *setup, sp_error *error)
 {
     const sp_criterion *criterion = &setup->criterion;
@@ -63,7 +75,7 @@ static bool check_setup(const sp_setup *setup, sp_error *error)
         wrong = "a finite point of the cavity";
     if (wrong)
         return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: expected %s", wrong);
-    return check_surfaces(setup, error);
+    return check_caps(setup, error) && check_surfaces(setup, error);
 }
 
 static bool anything_reflects(const sp_setup *setup)

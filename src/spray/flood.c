@@ -25,8 +25,7 @@ static double sequence(uint64_t index, int axis)
     return (double)((0x8000000000000000u + index * step[axis]) >> 11) * 0x1p-53;
 }
 
-/* A line from a face into the space that its side looks into. */
-static sp_ray side_line(const sp_flood *flood, uint32_t side, uint64_t line)
+sp_ray sp_flood_line(const sp_flood *flood, uint32_t side, uint64_t line)
 {
     const sp_mesh *mesh = flood->setup->mesh;
     uint32_t triangle = sp_face_triangle(flood->faces, side / 2);
@@ -48,10 +47,11 @@ static sp_ray side_line(const sp_flood *flood, uint32_t side, uint64_t line)
                     .skip = triangle};
 }
 
-/* What a line met. */
-static uint32_t side_met(const sp_flood *flood, const sp_ray *line, const sp_hit *hit)
+uint32_t sp_flood_met(const sp_flood *flood, const sp_ray *line, const sp_hit *hit)
 {
     const sp_faces *faces = flood->faces;
+    if (flood->setup->cap_count && sp_caps_block(flood->setup, line, hit->t))
+        return SP_UNTOLD;
     if (hit->triangle == SP_NONE)
         return SP_SKY;
     double facing = sp_dot(sp_triangle_normal(flood->setup->mesh, hit->triangle), line->velocity);
@@ -66,7 +66,7 @@ static uint32_t side_met(const sp_flood *flood, const sp_ray *line, const sp_hit
     return faces->state[side] == SP_FACE_FREE ? side : SP_UNTOLD;
 }
 
-static bool note_sight(sp_flood *flood, uint32_t from, uint32_t to)
+static bool note_sight(sp_flood *flood, sp_sight sight)
 {
     if (flood->sight_count == flood->sight_room) {
         size_t room = 2 * flood->sight_room + BLOCK;
@@ -76,7 +76,7 @@ static bool note_sight(sp_flood *flood, uint32_t from, uint32_t to)
         flood->sights = sights;
         flood->sight_room = room;
     }
-    flood->sights[flood->sight_count++] = (sp_sight){from, to};
+    flood->sights[flood->sight_count++] = sight;
     return true;
 }
 
@@ -96,12 +96,12 @@ static bool trace_block(sp_flood *flood, line_block *block)
     uint32_t liquid = (uint32_t)flood->sides;
 #pragma omp parallel for schedule(static, 256) num_threads(threads)
     for (size_t i = 0; i < block->count; i++)
-        block->rays[i] = side_line(flood, block->side[i], block->line[i]);
+        block->rays[i] = sp_flood_line(flood, block->side[i], block->line[i]);
     sp_trace_nearest_many(flood->tracer, block->rays, block->count, sp_v(0, 0, 0), threads, block->hits);
     bool done = true;
     for (size_t i = 0; i < block->count && done; i++) {
-        uint32_t met = side_met(flood, &block->rays[i], &block->hits[i]);
-        done = note_sight(flood, block->side[i], met);
+        uint32_t met = sp_flood_met(flood, &block->rays[i], &block->hits[i]);
+        done = note_sight(flood, (sp_sight){block->side[i], met, (uint32_t)block->line[i]});
         if (met == SP_SKY && flood->setup->cavity == SP_CAVITY_OUTSIDE)
             block->joined += sp_flood_join(flood->parent, block->side[i], liquid);
         else if (met != SP_SKY && met != SP_UNTOLD)
@@ -195,7 +195,7 @@ static bool join_seen(sp_flood *flood, sp_error *error)
                        .t_max = INFINITY,
                        .skip = SP_NONE};
         sp_hit hit = sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0));
-        uint32_t met = side_met(flood, &line, &hit);
+        uint32_t met = sp_flood_met(flood, &line, &hit);
         touches = touches || starts_on_surface(flood, line);
         if (met == SP_SKY || met == SP_UNTOLD)
             continue;
@@ -211,7 +211,7 @@ static bool join_seen(sp_flood *flood, sp_error *error)
 }
 
 bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_faces *faces, const sp_shells *shells,
-                    bool *liquid, sp_error *error)
+                    sp_flooded *found, sp_error *error)
 {
     sp_flood flood = {.setup = setup, .tracer = tracer, .faces = faces, .shells = shells, .sides = 2 * faces->count};
     flood.parent = malloc((flood.sides + 1) * sizeof *flood.parent);
@@ -227,8 +227,11 @@ bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_fac
     if (done) {
         uint32_t root = sp_flood_root(flood.parent, (uint32_t)flood.sides);
         for (uint32_t side = 0; side < flood.sides; side++)
-            liquid[side] = faces->state[side] == SP_FACE_FREE && sp_flood_root(flood.parent, side) == root;
-        done = setup->cavity == SP_CAVITY_OUTSIDE || sp_flood_keep_indoors(&flood, liquid, error);
+            found->liquid[side] = faces->state[side] == SP_FACE_FREE && sp_flood_root(flood.parent, side) == root;
+        done =
+            setup->cavity == SP_CAVITY_OUTSIDE || sp_flood_keep_indoors(&flood, found->liquid, &found->outdoors, error);
+        if (done && setup->cavity == SP_CAVITY_POINT)
+            found->opening_count = sp_flood_openings(&flood, found->liquid, found->openings, SP_OPENINGS);
     }
     free(flood.parent);
     free(flood.seen);

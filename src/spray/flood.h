@@ -10,6 +10,7 @@
 
 typedef struct {
     uint32_t from, to;
+    uint32_t line; /* its number among the lines of `from` */
 } sp_sight;
 
 typedef struct {
@@ -45,16 +46,30 @@ static inline bool sp_flood_join(uint32_t *parent, uint32_t a, uint32_t b)
     return a != b;
 }
 
-/* flood.c: sets liquid[side] where lines of sight lead from the cavity, directly or on and on. [2 faces->count]. */
+/* flood.c: a line from inside a face into the space that its side looks into; the side that a line meets. */
+sp_ray sp_flood_line(const sp_flood *flood, uint32_t side, uint64_t line);
+uint32_t sp_flood_met(const sp_flood *flood, const sp_ray *line, const sp_hit *hit);
+
+/* openings.c: where lines leave the liquid, from all that were cast. Returns how many of `most` were found. */
+size_t sp_flood_openings(const sp_flood *flood, const bool *liquid, sp_opening *openings, size_t most);
+
+/* What the flood found. */
+typedef struct {
+    bool *liquid;    /* [2 faces->count], the caller's: sides to which lines of sight lead from the cavity, on and on */
+    double outdoors; /* m², of what they lead to under the sky, left out */
+    sp_opening openings[SP_OPENINGS];
+    size_t opening_count;
+} sp_flooded;
 bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_faces *faces, const sp_shells *shells,
-                    bool *liquid, sp_error *error);
+                    sp_flooded *found, sp_error *error);
 
 /* Casts lines number `first` and following from the sides that are marked, `least` or more of each, keeps what they met
  * in `sights`, and joins. *joined becomes how many joins were new. */
 #define SP_FLOOD_LINES 32768 /* numbers of lines that the flood itself uses */
 bool sp_flood_cast(sp_flood *flood, const bool *sides, uint64_t first, uint64_t least, size_t *joined, sp_error *error);
 
-/* outdoors.c: clears liquid[side] of what is reached through openings alone but lies under the sky. */
-bool sp_flood_keep_indoors(sp_flood *flood, bool *liquid, sp_error *error);
+/* outdoors.c: clears liquid[side] of what is reached through openings alone but lies under the sky; its area (m²) in
+ * *left_out. */
+bool sp_flood_keep_indoors(sp_flood *flood, bool *liquid, double *left_out, sp_error *error);
 
 #endif

@@ -209,8 +209,9 @@ static bool look_again(indoors *known, sp_flood *flood, sp_error *error)
     return done;
 }
 
-bool sp_flood_keep_indoors(sp_flood *flood, bool *liquid, sp_error *error)
+bool sp_flood_keep_indoors(sp_flood *flood, bool *liquid, double *left_out, sp_error *error)
 {
+    *left_out = 0;
     if (!sees_sky(flood, liquid))
         return true;
     size_t room = flood->sides + 1;
@@ -225,8 +226,10 @@ bool sp_flood_keep_indoors(sp_flood *flood, bool *liquid, sp_error *error)
         sp_fail_memory(error);
     done = done && sp_half_edges_create(flood->setup->mesh, &known.edges, error) && begin(&known, error) &&
            settle(&known, CERTAIN, error) && look_again(&known, flood, error) && settle(&known, LIKELY, error);
-    for (size_t side = 0; done && side < flood->sides; side++)
+    for (size_t side = 0; done && side < flood->sides; side++) {
+        *left_out += liquid[side] && !known.in[side] ? flood->faces->area[side / 2] : 0;
         liquid[side] = liquid[side] && known.in[side];
+    }
     free(known.in);
     free(known.chance);
     free(known.sum);

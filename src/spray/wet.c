@@ -21,7 +21,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CONTACT 1e-6   /* of the geometry's diagonal: surfaces nearer than this to each other touch */
 #define SAME 1e-9      /* of the diagonal: corners nearer than this are one */
 #define BEYOND 2.0     /* contacts */
 #define SAMPLES 16     /* triangles of a shell that tell what it lies in */
@@ -152,20 +151,20 @@ static bool find_solids(sp_wet *wet, const sp_setup *setup, const sp_tracer *tra
 static bool find_wet(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer, sp_error *error)
 {
     const sp_mesh *mesh = setup->mesh;
-    double contact = CONTACT * mesh_diagonal(mesh);
+    double contact = SP_CONTACT * mesh_diagonal(mesh);
     if (!sp_shells_create(&wet->shells, mesh, SAME * mesh_diagonal(mesh), error) ||
         !find_solids(wet, setup, tracer, contact, error) ||
         !sp_cuts_create(&wet->cuts, mesh, &wet->shells, contact, error) ||
         !sp_faces_create(&wet->faces, mesh, &wet->shells, &wet->cuts, wet->solids, wet->base, setup->run.threads,
                          error))
         return false;
-    wet->liquid = calloc(2 * wet->faces.count + 1, sizeof *wet->liquid);
-    if (!wet->liquid)
+    wet->flooded.liquid = calloc(2 * wet->faces.count + 1, sizeof *wet->flooded.liquid);
+    if (!wet->flooded.liquid)
         return sp_fail_memory(error);
-    if (!sp_flood_faces(setup, tracer, &wet->faces, &wet->shells, wet->liquid, error))
+    if (!sp_flood_faces(setup, tracer, &wet->faces, &wet->shells, &wet->flooded, error))
         return false;
     for (size_t side = 0; side < 2 * wet->faces.count; side++)
-        if (wet->liquid[side])
+        if (wet->flooded.liquid[side])
             wet->sides[sp_face_triangle(&wet->faces, (uint32_t)(side / 2))] |= (uint8_t)(1u << side % 2);
     return true;
 }
@@ -195,18 +194,18 @@ void sp_wet_destroy(sp_wet *wet)
     sp_cuts_destroy(&wet->cuts);
     sp_winding_destroy(wet->solids);
     sp_shells_destroy(&wet->shells);
-    free(wet->liquid);
+    free(wet->flooded.liquid);
     free(wet->sides);
     free(wet);
 }
 
 unsigned sp_wet_at(const sp_wet *wet, uint32_t triangle, double u, double v)
 {
-    if (!wet->sides[triangle] || !wet->liquid || wet->cuts.root[triangle] == SP_NONE)
+    if (!wet->sides[triangle] || !wet->flooded.liquid || wet->cuts.root[triangle] == SP_NONE)
         return wet->sides[triangle];
     bool near;
     size_t face = sp_face_at(&wet->faces, triangle, u, v, &near);
-    return (unsigned)wet->liquid[2 * face] | (unsigned)wet->liquid[2 * face + 1] << 1;
+    return (unsigned)wet->flooded.liquid[2 * face] | (unsigned)wet->flooded.liquid[2 * face + 1] << 1;
 }
 
 bool sp_wet_is_material(const sp_wet *wet, sp_vec3 point)

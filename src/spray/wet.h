@@ -2,7 +2,7 @@
 #ifndef SPRAY_WET_H
 #define SPRAY_WET_H
 
-#include "spray/faces.h"
+#include "spray/flood.h"
 
 typedef struct sp_wet {
     sp_shells shells;
@@ -10,7 +10,7 @@ typedef struct sp_wet {
     int base;           /* added to their winding numbers: how many rooms are around the cavity's point */
     sp_cuts cuts;
     sp_faces faces;
-    bool *liquid;   /* [2 faces.count], by side of a face */
+    sp_flooded flooded;
     uint8_t *sides; /* [triangle_count], bit 0 front, bit 1 back: some of it is wet */
 } sp_wet;
 
