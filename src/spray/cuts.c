@@ -1,12 +1,16 @@
 /* Every triangle that others cross or touch is cut along the lines where they do, one line after the other: a line cuts
  * those cells alone that it really passes through, but all of each, so that cells stay convex. A triangle that lies in
- * the plane of another cuts it along its own edges. The lines come in a shuffled order, which keeps the trees low. */
+ * the plane of another cuts it along its own edges. Cells that are still long are halved: a shaft may lead through an
+ * opening without touching it. The lines come in a shuffled order, which keeps the trees low. */
 #include "spray/cuts.h"
 
 #include "spray/pairs.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+#define LONGEST (1.0 / 64) /* of the geometry's diagonal: no face is longer, lest it lead from one space into another  \
+                            */
 
 /* Where another triangle crosses or touches one, from p to q. */
 typedef struct {
@@ -285,6 +289,18 @@ static void keep_coverings(cutter *cutter)
         cuts->cover_start[t + 1] += cuts->cover_start[t];
 }
 
+/* A triangle becomes one cell. */
+static void begin_cell(cutter *cutter, uint32_t triangle)
+{
+    sp_cuts *cuts = cutter->cuts;
+    cuts->cell_triangle =
+        grow(cutter, cuts->cell_triangle, cuts->cell_count, &cutter->cell_room, sizeof *cuts->cell_triangle);
+    if (cutter->failed)
+        return;
+    cuts->root[triangle] = (uint32_t)cuts->cell_count | SP_CELL;
+    cuts->cell_triangle[cuts->cell_count++] = triangle;
+}
+
 /* Every triangle that is scratched or covered begins as one cell. */
 static void begin_cells(cutter *cutter, bool *touched)
 {
@@ -301,14 +317,84 @@ static void begin_cells(cutter *cutter, bool *touched)
         touched[cutter->coverings[i].triangle] = true;
     for (uint32_t t = 0; t < triangles && !cutter->failed; t++) {
         cuts->root[t] = SP_NONE;
-        if (!touched[t])
-            continue;
+        if (touched[t])
+            begin_cell(cutter, t);
+    }
+}
+
+/* The pieces of one triangle while they are made smaller. */
+typedef struct {
+    cutter *cutter;
+    uint32_t triangle;
+    double longest; /* m */
+} halving;
+
+/* The cut across the longest way through a piece, in its middle; false where that is short enough. */
+static bool middle_cut(const halving *halving, const sp_triangle_piece *piece, sp_cut *cut)
+{
+    const sp_mesh *mesh = halving->cutter->mesh;
+    sp_vec3 from = sp_v(0, 0, 0), to = from;
+    double longest = 0;
+    for (int i = 0; i < piece->count; i++) {
+        sp_vec3 p = sp_triangle_point(mesh, halving->triangle, piece->at[i][0], piece->at[i][1]);
+        for (int k = 0; k < i; k++) {
+            sp_vec3 q = sp_triangle_point(mesh, halving->triangle, piece->at[k][0], piece->at[k][1]);
+            double length = sp_distance(p, q);
+            if (length > longest) {
+                longest = length;
+                from = p;
+                to = q;
+            }
+        }
+    }
+    sp_vec3 middle = sp_scale(sp_add(from, to), 0.5);
+    sp_vec3 along = sp_cross(sp_triangle_normal(mesh, halving->triangle), sp_sub(to, from));
+    *cut = line_through(mesh, halving->triangle, middle, sp_add(middle, along));
+    return longest > halving->longest;
+}
+
+static void clip_piece(const sp_triangle_piece *piece, const sp_cut *cut, int way, sp_triangle_piece *part);
+
+/* Halves what is longer than it may be below a node, named as in cut_along; `piece` is all of it. */
+static void halve_below(const halving *halving, uint32_t of, int which, const sp_triangle_piece *piece)
+{
+    cutter *cutter = halving->cutter;
+    sp_cuts *cuts = cutter->cuts;
+    if (cutter->failed || piece->count < 3 || piece->count > SP_PIECE_POINTS - 2)
+        return;
+    uint32_t node = of == SP_NONE ? cuts->root[halving->triangle] : cuts->cuts[of].child[which];
+    if (node & SP_CELL) {
+        sp_cut cut;
+        if (!middle_cut(halving, piece, &cut))
+            return;
+        cuts->cuts = grow(cutter, cuts->cuts, cuts->cut_count, &cutter->cut_room, sizeof *cuts->cuts);
         cuts->cell_triangle =
             grow(cutter, cuts->cell_triangle, cuts->cell_count, &cutter->cell_room, sizeof *cuts->cell_triangle);
         if (cutter->failed)
             return;
-        cuts->root[t] = (uint32_t)cuts->cell_count | SP_CELL;
-        cuts->cell_triangle[cuts->cell_count++] = t;
+        split_cell(cutter, of == SP_NONE ? &cuts->root[halving->triangle] : &cuts->cuts[of].child[which], &cut);
+        node = (uint32_t)cuts->cut_count - 1;
+    }
+    for (int side = 0; side < 2; side++) {
+        sp_triangle_piece part;
+        clip_piece(piece, &cuts->cuts[node], side ? 1 : -1, &part);
+        halve_below(halving, node, side, &part);
+    }
+}
+
+static void halve_long_faces(cutter *cutter, double longest)
+{
+    const sp_mesh *mesh = cutter->mesh;
+    for (uint32_t t = 0; t < mesh->triangle_count && !cutter->failed; t++) {
+        const sp_triangle_piece whole = {.count = 3, .at = {{0, 0}, {1, 0}, {0, 1}}};
+        halving halving = {cutter, t, longest};
+        sp_cut cut;
+        if (cutter->cuts->root[t] == SP_NONE) {
+            if (!middle_cut(&halving, &whole, &cut))
+                continue;
+            begin_cell(cutter, t);
+        }
+        halve_below(&halving, SP_NONE, 0, &whole);
     }
 }
 
@@ -325,6 +411,7 @@ static void cut_mesh(cutter *cutter, const sp_pair *pairs, size_t pair_count)
         qsort(cutter->scratches, cutter->scratch_count, sizeof *cutter->scratches, by_scratch);
     for (size_t i = 0; i < cutter->scratch_count && !cutter->failed; i++)
         apply(cutter, &cutter->scratches[i]);
+    halve_long_faces(cutter, LONGEST / SP_CONTACT * cutter->cuts->contact);
     if (!cutter->failed)
         keep_coverings(cutter);
 }

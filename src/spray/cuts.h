@@ -15,11 +15,11 @@ typedef struct {
 
 typedef struct {
     double contact; /* m: what is nearer than this touches */
-    uint32_t *root; /* [triangle_count], a cut, or a cell with SP_CELL; SP_NONE where nothing touches the triangle */
+    uint32_t *root; /* [triangle_count], a cut, or a cell with SP_CELL; SP_NONE where the triangle is whole */
     size_t cut_count;
     sp_cut *cuts;
     size_t cell_count;
-    uint32_t *cell_triangle;        /* [cell_count], ascending */
+    uint32_t *cell_triangle;        /* [cell_count] */
     uint32_t *cover_start, *covers; /* triangles that lie in the plane of triangle t, some of it covered: covers
                                        [cover_start[t], cover_start[t + 1]), ascending */
 } sp_cuts;

@@ -23,7 +23,7 @@ static sp_opening measure(const sp_flood *flood, const bool *liquid, sp_ray line
     sp_vec3 y = sp_cross(z, x);
     double tangent[AROUND], nearest = INFINITY;
     for (int i = 0; i < AROUND; i++) {
-        double turn = 2 * M_PI * i / AROUND, low = 0, high = 1, t;
+        double turn = 2 * M_PI * i / AROUND, low = 0, high = 1, t, rim = INFINITY;
         sp_vec3 aside = sp_along(sp_scale(x, cos(turn)), sin(turn), y);
         for (int step = 0; step < STEPS; step++) {
             double middle = 0.5 * (low + high);
@@ -32,10 +32,11 @@ static sp_opening measure(const sp_flood *flood, const bool *liquid, sp_ray line
                 low = middle;
             } else {
                 high = middle;
-                nearest = fmin(nearest, t);
+                rim = t; /* of what is only just in the way */
             }
         }
         tangent[i] = 0.5 * (low + high);
+        nearest = fmin(nearest, rim);
     }
     double width = INFINITY;
     for (int i = 0; i < AROUND / 2; i++)
