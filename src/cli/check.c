@@ -5,7 +5,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 
-enum { MAX_WARNINGS = 100 };
+enum { MAX_WARNINGS = 100, MAX_OPENINGS = 3 };
 
 #define NOTHING 1e-6 /* of a part's area: round-off */
 

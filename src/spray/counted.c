@@ -1,7 +1,7 @@
 /* What of the surface is counted: clean, and wet. */
 #include "spray/wet.h"
 
-#define ROUND_OFF 1e-6 /* of a fragment */
+#define ROUND_OFF 1e-12 /* of a fragment */
 
 bool sp_side_is_counted(const sp_evaluator *evaluator, uint32_t triangle, unsigned side)
 {
@@ -69,7 +69,7 @@ void sp_counted_pieces(const sp_evaluator *evaluator, uint32_t texel, const sp_f
         return;
     sp_vec3 polygon[SP_FRAGMENT_POINTS];
     int corners = sp_atlas_fragment_polygon(evaluator->atlas, mesh, texel, triangle, polygon);
-    if (evaluator->setup.cavity == SP_CAVITY_NONE || wet->cuts.root[triangle] == SP_NONE) {
+    if (wet->whole[triangle] >> side & 1) {
         visit(user, polygon, corners, fragment->area);
         return;
     }

@@ -9,8 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LONGEST (1.0 / 64) /* of the geometry's diagonal: no face is longer, lest it lead from one space into another  \
-                            */
+#define LONGEST                                                                                                        \
+    (1.0 / 64) /* of the geometry's diagonal: no face is longer, lest it lead from one space into another              \
+                */
 
 /* Where another triangle crosses or touches one, from p to q. */
 typedef struct {
@@ -141,6 +142,28 @@ static void scratch_pair(cutter *cutter, sp_pair pair)
         add_scratch(cutter, pair.a, p, q);
     if (meeting_line(cutter, pair.a, height[1], side[1], &p, &q))
         add_scratch(cutter, pair.b, p, q);
+}
+
+/* What passes through a cap is in two spaces. */
+static void scratch_cap(cutter *cutter, const sp_cap *cap)
+{
+    const sp_mesh *mesh = cutter->mesh;
+    sp_vec3 normal = sp_unit(cap->normal), p, q;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        double height[3];
+        int side[3];
+        for (int i = 0; i < 3; i++) {
+            height[i] = sp_dot(normal, sp_sub(mesh->vertices[mesh->triangles[t][i]], cap->point));
+            side[i] = (height[i] > cutter->cuts->contact) - (height[i] < -cutter->cuts->contact);
+        }
+        if (in_one_plane(side) || !meeting_line(cutter, t, height, side, &p, &q))
+            continue;
+        sp_vec3 along = sp_sub(q, p);
+        double length2 = sp_dot(along, along);
+        double share = length2 > 0 ? sp_dot(sp_sub(cap->point, p), along) / length2 : 0;
+        if (sp_distance(sp_along(p, fmin(fmax(share, 0), 1), along), cap->point) <= cap->radius)
+            add_scratch(cutter, t, p, q);
+    }
 }
 
 /* The straight line through p and q in a triangle's plane. */
@@ -416,14 +439,16 @@ static void cut_mesh(cutter *cutter, const sp_pair *pairs, size_t pair_count)
         keep_coverings(cutter);
 }
 
-bool sp_cuts_create(sp_cuts *cuts, const sp_mesh *mesh, const sp_shells *shells, double contact, sp_error *error)
+bool sp_cuts_create(sp_cuts *cuts, const sp_setup *setup, const sp_shells *shells, double contact, sp_error *error)
 {
     *cuts = (sp_cuts){.contact = contact};
     size_t pair_count = 0;
-    sp_pair *pairs = sp_pairs_create(mesh, shells, contact, &pair_count, error);
+    sp_pair *pairs = sp_pairs_create(setup->mesh, shells, contact, &pair_count, error);
     if (!pairs)
         return false;
-    cutter cutter = {.mesh = mesh, .cuts = cuts};
+    cutter cutter = {.mesh = setup->mesh, .cuts = cuts};
+    for (size_t i = 0; i < setup->cap_count && !cutter.failed; i++)
+        scratch_cap(&cutter, &setup->caps[i]);
     cut_mesh(&cutter, pairs, pair_count);
     free(pairs);
     free(cutter.scratches);

@@ -24,7 +24,8 @@ typedef struct {
                                        [cover_start[t], cover_start[t + 1]), ascending */
 } sp_cuts;
 
-bool sp_cuts_create(sp_cuts *cuts, const sp_mesh *mesh, const sp_shells *shells, double contact, sp_error *error);
+/* Of the setup's mesh, which its caps cut too. */
+bool sp_cuts_create(sp_cuts *cuts, const sp_setup *setup, const sp_shells *shells, double contact, sp_error *error);
 /* Accepts what was never created, if it is all zeros. */
 void sp_cuts_destroy(sp_cuts *cuts);
 

@@ -5,10 +5,10 @@
 
 #include <stdlib.h>
 
-#define DIRECTIONS 4096     /* from the cavity's point */
-#define BLOCK 65536         /* lines traced before their hits are looked at */
-#define LINES_BY_AREA 16384 /* in a round, besides one for each side */
-#define MOST_LINES 1024     /* of a side in a round */
+#define DIRECTIONS 4096    /* from the cavity's point */
+#define BLOCK 65536        /* lines traced before their hits are looked at */
+#define LINES_BY_AREA 4096 /* in a round, besides one for each side */
+#define MOST_LINES 1024    /* of a side in a round */
 #define ROUNDS_OF_ALL 3
 #define LEAST_ROUNDS 12 /* of what is not wet yet */
 #define MOST_ROUNDS 32
@@ -231,7 +231,7 @@ bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_fac
         done =
             setup->cavity == SP_CAVITY_OUTSIDE || sp_flood_keep_indoors(&flood, found->liquid, &found->outdoors, error);
         if (done && setup->cavity == SP_CAVITY_POINT)
-            found->opening_count = sp_flood_openings(&flood, found->liquid, found->openings, SP_OPENINGS);
+            done = sp_flood_openings(&flood, found->liquid, found->openings, SP_OPENINGS, &found->opening_count, error);
     }
     free(flood.parent);
     free(flood.seen);

@@ -50,8 +50,9 @@ static inline bool sp_flood_join(uint32_t *parent, uint32_t a, uint32_t b)
 sp_ray sp_flood_line(const sp_flood *flood, uint32_t side, uint64_t line);
 uint32_t sp_flood_met(const sp_flood *flood, const sp_ray *line, const sp_hit *hit);
 
-/* openings.c: where lines leave the liquid, from all that were cast. Returns how many of `most` were found. */
-size_t sp_flood_openings(const sp_flood *flood, const bool *liquid, sp_opening *openings, size_t most);
+/* openings.c: where lines leave the liquid, from all that were cast: *count of them, `most` at most. */
+bool sp_flood_openings(const sp_flood *flood, const bool *liquid, sp_opening *openings, size_t most, size_t *count,
+                       sp_error *error);
 
 /* What the flood found. */
 typedef struct {

@@ -154,7 +154,7 @@ static bool find_wet(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer
     double contact = SP_CONTACT * mesh_diagonal(mesh);
     if (!sp_shells_create(&wet->shells, mesh, SAME * mesh_diagonal(mesh), error) ||
         !find_solids(wet, setup, tracer, contact, error) ||
-        !sp_cuts_create(&wet->cuts, mesh, &wet->shells, contact, error) ||
+        !sp_cuts_create(&wet->cuts, setup, &wet->shells, contact, error) ||
         !sp_faces_create(&wet->faces, mesh, &wet->shells, &wet->cuts, wet->solids, wet->base, setup->run.threads,
                          error))
         return false;
@@ -163,9 +163,13 @@ static bool find_wet(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer
         return sp_fail_memory(error);
     if (!sp_flood_faces(setup, tracer, &wet->faces, &wet->shells, &wet->flooded, error))
         return false;
-    for (size_t side = 0; side < 2 * wet->faces.count; side++)
+    for (size_t side = 0; side < 2 * wet->faces.count; side++) {
+        uint32_t triangle = sp_face_triangle(&wet->faces, (uint32_t)(side / 2));
         if (wet->flooded.liquid[side])
-            wet->sides[sp_face_triangle(&wet->faces, (uint32_t)(side / 2))] |= (uint8_t)(1u << side % 2);
+            wet->sides[triangle] |= (uint8_t)(1u << side % 2);
+        else if (wet->faces.area[side / 2] > 0)
+            wet->whole[triangle] &= (uint8_t)~(1u << side % 2);
+    }
     return true;
 }
 
@@ -173,10 +177,15 @@ sp_wet *sp_wet_create(const sp_setup *setup, const sp_tracer *tracer, sp_error *
 {
     size_t count = setup->mesh->triangle_count;
     sp_wet *wet = calloc(1, sizeof *wet);
-    if (!wet || !(wet->sides = calloc(count + 1, 1))) {
-        free(wet);
+    if (!wet)
+        return sp_fail_memory(error);
+    wet->sides = calloc(count + 1, 1);
+    wet->whole = malloc(count + 1);
+    if (!wet->sides || !wet->whole) {
+        sp_wet_destroy(wet);
         return sp_fail_memory(error);
     }
+    memset(wet->whole, 3, count);
     if (setup->cavity == SP_CAVITY_NONE) {
         memset(wet->sides, 3, count);
     } else if (!find_wet(wet, setup, tracer, error)) {
@@ -196,12 +205,13 @@ void sp_wet_destroy(sp_wet *wet)
     sp_shells_destroy(&wet->shells);
     free(wet->flooded.liquid);
     free(wet->sides);
+    free(wet->whole);
     free(wet);
 }
 
 unsigned sp_wet_at(const sp_wet *wet, uint32_t triangle, double u, double v)
 {
-    if (!wet->sides[triangle] || !wet->flooded.liquid || wet->cuts.root[triangle] == SP_NONE)
+    if (wet->sides[triangle] == wet->whole[triangle])
         return wet->sides[triangle];
     bool near;
     size_t face = sp_face_at(&wet->faces, triangle, u, v, &near);

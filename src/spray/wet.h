@@ -12,6 +12,7 @@ typedef struct sp_wet {
     sp_faces faces;
     sp_flooded flooded;
     uint8_t *sides; /* [triangle_count], bit 0 front, bit 1 back: some of it is wet */
+    uint8_t *whole; /* [triangle_count], likewise: all of it is */
 } sp_wet;
 
 /* All triangles on both sides where no cavity is named. Fails with SP_ERROR_INPUT for a cavity's point in material, on
