@@ -26,11 +26,13 @@
 
 typedef struct {
     const sp_flood *flood;
-    bool *liquid;    /* candidates, from the flood */
-    bool *in;        /* [sides], of them: known to be liquid */
-    double *chance;  /* [sides] */
-    double *sum;     /* [sides] */
-    uint32_t *lines; /* [sides] */
+    bool *liquid;     /* candidates, from the flood */
+    bool *in;         /* [sides], of them: known to be liquid */
+    double *chance;   /* [sides] */
+    double *sum;      /* [sides] */
+    uint32_t *lines;  /* [sides] */
+    sp_sight *sights; /* of what is in doubt */
+    size_t sight_count;
     sp_half_edges edges;
 } indoors;
 
@@ -88,14 +90,17 @@ static size_t sweep(indoors *known, double bound, double *change)
         known->sum[side] = 0;
         known->lines[side] = 0;
     }
-    for (size_t i = 0; i < flood->sight_count; i++) {
-        sp_sight sight = flood->sights[i];
-        if (!known->liquid[sight.from] || known->in[sight.from] || sight.to == SP_UNTOLD)
+    size_t kept = 0;
+    for (size_t i = 0; i < known->sight_count; i++) {
+        sp_sight sight = known->sights[i];
+        if (known->in[sight.from])
             continue;
+        known->sights[kept++] = sight;
         known->lines[sight.from]++;
         if (sight.to != SP_SKY)
             known->sum[sight.from] += known->in[sight.to] ? 1 : known->chance[sight.to];
     }
+    known->sight_count = kept;
     *change = 0;
     for (size_t side = 0; side < flood->sides; side++) {
         if (!known->liquid[side] || known->in[side] || !known->lines[side])
@@ -175,16 +180,25 @@ static bool settle(indoors *known, double bound, sp_error *error)
     size_t sides = known->flood->sides, joined = 1;
     uint32_t *parent = malloc((sides + 1) * sizeof *parent);
     bool *sky = malloc(sides + 1);
-    if (!parent || !sky) {
+    free(known->sights);
+    known->sights = malloc((known->flood->sight_count + 1) * sizeof *known->sights);
+    if (!parent || !sky || !known->sights) {
         free(parent);
         free(sky);
         return sp_fail_memory(error);
+    }
+    known->sight_count = 0;
+    for (size_t i = 0; i < known->flood->sight_count; i++) {
+        sp_sight sight = known->flood->sights[i];
+        if (known->liquid[sight.from] && !known->in[sight.from] && sight.to != SP_UNTOLD)
+            known->sights[known->sight_count++] = sight;
     }
     while (joined > 0) {
         double change = 1;
         joined = 0;
         for (int i = 0; i < MOST_SWEEPS && change > STILL; i++) {
-            size_t more = sweep(known, bound, &change) + spread(known);
+            size_t more = sweep(known, bound, &change);
+            more += more || i == 0 ? spread(known) : 0;
             joined += more;
             change = more ? 1 : change;
         }
@@ -231,6 +245,7 @@ bool sp_flood_keep_indoors(sp_flood *flood, bool *liquid, double *left_out, sp_e
         liquid[side] = liquid[side] && known.in[side];
     }
     free(known.in);
+    free(known.sights);
     free(known.chance);
     free(known.sum);
     free(known.lines);

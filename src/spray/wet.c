@@ -168,7 +168,7 @@ static bool find_wet(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer
         if (wet->flooded.liquid[side])
             wet->sides[triangle] |= (uint8_t)(1u << side % 2);
         else if (wet->faces.area[side / 2] > 0)
-            wet->whole[triangle] &= (uint8_t)~(1u << side % 2);
+            wet->whole[triangle] &= (uint8_t) ~(1u << side % 2);
     }
     return true;
 }

@@ -6,11 +6,16 @@
 
 #include <stdlib.h>
 
-#define MOST_BINS 256 /* along either axis of the plane */
+#define MOST_BINS 1024 /* along either axis of the plane */
 
 /* Triangles by where they lie in the plane across the lines. */
+typedef struct {
+    double x, y;
+} plane_point;
+
 struct sp_winding {
     const sp_mesh *mesh;
+    plane_point *flat; /* [mesh->vertex_count] */
     const sp_shells *shells;
     sp_vec3 x, y, up;
     double low[2], step[2];
@@ -18,10 +23,6 @@ struct sp_winding {
     size_t *start;   /* [bins² + 1] */
     uint32_t *items; /* triangles of closed shells, each in every bin that its box meets */
 };
-
-typedef struct {
-    double x, y;
-} plane_point;
 
 static plane_point flatten(const sp_winding *winding, sp_vec3 p)
 {
@@ -39,7 +40,7 @@ static void bins_of(const sp_winding *winding, uint32_t triangle, int from[2], i
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (int k = 0; k < 3; k++) {
-        plane_point p = flatten(winding, winding->mesh->vertices[winding->mesh->triangles[triangle][k]]);
+        plane_point p = winding->flat[winding->mesh->triangles[triangle][k]];
         low[0] = fmin(low[0], p.x);
         low[1] = fmin(low[1], p.y);
         high[0] = fmax(high[0], p.x);
@@ -67,14 +68,14 @@ static size_t lay_bins(sp_winding *winding)
             continue;
         count++;
         for (int k = 0; k < 3; k++) {
-            plane_point p = flatten(winding, winding->mesh->vertices[winding->mesh->triangles[t][k]]);
+            plane_point p = winding->flat[winding->mesh->triangles[t][k]];
             winding->low[0] = fmin(winding->low[0], p.x);
             winding->low[1] = fmin(winding->low[1], p.y);
             high[0] = fmax(high[0], p.x);
             high[1] = fmax(high[1], p.y);
         }
     }
-    winding->bins = (int)fmin(fmax(sqrt((double)count) / 2, 1), MOST_BINS);
+    winding->bins = (int)fmin(fmax(sqrt((double)count), 1), MOST_BINS);
     for (int axis = 0; axis < 2; axis++)
         winding->step[axis] = count ? fmax((high[axis] - winding->low[axis]) / winding->bins, 1e-300) : 1;
     return count;
@@ -108,6 +109,13 @@ sp_winding *sp_winding_create(const sp_mesh *mesh, const sp_shells *shells, sp_e
     winding->up = sp_unit(sp_v(0.2113248654, 0.3482817191, 0.9132604871));
     winding->x = sp_unit(sp_cross(sp_v(0.8191725134, 0.5735764364, 0.1036482177), winding->up));
     winding->y = sp_cross(winding->up, winding->x);
+    winding->flat = malloc((mesh->vertex_count + 1) * sizeof *winding->flat);
+    if (!winding->flat) {
+        sp_winding_destroy(winding);
+        return sp_fail_memory(error);
+    }
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        winding->flat[i] = flatten(winding, mesh->vertices[i]);
     lay_bins(winding);
     size_t bins = (size_t)winding->bins * (size_t)winding->bins;
     winding->start = calloc(bins + 2, sizeof *winding->start);
@@ -132,6 +140,7 @@ void sp_winding_destroy(sp_winding *winding)
 {
     if (!winding)
         return;
+    free(winding->flat);
     free(winding->start);
     free(winding->items);
     free(winding);
@@ -142,8 +151,7 @@ void sp_winding_destroy(sp_winding *winding)
 static bool on_left(const sp_winding *winding, uint32_t a, uint32_t b, plane_point p)
 {
     bool swapped = a > b;
-    plane_point from = flatten(winding, winding->mesh->vertices[swapped ? b : a]);
-    plane_point to = flatten(winding, winding->mesh->vertices[swapped ? a : b]);
+    plane_point from = winding->flat[swapped ? b : a], to = winding->flat[swapped ? a : b];
     bool left = (to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x) > 0;
     return left != swapped;
 }
@@ -153,6 +161,10 @@ static bool on_left(const sp_winding *winding, uint32_t a, uint32_t b, plane_poi
 static int crossing(const sp_winding *winding, uint32_t triangle, sp_vec3 point, plane_point p)
 {
     const uint32_t *corner = winding->mesh->triangles[triangle];
+    plane_point first = winding->flat[corner[0]], second = winding->flat[corner[1]], third = winding->flat[corner[2]];
+    if ((first.x < p.x && second.x < p.x && third.x < p.x) || (first.x > p.x && second.x > p.x && third.x > p.x) ||
+        (first.y < p.y && second.y < p.y && third.y < p.y) || (first.y > p.y && second.y > p.y && third.y > p.y))
+        return 0;
     bool left = on_left(winding, corner[0], corner[1], p);
     if (on_left(winding, corner[1], corner[2], p) != left || on_left(winding, corner[2], corner[0], p) != left)
         return 0;
