@@ -183,6 +183,31 @@ static bool starts_on_surface(const sp_flood *flood, sp_ray line)
     return sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0)).triangle != SP_NONE;
 }
 
+/* Whether the middle of a side sees the cavity's point. */
+static bool sees_point(const sp_flood *flood, uint32_t side)
+{
+    uint32_t triangle = sp_face_triangle(flood->faces, side / 2);
+    sp_vec3 normal = sp_scale(sp_triangle_normal(flood->setup->mesh, triangle), side % 2 ? -1 : 1);
+    sp_vec3 middle = sp_face_point(flood->faces, side / 2, 0.5, 0.5);
+    sp_ray line = {
+        .origin = sp_along(middle, START * flood->faces->cuts->contact, normal), .t_max = 1, .skip = triangle};
+    line.velocity = sp_sub(flood->setup->cavity_point, line.origin);
+    return sp_dot(line.velocity, normal) > 0 && !sp_caps_block(flood->setup, &line, 1) &&
+           !sp_trace_occluded(flood->tracer, &line, sp_v(0, 0, 0));
+}
+
+/* Joins the liquid with the sides that see the cavity's point, however small they look from there. */
+static void join_in_view(sp_flood *flood)
+{
+#pragma omp parallel for schedule(dynamic, 1024) num_threads(sp_thread_count(flood->setup->run.threads))
+    for (uint32_t side = 0; side < flood->sides; side++)
+        if (flood->faces->state[side] == SP_FACE_FREE)
+            flood->in_view[side] = flood->in_view[side] || sees_point(flood, side);
+    for (uint32_t side = 0; side < flood->sides; side++)
+        if (flood->in_view[side])
+            sp_flood_join(flood->parent, side, (uint32_t)flood->sides);
+}
+
 /* Joins the liquid with what the cavity's point sees. */
 static bool join_seen(sp_flood *flood, sp_error *error)
 {
@@ -201,10 +226,13 @@ static bool join_seen(sp_flood *flood, sp_error *error)
             continue;
         seen = true;
         flood->seen[met]++;
+        flood->in_view[met] = true;
         sp_flood_join(flood->parent, met, (uint32_t)flood->sides);
     }
-    if (seen && !touches)
+    if (seen && !touches) {
+        join_in_view(flood);
         return true;
+    }
     return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "cavity: %s the point (%g m, %g m, %g m); expected a point of the space where the liquid flies",
                    touches ? "a surface goes through" : "no surface is seen from", point.x, point.y, point.z);
@@ -216,7 +244,8 @@ bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_fac
     sp_flood flood = {.setup = setup, .tracer = tracer, .faces = faces, .shells = shells, .sides = 2 * faces->count};
     flood.parent = malloc((flood.sides + 1) * sizeof *flood.parent);
     flood.seen = calloc(flood.sides + 1, sizeof *flood.seen);
-    bool done = flood.parent && flood.seen;
+    flood.in_view = calloc(flood.sides + 1, sizeof *flood.in_view);
+    bool done = flood.parent && flood.seen && flood.in_view;
     if (!done)
         sp_fail_memory(error);
     for (uint32_t i = 0; done && i <= flood.sides; i++) {
@@ -235,6 +264,7 @@ bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_fac
     }
     free(flood.parent);
     free(flood.seen);
+    free(flood.in_view);
     free(flood.sights);
     return done;
 }

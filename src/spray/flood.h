@@ -24,6 +24,7 @@ typedef struct {
     size_t sight_count, sight_room;
     sp_sight *sights;
     uint16_t *seen; /* [sides], how many lines from the cavity's point met the side */
+    bool *in_view;  /* [sides], the middle of the side sees the cavity's point */
 } sp_flood;
 
 static inline uint32_t sp_flood_root(uint32_t *parent, uint32_t node)

@@ -70,12 +70,12 @@ static bool begin(indoors *known, sp_error *error)
         of_shell[shell_of_side(flood, side)] += flood->seen[side];
     }
     for (uint32_t side = 0; side < flood->sides; side++) {
-        known->in[side] = flood->seen[side] && (SKY_LEAST * sky[side] <= known->lines[side] ||
-                                                (double)of_shell[shell_of_side(flood, side)] >= MUCH * (double)all);
+        known->in[side] = flood->in_view[side] && (SKY_LEAST * sky[side] <= known->lines[side] ||
+                                                   (double)of_shell[shell_of_side(flood, side)] >= MUCH * (double)all);
         begun += known->in[side];
     }
     for (uint32_t side = 0; side < flood->sides && begun == 0; side++)
-        known->in[side] = flood->seen[side] > 0;
+        known->in[side] = flood->in_view[side];
     free(of_shell);
     free(sky);
     return true;
