@@ -142,9 +142,8 @@ static bool find_solids(sp_wet *wet, const sp_setup *setup, const sp_tracer *tra
     sp_vec3 point = setup->cavity_point;
     return !sp_wet_is_material(wet, point) ||
            sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                   "cavity: the point (%g m, %g m, %g m) lies in the material of part \"%s\", whose "
-                   "normals point outwards; expected a point of the space where the liquid flies (a "
-                   "room drawn as one shell has its normals inwards)",
+                   "cavity: the point (%g m, %g m, %g m) lies in the material of part \"%s\"; expected a "
+                   "point of the space where the liquid flies (a room drawn as one shell has its normals inwards)",
                    point.x, point.y, point.z, body_around(wet, setup->mesh, point));
 }
 
