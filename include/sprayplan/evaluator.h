@@ -46,10 +46,37 @@ const sp_fidelity *sp_evaluator_fidelity(const sp_evaluator *evaluator); /* noth
 const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator);
 const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator);
 const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator);
-/* Which sides of a triangle face the liquid: bit 0 front, bit 1 back. Both where no cavity is named. */
+/* On which sides some of a triangle faces the liquid: bit 0 front, bit 1 back. Both where no cavity is named. A
+ * triangle that others cross or touch may face it in parts. */
 unsigned sp_evaluator_wet(const sp_evaluator *evaluator, uint32_t triangle);
-/* True where the point lies in the space that the wet sides face (no cavity: everywhere). Decided by lines of sight in
- * at least 16 directions: what most of them first meet is a wet side (or, with the cavity outside, nothing). */
+/* On which sides the point (1-u-v, u, v) of a triangle does. */
+unsigned sp_evaluator_wet_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v);
+/* What became of a part's surface, in m². Of closed shells the outer side is told of (of a room's the inner), of sheets
+ * both sides, each with its area. Where no cavity is named all is wet, once. */
+typedef struct {
+    double wet;      /* faces the liquid */
+    double dry;      /* faces free space that the liquid does not reach */
+    double inside;   /* lies in another solid */
+    double touching; /* lies on another surface */
+    double both;     /* of wet: of closed shells, wet on both sides; something is wrong with the geometry */
+} sp_part_sides;
+/* parts: [part_count of the setup's mesh], the caller's. */
+void sp_evaluator_part_sides(const sp_evaluator *evaluator, sp_part_sides *parts);
+
+/* Where lines of sight leave the space to be cleaned, for the sky or for what lies outdoors. */
+typedef struct {
+    sp_vec3 place; /* m */
+    double width;  /* m, across its narrow way */
+    double share;  /* of all lines from wet sides */
+} sp_opening;
+#define SP_OPENINGS 16 /* as many are kept */
+/* The openings that are most seen through, in that order. Owned by the evaluator. None but for a cavity's point. */
+const sp_opening *sp_evaluator_openings(const sp_evaluator *evaluator, size_t *count);
+/* m² of surface that is seen through openings alone and lies under the sky: it is left out. */
+double sp_evaluator_outdoors(const sp_evaluator *evaluator);
+/* True where the point lies in the space that the wet sides face (no cavity: everywhere). Never in a solid; else by
+ * lines of sight in at least 16 directions: what most of them first meet is a wet side (or, with the cavity outside,
+ * nothing). */
 bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point);
 /* False, with an error that names the nozzle, where it cannot stand: in a wall (nearer to a surface than 1e-6 of the
  * geometry's diagonal), or not in the space that the wet sides face (by lines of sight as above, and none to the

@@ -6,6 +6,8 @@
 #include <sprayplan/nozzle.h>
 #include <sprayplan/run.h>
 
+#include <stddef.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -22,6 +24,14 @@ typedef enum {
     SP_CAVITY_POINT,   /* the space seen, wall to wall, from a point */
     SP_CAVITY_OUTSIDE, /* the space around the geometry */
 } sp_cavity_kind;
+
+/* A round lid for the flood that finds the wet sides, and for nothing else: it shuts an opening that the geometry has
+ * and the vessel in use has not. Liquid flies through it, and it is neither counted nor seen. */
+typedef struct {
+    sp_vec3 point;  /* its middle, m */
+    sp_vec3 normal; /* either way, any length but 0 */
+    double radius;  /* m, > 0 */
+} sp_cap;
 
 typedef enum { SP_COMBINE_SUM, SP_COMBINE_SINGLE } sp_combine;
 
@@ -55,10 +65,12 @@ typedef struct {
     const sp_surface *surfaces; /* borrowed: [mesh->part_count] */
     sp_cavity_kind cavity;
     sp_vec3 cavity_point; /* m; for SP_CAVITY_POINT */
-    sp_fluid liquid;      /* default water: 1000 kg/m³, 1 mPa s */
-    sp_fluid air;         /* 1.2 kg/m³, 18 µPa s */
-    sp_vec3 up;           /* (0,0,1) or (0,1,0) */
-    double gravity;       /* m/s², along -up */
+    const sp_cap *caps;   /* borrowed: [cap_count]; NULL for none */
+    size_t cap_count;
+    sp_fluid liquid; /* default water: 1000 kg/m³, 1 mPa s */
+    sp_fluid air;    /* 1.2 kg/m³, 18 µPa s */
+    sp_vec3 up;      /* (0,0,1) or (0,1,0) */
+    double gravity;  /* m/s², along -up */
     sp_criterion criterion;
     sp_fidelity fidelity;
     sp_run run;

@@ -153,10 +153,15 @@ static bool surface_samples(const sp_evaluator *evaluator, const sp_mount *mount
         passed += sp_triangle_area(mesh, t) * per_area;
         for (; (double)number + 1 <= passed; number++) {
             double u = radical_inverse(number + 1, 2), v = radical_inverse(number + 1, 3);
-            sp_vec3 point = u + v > 1 ? sp_triangle_point(mesh, t, 1 - u, 1 - v) : sp_triangle_point(mesh, t, u, v);
+            if (u + v > 1) {
+                u = 1 - u;
+                v = 1 - v;
+            }
+            sp_vec3 point = sp_triangle_point(mesh, t, u, v);
+            unsigned wet = sp_evaluator_wet_at(evaluator, t, u, v);
             for (unsigned side = 0; side < 2; side++) {
                 sp_site site = stood_off(mesh, mount, index, t, point, side == 1);
-                if (sp_evaluator_wet(evaluator, t) >> side & 1 && !append(samples, &site, error))
+                if ((wet >> side & 1) && !append(samples, &site, error))
                     return false;
             }
         }

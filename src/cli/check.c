@@ -5,15 +5,17 @@
 #include <stdarg.h>
 #include <stdlib.h>
 
-enum { MAX_WARNINGS = 100 };
+enum { MAX_WARNINGS = 100, MAX_OPENINGS = 3 };
 /* m; vessels and machines lie between */
 #define LARGEST_SIZE 100.0
 #define SMALLEST_SIZE 0.01
+#define NOTHING 1e-6 /* of a part's area: round-off */
 
 typedef struct {
     const cli_scene *opened;
     sp_mesh_diagnosis mesh;
-    double *part_area, *part_wet; /* [part_count], m²: all triangles; their wet sides */
+    double *part_area;         /* [part_count], m² */
+    sp_part_sides *part_sides; /* [part_count] */
     size_t *part_triangles;
     cli_box *part_box; /* [part_count] */
     char warnings[MAX_WARNINGS][256];
@@ -38,20 +40,17 @@ static const sp_setup *setup_of(const findings *found)
 static bool measure_parts(findings *found, sp_error *error)
 {
     const sp_mesh *mesh = setup_of(found)->mesh;
-    bool sided = setup_of(found)->cavity != SP_CAVITY_NONE;
     found->part_area = calloc(mesh->part_count, sizeof *found->part_area);
-    found->part_wet = calloc(mesh->part_count, sizeof *found->part_wet);
+    found->part_sides = calloc(mesh->part_count, sizeof *found->part_sides);
     found->part_triangles = calloc(mesh->part_count, sizeof *found->part_triangles);
     found->part_box = cli_part_boxes(mesh);
-    if (!found->part_area || !found->part_wet || !found->part_triangles || !found->part_box)
+    if (!found->part_area || !found->part_sides || !found->part_triangles || !found->part_box)
         return sp_fail_memory(error);
     for (size_t i = 0; i < mesh->triangle_count; i++) {
-        double area = sp_triangle_area(mesh, (uint32_t)i);
-        unsigned wet = sp_evaluator_wet(found->opened->evaluator, (uint32_t)i);
-        found->part_area[mesh->part[i]] += area;
-        found->part_wet[mesh->part[i]] += sided ? area * ((wet & 1) + (wet >> 1 & 1)) : area;
+        found->part_area[mesh->part[i]] += sp_triangle_area(mesh, (uint32_t)i);
         found->part_triangles[mesh->part[i]]++;
     }
+    sp_evaluator_part_sides(found->opened->evaluator, found->part_sides);
     return true;
 }
 
@@ -98,6 +97,39 @@ static void warn_of_cavity(findings *found)
         warn(found, "cavity: the point lies outside the geometry's box: what is counted is what faces it from there");
 }
 
+static void warn_of_sides(findings *found)
+{
+    const sp_mesh *mesh = setup_of(found)->mesh;
+    for (size_t i = 0; i < mesh->part_count; i++)
+        if (found->part_sides[i].both > NOTHING * found->part_area[i])
+            warn(found,
+                 "part \"%s\": %.4g m2 of closed shells are wet on both sides; a shell may run through itself or be "
+                 "there twice",
+                 mesh->parts[i].name, found->part_sides[i].both);
+}
+
+/* Where the flood got out: harmless through an outlet under which nothing stands, and not where it reaches surface. */
+static void warn_of_openings(findings *found)
+{
+    double outdoors = sp_evaluator_outdoors(found->opened->evaluator);
+    size_t count;
+    const sp_opening *openings = sp_evaluator_openings(found->opened->evaluator, &count);
+    if (!(outdoors > 0))
+        return;
+    warn(
+        found,
+        "cavity: %.4g m2 of surface under the sky are seen through openings, and left out; see openings, and shut with "
+        "a lid or `caps:` what is shut in use",
+        outdoors);
+    for (size_t i = 0; i < count; i++)
+        warn(
+            found,
+            "cavity: an opening at [%.4g m, %.4g m, %.4g m], about %.2g m wide; a cap for it: {point: [%.4g m, %.4g m, "
+            "%.4g m], normal: .., radius: ..}",
+            openings[i].place.x, openings[i].place.y, openings[i].place.z, openings[i].width, openings[i].place.x,
+            openings[i].place.y, openings[i].place.z);
+}
+
 static void warn_of_nozzles(findings *found)
 {
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
@@ -132,6 +164,32 @@ static void print_boxes(const findings *found)
     }
 }
 
+/* Wet, dry, inside another body and touching add up to one side of closed parts and to both sides of sheets. */
+static void print_parts(const findings *found)
+{
+    const sp_setup *setup = setup_of(found);
+    const sp_mesh *mesh = setup->mesh;
+    printf("%-8s %-24s %-9s %10s %12s %12s %10s %10s %10s\n", "geometry", "part", "role", "triangles", "area m2",
+           "wet m2", "dry m2", "inside m2", "touch m2");
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        const sp_part_sides *sides = &found->part_sides[i];
+        printf("%-8lu %-24s %-9s %10zu %12.4f %12.4f %10.4f %10.4f %10.4f\n", (unsigned long)mesh->parts[i].geometry,
+               mesh->parts[i].name, setup->surfaces[i].clean ? "clean" : "obstacle", found->part_triangles[i],
+               found->part_area[i], sides->wet, sides->dry, sides->inside, sides->touching);
+    }
+}
+
+static void print_openings(const findings *found)
+{
+    size_t count;
+    const sp_opening *openings = sp_evaluator_openings(found->opened->evaluator, &count);
+    if (count)
+        printf("\n%-36s %12s %26s\n", "opening at m", "width m", "share of lines of sight");
+    for (size_t i = 0; i < count; i++)
+        printf("[%10.4f, %10.4f, %10.4f] %12.4g %26.2g\n", openings[i].place.x, openings[i].place.y,
+               openings[i].place.z, openings[i].width, openings[i].share);
+}
+
 static void print_table(const findings *found)
 {
     const sp_setup *setup = setup_of(found);
@@ -148,12 +206,9 @@ static void print_table(const findings *found)
     print_cavity(setup);
     printf("to clean    %.4f m2 in %zu patches of texels of %.4g m\n\n", patches->total_area, patches->count,
            fidelity->texel);
-    printf("%-8s %-24s %-9s %10s %12s %12s\n", "geometry", "part", "role", "triangles", "area m2", "wet m2");
-    for (size_t i = 0; i < mesh->part_count; i++)
-        printf("%-8lu %-24s %-9s %10zu %12.4f %12.4f\n", (unsigned long)mesh->parts[i].geometry, mesh->parts[i].name,
-               setup->surfaces[i].clean ? "clean" : "obstacle", found->part_triangles[i], found->part_area[i],
-               found->part_wet[i]);
+    print_parts(found);
     print_boxes(found);
+    print_openings(found);
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
     if (layout->count)
         printf("\n%-16s %-20s %12s %11s %10s\n", "nozzle", "type", "flow L/min", "speed m/s", "angle deg");
@@ -193,13 +248,27 @@ static json_t *parts_json(const findings *found)
     json_t *parts = json_array();
     for (size_t i = 0; i < setup->mesh->part_count; i++)
         json_array_append_new(
-            parts, json_pack("{s:I, s:s, s:s, s:I, s:f, s:f, s:o, s:o}", "geometry",
-                             (json_int_t)setup->mesh->parts[i].geometry, "name", setup->mesh->parts[i].name, "role",
-                             setup->surfaces[i].clean ? "clean" : "obstacle", "triangles",
-                             (json_int_t)found->part_triangles[i], "area_m2", found->part_area[i], "wet_area_m2",
-                             found->part_wet[i], "minimum_m", vector_json(found->part_box[i].minimum), "maximum_m",
-                             vector_json(found->part_box[i].maximum)));
+            parts,
+            json_pack("{s:I, s:s, s:s, s:I, s:f, s:f, s:f, s:f, s:f, s:o, s:o}", "geometry",
+                      (json_int_t)setup->mesh->parts[i].geometry, "name", setup->mesh->parts[i].name, "role",
+                      setup->surfaces[i].clean ? "clean" : "obstacle", "triangles",
+                      (json_int_t)found->part_triangles[i], "area_m2", found->part_area[i], "wet_area_m2",
+                      found->part_sides[i].wet, "dry_area_m2", found->part_sides[i].dry, "inside_area_m2",
+                      found->part_sides[i].inside, "touching_area_m2", found->part_sides[i].touching, "minimum_m",
+                      vector_json(found->part_box[i].minimum), "maximum_m", vector_json(found->part_box[i].maximum)));
     return parts;
+}
+
+static json_t *openings_json(const findings *found)
+{
+    size_t count;
+    const sp_opening *openings = sp_evaluator_openings(found->opened->evaluator, &count);
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++)
+        json_array_append_new(list,
+                              json_pack("{s:[fff], s:f, s:f}", "place_m", openings[i].place.x, openings[i].place.y,
+                                        openings[i].place.z, "width_m", openings[i].width, "share", openings[i].share));
+    return list;
 }
 
 /* A point, "outside" or, where none is named, null. */
@@ -215,13 +284,15 @@ static bool print_json(const findings *found)
     json_t *warnings = json_array();
     for (size_t i = 0; i < found->warning_count; i++)
         json_array_append_new(warnings, json_string(found->warnings[i]));
-    json_t *object = json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:f, s:I, s:f, s:I, s:o}", "sprayplan", SP_VERSION,
-                               "command", "check", "scene", sp_scene_path(found->opened->scene), "mesh",
-                               mesh_json(found), "parts", parts_json(found), "cavity_m", cavity_json(setup_of(found)),
-                               "clean_area_m2", sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
-                               (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
-                               sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",
-                               (json_int_t)sp_scene_layout(found->opened->scene)->count, "warnings", warnings);
+    json_t *object =
+        json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}", "sprayplan", SP_VERSION,
+                  "command", "check", "scene", sp_scene_path(found->opened->scene), "mesh", mesh_json(found), "parts",
+                  parts_json(found), "cavity_m", cavity_json(setup_of(found)), "openings", openings_json(found),
+                  "outdoors_m2", sp_evaluator_outdoors(found->opened->evaluator), "clean_area_m2",
+                  sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
+                  (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
+                  sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",
+                  (json_int_t)sp_scene_layout(found->opened->scene)->count, "warnings", warnings);
     bool good = object && json_dumpf(object, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) == 0;
     puts("");
     json_decref(object);
@@ -235,6 +306,8 @@ static bool examine(const cli_options *options, findings *found, sp_error *error
     warn_of_mesh(found);
     warn_of_size(found);
     warn_of_cavity(found);
+    warn_of_sides(found);
+    warn_of_openings(found);
     warn_of_nozzles(found);
     cli_progress_end();
     if (options->json)
@@ -255,7 +328,7 @@ static int check(const cli_options *options, const cli_scene *opened, cli_clock 
     found->opened = opened;
     bool good = examine(options, found, error);
     free(found->part_area);
-    free(found->part_wet);
+    free(found->part_sides);
     free(found->part_triangles);
     free(found->part_box);
     free(found);

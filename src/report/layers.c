@@ -36,6 +36,12 @@ bool sp_layers_wet(const sp_layers *layers, uint32_t triangle, int back)
     return sp_evaluator_wet(layers->evaluator, triangle) >> back & 1;
 }
 
+static bool is_clean_at(const sp_layers *layers, uint32_t triangle, double u, double v, int back)
+{
+    return sp_layers_clean(layers, triangle, back) &&
+           (sp_evaluator_wet_at(layers->evaluator, triangle, u, v) >> back & 1);
+}
+
 bool sp_layers_clean(const sp_layers *layers, uint32_t triangle, int back)
 {
     const sp_setup *setup = sp_evaluator_setup(layers->evaluator);
@@ -44,7 +50,7 @@ bool sp_layers_clean(const sp_layers *layers, uint32_t triangle, int back)
 
 uint32_t sp_layers_patch(const sp_layers *layers, uint32_t triangle, double u, double v, int back)
 {
-    if (!sp_layers_clean(layers, triangle, back))
+    if (!is_clean_at(layers, triangle, u, v, back))
         return SP_NONE;
     uint32_t texel = sp_atlas_texel(sp_evaluator_atlas(layers->evaluator), triangle, u, v);
     return layers->patch[layers->two_sided ? 0 : back][texel];

@@ -1,5 +1,7 @@
-/* up, cavity, liquid, air, gravity, criterion. */
+/* up, cavity, caps, liquid, air, gravity, criterion. */
 #include "scene/state.h"
+
+#include <stdlib.h>
 
 static bool read_fluid(const sp_scene *scene, const sp_reader *reader, const char *key, const char *what,
                        sp_fluid *fluid)
@@ -24,6 +26,31 @@ static bool read_cavity(sp_scene *scene, const sp_reader *reader)
         return sp_read_fail(reader, node, "cavity", "a point such as [0 m, 0 m, 1 m], or outside");
     scene->setup.cavity = SP_CAVITY_POINT;
     return sp_read_vector(reader, scene->tree, "cavity", &sp_length_unit, &scene->setup.cavity_point);
+}
+
+static bool read_cap(const sp_reader *reader, const sp_yaml *node, sp_cap *cap)
+{
+    static const sp_key keys[] = {{"point", true}, {"normal", true}, {"radius", true}, {NULL, false}};
+    return sp_read_keys(reader, node, "caps", "a cap", keys) &&
+           sp_read_vector(reader, node, "point", &sp_length_unit, &cap->point) &&
+           sp_read_axis(reader, node, "normal", &cap->normal) &&
+           sp_read_quantity(reader, node, "radius", &sp_length_unit, sp_above(0), &cap->radius);
+}
+
+static bool read_caps(sp_scene *scene, const sp_reader *reader)
+{
+    const sp_yaml *list = sp_yaml_get(scene->tree, "caps");
+    if (!list)
+        return true;
+    if (!sp_read_is_list(reader, list, "caps", "caps such as {point: [..], normal: [0, 0, 1], radius: 50 mm}"))
+        return false;
+    scene->caps = calloc(list->count + 1, sizeof *scene->caps);
+    if (!scene->caps)
+        return sp_fail_memory(reader->error);
+    for (const sp_yaml *node = list->first; node; node = node->next)
+        if (!read_cap(reader, node, &scene->caps[scene->setup.cap_count++]))
+            return false;
+    return true;
 }
 
 static bool read_criterion(const sp_scene *scene, const sp_reader *reader, sp_criterion *criterion)
@@ -52,7 +79,7 @@ bool sp_scene_read_physics(sp_scene *scene, const sp_reader *reader)
     sp_setup *setup = &scene->setup;
     int up = 0;
     if (!sp_read_choice(reader, scene->tree, "up", ups, &up) || !read_cavity(scene, reader) ||
-        !read_fluid(scene, reader, "liquid", "the liquid", &setup->liquid) ||
+        !read_caps(scene, reader) || !read_fluid(scene, reader, "liquid", "the liquid", &setup->liquid) ||
         !read_fluid(scene, reader, "air", "the air", &setup->air) ||
         !sp_read_quantity(reader, scene->tree, "gravity", &sp_acceleration_unit, sp_from(0), &setup->gravity) ||
         !read_criterion(scene, reader, &setup->criterion))

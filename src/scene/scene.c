@@ -7,9 +7,10 @@
 
 static bool read_tree(sp_scene *scene, const sp_reader *reader)
 {
-    static const sp_key keys[] = {{"up", false},      {"geometry", true},  {"cavity", false},    {"liquid", false},
-                                  {"air", false},     {"gravity", false},  {"criterion", false}, {"catalogue", false},
-                                  {"nozzles", false}, {"simulate", false}, {"place", false},     {NULL, false}};
+    static const sp_key keys[] = {{"up", false},        {"geometry", true}, {"cavity", false},   {"caps", false},
+                                  {"liquid", false},    {"air", false},     {"gravity", false},  {"criterion", false},
+                                  {"catalogue", false}, {"nozzles", false}, {"simulate", false}, {"place", false},
+                                  {NULL, false}};
     return sp_read_keys(reader, scene->tree, "scene", "a scene", keys) && sp_scene_read_physics(scene, reader) &&
            sp_scene_read_catalogue(scene, reader) && sp_scene_read_nozzles(scene, reader) &&
            sp_scene_read_simulate(scene, reader) && sp_scene_read_geometry(scene, reader) &&
@@ -60,6 +61,7 @@ sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, siz
     }
     scene->setup.mesh = scene->mesh;
     scene->setup.surfaces = scene->surfaces;
+    scene->setup.caps = scene->caps;
     return scene;
 }
 
@@ -80,6 +82,7 @@ void sp_scene_destroy(sp_scene *scene)
     free(scene->place_types);
     sp_layout_destroy(scene->layout);
     free(scene->types);
+    free(scene->caps);
     sp_mesh_destroy(scene->mesh);
     free(scene->surfaces);
     sp_yaml_destroy(scene->tree);

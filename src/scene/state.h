@@ -15,6 +15,7 @@ struct sp_scene {
     sp_yaml *tree;   /* the scene as it stands, overrides applied */
     sp_mesh *mesh;
     sp_surface *surfaces; /* [mesh->part_count] */
+    sp_cap *caps;         /* [setup.cap_count] */
     size_t type_count;
     sp_nozzle_type *types;
     sp_setup setup;

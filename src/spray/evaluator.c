@@ -1,6 +1,6 @@
 /* Building an evaluator, choosing what is left to auto, and asking it. */
 #include "density.h"
-#include "state.h"
+#include "spray/wet.h"
 
 #include <stdlib.h>
 
@@ -45,6 +45,18 @@ static bool check_surfaces(const sp_setup *setup, sp_error *error)
     return clean || sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "nothing is to be cleaned: every part is an obstacle");
 }
 
+static bool check_caps(const sp_setup *setup, sp_error *error)
+{
+    for (size_t i = 0; i < setup->cap_count; i++) {
+        const sp_cap *cap = &setup->caps[i];
+        if (!isfinite(sp_length(cap->point)) || !in_range(sp_length(cap->normal), 1e-300, 1e300) ||
+            !in_range(cap->radius, 1e-300, 1e300))
+            return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0,
+                           "cap %zu: expected a finite point, a normal of some length and a radius above 0", i + 1);
+    }
+    return true;
+}
+
 static bool check_setup(const sp_setup *setup, sp_error *error)
 {
     const sp_criterion *criterion = &setup->criterion;
@@ -65,7 +77,7 @@ static bool check_setup(const sp_setup *setup, sp_error *error)
         wrong = "a finite point of the cavity";
     if (wrong)
         return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: expected %s", wrong);
-    return check_surfaces(setup, error);
+    return check_caps(setup, error) && check_surfaces(setup, error);
 }
 
 static bool anything_reflects(const sp_setup *setup)
@@ -191,7 +203,7 @@ static bool build(sp_evaluator *evaluator, sp_error *error)
     evaluator->tracer = sp_tracer_create(setup->mesh, SP_ACCELERATOR_BVH, setup->run.threads, error);
     if (!evaluator->tracer || !sp_evaluator_progress(setup, "wet sides", 0, error))
         return false;
-    evaluator->wet = sp_wet_sides(setup, evaluator->tracer, error);
+    evaluator->wet = sp_wet_create(setup, evaluator->tracer, error);
     if (!evaluator->wet || !sp_evaluator_progress(setup, "atlas", 0, error))
         return false;
     double counted = counted_area(evaluator);
@@ -267,7 +279,7 @@ void sp_evaluator_destroy(sp_evaluator *evaluator)
     if (!evaluator->origin) {
         sp_tracer_destroy(evaluator->tracer);
         sp_charts_destroy(evaluator->charts);
-        free(evaluator->wet);
+        sp_wet_destroy(evaluator->wet);
     }
     sp_atlas_destroy(evaluator->atlas);
     sp_fragments_destroy(&evaluator->fragments);
@@ -303,7 +315,12 @@ const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator)
 
 unsigned sp_evaluator_wet(const sp_evaluator *evaluator, uint32_t triangle)
 {
-    return evaluator->wet[triangle];
+    return evaluator->wet->sides[triangle];
+}
+
+unsigned sp_evaluator_wet_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v)
+{
+    return sp_wet_at(evaluator->wet, triangle, u, v);
 }
 
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator)

@@ -1,5 +1,5 @@
 /* Whether a point lies in the space that the wet sides face. */
-#include "state.h"
+#include "spray/wet.h"
 
 #define SIGHTS 32
 
@@ -16,7 +16,9 @@ bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point)
 {
     if (evaluator->setup.cavity == SP_CAVITY_NONE)
         return true;
-    int votes = 0;
+    if (sp_wet_is_material(evaluator->wet, point))
+        return false;
+    int votes = 0, sights = SIGHTS;
     for (int i = 0; i < SIGHTS; i++) {
         sp_ray sight = {.origin = point,
                         .velocity = sp_sphere_direction(i, SIGHTS),
@@ -24,12 +26,16 @@ bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point)
                         .t_max = INFINITY,
                         .skip = SP_NONE};
         sp_hit hit = sp_trace_nearest(evaluator->tracer, &sight, sp_v(0, 0, 0));
+        if (sp_caps_block(&evaluator->setup, &sight, hit.t)) {
+            sights--;
+            continue;
+        }
         if (hit.triangle == SP_NONE) {
             votes += evaluator->setup.cavity == SP_CAVITY_OUTSIDE;
             continue;
         }
         bool back = sp_dot(sp_triangle_normal(evaluator->setup.mesh, hit.triangle), sight.velocity) > 0;
-        votes += (evaluator->wet[hit.triangle] >> back) & 1;
+        votes += (sp_wet_at(evaluator->wet, hit.triangle, hit.u, hit.v) >> back) & 1;
     }
-    return 2 * votes > SIGHTS;
+    return 2 * votes > sights;
 }

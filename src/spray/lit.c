@@ -1,5 +1,7 @@
 #include "lit.h"
 
+#include "spray/cuts.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,32 +12,48 @@ static double corner_side(const double a[2], const double b[2], const double p[2
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
-/* The cells of the pixel at x, y whose middles lie in a triangle of the page. */
-static uint64_t cells_in(const double (*corner)[2], uint32_t x, uint32_t y)
+/* A patch's own cells in the making. */
+typedef struct {
+    const sp_evaluator *evaluator;
+    uint32_t triangle;
+    sp_texel_place place;
+    uint64_t cells;
+} cell_count;
+
+/* Adds the cells whose middles lie in a convex piece of a triangle. */
+static void add_cells(void *user, const sp_vec3 *polygon, int corners, double area)
 {
-    uint64_t cells = 0;
-    for (unsigned i = 0; i < SP_LIT_EDGE * SP_LIT_EDGE; i++) {
-        double p[2] = {x + (i % SP_LIT_EDGE + 0.5) / SP_LIT_EDGE, y + (i / SP_LIT_EDGE + 0.5) / SP_LIT_EDGE};
-        if (corner_side(corner[0], corner[1], p) >= 0 && corner_side(corner[1], corner[2], p) >= 0 &&
-            corner_side(corner[2], corner[0], p) >= 0)
-            cells |= (uint64_t)1 << i;
+    (void)area;
+    cell_count *count = user;
+    const double(*uv)[2] = (const double(*)[2])count->evaluator->atlas->uv[count->triangle];
+    double corner[SP_PIECE_POINTS][2];
+    for (int i = 0; i < corners; i++) {
+        double u, v;
+        sp_triangle_weights(count->evaluator->setup.mesh, count->triangle, polygon[i], &u, &v);
+        for (int axis = 0; axis < 2; axis++)
+            corner[i][axis] = (1 - u - v) * uv[0][axis] + u * uv[1][axis] + v * uv[2][axis];
     }
-    return cells;
+    for (unsigned i = 0; i < SP_LIT_EDGE * SP_LIT_EDGE && corners > 2; i++) {
+        double p[2] = {count->place.x + (i % SP_LIT_EDGE + 0.5) / SP_LIT_EDGE,
+                       count->place.y + (i / SP_LIT_EDGE + 0.5) / SP_LIT_EDGE};
+        bool in = true;
+        for (int k = 0; k < corners; k++)
+            in = in && corner_side(corner[k], corner[(k + 1) % corners], p) >= 0;
+        count->cells |= (uint64_t)in << i;
+    }
 }
 
 static uint64_t own_cells(const sp_evaluator *evaluator, uint32_t patch)
 {
     const sp_fragments *fragments = &evaluator->fragments;
     uint32_t texel = evaluator->patches.texel[patch];
-    bool back = evaluator->patches.side[patch] == SP_SIDE_BACK;
-    sp_texel_place place = sp_atlas_place(evaluator->atlas, texel);
-    uint64_t cells = 0;
+    cell_count count = {.evaluator = evaluator, .place = sp_atlas_place(evaluator->atlas, texel)};
     for (uint32_t f = fragments->start[texel]; f < fragments->start[texel + 1]; f++) {
-        uint32_t triangle = fragments->items[f].triangle;
-        if (sp_side_is_counted(evaluator, triangle, back))
-            cells |= cells_in((const double(*)[2])evaluator->atlas->uv[triangle], place.x, place.y);
+        count.triangle = fragments->items[f].triangle;
+        sp_counted_pieces(evaluator, texel, &fragments->items[f], evaluator->patches.side[patch] == SP_SIDE_BACK,
+                          add_cells, &count);
     }
-    return cells;
+    return count.cells;
 }
 
 bool sp_lit_create(const sp_evaluator *evaluator, sp_lit *lit, sp_error *error)

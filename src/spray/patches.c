@@ -7,28 +7,6 @@
  * of sight would have to choose between neighbouring triangles. */
 #define INWARDS 1e-4
 
-bool sp_side_is_counted(const sp_evaluator *evaluator, uint32_t triangle, unsigned side)
-{
-    const sp_setup *setup = &evaluator->setup;
-    if (!setup->surfaces[setup->mesh->part[triangle]].clean)
-        return false;
-    return setup->cavity == SP_CAVITY_NONE ? side == 0 : (evaluator->wet[triangle] >> side) & 1;
-}
-
-double sp_counted_area(const sp_evaluator *evaluator, uint32_t triangle)
-{
-    int sides = sp_side_is_counted(evaluator, triangle, 0) + sp_side_is_counted(evaluator, triangle, 1);
-    return sides * sp_triangle_area(evaluator->setup.mesh, triangle);
-}
-
-uint32_t sp_patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back)
-{
-    unsigned side = evaluator->setup.cavity != SP_CAVITY_NONE && back;
-    if (!sp_side_is_counted(evaluator, triangle, side))
-        return SP_NONE;
-    return evaluator->texel_patch[sp_atlas_texel(evaluator->atlas, triangle, u, v)][side];
-}
-
 /* The point of triangle abc nearest to p: the foot of the perpendicular where that lies inside, else the nearest of its
  * feet on the three edges. */
 static sp_vec3 nearest_in_triangle(sp_vec3 p, sp_vec3 a, sp_vec3 b, sp_vec3 c)
@@ -76,59 +54,63 @@ typedef struct {
     uint32_t triangle;
 } patch_place;
 
-/* The centroid of what `texel` has on `side`; its area, as the atlas measured it, in *area. False where nothing is
- * left. */
-static bool patch_centroid(const sp_evaluator *evaluator, uint32_t texel, unsigned side, sp_vec3 *centroid,
-                           double *area)
+/* A patch while its pieces are being visited. */
+typedef struct {
+    patch_place *place;
+    uint32_t triangle; /* of the fragment in hand */
+    sp_vec3 moment;    /* m³ */
+    double drawn;      /* m², of the pieces that have corners */
+    sp_vec3 centroid;  /* m, once known */
+    double least;      /* m, from there to the nearest point so far */
+} patch_sum;
+
+static void add_piece(void *user, const sp_vec3 *polygon, int corners, double area)
+{
+    patch_sum *sum = user;
+    double part;
+    sum->moment = sp_add(sum->moment, polygon_moment(polygon, corners, &part));
+    sum->drawn += part;
+    sum->place->area += area;
+}
+
+static void look_for_nearest(void *user, const sp_vec3 *polygon, int corners, double piece_area)
+{
+    patch_sum *sum = user;
+    double area;
+    (void)piece_area;
+    sp_vec3 moment = polygon_moment(polygon, corners, &area);
+    for (int i = 2; area > 0 && i < corners; i++) {
+        sp_vec3 point = nearest_in_triangle(sum->centroid, polygon[0], polygon[i - 1], polygon[i]);
+        double distance = sp_distance(point, sum->centroid);
+        if (distance < sum->least) {
+            sum->least = distance;
+            sum->place->point = sp_along(point, INWARDS, sp_sub(sp_scale(moment, 1 / area), point));
+            sum->place->triangle = sum->triangle;
+        }
+    }
+}
+
+static void visit_patch(const sp_evaluator *evaluator, uint32_t texel, unsigned side, sp_counted_visitor *visit,
+                        patch_sum *sum)
 {
     const sp_fragments *fragments = &evaluator->fragments;
-    sp_vec3 moment = sp_v(0, 0, 0);
-    double drawn = 0;
-    *area = 0;
     for (uint32_t f = fragments->start[texel]; f < fragments->start[texel + 1]; f++) {
-        uint32_t triangle = fragments->items[f].triangle;
-        if (!sp_side_is_counted(evaluator, triangle, side))
-            continue;
-        sp_vec3 polygon[SP_FRAGMENT_POINTS];
-        int corners = sp_atlas_fragment_polygon(evaluator->atlas, evaluator->setup.mesh, texel, triangle, polygon);
-        double part;
-        moment = sp_add(moment, polygon_moment(polygon, corners, &part));
-        drawn += part;
-        *area += fragments->items[f].area;
+        sum->triangle = fragments->items[f].triangle;
+        sp_counted_pieces(evaluator, texel, &fragments->items[f], side, visit, sum);
     }
-    if (!(drawn > 0 && *area > 0))
-        return false;
-    *centroid = sp_scale(moment, 1 / drawn);
-    return true;
 }
 
 /* False where the texel has nothing to count on that side. */
 static bool place_patch(const sp_evaluator *evaluator, uint32_t texel, unsigned side, patch_place *place)
 {
-    const sp_fragments *fragments = &evaluator->fragments;
-    sp_vec3 centroid;
-    if (!patch_centroid(evaluator, texel, side, &centroid, &place->area))
+    patch_sum sum = {.place = place, .least = INFINITY};
+    place->area = 0;
+    visit_patch(evaluator, texel, side, add_piece, &sum);
+    if (!(sum.drawn > 0 && place->area > 0))
         return false;
-    double least = INFINITY;
-    for (uint32_t f = fragments->start[texel]; f < fragments->start[texel + 1]; f++) {
-        uint32_t triangle = fragments->items[f].triangle;
-        if (!sp_side_is_counted(evaluator, triangle, side))
-            continue;
-        sp_vec3 polygon[SP_FRAGMENT_POINTS];
-        int corners = sp_atlas_fragment_polygon(evaluator->atlas, evaluator->setup.mesh, texel, triangle, polygon);
-        double area;
-        sp_vec3 moment = polygon_moment(polygon, corners, &area);
-        for (int i = 2; area > 0 && i < corners; i++) {
-            sp_vec3 point = nearest_in_triangle(centroid, polygon[0], polygon[i - 1], polygon[i]);
-            double distance = sp_distance(point, centroid);
-            if (distance < least) {
-                least = distance;
-                place->point = sp_along(point, INWARDS, sp_sub(sp_scale(moment, 1 / area), point));
-                place->triangle = triangle;
-            }
-        }
-    }
-    return least < INFINITY;
+    sum.centroid = sp_scale(sum.moment, 1 / sum.drawn);
+    visit_patch(evaluator, texel, side, look_for_nearest, &sum);
+    return sum.least < INFINITY;
 }
 
 static bool allocate_patches(sp_patches *patches, size_t count)

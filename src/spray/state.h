@@ -13,7 +13,7 @@ struct sp_evaluator {
     const sp_evaluator *origin; /* of a resampled evaluator: owns tracer, charts and wet; else NULL */
     sp_tracer *tracer;
     sp_charts *charts;
-    uint8_t *wet; /* [triangle_count], bit 0 front, bit 1 back */
+    struct sp_wet *wet; /* wet.h */
     sp_atlas *atlas;
     sp_fragments fragments; /* of the atlas */
     sp_patches patches;
@@ -30,8 +30,8 @@ bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done
 /* False, with an error, where a nozzle's liquid leaves faster than can be reckoned with. */
 bool sp_evaluator_takes(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
 
-/* wet.c: floods lines of sight from the cavity. [triangle_count], malloc'd. All sides where there is no cavity. */
-uint8_t *sp_wet_sides(const sp_setup *setup, const sp_tracer *tracer, sp_error *error);
+/* caps.c: whether a line meets one of the setup's caps before t. */
+bool sp_caps_block(const sp_setup *setup, const sp_ray *line, double t);
 
 /* inside.c: direction `index` of `count`, spread evenly over the sphere. */
 sp_vec3 sp_sphere_direction(int index, int count);
@@ -39,10 +39,17 @@ sp_vec3 sp_sphere_direction(int index, int count);
 /* patches.c: from atlas, wet sides and roles. */
 bool sp_patches_create(sp_evaluator *evaluator, sp_error *error);
 void sp_patches_free(sp_patches *patches);
-/* Whether a triangle's `side` (0 front, or both where no cavity is named; 1 back) is cleaned and counted. */
+/* Whether any of a triangle's `side` (0 front, or both where no cavity is named; 1 back) is cleaned and counted, and
+ * whether its point (1-u-v, u, v) is: a triangle that others cross or touch may be wet in parts. */
 bool sp_side_is_counted(const sp_evaluator *evaluator, uint32_t triangle, unsigned side);
-/* What of a triangle is cleaned and counted, m²: its area once for every such side. */
+/* The area (m²) of a triangle once for every side of which any is cleaned and counted. */
 double sp_counted_area(const sp_evaluator *evaluator, uint32_t triangle);
+bool sp_point_is_counted(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, unsigned side);
+/* Calls `visit` with every convex piece of a texel's fragment that is counted on a side: its corners on the surface (m)
+ * and its area (m²) as the atlas measured it. Where round-off left no corners of a fragment, `corners` is 0. */
+typedef void sp_counted_visitor(void *user, const sp_vec3 *polygon, int corners, double area);
+void sp_counted_pieces(const sp_evaluator *evaluator, uint32_t texel, const sp_fragment *fragment, unsigned side,
+                       sp_counted_visitor *visit, void *user);
 /* The patch that takes what arrives at the point (1-u-v, u, v) of a triangle, on its back or else its front; SP_NONE
  * where that side is dry or an obstacle. */
 uint32_t sp_patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back);

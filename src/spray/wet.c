@@ -1,203 +1,32 @@
-/* The wet sides: lines of sight are cast from every side of every triangle, and two sides that see each other face the
- * same space. What is joined, however indirectly, with what the cavity's point sees is wet. */
-#include "state.h"
+/* Wet sides, in four steps. Shells that are closed and consistently turned are solids. Triangles are cut where others
+ * cross or touch them, so that each side of each face looks into one space. A side that looks into material, or lies on
+ * another surface, is dry. Among the free sides lines of sight tell which look into the liquid.
+ *
+ * Material is where the winding number of all closed shells is above 0, normals outwards counting 1 each time round.
+ * So bodies may overlap, nest and pierce each other, and of a hollow body drawn with two shells the inner one, turned
+ * towards the hollow, takes away what the outer one adds. Three things are put right first.
+ *  - A shell turned inwards that does not enclose the cavity's point and lies in no other body is a solid drawn inside
+ *    out: it is turned round.
+ *  - The outermost shell around the cavity's point, turned outwards, is a room drawn inside out (a tank as simulations
+ *    of flow draw it) where nearly all that leaves it outwards reaches the sky, and no hollow lies in it: it is turned
+ *    round. A wall has an inner side too, from which one sees wall, and what stands in a vessel sees that.
+ *  - A room drawn as one shell turned inwards has a wall without end: what is behind it, and what sticks out through
+ * it, must count as material, and so 1 is added everywhere. A winding number above 0 at the cavity's point then means
+ * that it lies in steel. */
+#include "spray/wet.h"
 
+#include "spray/flood.h"
+
+#include <limits.h>
 #include <stdlib.h>
+#include <string.h>
 
-#define LINES 16        /* from each side of each triangle */
-#define DIRECTIONS 4096 /* from the cavity's point */
-#define BLOCK 4096      /* triangles whose lines are traced before their hits are joined */
-/* Of the geometry's diagonal: surfaces nearer than this to each other touch, and a line that starts where its triangle
- * touches another says nothing of the space on either side. */
-#define CONTACT 1e-7
-#define ON_EDGE 1e-9 /* barycentric: a hit this near to an edge may belong to either neighbour */
-
-/* Instead of a side: */
-#define SKY (SIZE_MAX - 1)
-#define UNTOLD SIZE_MAX
-
-/* Sides that face the same space, as disjoint sets: side 2t is the front of triangle t, 2t + 1 its back, and the last
- * node is the liquid. */
-typedef struct {
-    const sp_setup *setup;
-    const sp_tracer *tracer;
-    double contact; /* m */
-    size_t *parent;
-    size_t liquid;
-} side_flood;
-
-static size_t find_root(side_flood *flood, size_t node)
-{
-    while (flood->parent[node] != node) {
-        flood->parent[node] = flood->parent[flood->parent[node]];
-        node = flood->parent[node];
-    }
-    return node;
-}
-
-static void join(side_flood *flood, size_t a, size_t b)
-{
-    a = find_root(flood, a);
-    b = find_root(flood, b);
-    if (a < b)
-        flood->parent[b] = a;
-    else
-        flood->parent[a] = b;
-}
-
-/* Coordinate `axis` of point `index` of the R sequence in four dimensions (Roberts 2018, "The unreasonable
- * effectiveness of quasirandom sequences"): multiples of the powers of 1/g, g^5 = g + 1, in 64-bit fixed point, so that
- * no index is too large. */
-static double sequence(uint64_t index, int axis)
-{
-    static const uint64_t step[4] = {0xdb4f0b9175ae2165, 0xbbe0563303a4615f, 0xa0f2ec75a1fe1575, 0x89e182857d9ed689};
-    return (double)((0x8000000000000000u + index * step[axis]) >> 11) * 0x1p-53;
-}
-
-/* A line from inside a triangle into the space that its side faces. It starts a little way back, so that a surface that
- * touches the triangle there is met rather than missed by round-off. */
-static sp_ray side_line(const side_flood *flood, size_t side, size_t line)
-{
-    const sp_mesh *mesh = flood->setup->mesh;
-    uint32_t triangle = (uint32_t)(side / 2);
-    uint64_t index = (uint64_t)side * LINES + line;
-    double root = sqrt(sequence(index, 0)), share = sequence(index, 1);
-    /* Kept off the edges, where the neighbours' planes are within round-off. */
-    double u = 0.05 + 0.85 * root * (1 - share), v = 0.05 + 0.85 * root * share;
-
-    sp_vec3 z = sp_triangle_normal(mesh, triangle);
-    if (side % 2)
-        z = sp_scale(z, -1);
-    sp_vec3 x = sp_unit(sp_cross(fabs(z.x) < 0.5 ? sp_v(1, 0, 0) : sp_v(0, 1, 0), z)), y = sp_cross(z, x);
-    double height = 1e-3 + (1 - 1e-3) * sequence(index, 2), turn = 2 * M_PI * sequence(index, 3);
-    double radius = sqrt(1 - height * height);
-    sp_vec3 direction = sp_scale(z, height);
-    direction = sp_along(direction, radius * cos(turn), x);
-    direction = sp_along(direction, radius * sin(turn), y);
-    sp_vec3 origin = sp_along(sp_triangle_point(mesh, triangle, u, v), -flood->contact, direction);
-    return (sp_ray){.origin = origin, .velocity = direction, .t_min = 0, .t_max = INFINITY, .skip = triangle};
-}
-
-static bool same_corners(const sp_mesh *mesh, uint32_t a, uint32_t b)
-{
-    for (int i = 0; i < 3; i++) {
-        bool found = false;
-        for (int k = 0; k < 3; k++)
-            found =
-                found || sp_distance(mesh->vertices[mesh->triangles[a][i]], mesh->vertices[mesh->triangles[b][k]]) == 0;
-        if (!found)
-            return false;
-    }
-    return true;
-}
-
-/* What a line meets first: a side, SKY, or UNTOLD where the hit does not say. */
-typedef struct {
-    size_t met;
-    double t;
-} sighting;
-
-static sighting look(const side_flood *flood, sp_ray line)
-{
-    const sp_mesh *mesh = flood->setup->mesh;
-    sp_hit hit = sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0));
-    if (line.skip != SP_NONE && hit.t < 2 * flood->contact) {
-        if (!same_corners(mesh, line.skip, hit.triangle))
-            return (sighting){UNTOLD, hit.t};
-        line.t_min = 2 * flood->contact;
-        hit = sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0));
-    }
-    if (hit.triangle == SP_NONE)
-        return (sighting){SKY, hit.t};
-    double facing = sp_dot(sp_triangle_normal(mesh, hit.triangle), line.velocity);
-    if (hit.u < ON_EDGE || hit.v < ON_EDGE || 1 - hit.u - hit.v < ON_EDGE || fabs(facing) < ON_EDGE)
-        return (sighting){UNTOLD, hit.t};
-    return (sighting){2 * (size_t)hit.triangle + (facing > 0), hit.t};
-}
-
-/* Whether the triangle met touches another there: where two solids touch, one's wall hides the other's contact face,
- * and round-off chooses which of them is met. */
-static bool touches_another(const side_flood *flood, sp_ray line, sighting sighting)
-{
-    uint32_t triangle = (uint32_t)(sighting.met / 2);
-    line.t_min = sighting.t - flood->contact;
-    line.t_max = sighting.t + flood->contact;
-    line.skip = triangle;
-    sp_hit beside = sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0));
-    return beside.triangle != SP_NONE && !same_corners(flood->setup->mesh, triangle, beside.triangle);
-}
-
-/* Whether a line of `node` tells of a connection not known yet. */
-static bool is_news(side_flood *flood, size_t node, sighting sighting)
-{
-    if (sighting.met == SKY)
-        return flood->setup->cavity == SP_CAVITY_OUTSIDE;
-    return sighting.met != UNTOLD && find_root(flood, node) != find_root(flood, sighting.met);
-}
-
-static void join_news(side_flood *flood, size_t node, sp_ray line, sighting sighting)
-{
-    if (sighting.met == SKY)
-        join(flood, node, flood->liquid);
-    else if (!touches_another(flood, line, sighting))
-        join(flood, node, sighting.met);
-}
-
-static bool join_sides(side_flood *flood, sp_error *error)
-{
-    const sp_setup *setup = flood->setup;
-    size_t triangles = setup->mesh->triangle_count;
-    sighting *sightings = malloc(2 * LINES * (size_t)BLOCK * sizeof *sightings);
-    if (!sightings)
-        return sp_fail_memory(error);
-    bool done = true;
-    for (size_t first = 0; done && first < triangles; first += BLOCK) {
-        size_t end = first + BLOCK < triangles ? first + BLOCK : triangles, count = 2 * LINES * (end - first);
-#pragma omp parallel for schedule(dynamic, 1024) num_threads(sp_thread_count(setup->run.threads))
-        for (size_t i = 0; i < count; i++)
-            sightings[i] = look(flood, side_line(flood, 2 * first + i / LINES, i % LINES));
-        for (size_t i = 0; i < count; i++) {
-            size_t side = 2 * first + i / LINES;
-            if (is_news(flood, side, sightings[i]))
-                join_news(flood, side, side_line(flood, side, i % LINES), sightings[i]);
-        }
-        done = sp_evaluator_progress(setup, "wet sides", (double)end / (double)triangles, error);
-    }
-    free(sightings);
-    return done;
-}
-
-/* A line that starts on a wall would see, by round-off, what lies on either side. */
-static bool starts_on_surface(const side_flood *flood, sp_ray line)
-{
-    line.origin = sp_along(line.origin, -flood->contact, line.velocity);
-    line.t_max = 2 * flood->contact;
-    return sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0)).triangle != SP_NONE;
-}
-
-/* Joins the liquid with what the cavity's point sees. */
-static bool join_seen(side_flood *flood, sp_error *error)
-{
-    sp_vec3 point = flood->setup->cavity_point;
-    bool seen = false, touches = false;
-    for (int i = 0; i < DIRECTIONS; i++) {
-        sp_ray line = {.origin = point,
-                       .velocity = sp_sphere_direction(i, DIRECTIONS),
-                       .t_min = 0,
-                       .t_max = INFINITY,
-                       .skip = SP_NONE};
-        sighting sighting = look(flood, line);
-        touches = touches || starts_on_surface(flood, line);
-        if (is_news(flood, flood->liquid, sighting))
-            join_news(flood, flood->liquid, line, sighting);
-        seen = seen || (sighting.met != SKY && sighting.met != UNTOLD);
-    }
-    if (seen && !touches)
-        return true;
-    return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                   "cavity: %s the point (%g m, %g m, %g m); expected a point of the space where the liquid flies",
-                   touches ? "a surface goes through" : "no surface is seen from", point.x, point.y, point.z);
-}
+#define SAME 1e-9      /* of the diagonal: corners nearer than this are one */
+#define BEYOND 2.0     /* contacts */
+#define SAMPLES 16     /* triangles of a shell that tell what it lies in */
+#define SKY_LINES 1024 /* from a shell, to tell whether it lies under the sky */
+#define SKY_STRIDE 387 /* mixes their directions */
+#define SKY_LEAST 4    /* one line in so many may meet something */
 
 static double mesh_diagonal(const sp_mesh *mesh)
 {
@@ -212,39 +41,183 @@ static double mesh_diagonal(const sp_mesh *mesh)
     return mesh->triangle_count ? sp_distance(low, high) : 0;
 }
 
-static bool flood_mesh(const sp_setup *setup, const sp_tracer *tracer, uint8_t *wet, sp_error *error)
+/* The least winding number of the other shells in front of some triangles of a shell. */
+static int winding_beside(const sp_wet *wet, const sp_mesh *mesh, uint32_t shell, double contact)
 {
-    size_t sides = 2 * setup->mesh->triangle_count;
-    side_flood flood = {.setup = setup,
-                        .tracer = tracer,
-                        .contact = CONTACT * mesh_diagonal(setup->mesh),
-                        .parent = malloc((sides + 1) * sizeof *flood.parent),
-                        .liquid = sides};
-    if (!flood.parent)
-        return sp_fail_memory(error);
-    for (size_t i = 0; i <= sides; i++)
-        flood.parent[i] = i;
-    bool done = (setup->cavity == SP_CAVITY_OUTSIDE || join_seen(&flood, error)) && join_sides(&flood, error);
-    size_t liquid = find_root(&flood, flood.liquid);
-    for (size_t i = 0; done && i < sides; i++)
-        if (find_root(&flood, i) == liquid)
-            wet[i / 2] |= (uint8_t)(1u << (i % 2));
-    free(flood.parent);
-    return done;
+    int least = INT_MAX, looked = 0;
+    for (uint32_t t = wet->shells.widest[shell]; t < mesh->triangle_count && looked < SAMPLES; t++) {
+        if (wet->shells.of[t] != shell)
+            continue;
+        sp_vec3 beside = sp_along(sp_triangle_point(mesh, t, 0.3, 0.35), BEYOND * contact, sp_triangle_normal(mesh, t));
+        int winding = sp_winding_without(wet->solids, beside, shell);
+        least = winding < least ? winding : least;
+        looked++;
+    }
+    return least;
 }
 
-uint8_t *sp_wet_sides(const sp_setup *setup, const sp_tracer *tracer, sp_error *error)
+/* Whether a hollow lies in a shell. */
+static bool holds_hollow(const sp_wet *wet, const sp_mesh *mesh, uint32_t shell)
+{
+    for (uint32_t s = 0; s < wet->shells.count; s++) {
+        if (s == shell || !wet->shells.closed[s] || !(wet->shells.volume[s] < 0))
+            continue;
+        sp_vec3 point = sp_triangle_point(mesh, wet->shells.widest[s], 0.3, 0.35);
+        if (sp_winding_of(wet->solids, point, shell) > 0)
+            return true;
+    }
+    return false;
+}
+
+/* Whether nearly all lines that leave a shell outwards, evenly spread over it, reach the sky. */
+static bool lies_under_sky(const sp_wet *wet, const sp_tracer *tracer, uint32_t shell, double contact)
+{
+    const sp_mesh *mesh = sp_tracer_mesh(tracer);
+    double area = 0, passed = 0;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        area += wet->shells.of[t] == shell ? sp_triangle_area(mesh, t) : 0;
+    int cast = 0, met = 0;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        passed += wet->shells.of[t] == shell ? sp_triangle_area(mesh, t) / area * SKY_LINES : 0;
+        sp_vec3 normal = sp_triangle_normal(mesh, t);
+        for (; cast + 0.5 < passed; cast++) {
+            sp_vec3 direction = sp_sphere_direction(cast * SKY_STRIDE % SKY_LINES, SKY_LINES);
+            if (sp_dot(direction, normal) < 0)
+                direction = sp_scale(direction, -1);
+            sp_ray line = {.origin = sp_along(sp_triangle_point(mesh, t, 0.3, 0.35), BEYOND * contact, normal),
+                           .velocity = direction,
+                           .t_max = INFINITY,
+                           .skip = t};
+            met += sp_trace_occluded(tracer, &line, sp_v(0, 0, 0));
+        }
+    }
+    return SKY_LEAST * met < cast;
+}
+
+/* Turns round what is drawn inside out, and finds how much is to be added to winding numbers. */
+static void turn_shells(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer, double contact)
+{
+    const sp_shells *shells = &wet->shells;
+    for (uint32_t s = 0; s < shells->count; s++) {
+        if (!shells->closed[s] || shells->volume[s] == 0)
+            continue;
+        bool around = setup->cavity == SP_CAVITY_POINT && sp_winding_of(wet->solids, setup->cavity_point, s) != 0;
+        bool inwards = shells->volume[s] < 0;
+        if (around == inwards)
+            continue;
+        if (winding_beside(wet, setup->mesh, s, contact) <= 0 &&
+            (!around || (!holds_hollow(wet, setup->mesh, s) && lies_under_sky(wet, tracer, s, contact))))
+            shells->turn[s] = -1;
+    }
+    for (uint32_t s = 0; s < shells->count && setup->cavity == SP_CAVITY_POINT; s++) {
+        if (!shells->closed[s] || shells->turn[s] * sp_winding_of(wet->solids, setup->cavity_point, s) >= 0)
+            continue;
+        int behind = winding_beside(wet, setup->mesh, s, contact);
+        wet->base = 1 - behind > wet->base ? 1 - behind : wet->base;
+    }
+}
+
+/* The part of a body that has the point in it. */
+static const char *body_around(const sp_wet *wet, const sp_mesh *mesh, sp_vec3 point)
+{
+    for (uint32_t s = 0; s < wet->shells.count; s++)
+        if (wet->shells.closed[s] && wet->shells.turn[s] * sp_winding_of(wet->solids, point, s) > 0)
+            return mesh->parts[mesh->part[wet->shells.widest[s]]].name;
+    return "";
+}
+
+static bool find_solids(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer, double contact, sp_error *error)
+{
+    bool any = false;
+    for (size_t s = 0; s < wet->shells.count; s++)
+        any = any || wet->shells.closed[s];
+    if (!any)
+        return true;
+    wet->solids = sp_winding_create(setup->mesh, &wet->shells, error);
+    if (!wet->solids)
+        return false;
+    turn_shells(wet, setup, tracer, contact);
+    if (setup->cavity != SP_CAVITY_POINT)
+        return true;
+    sp_vec3 point = setup->cavity_point;
+    return !sp_wet_is_material(wet, point) ||
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "cavity: the point (%g m, %g m, %g m) lies in the material of part \"%s\"; expected a "
+                   "point of the space where the liquid flies (a room drawn as one shell has its normals inwards)",
+                   point.x, point.y, point.z, body_around(wet, setup->mesh, point));
+}
+
+static bool find_wet(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer, sp_error *error)
+{
+    const sp_mesh *mesh = setup->mesh;
+    double contact = SP_CONTACT * mesh_diagonal(mesh);
+    if (!sp_shells_create(&wet->shells, mesh, SAME * mesh_diagonal(mesh), error) ||
+        !find_solids(wet, setup, tracer, contact, error) ||
+        !sp_cuts_create(&wet->cuts, setup, &wet->shells, contact, error) ||
+        !sp_faces_create(&wet->faces, mesh, &wet->shells, &wet->cuts, wet->solids, wet->base, setup->run.threads,
+                         error))
+        return false;
+    wet->flooded.liquid = calloc(2 * wet->faces.count + 1, sizeof *wet->flooded.liquid);
+    if (!wet->flooded.liquid)
+        return sp_fail_memory(error);
+    if (!sp_flood_faces(setup, tracer, &wet->faces, &wet->shells, &wet->flooded, error))
+        return false;
+    for (size_t side = 0; side < 2 * wet->faces.count; side++) {
+        uint32_t triangle = sp_face_triangle(&wet->faces, (uint32_t)(side / 2));
+        if (wet->flooded.liquid[side])
+            wet->sides[triangle] |= (uint8_t)(1u << side % 2);
+        else if (wet->faces.area[side / 2] > 0)
+            wet->whole[triangle] &= (uint8_t) ~(1u << side % 2);
+    }
+    return true;
+}
+
+sp_wet *sp_wet_create(const sp_setup *setup, const sp_tracer *tracer, sp_error *error)
 {
     size_t count = setup->mesh->triangle_count;
-    uint8_t *wet = calloc(count ? count : 1, 1);
+    sp_wet *wet = calloc(1, sizeof *wet);
     if (!wet)
         return sp_fail_memory(error);
+    wet->sides = calloc(count + 1, 1);
+    wet->whole = malloc(count + 1);
+    if (!wet->sides || !wet->whole) {
+        sp_wet_destroy(wet);
+        return sp_fail_memory(error);
+    }
+    memset(wet->whole, 3, count);
     if (setup->cavity == SP_CAVITY_NONE) {
-        for (size_t i = 0; i < count; i++)
-            wet[i] = 3;
-    } else if (!flood_mesh(setup, tracer, wet, error)) {
-        free(wet);
+        memset(wet->sides, 3, count);
+    } else if (!find_wet(wet, setup, tracer, error)) {
+        sp_wet_destroy(wet);
         return NULL;
     }
     return wet;
+}
+
+void sp_wet_destroy(sp_wet *wet)
+{
+    if (!wet)
+        return;
+    sp_faces_destroy(&wet->faces);
+    sp_cuts_destroy(&wet->cuts);
+    sp_winding_destroy(wet->solids);
+    sp_shells_destroy(&wet->shells);
+    free(wet->flooded.liquid);
+    free(wet->sides);
+    free(wet->whole);
+    free(wet);
+}
+
+unsigned sp_wet_at(const sp_wet *wet, uint32_t triangle, double u, double v)
+{
+    if (wet->sides[triangle] == wet->whole[triangle])
+        return wet->sides[triangle];
+    bool near;
+    size_t face = sp_face_at(&wet->faces, triangle, u, v, &near);
+    return (unsigned)wet->flooded.liquid[2 * face] | (unsigned)wet->flooded.liquid[2 * face + 1] << 1;
+}
+
+bool sp_wet_is_material(const sp_wet *wet, sp_vec3 point)
+{
+    return wet->solids && sp_winding_at(wet->solids, point) + wet->base > 0;
 }

@@ -130,7 +130,8 @@ static const slip quantities[] = {
 static const slip keys[] = {
     {"up: y", "upp: y", "scene.yaml:1:1: upp: found a key that a scene does not have, expected 'up'"},
     {"gravity:", "color:",
-     "scene.yaml:15:1: color: found a key that a scene does not have, expected one of up, geometry, cavity, liquid, "
+     "scene.yaml:15:1: color: found a key that a scene does not have, expected one of up, geometry, cavity, caps, "
+     "liquid, "
      "air, gravity, criterion, catalogue, nozzles, simulate, place"},
     {"unit: mm", "units: mm", "scene.yaml:4:5: units: found a key that a geometry file does not have, expected 'unit'"},
     {"density: 1.1", "densty: 1.1",
@@ -346,7 +347,8 @@ static const slip syntax[] = {
      "]]]]]]]]]]]]]]]]]]]]]]]]]]]",
      "scene.yaml:1:36: YAML: found more than 32 levels of nesting, expected fewer"},
     {"up: y", "up: y\n<<: {up: z}",
-     "scene.yaml:2:1: <<: found a key that a scene does not have, expected one of up, geometry, cavity, liquid, air, "
+     "scene.yaml:2:1: <<: found a key that a scene does not have, expected one of up, geometry, cavity, caps, liquid, "
+     "air, "
      "gravity, criterion, catalogue, nozzles, simulate, place"},
     {"up: y\ngeometry:", "geometry", "scene.yaml:1:1: YAML: ..."},
     {"up: y", "- up: y", "scene.yaml:2:1: YAML: ..."},

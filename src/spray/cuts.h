@@ -1,0 +1,51 @@
+/* Cuts: triangles that others cross or touch, cut into cells each of which lies in one space, or in one contact. */
+#ifndef SPRAY_CUTS_H
+#define SPRAY_CUTS_H
+
+#include "spray/shells.h"
+
+#define SP_CONTACT 1e-6     /* of the geometry's diagonal: surfaces nearer than this to each other touch */
+#define SP_CELL 0x80000000u /* a child that is a cell: its number with this bit */
+
+/* A straight cut through a triangle: the distance (m) of the point (1-u-v, u, v) from it is a u + b v + c. */
+typedef struct {
+    double a, b, c;
+    uint32_t child[2]; /* where that is below 0 and where it is above: a cut, or a cell with SP_CELL */
+} sp_cut;
+
+typedef struct {
+    double contact; /* m: what is nearer than this touches */
+    uint32_t *root; /* [triangle_count], a cut, or a cell with SP_CELL; SP_NONE where the triangle is whole */
+    size_t cut_count;
+    sp_cut *cuts;
+    size_t cell_count;
+    uint32_t *cell_triangle;        /* [cell_count] */
+    uint32_t *cover_start, *covers; /* triangles that lie in the plane of triangle t, some of it covered: covers
+                                       [cover_start[t], cover_start[t + 1]), ascending */
+} sp_cuts;
+
+/* Of the setup's mesh, which its caps cut too. */
+bool sp_cuts_create(sp_cuts *cuts, const sp_setup *setup, const sp_shells *shells, double contact, sp_error *error);
+/* Accepts what was never created, if it is all zeros. */
+void sp_cuts_destroy(sp_cuts *cuts);
+
+/* The cell that holds a point of a triangle that has cells. *near is set where a cut is nearer than the contact. */
+uint32_t sp_cuts_cell(const sp_cuts *cuts, uint32_t triangle, double u, double v, bool *near);
+
+/* Weights of a triangle's second and third corner that give the foot of p in its plane. */
+void sp_weights_of(const sp_mesh *mesh, uint32_t triangle, sp_vec3 p, double at[2]);
+
+/* A convex part of a triangle, as weights of its second and third corner. */
+#define SP_PIECE_POINTS 64
+typedef struct {
+    int count;
+    double at[SP_PIECE_POINTS][2];
+} sp_triangle_piece;
+
+/* Calls `visit` with every part of a piece that lies in one cell, for all cells that have some of it. A part of very
+ * many corners comes as several. */
+typedef void sp_cell_visitor(void *user, uint32_t cell, const sp_triangle_piece *part);
+void sp_cuts_split(const sp_cuts *cuts, uint32_t triangle, const sp_triangle_piece *piece, sp_cell_visitor *visit,
+                   void *user);
+
+#endif

@@ -1,0 +1,215 @@
+/* Space is halved again and again, and with it the triangles, until few are left; these are compared one by one. What
+ * lies in both halves is compared in both, but noted only in the half that holds the low corner of what the two boxes
+ * have in common. */
+#include "spray/pairs.h"
+
+#include <stdlib.h>
+
+#define FEW 24          /* triangles that are compared one by one */
+#define MOST_HALVES 60  /* how often space is halved */
+#define MOST_SHELLS 256 /* beyond it shells' boxes are not compared with each other */
+#define FOLDED 1e-6     /* rad: neighbours at a smaller angle lie on each other */
+
+typedef struct {
+    double low[3], high[3];
+} space_box;
+
+typedef struct {
+    const sp_mesh *mesh;
+    const sp_shells *shells;
+    space_box *box; /* [triangles] */
+    sp_pair *pairs;
+    size_t count, capacity;
+    bool failed; /* memory ran out */
+} pair_search;
+
+static bool overlap(const space_box *a, const space_box *b)
+{
+    for (int k = 0; k < 3; k++)
+        if (a->low[k] > b->high[k] || b->low[k] > a->high[k])
+            return false;
+    return true;
+}
+
+static void note(pair_search *search, uint32_t a, uint32_t b)
+{
+    if (search->count == search->capacity) {
+        size_t capacity = 2 * search->capacity + 1024;
+        sp_pair *pairs = realloc(search->pairs, capacity * sizeof *pairs);
+        if (!pairs) {
+            search->failed = true;
+            return;
+        }
+        search->pairs = pairs;
+        search->capacity = capacity;
+    }
+    search->pairs[search->count++] = (sp_pair){a, b};
+}
+
+/* Whether two triangles have two corners in common and lie side by side there, at whatever angle, rather than folded
+ * onto each other. */
+static bool lie_side_by_side(const sp_mesh *mesh, uint32_t a, uint32_t b)
+{
+    int common = 0, own[2] = {3, 3}; /* the last corner of either that the other has not */
+    bool shared[2][3] = {{false}};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            if (mesh->triangles[a][i] == mesh->triangles[b][k]) {
+                common++;
+                shared[0][i] = shared[1][k] = true;
+            }
+    if (common != 2)
+        return false;
+    for (int i = 0; i < 3; i++) {
+        own[0] = shared[0][i] ? own[0] : i;
+        own[1] = shared[1][i] ? own[1] : i;
+    }
+    const uint32_t *corners = mesh->triangles[a];
+    sp_vec3 from = mesh->vertices[corners[(own[0] + 1) % 3]], to = mesh->vertices[corners[(own[0] + 2) % 3]];
+    sp_vec3 along = sp_unit(sp_sub(to, from)), across[2];
+    across[0] = sp_sub(mesh->vertices[corners[own[0]]], from);
+    across[1] = sp_sub(mesh->vertices[mesh->triangles[b][own[1]]], from);
+    for (int i = 0; i < 2; i++)
+        across[i] = sp_unit(sp_along(across[i], -sp_dot(across[i], along), along));
+    return !(sp_dot(across[0], across[1]) > 0 && sp_length(sp_cross(across[0], across[1])) < FOLDED);
+}
+
+static void compare(pair_search *search, const space_box *space, uint32_t a, uint32_t b)
+{
+    uint32_t shell = search->shells->of[a];
+    const space_box *p = &search->box[a], *q = &search->box[b];
+    if ((shell == search->shells->of[b] && search->shells->simple[shell]) || !overlap(p, q))
+        return;
+    for (int k = 0; k < 3; k++) {
+        double low = fmax(p->low[k], q->low[k]);
+        if (low < space->low[k] || low >= space->high[k])
+            return;
+    }
+    if (!lie_side_by_side(search->mesh, a, b))
+        note(search, a < b ? a : b, a < b ? b : a);
+}
+
+static void search_space(pair_search *search, const space_box *space, const uint32_t *triangles, size_t count,
+                         int depth);
+
+/* False where halving along this axis leaves nearly all in both halves. */
+static bool halve(pair_search *search, const space_box *space, const uint32_t *triangles, size_t count, int depth,
+                  int axis)
+{
+    double middle = 0.5 * (space->low[axis] + space->high[axis]);
+    space_box half[2] = {*space, *space};
+    half[0].high[axis] = half[1].low[axis] = middle;
+    uint32_t *part[2] = {malloc((count + 1) * sizeof **part), malloc((count + 1) * sizeof **part)};
+    size_t counts[2] = {0, 0};
+    for (size_t i = 0; part[0] && part[1] && i < count; i++) {
+        const space_box *box = &search->box[triangles[i]];
+        if (box->low[axis] <= middle)
+            part[0][counts[0]++] = triangles[i];
+        if (box->high[axis] >= middle)
+            part[1][counts[1]++] = triangles[i];
+    }
+    bool worth = part[0] && part[1] && 10 * (counts[0] + counts[1]) < 17 * count;
+    if (!part[0] || !part[1])
+        search->failed = true;
+    for (int k = 0; k < 2 && worth; k++)
+        search_space(search, &half[k], part[k], counts[k], depth + 1);
+    free(part[0]);
+    free(part[1]);
+    return worth;
+}
+
+static void search_space(pair_search *search, const space_box *space, const uint32_t *triangles, size_t count,
+                         int depth)
+{
+    if (search->failed)
+        return;
+    bool halved = false;
+    for (int first = 0; count > FEW && depth < MOST_HALVES && !halved && first < 3; first++) {
+        int order[3] = {0, 1, 2}; /* the longest axis first */
+        for (int i = 0; i < 2; i++)
+            for (int k = i + 1; k < 3; k++) {
+                double a = space->high[order[i]] - space->low[order[i]],
+                       b = space->high[order[k]] - space->low[order[k]];
+                if (b > a) {
+                    int swap = order[i];
+                    order[i] = order[k];
+                    order[k] = swap;
+                }
+            }
+        halved = halve(search, space, triangles, count, depth, order[first]);
+    }
+    for (size_t i = 0; !halved && i < count; i++)
+        for (size_t k = 0; k < i; k++)
+            compare(search, space, triangles[i], triangles[k]);
+}
+
+/* Whether a triangle's box meets that of a shell with which it may interfere. */
+static bool may_meet(const pair_search *search, uint32_t triangle, double margin)
+{
+    const sp_shells *shells = search->shells;
+    uint32_t own = shells->of[triangle];
+    if (!shells->simple[own] || shells->count > MOST_SHELLS)
+        return true;
+    for (uint32_t s = 0; s < shells->count; s++) {
+        space_box box = {{shells->low[s].x - margin, shells->low[s].y - margin, shells->low[s].z - margin},
+                         {shells->high[s].x + margin, shells->high[s].y + margin, shells->high[s].z + margin}};
+        if (s != own && overlap(&box, &search->box[triangle]))
+            return true;
+    }
+    return false;
+}
+
+static space_box box_of(const sp_mesh *mesh, uint32_t triangle, double margin)
+{
+    space_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (int i = 0; i < 3; i++) {
+        sp_vec3 p = mesh->vertices[mesh->triangles[triangle][i]];
+        double at[3] = {p.x, p.y, p.z};
+        for (int k = 0; k < 3; k++) {
+            box.low[k] = fmin(box.low[k], at[k] - margin);
+            box.high[k] = fmax(box.high[k], at[k] + margin);
+        }
+    }
+    return box;
+}
+
+static int by_triangles(const void *left, const void *right)
+{
+    const sp_pair *p = left, *q = right;
+    if (p->a != q->a)
+        return p->a < q->a ? -1 : 1;
+    return p->b < q->b ? -1 : p->b > q->b;
+}
+
+sp_pair *sp_pairs_create(const sp_mesh *mesh, const sp_shells *shells, double margin, size_t *count, sp_error *error)
+{
+    size_t triangles = mesh->triangle_count, candidates = 0;
+    uint32_t *list = malloc((triangles + 1) * sizeof *list);
+    pair_search search = {.mesh = mesh,
+                          .shells = shells,
+                          .box = malloc((triangles + 1) * sizeof *search.box),
+                          .pairs = malloc(1024 * sizeof *search.pairs),
+                          .capacity = 1024};
+    search.failed = !list || !search.box || !search.pairs;
+    space_box space = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (uint32_t t = 0; !search.failed && t < triangles; t++) {
+        search.box[t] = box_of(mesh, t, margin);
+        if (!may_meet(&search, t, margin))
+            continue;
+        list[candidates++] = t;
+        for (int k = 0; k < 3; k++) {
+            space.low[k] = fmin(space.low[k], search.box[t].low[k]);
+            space.high[k] = fmax(space.high[k], search.box[t].high[k] + margin);
+        }
+    }
+    search_space(&search, &space, list, candidates, 0);
+    free(list);
+    free(search.box);
+    if (search.failed) {
+        free(search.pairs);
+        return sp_fail_memory(error);
+    }
+    qsort(search.pairs, search.count, sizeof *search.pairs, by_triangles);
+    *count = search.count;
+    return search.pairs;
+}
