@@ -32,7 +32,8 @@ static void narrow(sp_vec3 v, float out[3])
 #define BLUR_HALF 0.925
 #define SPOT 1.84
 #define FRINGE 2.61
-#define WIDE 4 /* breadths */
+#define FAN_CORNER 1.32
+#define WIDE 1.5 /* breadths */
 
 static sp_rim rim_at(double angle, double beyond)
 {
@@ -116,14 +117,17 @@ void sp_cull_create(const sp_bins *bins, const sp_view *view, const sp_spray *sp
 {
     double reach = sp_spray_reach(spray);
     bool fan = spray->kind == SP_PATTERN_FLAT_FAN, all_round = reach >= M_PI, hole = !fan && spray->inner > 0;
-    sp_turned outer = turned(fmin(reach, M_PI)), inner = turned(spray->inner), side = turned(spray->half_thickness);
+    /* beyond a corner of a fan more is blurred than beyond its edges */
+    double corner = fan ? (FAN_CORNER - SP_VIEW_BLUR) * (double)view->most : 0;
+    sp_turned outer = turned(fmin(reach + corner, M_PI)), inner = turned(spray->inner),
+              side = turned(spray->half_thickness);
     float broad = (float)(fmin(2 * sin(0.5 * reach), all_round ? 2 : 2 * cos(0.5 * reach)) / SPOT);
     if (hole)
         broad = fminf(broad, (float)(2 * sin(0.5 * spray->inner) / SPOT));
     for (size_t b = 0; b < SP_BINS; b++) {
         float c = count == SP_COUNT_POINT ? bins->cosine[b] : view->cosine[b];
         float s = count == SP_COUNT_POINT ? bins->sine[b] : view->sine[b];
-        cull->outside[b] = all_round ? -2 : cosine_more(outer, c, s);
+        cull->outside[b] = all_round || reach + corner >= M_PI ? -2 : cosine_more(outer, c, s);
         cull->inside[b] = fan ? 2 : all_round ? -2 : cosine_less(outer, c, s);
         cull->inner_outside[b] = hole ? cosine_less(inner, c, s) : 2;
         cull->inner_inside[b] = hole ? cosine_more(inner, c, s) : 2;

@@ -306,7 +306,7 @@ INLINE lanes chords(const arrivals *a, const float axis[3])
     return add(add(multiply(x, x), multiply(y, y)), multiply(z, z));
 }
 
-INLINE shares cone_shares(const sp_region *region, const arrivals *a)
+INLINE shares cone_shares(const sp_region *region, sp_count count, const arrivals *a)
 {
     lanes chord2 = chords(a, region->z);
     bool hollow = region->inner.edge2 > 0;
@@ -318,7 +318,7 @@ INLINE shares cone_shares(const sp_region *region, const arrivals *a)
         s.held = both(s.held, at_least(chord2, all(region->inner.edge2)));
         cut = either(cut, near_rim(&region->inner, chord2, a->square));
     }
-    s.same = region->count == SP_COUNT_POINT || !bits_of(cut);
+    s.same = count == SP_COUNT_POINT || !bits_of(cut);
     if (s.same)
         return s;
     lanes lx = load(&a->view->less_x[a->at]), ly = load(&a->view->less_y[a->at]), lz = load(&a->view->less_z[a->at]);
@@ -337,7 +337,7 @@ INLINE mask near_plane(lanes above, lanes square)
     return below(multiply(above, above), scale(square, 0.26f * BLUR * BLUR));
 }
 
-INLINE shares fan_shares(const sp_region *region, const arrivals *a)
+INLINE shares fan_shares(const sp_region *region, sp_count count, const arrivals *a)
 {
     lanes up = dot(a->x, a->y, a->z, region->y);
     lanes end[2] = {dot(a->x, a->y, a->z, region->end[0]), dot(a->x, a->y, a->z, region->end[1])};
@@ -351,7 +351,7 @@ INLINE shares fan_shares(const sp_region *region, const arrivals *a)
         s.held = both(s.held, region->wide ? either(in[0], in[1]) : both(in[0], in[1]));
         cut = either(cut, either(near_plane(end[0], a->square), near_plane(end[1], a->square)));
     }
-    s.same = region->count == SP_COUNT_POINT || !bits_of(cut);
+    s.same = count == SP_COUNT_POINT || !bits_of(cut);
     if (s.same)
         return s;
     s.share = all(1);
@@ -398,12 +398,12 @@ INLINE lanes generous_shares(const sp_region *region, bool fan, const arrivals *
 
 /* How much of its patch every arrival counts for. Where slack leaves open whether it meets the criterion alone, the
  * more of the two. */
-INLINE lanes counting(const sp_region *region, bool fan, const sp_view *view, size_t at)
+INLINE lanes counting(const sp_region *region, bool fan, sp_count count, const sp_view *view, size_t at)
 {
     arrivals a = load_arrivals(view, at);
-    if (region->count == SP_COUNT_GENEROUS)
+    if (count == SP_COUNT_GENEROUS)
         return generous_shares(region, fan, &a);
-    shares s = fan ? fan_shares(region, &a) : cone_shares(region, &a);
+    shares s = fan ? fan_shares(region, count, &a) : cone_shares(region, count, &a);
     lanes held = keep(all(1), s.held), transfer = load(&view->transfer[at]);
     if (s.same)
         return held;
@@ -428,11 +428,11 @@ INLINE void flush(tally *tally, size_t weight_count)
 }
 
 /* One run of arrivals, into the tally. */
-INLINE void sum_run(const sp_region *region, bool fan, const sp_view *view, const sp_weight *weights,
+INLINE void sum_run(const sp_region *region, bool fan, sp_count count, const sp_view *view, const sp_weight *weights,
                     size_t weight_count, size_t first, size_t end, tally *tally)
 {
     for (size_t i = first; i < end; i += SP_LANES) {
-        lanes part = counting(region, fan, view, i);
+        lanes part = counting(region, fan, count, view, i);
         mask own = first_lanes(end - i);
         for (size_t k = 0; k < weight_count; k++)
             tally->sum[k] = add(tally->sum[k], keep(multiply(load(&weights[k].item[i]), part), own));
@@ -443,8 +443,8 @@ INLINE void sum_run(const sp_region *region, bool fan, const sp_view *view, cons
 }
 
 /* Bins wholly inside give their totals; runs of bins that the pattern's edge crosses are gone through. */
-INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *region, bool fan, const sp_view *view,
-                     const sp_weight *weights, size_t weight_count, double *sums)
+INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *region, bool fan, sp_count count,
+                     const sp_view *view, const sp_weight *weights, size_t weight_count, double *sums)
 {
     tally tally = {0};
     lanes whole[SP_WEIGHTS] = {{{{0}}}};
@@ -465,30 +465,42 @@ INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *
             size_t bin = b + (size_t)__builtin_ctz(bits);
             if (view->start[bin] != end) {
                 if (first < end)
-                    sum_run(region, fan, view, weights, weight_count, first, end, &tally);
+                    sum_run(region, fan, count, view, weights, weight_count, first, end, &tally);
                 first = view->start[bin];
             }
             end = view->start[bin + 1];
         }
     }
     if (first < end)
-        sum_run(region, fan, view, weights, weight_count, first, end, &tally);
+        sum_run(region, fan, count, view, weights, weight_count, first, end, &tally);
     flush(&tally, weight_count);
     for (size_t k = 0; k < weight_count; k++)
         sums[k] = sum_of(add_narrow(tally.flushed[k], whole[k]));
 }
 
+/* One loop for every kind of pattern, of counting and number of weights. */
+INLINE void sum_counted(const sp_bins *bins, const sp_cull *cull, const sp_region *region, sp_count count,
+                        const sp_view *view, const sp_weight *weights, size_t weight_count, double *sums)
+{
+    if (region->fan && weight_count == 2)
+        sum_bins(bins, cull, region, true, count, view, weights, 2, sums);
+    else if (region->fan)
+        sum_bins(bins, cull, region, true, count, view, weights, 1, sums);
+    else if (weight_count == 2)
+        sum_bins(bins, cull, region, false, count, view, weights, 2, sums);
+    else
+        sum_bins(bins, cull, region, false, count, view, weights, 1, sums);
+}
+
 static void kernel_sum(const sp_bins *bins, const sp_cull *cull, const sp_region *region, const sp_view *view,
                        const sp_weight *weights, size_t weight_count, double *sums)
 {
-    if (region->fan && weight_count == 2)
-        sum_bins(bins, cull, region, true, view, weights, 2, sums);
-    else if (region->fan)
-        sum_bins(bins, cull, region, true, view, weights, 1, sums);
-    else if (weight_count == 2)
-        sum_bins(bins, cull, region, false, view, weights, 2, sums);
+    if (region->count == SP_COUNT_POINT)
+        sum_counted(bins, cull, region, SP_COUNT_POINT, view, weights, weight_count, sums);
+    else if (region->count == SP_COUNT_SHARE)
+        sum_counted(bins, cull, region, SP_COUNT_SHARE, view, weights, weight_count, sums);
     else
-        sum_bins(bins, cull, region, false, view, weights, 1, sums);
+        sum_counted(bins, cull, region, SP_COUNT_GENEROUS, view, weights, weight_count, sums);
 }
 
 static void kernel_total(const sp_view *view, const float *items, float *totals)

@@ -184,6 +184,7 @@ void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *blo
             view->less_z[at] = from->less_z;
             view->broadest[from->bin] = fmaxf(view->broadest[from->bin], sqrtf(from->square));
             view->breadth += sqrtf(from->square) / (float)view->count;
+            view->most = fmaxf(view->most, sqrtf(from->square));
             view->patch[at] = from->patch;
             if (view->twice)
                 view->twice[at] = from->twice;

@@ -6,15 +6,14 @@
 
 #define SP_BINS_EDGE 32
 #define SP_BINS (SP_BINS_EDGE * SP_BINS_EDGE)
-#define SP_VIEW_BLUR                                                                                                   \
-    1.32            /* of a patch's breadth: so far beyond a pattern's edge, or a corner of it, it may have a share */
-#define SP_LANES 16 /* floats that a sweep takes at a time: views have as many more, all 0, behind their last */
+#define SP_VIEW_BLUR 0.925 /* of a patch's breadth: so far beyond a pattern's edge it may have a share */
+#define SP_LANES 16        /* floats that a sweep takes at a time: views have as many more, all 0, behind their last */
 
 /* Arrivals that pass the criterion's speed and incidence, sorted by the octahedral bin of their direction, then by
  * patch. */
 typedef struct {
     uint32_t count;
-    float breadth;                            /* rad, the mean of its patches' greatest breadths */
+    float breadth, most;                      /* rad, the mean of its patches' greatest breadths; the most */
     uint32_t *start;                          /* [SP_BINS + 1]; NULL: nothing is known to be reached */
     float *broadest;                          /* [SP_BINS], rad, the greatest breadth of a bin's patches */
     float *cosine, *sine;                     /* [SP_BINS], of the bin's radius and SP_VIEW_BLUR of that together */

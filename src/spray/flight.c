@@ -44,16 +44,20 @@ int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_fligh
  * make an ellipse of u', whose axes are those of the 2 x 2 matrix of what a step brings about across u. */
 sp_breadth sp_flight_breadth(const sp_flight *flight, double speed, sp_vec3 normal, double length)
 {
-    sp_vec3 u = flight->direction, w = flight->velocity, across[2], step[2];
+    sp_vec3 u = flight->direction, w = flight->velocity, across[2];
     across[0] = sp_unit(sp_cross(u, fabs(u.x) < 0.5 ? sp_v(1, 0, 0) : sp_v(0, 1, 0)));
     across[1] = sp_cross(u, across[0]);
     double along = sp_dot(u, w), scale = length / (speed * flight->time);
     along = copysign(fmax(fabs(along), 1e-9 * speed), along);
+    double back[2], face[2], nu = sp_dot(normal, u);
     for (int i = 0; i < 2; i++) {
-        sp_vec3 back = sp_along(across[i], -sp_dot(w, across[i]) / along, u);
-        step[i] = sp_scale(sp_along(back, -sp_dot(back, normal), normal), scale);
+        back[i] = -sp_dot(w, across[i]) / along;
+        face[i] = sp_dot(normal, across[i]) + back[i] * nu;
     }
-    double xx = sp_dot(step[0], step[0]), xy = sp_dot(step[0], step[1]), yy = sp_dot(step[1], step[1]);
+    /* products of the steps across[i] + back[i] u, without what they have along the normal */
+    double square = scale * scale, xx = square * (1 + back[0] * back[0] - face[0] * face[0]),
+           yy = square * (1 + back[1] * back[1] - face[1] * face[1]),
+           xy = square * (back[0] * back[1] - face[0] * face[1]);
     double mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy), apart = sqrt(half * half + xy * xy);
     double major = fmin(mean + apart, MOST_SQUARE), minor = fmin(fmax(mean - apart, 0), MOST_SQUARE);
     /* the minor axis is a quarter turn from half the angle whose cosine is half / apart */
