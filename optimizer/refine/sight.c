@@ -159,7 +159,7 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
         if (moved && !sp_sight_fly(search, sight, seen, nozzle->position, &flight, &transfer))
             continue;
         float *value = &field[seen->patch];
-        *value = sp_field_join(*value, sp_posed_spray_value(&posed, flight.direction, &seen->breadth, transfer));
+        *value = sp_field_join(*value, sp_posed_spray_value(&posed, flight.direction, seen->breadth, transfer));
     }
 }
 

@@ -37,9 +37,9 @@ static void narrow(sp_vec3 v, float out[3])
 
 static sp_rim rim_at(double angle, double beyond)
 {
-    double chord = fmax(0, 2 * sin(0.5 * fmin(angle, M_PI)) + beyond), edge2 = fmin(4, chord * chord);
-    double sine2 = edge2 * (1 - edge2 / 4);
-    return (sp_rim){(float)(angle >= M_PI ? 4 : edge2), (float)sine2, (float)(1 / (2 * BLUR * sqrt(sine2 + 1e-30)))};
+    double chord = fmax(0, 2 * sin(0.5 * fmin(angle, M_PI)) + beyond), edge2 = angle >= M_PI ? 4 : chord * chord;
+    double sine2 = fmax(edge2 * (1 - edge2 / 4), 1e-30);
+    return (sp_rim){(float)edge2, (float)(1 / (2 * BLUR * sqrt(sine2)))};
 }
 
 sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double strength, double slack)
@@ -50,13 +50,14 @@ sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double 
                         .alone = (float)((1 + slack) / strength)};
     if (region.fan) {
         region.height = spray->half_thickness < M_PI / 2 ? (float)(sin(spray->half_thickness) + slack) : 2;
+        region.rise = (float)(1 / (BLUR * cos(fmin(spray->half_thickness, 0.499 * M_PI))));
         region.wide = cos(spray->half_width) < 0;
         region.all_round = spray->half_width >= M_PI;
         region.end_cosine = (float)cos(spray->half_width + slack);
         region.end_sine = (float)sin(spray->half_width + slack);
     } else {
         region.outer = rim_at(spray->outer, slack);
-        region.inner = spray->inner > 0 ? rim_at(spray->inner, -slack) : (sp_rim){0, 0, 0};
+        region.inner = spray->inner > 0 ? rim_at(spray->inner, -slack) : (sp_rim){0, 0};
     }
     sp_region_turn(&region, frame);
     return region;

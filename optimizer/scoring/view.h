@@ -13,15 +13,15 @@
  * patch. */
 typedef struct {
     uint32_t count;
-    float breadth, most;                      /* rad, the mean of its patches' greatest breadths; the most */
-    uint32_t *start;                          /* [SP_BINS + 1]; NULL: nothing is known to be reached */
-    float *broadest;                          /* [SP_BINS], rad, the greatest breadth of a bin's patches */
-    float *cosine, *sine;                     /* [SP_BINS], of the bin's radius and SP_VIEW_BLUR of that together */
-    float *x, *y, *z;                         /* [count + SP_LANES], unit direction at the nozzle */
-    float *transfer;                          /* [count + SP_LANES], 1/m² */
-    float *square, *less_x, *less_y, *less_z; /* [count + SP_LANES], sp_breadth */
-    uint32_t *patch;                          /* [count] */
-    uint8_t *twice;                           /* [count], whether both arcs reach the patch; NULL: nowhere */
+    float breadth, most;  /* rad, the mean of its patches' greatest breadths; the most */
+    uint32_t *start;      /* [SP_BINS + 1]; NULL: nothing is known to be reached */
+    float *broadest;      /* [SP_BINS], rad, the greatest breadth of a bin's patches */
+    float *cosine, *sine; /* [SP_BINS], of the bin's radius and SP_VIEW_BLUR of that together */
+    float *x, *y, *z;     /* [count + SP_LANES], unit direction at the nozzle */
+    float *transfer;      /* [count + SP_LANES], 1/m² */
+    float *sharp;         /* [count + SP_LANES], 1/rad: over the patch's breadth */
+    uint32_t *patch;      /* [count] */
+    uint8_t *twice;       /* [count], whether both arcs reach the patch; NULL: nowhere */
 } sp_view;
 
 /* The bins' cones: all directions of a bin are within `radius` of its centre. */
@@ -37,7 +37,7 @@ sp_vec3 sp_octahedron_decode(double u, double v);
 
 /* An arrival on its way into a view. */
 typedef struct {
-    float x, y, z, transfer, square, less_x, less_y, less_z;
+    float x, y, z, transfer, breadth;
     uint32_t patch;
     uint16_t bin;
     uint8_t arc;

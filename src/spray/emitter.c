@@ -10,7 +10,7 @@ sp_emitter sp_emitter_of(const sp_evaluator *evaluator, const sp_nozzle *nozzle)
 
 double sp_emitter_share(const sp_emitter *emitter, const sp_arrival *arrival)
 {
-    return sp_spray_share(&emitter->spray, &emitter->frame, arrival->direction, &arrival->breadth);
+    return sp_spray_share(&emitter->spray, &emitter->frame, arrival->direction, arrival->breadth);
 }
 
 bool sp_emitter_holds(const sp_emitter *emitter, sp_vec3 direction)

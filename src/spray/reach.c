@@ -43,7 +43,7 @@ static bool aimed(const sp_aim *aim, const sp_arrival *arrival)
 {
     double along = sp_dot(arrival->direction, aim->axis);
     if (along < aim->cosine) {
-        double most = aim->half_angle + sp_spray_fringe(arrival->breadth.square);
+        double most = aim->half_angle + sp_spray_fringe(arrival->breadth);
         if (most < M_PI && along < cos(most))
             return false;
     }
@@ -63,7 +63,7 @@ static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, f
             continue;
         if (!sp_arrive(source, &target, &flights[k], arrival) || (aim->passing && !arrival->passes))
             continue;
-        arrival->breadth = sp_flight_breadth(&flights[k], source->speed, target.normal, target.length);
+        arrival->breadth = sp_flight_breadth(&flights[k], source->speed, target.length);
         if (!aimed(aim, arrival) || (!aim->known && sp_flight_pierces(source, &target, &flights[k])))
             continue;
         arrival->patch = patch;
