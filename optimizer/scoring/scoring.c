@@ -93,8 +93,7 @@ void sp_sweeper_take(sp_sweeper *sweeper, size_t make)
     sweeper->region = sp_region_create(&own->spray, &sweeper->frame, strength, 0);
     if (!sweeper->view->start)
         return;
-    sweeper->region.count = sp_spray_is_wide(&own->spray, sweeper->view) ? SP_COUNT_POINT : SP_COUNT_SHARE;
-    sp_cull_create(&search->visibility->bins, sweeper->view, &own->spray, sweeper->region.count, &sweeper->cull);
+    sp_cull_create(&search->visibility->bins, sweeper->view, &own->spray, SP_COUNT_SHARE, &sweeper->cull);
     search->sweeps->gain(&credit, sweeper->view->count, sweeper->had, sweeper->area, sweeper->view->transfer,
                          sweeper->gain);
     search->sweeps->total(sweeper->view, sweeper->gain, sweeper->gain_total);

@@ -1,5 +1,4 @@
-/* Scoring: what a pose would add to a draft, by sweeping what its mounting point can reach. Wide patterns are scored by
- * their patches' points, which is what a ranking needs; what a field adds is exact. */
+/* Scoring: what a pose would add to a draft, by sweeping what its mounting point can reach. */
 #ifndef OPTIMIZER_SCORING_H
 #define OPTIMIZER_SCORING_H
 

@@ -33,7 +33,6 @@ static void narrow(sp_vec3 v, float out[3])
 #define SPOT 1.84
 #define FRINGE 2.61
 #define FAN_CORNER 1.32
-#define WIDE 1.5 /* breadths */
 
 static sp_rim rim_at(double angle, double beyond)
 {
@@ -126,23 +125,14 @@ void sp_cull_create(const sp_bins *bins, const sp_view *view, const sp_spray *sp
     if (hole)
         broad = fminf(broad, (float)(2 * sin(0.5 * spray->inner) / SPOT));
     for (size_t b = 0; b < SP_BINS; b++) {
-        float c = count == SP_COUNT_POINT ? bins->cosine[b] : view->cosine[b];
-        float s = count == SP_COUNT_POINT ? bins->sine[b] : view->sine[b];
+        float c = view->cosine[b], s = view->sine[b];
         cull->outside[b] = all_round || reach + corner >= M_PI ? -2 : cosine_more(outer, c, s);
         cull->inside[b] = fan ? 2 : all_round ? -2 : cosine_less(outer, c, s);
         cull->inner_outside[b] = hole ? cosine_less(inner, c, s) : 2;
         cull->inner_inside[b] = hole ? cosine_more(inner, c, s) : 2;
         cull->latitude[b] = fan && s < side.cosine ? side.sine * c + side.cosine * s : 2;
     }
-    for (size_t b = 0; count != SP_COUNT_POINT && b < SP_BINS; b++)
+    for (size_t b = 0; b < SP_BINS; b++)
         if (count == SP_COUNT_GENEROUS || (!fan && view->broadest[b] >= broad))
             cull_broad((double)bins->radius[b], (double)view->broadest[b], spray, count, b, cull);
-}
-
-bool sp_spray_is_wide(const sp_spray *spray, const sp_view *view)
-{
-    double width = spray->inner > 0 ? spray->outer - spray->inner : 2 * spray->outer;
-    if (spray->kind == SP_PATTERN_FLAT_FAN)
-        width = 2 * fmin(spray->half_width, spray->half_thickness);
-    return width > WIDE * (double)view->breadth;
 }

@@ -10,7 +10,6 @@
 /* How a sweep counts a patch at a pattern's edge. */
 typedef enum {
     SP_COUNT_SHARE,    /* by what share of it lies inside, as the measure has it */
-    SP_COUNT_POINT,    /* by its point alone: quicker, and good enough to rank wide patterns */
     SP_COUNT_GENEROUS, /* whole, if it may have any share */
 } sp_count;
 
@@ -91,7 +90,5 @@ sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double 
 void sp_region_turn(sp_region *region, const sp_frame *frame);
 /* For the arrivals of one view. */
 void sp_cull_create(const sp_bins *bins, const sp_view *view, const sp_spray *spray, sp_count count, sp_cull *cull);
-/* Whether the spray is so much wider than the view's patches that their points tell enough for a ranking. */
-bool sp_spray_is_wide(const sp_spray *spray, const sp_view *view);
 
 #endif

@@ -251,28 +251,26 @@ INLINE lanes chords(const float axis[3], lanes x, lanes y, lanes z)
     return add(add(multiply(a, a), multiply(b, b)), multiply(c, c));
 }
 
-/* What is held, and but for SP_COUNT_POINT the shares. */
+/* What is held, and the shares. */
 typedef struct {
     lanes share;
     mask held;
 } shares;
 
-INLINE shares cone_shares(const sp_region *region, sp_count count, lanes x, lanes y, lanes z, lanes sharp)
+INLINE shares cone_shares(const sp_region *region, lanes x, lanes y, lanes z, lanes sharp)
 {
     lanes chord2 = chords(region->z, x, y, z);
     bool hollow = region->inner.edge2 > 0;
     shares s = {.held = at_least(all(region->outer.edge2 >= 4 ? 5 : region->outer.edge2), chord2)};
     if (hollow)
         s.held = both(s.held, at_least(chord2, all(region->inner.edge2)));
-    if (count == SP_COUNT_POINT)
-        return s;
     s.share = disc_share(&region->outer, chord2, sharp);
     if (hollow)
         s.share = greater(subtract(s.share, disc_share(&region->inner, chord2, sharp)), all(0));
     return s;
 }
 
-INLINE shares fan_shares(const sp_region *region, sp_count count, lanes x, lanes y, lanes z, lanes sharp)
+INLINE shares fan_shares(const sp_region *region, lanes x, lanes y, lanes z, lanes sharp)
 {
     lanes up = dot(x, y, z, region->y), end[2] = {dot(x, y, z, region->end[0]), dot(x, y, z, region->end[1])};
     shares s = {.held = at_least(all(region->height), magnitude(up)), .share = all(1)};
@@ -280,8 +278,6 @@ INLINE shares fan_shares(const sp_region *region, sp_count count, lanes x, lanes
         mask in[2] = {at_least(end[0], all(0)), at_least(end[1], all(0))};
         s.held = both(s.held, region->wide ? either(in[0], in[1]) : both(in[0], in[1]));
     }
-    if (count == SP_COUNT_POINT)
-        return s;
     if (region->height <= 1) {
         lanes rise = scale(sharp, region->rise);
         lanes above = smooth_step(add(all(0.5f), multiply(subtract(all(region->height), up), rise)));
@@ -327,10 +323,8 @@ INLINE lanes counting(const sp_region *region, bool fan, sp_count count, const s
     lanes x = load(&view->x[at]), y = load(&view->y[at]), z = load(&view->z[at]), sharp = load(&view->sharp[at]);
     if (count == SP_COUNT_GENEROUS)
         return generous_shares(region, fan, x, y, z, sharp);
-    shares s = fan ? fan_shares(region, count, x, y, z, sharp) : cone_shares(region, count, x, y, z, sharp);
+    shares s = fan ? fan_shares(region, x, y, z, sharp) : cone_shares(region, x, y, z, sharp);
     lanes held = keep(all(1), s.held), transfer = load(&view->transfer[at]);
-    if (count == SP_COUNT_POINT)
-        return held;
     lanes open = choose(at_least(transfer, all(region->alone_from)), greater(s.share, held), held);
     return choose(at_least(transfer, all(region->alone)), s.share, open);
 }
@@ -419,9 +413,7 @@ INLINE void sum_counted(const sp_bins *bins, const sp_cull *cull, const sp_regio
 static void kernel_sum(const sp_bins *bins, const sp_cull *cull, const sp_region *region, const sp_view *view,
                        const sp_weight *weights, size_t weight_count, double *sums)
 {
-    if (region->count == SP_COUNT_POINT)
-        sum_counted(bins, cull, region, SP_COUNT_POINT, view, weights, weight_count, sums);
-    else if (region->count == SP_COUNT_SHARE)
+    if (region->count == SP_COUNT_SHARE)
         sum_counted(bins, cull, region, SP_COUNT_SHARE, view, weights, weight_count, sums);
     else
         sum_counted(bins, cull, region, SP_COUNT_GENEROUS, view, weights, weight_count, sums);

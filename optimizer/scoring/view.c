@@ -51,10 +51,7 @@ void sp_bins_create(sp_bins *bins)
         bins->x[b] = (float)centre.x;
         bins->y[b] = (float)centre.y;
         bins->z[b] = (float)centre.z;
-        double radius = acos(cosine) + 1e-3;
-        bins->radius[b] = (float)radius;
-        bins->cosine[b] = (float)cos(radius);
-        bins->sine[b] = (float)sin(radius);
+        bins->radius[b] = (float)(acos(cosine) + 1e-3);
     }
 }
 
@@ -178,7 +175,6 @@ void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *blo
             view->patch[at] = from->patch;
             view->sharp[at] = 1 / from->breadth;
             view->broadest[from->bin] = fmaxf(view->broadest[from->bin], from->breadth);
-            view->breadth += from->breadth / (float)view->count;
             view->most = fmaxf(view->most, from->breadth);
             if (view->twice)
                 view->twice[at] = from->twice;

@@ -13,7 +13,7 @@
  * patch. */
 typedef struct {
     uint32_t count;
-    float breadth, most;  /* rad, the mean of its patches' greatest breadths; the most */
+    float most;           /* rad, the greatest breadth of a patch */
     uint32_t *start;      /* [SP_BINS + 1]; NULL: nothing is known to be reached */
     float *broadest;      /* [SP_BINS], rad, the greatest breadth of a bin's patches */
     float *cosine, *sine; /* [SP_BINS], of the bin's radius and SP_VIEW_BLUR of that together */
@@ -27,8 +27,7 @@ typedef struct {
 /* The bins' cones: all directions of a bin are within `radius` of its centre. */
 typedef struct {
     float x[SP_BINS], y[SP_BINS], z[SP_BINS];
-    float radius[SP_BINS];                /* rad */
-    float cosine[SP_BINS], sine[SP_BINS]; /* of the radius */
+    float radius[SP_BINS]; /* rad */
 } sp_bins;
 
 void sp_bins_create(sp_bins *bins);

@@ -7,7 +7,7 @@
 #define PATCHES_LEAST 500.0
 #define SAME 1.2           /* times longer texels are not worth patches of the search's own */
 #define RAYS_MOST 1e8      /* patches times views */
-#define SWEEPS_MOST 1.5e10 /* patches times poses */
+#define SWEEPS_MOST 1.2e10 /* patches times poses */
 #define MEMORY 1e9         /* bytes, for all views, where the options do not say */
 #define BATCH 16           /* sites traced between two looks at clock and memory */
 #define TIME_SHARE 0.5     /* of a time limit, that tracing may take */
