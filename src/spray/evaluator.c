@@ -1,6 +1,6 @@
 /* Building an evaluator, choosing what is left to auto, and asking it. */
 #include "density.h"
-#include "spray/wet.h"
+#include "spray/wet/wet.h"
 
 #include <stdlib.h>
 

@@ -1,15 +1,12 @@
 /* The forward evaluator: jets are traced from the nozzles through their reflections, and leave their liquid on the
  * patches that they hit (study 3.2.3 and 3.3.1). */
+#include "emitter.h"
 #include "lit.h"
 #include "splat.h"
 
 #include <stdlib.h>
 
 #define BATCH 65536 /* jets in flight at once */
-/* Texels that a jet flies before anything stops it: on which side of the wall it stands in a nozzle is, is round-off.
- */
-#define MOUTH 1e-7
-
 /* What one jet does where it hits. */
 typedef struct {
     sp_shares shares; /* of the flow; none: a dry side, an obstacle or a miss */
@@ -163,21 +160,12 @@ static uint64_t nozzle_jets(const sp_evaluator *evaluator, const sp_nozzle *nozz
 /* Starts jets [first, first + count) of a nozzle. */
 static void spray_jets(jet_flight *flight, const sp_nozzle *nozzle, uint64_t first, size_t count)
 {
-    const sp_setup *setup = &flight->evaluator->setup;
-    uint64_t jets = nozzle_jets(flight->evaluator, nozzle), seed = flight->evaluator->fidelity.seed;
-    double speed = sp_nozzle_speed(nozzle, &setup->liquid), flow = sp_nozzle_flow(nozzle, &setup->liquid);
-    double mouth = MOUTH * flight->evaluator->fidelity.texel / speed; /* s */
-    sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
-    sp_frame frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up);
+    uint64_t jets = nozzle_jets(flight->evaluator, nozzle);
+    double flow = sp_nozzle_flow(nozzle, &flight->evaluator->setup.liquid);
+    sp_emitter emitter = sp_emitter_of(flight->evaluator, nozzle);
 #pragma omp parallel for num_threads(flight->threads)
     for (size_t i = 0; i < count; i++) {
-        sp_vec3 d = sp_spray_direction(&spray, first + i, jets, seed);
-        sp_vec3 direction = sp_along(sp_along(sp_scale(frame.x, d.x), d.y, frame.y), d.z, frame.z);
-        flight->rays[i] = (sp_ray){.origin = nozzle->position,
-                                   .velocity = sp_scale(direction, speed),
-                                   .t_min = mouth,
-                                   .t_max = INFINITY,
-                                   .skip = SP_NONE};
+        flight->rays[i] = sp_emitter_jet(&emitter, first + i, jets);
         flight->flow[i] = flow / (double)jets;
     }
 }
