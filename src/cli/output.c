@@ -87,6 +87,22 @@ static void print_liquid(const sp_result *result, const sp_figures *figures, int
 }
 
 /* What is proved, in the report's own words; rounded so that it stays true. */
+static void print_forward_check(const sp_forward_check *check)
+{
+    if (!check->computed)
+        return;
+    double inverse = 100 * (check->coverage - check->difference), forward = 100 * check->coverage;
+    if (check->agrees)
+        printf("\nCounted again by %.3g million jets, on %zu texels: %.1f %%, where the inverse evaluation finds %.1f "
+               "%%.\n",
+               1e-6 * (double)check->jets, check->texels, forward, inverse);
+    else
+        printf("\nwarning: the proposal's coverage is in doubt. Counted by %.3g million jets, on %zu texels, it is "
+               "%.1f %%, by "
+               "the inverse evaluation %.1f %%;\nthat is more apart than the accuracy of %.2g %%.\n",
+               1e-6 * (double)check->jets, check->texels, forward, inverse, 100 * check->tolerance);
+}
+
 static void print_certificate(const sp_proposal *proposal)
 {
     const sp_certificate *certificate = &proposal->certificate;
@@ -162,8 +178,10 @@ static bool print_summary(const sp_result *result, sp_error *error)
     for (size_t i = 0; i < result->design_count; i++)
         print_figures(&figures[i], result->designs[i].name, width);
     print_liquid(result, figures, width);
-    if (result->proposal)
+    if (result->proposal) {
+        print_forward_check(&result->proposal->forward_check);
         print_certificate(result->proposal);
+    }
     sp_figures_destroy(figures, result->design_count);
     return true;
 }

@@ -48,8 +48,8 @@ void sp_counted_pieces(const sp_evaluator *evaluator, uint32_t texel, const sp_f
  * where that side is dry or an obstacle. */
 uint32_t sp_patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back);
 
-/* forward.c, inverse.c: what sp_evaluate calls. */
-sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
+/* forward.c: with as many reflections and jets as the setup asks for. */
+sp_coverage *sp_evaluate_jets(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
 
 /* balance.c: what a jet does to the balance where it arrives, or does not; `onward` (m³/s) of what arrives is thrown
  * back. */
