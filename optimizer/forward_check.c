@@ -6,7 +6,7 @@
  * of a thousand faces, in a second or two. Their number is part of the answer. */
 #define JETS 2000000
 #define TELLS 0.005
-#define SECONDS 2
+#define SECONDS 1
 
 static void compare(const sp_evaluator *evaluator, const sp_coverage *inverse, const sp_coverage *forward,
                     sp_forward_check *check)
