@@ -48,6 +48,20 @@ bool cli_write(const cli_options *options, const sp_result *result, const sp_sce
     return false;
 }
 
+bool cli_write_wet(const cli_options *options, const cli_scene *opened, sp_error *error)
+{
+    if (!options->output)
+        return true;
+    sp_output *output = sp_output_open(options->output, error);
+    const char *path = output && protect_inputs(options, opened->scene, output, error)
+                           ? sp_output_path(output, "wet.png", error)
+                           : NULL;
+    if (path && sp_report_wet_png(opened->evaluator, path, error))
+        return sp_output_commit(output, error);
+    sp_output_discard(output);
+    return false;
+}
+
 static void print_figures(const sp_figures *figures, const char *name, int width)
 {
     printf("%-*s %8zu %12.1f %13.3f %10.1f", width, name, figures->nozzle_count, 6e4 * figures->flow,
