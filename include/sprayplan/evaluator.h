@@ -107,7 +107,7 @@ typedef struct {
     double transfer;    /* 1/m²: |n·w| / (v T √D) for a parabola, cos(incidence)/r² for a line */
     double speed;       /* at impact, m/s */
     double incidence;   /* rad */
-    sp_breadth breadth; /* of the patch, as seen along the direction */
+    double breadth;    /* rad, of the patch as seen from the nozzle */
 } sp_arrival;
 
 typedef struct {
@@ -140,11 +140,10 @@ typedef struct {
     double spread; /* m³/s: transfer (1/m²) = |n · velocity| / spread; v r² for a line, v T √D for a parabola */
 } sp_flight;
 int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_flight flights[2]);
-/* How broad a square of this edge length (m) looks from where the flight starts at `speed` (m/s), the square lying
- * about the flight's end with a unit normal: by how much the flight's direction has to change for its end to move so
- * far. At most a quarter of a square radian: nearer to the nozzle, or to the edge of its reach, a patch is no longer
- * small against its way. */
-sp_breadth sp_flight_breadth(const sp_flight *flight, double speed, sp_vec3 normal, double length);
+/* How broad a square of this edge length (m) about the flight's end looks from where it starts at `speed` (m/s), at
+ * most, however it is turned: by how much the flight's direction has to change for its end to move so far. Never more
+ * than half a radian: nearer to the nozzle, or to the edge of its reach, a patch is no longer small against its way. */
+double sp_flight_breadth(const sp_flight *flight, double speed, double length);
 /* True where nothing lies in the way of a flight that leaves `position` (m) at `speed` (m/s) for the patch's point. */
 bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, double speed, const sp_flight *flight,
                               uint32_t patch);

@@ -107,18 +107,12 @@ sp_vec3 sp_spray_direction(const sp_spray *spray, uint64_t i, uint64_t n, uint64
 /* Half-angle (rad) of the smallest cone about z that holds the region. */
 double sp_spray_reach(const sp_spray *spray);
 
-/* How broad a patch looks from a nozzle: its square breadth (rad²) along a unit vector n, perpendicular to the
- * direction in which liquid leaves for it, is square - (less·n)². */
-typedef struct {
-    double square; /* rad², the greatest */
-    sp_vec3 less;  /* rad, perpendicular to the direction; shorter than √square */
-} sp_breadth;
-/* The share, 0 to 1, of a patch that lies inside the spray: how far the region, in `frame`, holds what is so broad
- * about a unit direction of the world. Edges are blurred by about the patch's breadth: shares of patches side by side
- * come to the region's solid angle over theirs, also where the region is thinner than a patch. */
-double sp_spray_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, const sp_breadth *breadth);
-/* Beyond so many rad outside of the region no patch of this greatest square breadth has a share. */
-double sp_spray_fringe(double square);
+/* The share, 0 to 1, of a patch that lies inside the spray: how far the region, in `frame`, holds what is `breadth` (rad)
+ * broad about a unit direction of the world. Edges are blurred by about as much: shares of patches side by side come to
+ * the region's solid angle over theirs, also where the region is thinner than a patch. */
+double sp_spray_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth);
+/* Beyond so many rad outside of the region no patch of this breadth has a share. */
+double sp_spray_fringe(double breadth);
 
 #ifdef __cplusplus
 }

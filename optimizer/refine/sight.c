@@ -148,7 +148,6 @@ bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen 
 
 void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_placed *placed, float *field)
 {
-    const sp_patches *patches = sp_evaluator_patches(search->coarse);
     const sp_nozzle *nozzle = &placed->nozzle;
     sp_posed_spray posed = sp_posed_spray_of(search, nozzle);
     bool moved = !equal(nozzle->position, sight->position);
@@ -156,16 +155,11 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
     for (size_t i = 0; i < sight->count; i++) {
         const sp_seen *seen = &sight->seen[i];
         sp_flight flight = {.direction = seen->direction};
-        sp_breadth breadth = seen->breadth;
         double transfer = seen->transfer;
-        if (moved) {
-            if (!sp_sight_fly(search, sight, seen, nozzle->position, &flight, &transfer))
-                continue;
-            breadth =
-                sp_flight_breadth(&flight, sight->speed, patches->normal[seen->patch], patches->length[seen->patch]);
-        }
+        if (moved && !sp_sight_fly(search, sight, seen, nozzle->position, &flight, &transfer))
+            continue;
         float *value = &field[seen->patch];
-        *value = sp_field_join(*value, sp_posed_spray_value(&posed, flight.direction, &breadth, transfer));
+        *value = sp_field_join(*value, sp_posed_spray_value(&posed, flight.direction, seen->breadth, transfer));
     }
 }
 

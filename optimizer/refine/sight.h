@@ -10,7 +10,7 @@ typedef struct {
     uint32_t arc; /* 0: low arc or line, 1: high arc */
     sp_vec3 direction;
     double transfer; /* 1/m² */
-    sp_breadth breadth;
+    double breadth; /* rad */
 } sp_seen;
 
 typedef struct {

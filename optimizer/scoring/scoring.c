@@ -142,7 +142,7 @@ sp_posed_spray sp_posed_spray_of(const sp_search *search, const sp_nozzle *nozzl
     return posed;
 }
 
-float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 d, const sp_breadth *breadth, double transfer)
+float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 d, double breadth, double transfer)
 {
     const sp_frame *frame = &posed->frame;
     double flux = transfer > 0 ? posed->strength * transfer : 0;
@@ -158,9 +158,7 @@ float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 d, const sp_brea
 static float value_in_view(const sp_posed_spray *posed, const sp_view *view, uint32_t i)
 {
     sp_vec3 d = sp_unit(sp_v((double)view->x[i], (double)view->y[i], (double)view->z[i]));
-    sp_breadth breadth = {(double)view->square[i],
-                          sp_v((double)view->less_x[i], (double)view->less_y[i], (double)view->less_z[i])};
-    return sp_posed_spray_value(posed, d, &breadth, (double)view->transfer[i]);
+    return sp_posed_spray_value(posed, d, 1 / (double)view->sharp[i], (double)view->transfer[i]);
 }
 
 void sp_field_view(const sp_search *search, const sp_view *view, const sp_spray *spray, const sp_frame *frame,
@@ -207,7 +205,7 @@ static void field_reach(const sp_search *search, const sp_nozzle *nozzle, const 
         float *value = &field[arrival->patch];
         if (arrival->passes)
             *value = sp_field_join(
-                *value, sp_posed_spray_value(&posed, arrival->direction, &arrival->breadth, arrival->transfer));
+                *value, sp_posed_spray_value(&posed, arrival->direction, arrival->breadth, arrival->transfer));
     }
 }
 

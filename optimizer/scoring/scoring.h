@@ -64,7 +64,7 @@ typedef struct {
 
 sp_posed_spray sp_posed_spray_of(const sp_search *search, const sp_nozzle *nozzle);
 /* What one arrival comes to in a field. */
-float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 direction, const sp_breadth *breadth, double transfer);
+float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 direction, double breadth, double transfer);
 /* Field [patch_count] (see sp_placed) of a spray at a view's mounting point, of so much flux over threshold per
  * transfer (m²). */
 void sp_field_view(const sp_search *search, const sp_view *view, const sp_spray *spray, const sp_frame *frame,

@@ -32,13 +32,14 @@ static void narrow(sp_vec3 v, float out[3])
 #define BLUR_HALF 0.925
 #define SPOT 1.84
 #define FRINGE 2.61
-#define WIDE 4 /* breadths */
+#define FAN_CORNER 1.32
+#define WIDE 1.5 /* breadths */
 
 static sp_rim rim_at(double angle, double beyond)
 {
-    double chord = fmax(0, 2 * sin(0.5 * fmin(angle, M_PI)) + beyond), edge2 = fmin(4, chord * chord);
-    double sine2 = edge2 * (1 - edge2 / 4);
-    return (sp_rim){(float)(angle >= M_PI ? 4 : edge2), (float)sine2, (float)(1 / (2 * BLUR * sqrt(sine2 + 1e-30)))};
+    double chord = fmax(0, 2 * sin(0.5 * fmin(angle, M_PI)) + beyond), edge2 = angle >= M_PI ? 4 : chord * chord;
+    double sine2 = fmax(edge2 * (1 - edge2 / 4), 1e-30);
+    return (sp_rim){(float)edge2, (float)(1 / (2 * BLUR * sqrt(sine2)))};
 }
 
 sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double strength, double slack)
@@ -49,13 +50,14 @@ sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double 
                         .alone = (float)((1 + slack) / strength)};
     if (region.fan) {
         region.height = spray->half_thickness < M_PI / 2 ? (float)(sin(spray->half_thickness) + slack) : 2;
+        region.rise = (float)(1 / (BLUR * cos(fmin(spray->half_thickness, 0.499 * M_PI))));
         region.wide = cos(spray->half_width) < 0;
         region.all_round = spray->half_width >= M_PI;
         region.end_cosine = (float)cos(spray->half_width + slack);
         region.end_sine = (float)sin(spray->half_width + slack);
     } else {
         region.outer = rim_at(spray->outer, slack);
-        region.inner = spray->inner > 0 ? rim_at(spray->inner, -slack) : (sp_rim){0, 0, 0};
+        region.inner = spray->inner > 0 ? rim_at(spray->inner, -slack) : (sp_rim){0, 0};
     }
     sp_region_turn(&region, frame);
     return region;
@@ -116,14 +118,17 @@ void sp_cull_create(const sp_bins *bins, const sp_view *view, const sp_spray *sp
 {
     double reach = sp_spray_reach(spray);
     bool fan = spray->kind == SP_PATTERN_FLAT_FAN, all_round = reach >= M_PI, hole = !fan && spray->inner > 0;
-    sp_turned outer = turned(fmin(reach, M_PI)), inner = turned(spray->inner), side = turned(spray->half_thickness);
+    /* beyond a corner of a fan more is blurred than beyond its edges */
+    double corner = fan ? (FAN_CORNER - SP_VIEW_BLUR) * (double)view->most : 0;
+    sp_turned outer = turned(fmin(reach + corner, M_PI)), inner = turned(spray->inner),
+              side = turned(spray->half_thickness);
     float broad = (float)(fmin(2 * sin(0.5 * reach), all_round ? 2 : 2 * cos(0.5 * reach)) / SPOT);
     if (hole)
         broad = fminf(broad, (float)(2 * sin(0.5 * spray->inner) / SPOT));
     for (size_t b = 0; b < SP_BINS; b++) {
         float c = count == SP_COUNT_POINT ? bins->cosine[b] : view->cosine[b];
         float s = count == SP_COUNT_POINT ? bins->sine[b] : view->sine[b];
-        cull->outside[b] = all_round ? -2 : cosine_more(outer, c, s);
+        cull->outside[b] = all_round || reach + corner >= M_PI ? -2 : cosine_more(outer, c, s);
         cull->inside[b] = fan ? 2 : all_round ? -2 : cosine_less(outer, c, s);
         cull->inner_outside[b] = hole ? cosine_less(inner, c, s) : 2;
         cull->inner_inside[b] = hole ? cosine_more(inner, c, s) : 2;

@@ -7,13 +7,6 @@
 
 #define SP_WEIGHTS 2 /* most quantities that one sweep sums */
 
-/* A polar angle about the axis at which a cone or its hole ends, as squared chords. */
-typedef struct {
-    float edge2; /* from the axis to the edge; 4: none */
-    float sine2; /* the edge's squared sine */
-    float steep; /* by how much the share grows per squared chord, for a patch of breadth 1 */
-} sp_rim;
-
 /* How a sweep counts a patch at a pattern's edge. */
 typedef enum {
     SP_COUNT_SHARE,    /* by what share of it lies inside, as the measure has it */
@@ -21,20 +14,27 @@ typedef enum {
     SP_COUNT_GENEROUS, /* whole, if it may have any share */
 } sp_count;
 
+/* A polar angle about the axis at which a cone or its hole ends, as squared chords. */
+typedef struct {
+    float edge2; /* from the axis to the edge; 4: none */
+    float steep; /* by how much the share's argument grows per squared chord, for a patch 1 rad broad */
+} sp_rim;
+
 /* A posed pattern: what share of a patch lies inside (see sp_spray_share), without trigonometric functions. */
 typedef struct {
     bool fan;
-    float z[3];           /* cones: the axis in world coordinates */
-    sp_rim outer, inner;  /* cones; inner.edge2 0: no hole */
-    float y[3];           /* fans: across the fan's plane */
-    float height;         /* fans: sine of the half-thickness; 2: it has no such edge */
-    float end[2][3];      /* fans: normals of the planes through its ends, inwards */
-    bool wide, all_round; /* fans of more than half a turn; of a whole one */
-    float alone_from;     /* transfer (1/m²) from which an arrival may meet the criterion alone */
-    float alone;          /* from which it surely does */
-    sp_count count;
-    float narrowest;            /* SP_COUNT_GENEROUS: chord to the edge of the narrowest cone that is meant */
+    float z[3];                 /* cones: the axis in world coordinates */
+    sp_rim outer, inner;        /* cones; inner.edge2 0: no hole */
+    float y[3];                 /* fans: across the fan's plane */
+    float height;               /* fans: sine of the half-thickness; 2: it has no such edge */
+    float rise;                 /* fans: as sp_rim's, per height */
+    float end[2][3];            /* fans: normals of the planes through its ends, inwards */
+    bool wide, all_round;       /* fans of more than half a turn; of a whole one */
     float end_cosine, end_sine; /* fans: of the half-width */
+    float alone_from;           /* transfer (1/m²) from which an arrival may meet the criterion alone */
+    float alone;                /* from which it surely does */
+    sp_count count;
+    float narrowest; /* SP_COUNT_GENEROUS: chord to the edge of the narrowest cone that is meant */
 } sp_region;
 
 /* For every bin the cosines, between its centre and the pattern's axis, from which what it has lies wholly outside or

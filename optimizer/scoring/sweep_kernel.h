@@ -213,8 +213,6 @@ INLINE lanes root(lanes a)
 
 /* What follows is share.c's, for many patches at a time. */
 #define BLUR 1.834f
-#define LEAST_SQUARE 0.0025f
-#define TINY 1e-30f
 
 INLINE lanes smooth_step(lanes t)
 {
@@ -223,174 +221,100 @@ INLINE lanes smooth_step(lanes t)
     return multiply(multiply(multiply(t, t), t), inner);
 }
 
-/* How many patches lie to an axis. */
-typedef struct {
-    lanes chord2, square, less2, along2;
-} aspects;
-
-INLINE lanes spot_share(float edge2, lanes chord2, const aspects *a)
+/* Of patches one over whose blur's square is `sharp2`. */
+INLINE lanes spot_share(float edge2, lanes chord2, lanes sharp2)
 {
-    lanes minor = greater(subtract(a->square, a->less2), all(edge2 / (BLUR * BLUR)));
-    lanes stretch = divide(subtract(a->square, minor), multiply(minor, add(a->less2, all(TINY))));
-    lanes distance2 = divide(add(chord2, multiply(a->along2, stretch)), a->square);
-    lanes height = divide(all(edge2 / (BLUR * BLUR)), root(multiply(a->square, minor)));
-    return multiply(height, smooth_step(subtract(all(1), scale(distance2, 1 / (2 * BLUR * BLUR)))));
+    return multiply(scale(sharp2, edge2), smooth_step(subtract(all(1), scale(multiply(chord2, sharp2), 0.5f))));
 }
 
-INLINE lanes disc_share(const sp_rim *rim, const aspects *a)
+INLINE lanes disc_share(const sp_rim *rim, lanes chord2, lanes sharp)
 {
     if (rim->edge2 <= 0 || rim->edge2 >= 4)
         return all(rim->edge2 > 0);
-    lanes sine2 = add(multiply(a->chord2, subtract(all(1), scale(a->chord2, 0.25f))), all(TINY));
-    lanes whole = multiply(a->square, sine2);
-    lanes broad2 = greater(subtract(whole, a->along2), scale(whole, LEAST_SQUARE));
-    lanes slope = root(divide(sine2, add(broad2, all(TINY))));
-    lanes apart = subtract(all(rim->edge2), a->chord2);
-    lanes share = smooth_step(add(all(0.5f), multiply(scale(apart, rim->steep), slope)));
-    lanes small = scale(a->square, BLUR * BLUR);
-    mask spots = below(all(rim->edge2), lesser(small, all(2))), holes = below(all(4 - rim->edge2), small);
-    if (bits_of(spots))
-        share = choose(spots, spot_share(rim->edge2, a->chord2, a), share);
-    holes = but(holes, spots);
-    if (bits_of(holes))
-        share = choose(holes, subtract(all(1), spot_share(4 - rim->edge2, subtract(all(4), a->chord2), a)), share);
+    lanes apart = scale(subtract(all(rim->edge2), chord2), rim->steep);
+    lanes share = smooth_step(add(all(0.5f), multiply(apart, sharp)));
+    lanes sharp2 = scale(multiply(sharp, sharp), 1 / (BLUR * BLUR));
+    mask spots = below(scale(sharp2, rim->edge2), all(1)), holes = below(scale(sharp2, 4 - rim->edge2), all(1));
+    if (rim->edge2 < 2 && bits_of(spots))
+        return choose(spots, spot_share(rim->edge2, chord2, sharp2), share);
+    if (rim->edge2 >= 2 && bits_of(holes)) {
+        lanes hole = spot_share(4 - rim->edge2, subtract(all(4), chord2), sharp2);
+        return choose(holes, subtract(all(1), hole), share);
+    }
     return share;
 }
 
-/* Patches that a rim may cut. */
-INLINE mask near_rim(const sp_rim *rim, lanes chord2, lanes square)
+/* Squared chords: a sum of small squares, where the cosine would lose the digits that tell narrow cones. */
+INLINE lanes chords(const float axis[3], lanes x, lanes y, lanes z)
 {
-    const float wide = 1.01f * BLUR * BLUR;
-    lanes apart = subtract(all(rim->edge2), chord2), blur2 = scale(square, wide);
-    mask cut = below(multiply(apart, apart), scale(blur2, rim->sine2));
-    mask spots = both(below(all(rim->edge2), blur2), below(chord2, scale(blur2, 2)));
-    mask holes = both(below(all(4 - rim->edge2), blur2), below(subtract(all(4), chord2), scale(blur2, 2)));
-    return either(cut, either(spots, holes));
+    lanes a = subtract(x, all(axis[0])), b = subtract(y, all(axis[1])), c = subtract(z, all(axis[2]));
+    return add(add(multiply(a, a), multiply(b, b)), multiply(c, c));
 }
 
-INLINE lanes half_share(lanes above, float height, lanes along, lanes square)
-{
-    lanes whole = multiply(square, greater(subtract(all(1), multiply(above, above)), all(LEAST_SQUARE)));
-    lanes breadth = root(greater(subtract(whole, multiply(along, along)), scale(whole, LEAST_SQUARE)));
-    return smooth_step(add(all(0.5f), divide(subtract(above, all(height)), add(scale(breadth, BLUR), all(TINY)))));
-}
-
-/* One vector of arrivals. */
-typedef struct {
-    lanes x, y, z, square;
-    const sp_view *view;
-    size_t at;
-} arrivals;
-
-INLINE arrivals load_arrivals(const sp_view *view, size_t at)
-{
-    return (arrivals){load(&view->x[at]), load(&view->y[at]), load(&view->z[at]), load(&view->square[at]), view, at};
-}
-
-INLINE lanes less_along(const arrivals *a, const float v[3])
-{
-    return dot(load(&a->view->less_x[a->at]), load(&a->view->less_y[a->at]), load(&a->view->less_z[a->at]), v);
-}
-
-/* The shares of patches of which some may be cut, and what is held. */
+/* What is held, and but for SP_COUNT_POINT the shares. */
 typedef struct {
     lanes share;
     mask held;
-    bool same; /* share is all or nothing, as held */
 } shares;
 
-/* Squared chords: a sum of small squares, where the cosine would lose the digits that tell narrow cones. */
-INLINE lanes chords(const arrivals *a, const float axis[3])
+INLINE shares cone_shares(const sp_region *region, sp_count count, lanes x, lanes y, lanes z, lanes sharp)
 {
-    lanes x = subtract(a->x, all(axis[0])), y = subtract(a->y, all(axis[1])), z = subtract(a->z, all(axis[2]));
-    return add(add(multiply(x, x), multiply(y, y)), multiply(z, z));
-}
-
-INLINE shares cone_shares(const sp_region *region, const arrivals *a)
-{
-    lanes chord2 = chords(a, region->z);
+    lanes chord2 = chords(region->z, x, y, z);
     bool hollow = region->inner.edge2 > 0;
-    shares s = {.held = at_least(all(region->outer.edge2), chord2)};
-    mask cut = near_rim(&region->outer, chord2, a->square);
-    if (region->outer.edge2 >= 4)
-        s.held = at_least(all(5), chord2), cut = below(all(1), all(0));
-    if (hollow) {
-        s.held = both(s.held, at_least(chord2, all(region->inner.edge2)));
-        cut = either(cut, near_rim(&region->inner, chord2, a->square));
-    }
-    s.same = region->count == SP_COUNT_POINT || !bits_of(cut);
-    if (s.same)
-        return s;
-    lanes lx = load(&a->view->less_x[a->at]), ly = load(&a->view->less_y[a->at]), lz = load(&a->view->less_z[a->at]);
-    lanes along = dot(lx, ly, lz, region->z);
-    aspects aspects = {chord2, a->square, add(add(multiply(lx, lx), multiply(ly, ly)), multiply(lz, lz)),
-                       multiply(along, along)};
-    s.share = disc_share(&region->outer, &aspects);
+    shares s = {.held = at_least(all(region->outer.edge2 >= 4 ? 5 : region->outer.edge2), chord2)};
     if (hollow)
-        s.share = greater(subtract(s.share, disc_share(&region->inner, &aspects)), all(0));
+        s.held = both(s.held, at_least(chord2, all(region->inner.edge2)));
+    if (count == SP_COUNT_POINT)
+        return s;
+    s.share = disc_share(&region->outer, chord2, sharp);
+    if (hollow)
+        s.share = greater(subtract(s.share, disc_share(&region->inner, chord2, sharp)), all(0));
     return s;
 }
 
-/* Patches that a plane may cut. */
-INLINE mask near_plane(lanes above, lanes square)
+INLINE shares fan_shares(const sp_region *region, sp_count count, lanes x, lanes y, lanes z, lanes sharp)
 {
-    return below(multiply(above, above), scale(square, 0.26f * BLUR * BLUR));
-}
-
-INLINE shares fan_shares(const sp_region *region, const arrivals *a)
-{
-    lanes up = dot(a->x, a->y, a->z, region->y);
-    lanes end[2] = {dot(a->x, a->y, a->z, region->end[0]), dot(a->x, a->y, a->z, region->end[1])};
-    lanes side = subtract(all(region->height), magnitude(up));
-    shares s = {.held = at_least(side, all(0))};
-    mask cut = near_plane(side, a->square);
-    if (region->height > 1)
-        cut = below(all(1), all(0));
+    lanes up = dot(x, y, z, region->y), end[2] = {dot(x, y, z, region->end[0]), dot(x, y, z, region->end[1])};
+    shares s = {.held = at_least(all(region->height), magnitude(up)), .share = all(1)};
     if (!region->all_round) {
         mask in[2] = {at_least(end[0], all(0)), at_least(end[1], all(0))};
         s.held = both(s.held, region->wide ? either(in[0], in[1]) : both(in[0], in[1]));
-        cut = either(cut, either(near_plane(end[0], a->square), near_plane(end[1], a->square)));
     }
-    s.same = region->count == SP_COUNT_POINT || !bits_of(cut);
-    if (s.same)
+    if (count == SP_COUNT_POINT)
         return s;
-    s.share = all(1);
     if (region->height <= 1) {
-        lanes along = less_along(a, region->y), down = subtract(all(0), up);
-        s.share = greater(subtract(add(half_share(up, -region->height, along, a->square),
-                                       half_share(down, -region->height, along, a->square)),
-                                   all(1)),
-                          all(0));
+        lanes rise = scale(sharp, region->rise);
+        lanes above = smooth_step(add(all(0.5f), multiply(subtract(all(region->height), up), rise)));
+        lanes under = smooth_step(add(all(0.5f), multiply(add(all(region->height), up), rise)));
+        s.share = greater(subtract(add(above, under), all(1)), all(0));
     }
     if (!region->all_round) {
-        lanes ends = add(half_share(end[0], 0, less_along(a, region->end[0]), a->square),
-                         half_share(end[1], 0, less_along(a, region->end[1]), a->square));
+        lanes rise = scale(sharp, 1 / BLUR);
+        lanes ends = add(smooth_step(add(all(0.5f), multiply(end[0], rise))),
+                         smooth_step(add(all(0.5f), multiply(end[1], rise))));
         s.share = multiply(s.share, region->wide ? lesser(ends, all(1)) : greater(subtract(ends, all(1)), all(0)));
     }
     return s;
 }
 
 /* All of a patch that any aim may give any share of. */
-INLINE lanes generous_shares(const sp_region *region, bool fan, const arrivals *a)
+INLINE lanes generous_shares(const sp_region *region, bool fan, lanes x, lanes y, lanes z, lanes sharp)
 {
-    lanes breadth = root(a->square);
-    lanes spread = scale(breadth, 1.32f); /* corners of fans */
+    lanes breadth = divide(all(1), sharp), spread = scale(breadth, 1.32f); /* corners of fans */
     if (!fan) {
         mask slim = at_least(all(region->narrowest), scale(breadth, 1.84f));
         spread = choose(slim, scale(breadth, 0.925f), scale(breadth, 2.61f));
-        lanes chord = root(chords(a, region->z));
-        mask in = at_least(add(spread, all(sqrtf(region->outer.edge2))), chord);
-        if (region->outer.edge2 >= 4)
-            in = at_least(all(5), chord);
+        lanes chord = root(chords(region->z, x, y, z));
+        mask in = at_least(add(spread, all(region->outer.edge2 >= 4 ? 5 : sqrtf(region->outer.edge2))), chord);
         if (region->inner.edge2 > 0)
             in = both(in, at_least(add(chord, scale(breadth, 2.61f)), all(sqrtf(region->inner.edge2))));
         return keep(all(1), in);
     }
-    mask in = at_least(add(all(region->height), spread), magnitude(dot(a->x, a->y, a->z, region->y)));
+    mask in = at_least(add(all(region->height), spread), magnitude(dot(x, y, z, region->y)));
     if (!region->all_round) {
         lanes short_of = subtract(all(0), spread);
-        mask end[2] = {at_least(dot(a->x, a->y, a->z, region->end[0]), short_of),
-                       at_least(dot(a->x, a->y, a->z, region->end[1]), short_of)};
+        mask end[2] = {at_least(dot(x, y, z, region->end[0]), short_of),
+                       at_least(dot(x, y, z, region->end[1]), short_of)};
         in = both(in, region->wide ? either(end[0], end[1]) : both(end[0], end[1]));
     }
     return keep(all(1), in);
@@ -398,14 +322,14 @@ INLINE lanes generous_shares(const sp_region *region, bool fan, const arrivals *
 
 /* How much of its patch every arrival counts for. Where slack leaves open whether it meets the criterion alone, the
  * more of the two. */
-INLINE lanes counting(const sp_region *region, bool fan, const sp_view *view, size_t at)
+INLINE lanes counting(const sp_region *region, bool fan, sp_count count, const sp_view *view, size_t at)
 {
-    arrivals a = load_arrivals(view, at);
-    if (region->count == SP_COUNT_GENEROUS)
-        return generous_shares(region, fan, &a);
-    shares s = fan ? fan_shares(region, &a) : cone_shares(region, &a);
+    lanes x = load(&view->x[at]), y = load(&view->y[at]), z = load(&view->z[at]), sharp = load(&view->sharp[at]);
+    if (count == SP_COUNT_GENEROUS)
+        return generous_shares(region, fan, x, y, z, sharp);
+    shares s = fan ? fan_shares(region, count, x, y, z, sharp) : cone_shares(region, count, x, y, z, sharp);
     lanes held = keep(all(1), s.held), transfer = load(&view->transfer[at]);
-    if (s.same)
+    if (count == SP_COUNT_POINT)
         return held;
     lanes open = choose(at_least(transfer, all(region->alone_from)), greater(s.share, held), held);
     return choose(at_least(transfer, all(region->alone)), s.share, open);
@@ -428,11 +352,11 @@ INLINE void flush(tally *tally, size_t weight_count)
 }
 
 /* One run of arrivals, into the tally. */
-INLINE void sum_run(const sp_region *region, bool fan, const sp_view *view, const sp_weight *weights,
+INLINE void sum_run(const sp_region *region, bool fan, sp_count count, const sp_view *view, const sp_weight *weights,
                     size_t weight_count, size_t first, size_t end, tally *tally)
 {
     for (size_t i = first; i < end; i += SP_LANES) {
-        lanes part = counting(region, fan, view, i);
+        lanes part = counting(region, fan, count, view, i);
         mask own = first_lanes(end - i);
         for (size_t k = 0; k < weight_count; k++)
             tally->sum[k] = add(tally->sum[k], keep(multiply(load(&weights[k].item[i]), part), own));
@@ -443,8 +367,8 @@ INLINE void sum_run(const sp_region *region, bool fan, const sp_view *view, cons
 }
 
 /* Bins wholly inside give their totals; runs of bins that the pattern's edge crosses are gone through. */
-INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *region, bool fan, const sp_view *view,
-                     const sp_weight *weights, size_t weight_count, double *sums)
+INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *region, bool fan, sp_count count,
+                     const sp_view *view, const sp_weight *weights, size_t weight_count, double *sums)
 {
     tally tally = {0};
     lanes whole[SP_WEIGHTS] = {{{{0}}}};
@@ -465,30 +389,42 @@ INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *
             size_t bin = b + (size_t)__builtin_ctz(bits);
             if (view->start[bin] != end) {
                 if (first < end)
-                    sum_run(region, fan, view, weights, weight_count, first, end, &tally);
+                    sum_run(region, fan, count, view, weights, weight_count, first, end, &tally);
                 first = view->start[bin];
             }
             end = view->start[bin + 1];
         }
     }
     if (first < end)
-        sum_run(region, fan, view, weights, weight_count, first, end, &tally);
+        sum_run(region, fan, count, view, weights, weight_count, first, end, &tally);
     flush(&tally, weight_count);
     for (size_t k = 0; k < weight_count; k++)
         sums[k] = sum_of(add_narrow(tally.flushed[k], whole[k]));
 }
 
+/* One loop for every kind of pattern, of counting and number of weights. */
+INLINE void sum_counted(const sp_bins *bins, const sp_cull *cull, const sp_region *region, sp_count count,
+                        const sp_view *view, const sp_weight *weights, size_t weight_count, double *sums)
+{
+    if (region->fan && weight_count == 2)
+        sum_bins(bins, cull, region, true, count, view, weights, 2, sums);
+    else if (region->fan)
+        sum_bins(bins, cull, region, true, count, view, weights, 1, sums);
+    else if (weight_count == 2)
+        sum_bins(bins, cull, region, false, count, view, weights, 2, sums);
+    else
+        sum_bins(bins, cull, region, false, count, view, weights, 1, sums);
+}
+
 static void kernel_sum(const sp_bins *bins, const sp_cull *cull, const sp_region *region, const sp_view *view,
                        const sp_weight *weights, size_t weight_count, double *sums)
 {
-    if (region->fan && weight_count == 2)
-        sum_bins(bins, cull, region, true, view, weights, 2, sums);
-    else if (region->fan)
-        sum_bins(bins, cull, region, true, view, weights, 1, sums);
-    else if (weight_count == 2)
-        sum_bins(bins, cull, region, false, view, weights, 2, sums);
+    if (region->count == SP_COUNT_POINT)
+        sum_counted(bins, cull, region, SP_COUNT_POINT, view, weights, weight_count, sums);
+    else if (region->count == SP_COUNT_SHARE)
+        sum_counted(bins, cull, region, SP_COUNT_SHARE, view, weights, weight_count, sums);
     else
-        sum_bins(bins, cull, region, false, view, weights, 1, sums);
+        sum_counted(bins, cull, region, SP_COUNT_GENEROUS, view, weights, weight_count, sums);
 }
 
 static void kernel_total(const sp_view *view, const float *items, float *totals)

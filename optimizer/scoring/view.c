@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #define PART 512  /* patches traced at a time */
-#define COLUMNS 8 /* of floats by arrival */
+#define COLUMNS 5 /* of floats by arrival */
 
 /* The octahedron unfolded onto [-1, 1]²: Cigolle et al., A survey of efficient representations for independent unit
  * vectors, JCGT 2014. */
@@ -75,11 +75,9 @@ static bool take(const sp_reach *reach, sp_sightings *sightings)
     for (size_t i = 0; i < reach->count; i++) {
         const sp_arrival *arrival = &reach->arrivals[i];
         sp_vec3 d = arrival->direction;
-        sp_vec3 less = arrival->breadth.less;
         part[i] = (sp_sighting){
-            (float)d.x,    (float)d.y,    (float)d.z,    (float)arrival->transfer, (float)arrival->breadth.square,
-            (float)less.x, (float)less.y, (float)less.z, arrival->patch,           bin_of(d),
-            arrival->arc,  false};
+            (float)d.x, (float)d.y,   (float)d.z, (float)arrival->transfer, (float)arrival->breadth, arrival->patch,
+            bin_of(d),  arrival->arc, false};
         if (i && part[i - 1].patch == part[i].patch)
             part[i - 1].twice = part[i].twice = sightings->any_twice = true;
     }
@@ -145,8 +143,7 @@ static void lay_out(void *block, size_t count, bool any_twice, sp_view *view)
     view->cosine = view->broadest + SP_BINS;
     view->sine = view->cosine + SP_BINS;
     float *columns = view->sine + SP_BINS;
-    float **column[COLUMNS] = {&view->x,      &view->y,      &view->z,      &view->transfer,
-                               &view->square, &view->less_x, &view->less_y, &view->less_z};
+    float **column[COLUMNS] = {&view->x, &view->y, &view->z, &view->transfer, &view->sharp};
     for (size_t i = 0; i < COLUMNS; i++) {
         *column[i] = columns + i * padded;
         for (size_t k = count; k < padded; k++)
@@ -178,13 +175,11 @@ void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *blo
             view->y[at] = from->y;
             view->z[at] = from->z;
             view->transfer[at] = from->transfer;
-            view->square[at] = from->square;
-            view->less_x[at] = from->less_x;
-            view->less_y[at] = from->less_y;
-            view->less_z[at] = from->less_z;
-            view->broadest[from->bin] = fmaxf(view->broadest[from->bin], sqrtf(from->square));
-            view->breadth += sqrtf(from->square) / (float)view->count;
             view->patch[at] = from->patch;
+            view->sharp[at] = 1 / from->breadth;
+            view->broadest[from->bin] = fmaxf(view->broadest[from->bin], from->breadth);
+            view->breadth += from->breadth / (float)view->count;
+            view->most = fmaxf(view->most, from->breadth);
             if (view->twice)
                 view->twice[at] = from->twice;
         }

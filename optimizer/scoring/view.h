@@ -6,23 +6,22 @@
 
 #define SP_BINS_EDGE 32
 #define SP_BINS (SP_BINS_EDGE * SP_BINS_EDGE)
-#define SP_VIEW_BLUR                                                                                                   \
-    1.32            /* of a patch's breadth: so far beyond a pattern's edge, or a corner of it, it may have a share */
-#define SP_LANES 16 /* floats that a sweep takes at a time: views have as many more, all 0, behind their last */
+#define SP_VIEW_BLUR 0.925 /* of a patch's breadth: so far beyond a pattern's edge it may have a share */
+#define SP_LANES 16        /* floats that a sweep takes at a time: views have as many more, all 0, behind their last */
 
 /* Arrivals that pass the criterion's speed and incidence, sorted by the octahedral bin of their direction, then by
  * patch. */
 typedef struct {
     uint32_t count;
-    float breadth;                            /* rad, the mean of its patches' greatest breadths */
-    uint32_t *start;                          /* [SP_BINS + 1]; NULL: nothing is known to be reached */
-    float *broadest;                          /* [SP_BINS], rad, the greatest breadth of a bin's patches */
-    float *cosine, *sine;                     /* [SP_BINS], of the bin's radius and SP_VIEW_BLUR of that together */
-    float *x, *y, *z;                         /* [count + SP_LANES], unit direction at the nozzle */
-    float *transfer;                          /* [count + SP_LANES], 1/m² */
-    float *square, *less_x, *less_y, *less_z; /* [count + SP_LANES], sp_breadth */
-    uint32_t *patch;                          /* [count] */
-    uint8_t *twice;                           /* [count], whether both arcs reach the patch; NULL: nowhere */
+    float breadth, most;  /* rad, the mean of its patches' greatest breadths; the most */
+    uint32_t *start;      /* [SP_BINS + 1]; NULL: nothing is known to be reached */
+    float *broadest;      /* [SP_BINS], rad, the greatest breadth of a bin's patches */
+    float *cosine, *sine; /* [SP_BINS], of the bin's radius and SP_VIEW_BLUR of that together */
+    float *x, *y, *z;     /* [count + SP_LANES], unit direction at the nozzle */
+    float *transfer;      /* [count + SP_LANES], 1/m² */
+    float *sharp;         /* [count + SP_LANES], 1/rad: over the patch's breadth */
+    uint32_t *patch;      /* [count] */
+    uint8_t *twice;       /* [count], whether both arcs reach the patch; NULL: nowhere */
 } sp_view;
 
 /* The bins' cones: all directions of a bin are within `radius` of its centre. */
@@ -38,7 +37,7 @@ sp_vec3 sp_octahedron_decode(double u, double v);
 
 /* An arrival on its way into a view. */
 typedef struct {
-    float x, y, z, transfer, square, less_x, less_y, less_z;
+    float x, y, z, transfer, breadth;
     uint32_t patch;
     uint16_t bin;
     uint8_t arc;

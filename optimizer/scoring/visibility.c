@@ -3,13 +3,14 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-#define PATCHES_MOST 20000.0
+#define PATCHES_MOST 30000.0
 #define PATCHES_LEAST 500.0
-#define SAME 1.2       /* times longer texels are not worth patches of the search's own */
-#define RAYS_MOST 1e8  /* patches times views */
-#define MEMORY 1e9     /* bytes, for all views, where the options do not say */
-#define BATCH 16       /* sites traced between two looks at clock and memory */
-#define TIME_SHARE 0.5 /* of a time limit, that tracing may take */
+#define SAME 1.2           /* times longer texels are not worth patches of the search's own */
+#define RAYS_MOST 1e8      /* patches times views */
+#define SWEEPS_MOST 1.5e10 /* patches times poses */
+#define MEMORY 1e9         /* bytes, for all views, where the options do not say */
+#define BATCH 16           /* sites traced between two looks at clock and memory */
+#define TIME_SHARE 0.5     /* of a time limit, that tracing may take */
 
 struct sp_desks {
     pthread_mutex_t lock;
@@ -265,7 +266,8 @@ bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options
                        sp_visibility *visibility, sp_error *error)
 {
     double views = (double)sites->count * (double)candidates->speed_count;
-    double patches = fmax(PATCHES_LEAST, fmin(PATCHES_MOST, RAYS_MOST / views));
+    double poses = (double)candidates->pose_start[sites->count];
+    double patches = fmax(PATCHES_LEAST, fmin(PATCHES_MOST, fmin(RAYS_MOST / views, SWEEPS_MOST / poses)));
     double finer = sp_evaluator_fidelity(fine)->texel,
            texel = finer * sqrt((double)sp_evaluator_patches(fine)->count / patches);
     *resampled = NULL;

@@ -98,10 +98,8 @@ static bool has_number(const sp_lineup *lineup)
 /* What a field's value adds to a patch that is not wet yet, per m². */
 static float more_worth(bool single, float credit, float had, float dry, float more)
 {
-    if (more < 0)
-        return dry * -more * (1 - credit * had);
-    float has = single ? fmaxf(had, more) : had + more;
-    return dry * ((has >= 1 ? 1 : credit * has) - credit * had);
+    float lack = 1 - credit * had, has = single ? fmaxf(had, more) : had + more;
+    return dry * (more < 0 ? -more * lack : has >= 1 ? lack : credit * (has - had));
 }
 
 static double gain_of(const sp_lineup *lineup, size_t row, float credit)

@@ -24,7 +24,6 @@ bool sp_arrive(const sp_source *source, const sp_target *target, const sp_flight
     arrival->transfer = against / flight->spread;
     arrival->speed = sp_length(flight->velocity);
     arrival->incidence = atan2(sp_length(sp_cross(flight->velocity, target->normal)), against);
-    arrival->breadth = sp_flight_breadth(flight, source->speed, target->normal, target->length);
     arrival->passes = arrival->speed >= criterion->impact_speed && arrival->incidence <= criterion->incidence;
     return true;
 }

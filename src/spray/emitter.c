@@ -27,7 +27,7 @@ sp_ray sp_emitter_jet(const sp_emitter *emitter, uint64_t index, uint64_t jets)
 
 double sp_emitter_share(const sp_emitter *emitter, const sp_arrival *arrival)
 {
-    return sp_spray_share(&emitter->spray, &emitter->frame, arrival->direction, &arrival->breadth);
+    return sp_spray_share(&emitter->spray, &emitter->frame, arrival->direction, arrival->breadth);
 }
 
 bool sp_emitter_holds(const sp_emitter *emitter, sp_vec3 direction)

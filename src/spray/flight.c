@@ -37,28 +37,13 @@ int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_fligh
     return 2;
 }
 
-#define MOST_SQUARE 0.25 /* rad² */
+#define MOST_BREADTH 0.5 /* rad */
 
-/* A flight whose direction changes by u' and that is later by t' ends v t u' + w t' further on, w being the velocity
- * there, so that a step s on the surface needs u' = (s - w (u·s)/(u·w)) / (v t). Steps of all directions of the surface
- * make an ellipse of u', whose axes are those of the 2 x 2 matrix of what a step brings about across u. */
-sp_breadth sp_flight_breadth(const sp_flight *flight, double speed, sp_vec3 normal, double length)
+/* Across the plane of the flight its end moves by v t per angle; in that plane by as much as makes the product of both,
+ * the area across the flight per solid angle, spread over arriving speed. */
+double sp_flight_breadth(const sp_flight *flight, double speed, double length)
 {
-    sp_vec3 u = flight->direction, w = flight->velocity, across[2], step[2];
-    across[0] = sp_unit(sp_cross(u, fabs(u.x) < 0.5 ? sp_v(1, 0, 0) : sp_v(0, 1, 0)));
-    across[1] = sp_cross(u, across[0]);
-    double along = sp_dot(u, w), scale = length / (speed * flight->time);
-    along = copysign(fmax(fabs(along), 1e-9 * speed), along);
-    for (int i = 0; i < 2; i++) {
-        sp_vec3 back = sp_along(across[i], -sp_dot(w, across[i]) / along, u);
-        step[i] = sp_scale(sp_along(back, -sp_dot(back, normal), normal), scale);
-    }
-    double xx = sp_dot(step[0], step[0]), xy = sp_dot(step[0], step[1]), yy = sp_dot(step[1], step[1]);
-    double mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy), apart = sqrt(half * half + xy * xy);
-    double major = fmin(mean + apart, MOST_SQUARE), minor = fmin(fmax(mean - apart, 0), MOST_SQUARE);
-    /* the minor axis is a quarter turn from half the angle whose cosine is half / apart */
-    double twice = apart > 0 ? half / apart : 1, cosine = sqrt(fmax(0, 0.5 * (1 + twice))),
-           sine = copysign(sqrt(fmax(0, 0.5 * (1 - twice))), xy);
-    sp_vec3 narrow = sp_along(sp_scale(across[0], -sine), cosine, across[1]);
-    return (sp_breadth){major, sp_scale(narrow, sqrt(major - minor))};
+    double lever = speed * flight->time, across = 1 / lever;
+    double along = sp_length(flight->velocity) / flight->spread * lever;
+    return fmin(length * fmax(across, along), MOST_BREADTH);
 }

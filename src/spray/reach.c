@@ -8,7 +8,10 @@
 
 sp_aim sp_aim_at(sp_vec3 axis, double half_angle)
 {
-    return (sp_aim){.axis = axis, .half_angle = half_angle, .end = SIZE_MAX};
+    return (sp_aim){.axis = axis,
+                    .half_angle = half_angle,
+                    .cosine = half_angle < M_PI ? cos(half_angle) - 1e-12 : -2,
+                    .end = SIZE_MAX};
 }
 
 /* Flights that pass all questions but whether their way is free. */
@@ -34,12 +37,16 @@ static void flock_free(flock *flock)
     free(flock->blocked);
 }
 
-/* A hair wider than asked, so that round-off never takes a jet of the edge away. */
+/* Within the cone, a hair wider than asked, so that round-off never takes a jet of the edge away; or not farther
+ * beyond than a patch's share may lie. */
 static bool aimed(const sp_aim *aim, const sp_arrival *arrival)
 {
-    double most = aim->half_angle + sp_spray_fringe(arrival->breadth.square) + 1e-12;
-    if (most < M_PI && sp_dot(arrival->direction, aim->axis) < cos(most))
-        return false;
+    double along = sp_dot(arrival->direction, aim->axis);
+    if (along < aim->cosine) {
+        double most = aim->half_angle + sp_spray_fringe(arrival->breadth);
+        if (most < M_PI && along < cos(most))
+            return false;
+    }
     return !aim->emitter || sp_emitter_share(aim->emitter, arrival) > 0 ||
            sp_emitter_holds(aim->emitter, arrival->direction);
 }
@@ -54,8 +61,10 @@ static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, f
         size_t bit = 2 * (size_t)patch + (size_t)k;
         if (aim->known && !(aim->known[bit / 8] >> bit % 8 & 1))
             continue;
-        if (!sp_arrive(source, &target, &flights[k], arrival) || (aim->passing && !arrival->passes) ||
-            !aimed(aim, arrival) || (!aim->known && sp_flight_pierces(source, &target, &flights[k])))
+        if (!sp_arrive(source, &target, &flights[k], arrival) || (aim->passing && !arrival->passes))
+            continue;
+        arrival->breadth = sp_flight_breadth(&flights[k], source->speed, target.length);
+        if (!aimed(aim, arrival) || (!aim->known && sp_flight_pierces(source, &target, &flights[k])))
             continue;
         arrival->patch = patch;
         arrival->arc = (uint8_t)k;

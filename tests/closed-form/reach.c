@@ -51,7 +51,7 @@ static void both_arcs_of_an_open_floor(void **state)
     assert_true(reach->count >= patches && reach->count < 2 * patches);
     for (size_t i = 0; i < reach->count; i++)
         assert_true(asin(-reach->arrivals[i].direction.z) <=
-                    sp_spray_fringe(reach->arrivals[i].breadth.square) + 1e-9);
+                    sp_spray_fringe(reach->arrivals[i].breadth) + 1e-9);
     sp_reach_destroy(reach);
     reach = reach_of(evaluator, position, 1, sp_v(0, 0, -1), M_PI); /* a feeble jet: within the envelope alone */
     double radius = 1 / 9.81 * sqrt(1 + 2 * 9.81 * 0.5);

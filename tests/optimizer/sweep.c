@@ -231,10 +231,8 @@ static void fields_are_the_evaluators(void **state)
 static double part_of(const sp_view *view, size_t i, const sp_spray *spray, const sp_frame *frame, double strength)
 {
     sp_vec3 d = sp_unit(sp_v((double)view->x[i], (double)view->y[i], (double)view->z[i]));
-    sp_breadth breadth = {(double)view->square[i],
-                          sp_v((double)view->less_x[i], (double)view->less_y[i], (double)view->less_z[i])};
     if (strength * (double)view->transfer[i] >= 1)
-        return sp_spray_share(spray, frame, d, &breadth);
+        return sp_spray_share(spray, frame, d, 1 / (double)view->sharp[i]);
     return sp_spray_intensity(spray, sp_v(sp_dot(d, frame->x), sp_dot(d, frame->y), sp_dot(d, frame->z))) > 0;
 }
 
@@ -305,6 +303,7 @@ static void scores_are_what_fields_add(void **state)
         sp_sweeper *sweeper = sp_sweepers_create(&s.search, 1, &error);
         uint64_t random = 11;
         double total = 0;
+        size_t narrow = 0;
         for (size_t p = 0; p < patches; p++) {
             draft.wet[p] = (float)(1.5 * next_random(&random));
             draft.dry[p] = (float)next_random(&random);
@@ -319,9 +318,13 @@ static void scores_are_what_fields_add(void **state)
                             ? (double)s.search.area[p] * fmin(1, fabs((double)fminf(field[p], 0)) + (field[p] > 0)) *
                                   (1 - (double)sp_worth(&s.search, draft.wet[p], draft.dry[p]))
                             : 0;
-            /* single precision may see two points on the pattern's very edge otherwise */
-            assert_true(fabs(score.gain - gain) <= 1e-4 * gain + 2 * TEXEL * TEXEL);
-            assert_true(fabs(score.room - room) <= 1e-4 * room + 2 * TEXEL * TEXEL);
+            /* wide patterns are ranked by points; single precision may see two points on the very edge otherwise */
+            const sp_make *make = &s.candidates.makes[pose.make];
+            bool wide = sp_spray_is_wide(&make->spray, &s.visibility.views[pose.site * 2 + make->speed_class]);
+            double allowed = wide ? 0.06 : 1e-4;
+            assert_true(fabs(score.gain - gain) <= allowed * gain + 2 * TEXEL * TEXEL);
+            assert_true(fabs(score.room - room) <= allowed * room + 2 * TEXEL * TEXEL);
+            narrow += !wide;
             total += gain;
         }
         assert_true(total > 0);
