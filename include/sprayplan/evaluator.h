@@ -101,12 +101,12 @@ bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout,
  * type or flow. The flux (m/s) at the patch is Q · intensity(direction) · transfer. */
 typedef struct {
     uint32_t patch;
-    bool passes;        /* impact speed and incidence meet the criterion */
-    uint8_t arc;        /* which of sp_flights */
-    sp_vec3 direction;  /* unit, at the nozzle, world coordinates */
-    double transfer;    /* 1/m²: |n·w| / (v T √D) for a parabola, cos(incidence)/r² for a line */
-    double speed;       /* at impact, m/s */
-    double incidence;   /* rad */
+    bool passes;       /* impact speed and incidence meet the criterion */
+    uint8_t arc;       /* which of sp_flights */
+    sp_vec3 direction; /* unit, at the nozzle, world coordinates */
+    double transfer;   /* 1/m²: |n·w| / (v T √D) for a parabola, cos(incidence)/r² for a line */
+    double speed;      /* at impact, m/s */
+    double incidence;  /* rad */
     double breadth;    /* rad, of the patch as seen from the nozzle */
 } sp_arrival;
 
