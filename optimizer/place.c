@@ -1,5 +1,6 @@
 #include "attainable/attainable.h"
 #include "certificate/certificate.h"
+#include "forward_check.h"
 #include "search/find.h"
 #include "refine/refine.h"
 
@@ -106,10 +107,18 @@ static bool write_down(const sp_placement *placement, sp_layout **layout, sp_cov
     return *coverage != NULL;
 }
 
+/* Nothing is proved by the one evaluation of which the other was not asked first. */
+static bool check_forward(sp_placement *placement, sp_proposal *proposal, sp_error *error)
+{
+    sp_watch_allow(&placement->watch, 1);
+    return sp_check_forward(placement->search.coarse, proposal->layout, &placement->watch, &proposal->forward_check,
+                            error) &&
+           sp_watch_stage(&placement->watch, "forward check", error);
+}
+
 /* How near to the best all that is, in the time that is left. */
 static bool certify(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
-    sp_watch_allow(&placement->watch, 1);
     return sp_certify(&placement->search, &placement->watch, &placement->front, &proposal->certificate, error);
 }
 
@@ -152,8 +161,8 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
                 sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
                 sp_visibility_sound(&placement.visibility, error) &&
                 write_down(&placement, &proposal->layout, &proposal->coverage, error) &&
-                sp_watch_stage(&placement.watch, "refine", error) && certify(&placement, proposal, error) &&
-                sp_visibility_sound(&placement.visibility, error) &&
+                sp_watch_stage(&placement.watch, "refine", error) && check_forward(&placement, proposal, error) &&
+                certify(&placement, proposal, error) && sp_visibility_sound(&placement.visibility, error) &&
                 sp_watch_stage(&placement.watch, "certificate", error) && conclude(&placement, proposal, error);
     placement_free(&placement);
     if (done)

@@ -85,9 +85,13 @@ bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle,
 /* g, m/s²; zero for trajectory line. */
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator);
 
-/* Evaluates by the scene's own method; by the inverse method whatever the scene asks. NULL on error. */
+/* Evaluates by the scene's own method. NULL on error. */
 sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
+/* By one method whatever the scene asks, both to the first impact, so that each checks the other. The nozzles share the
+ * jets by their flows; a texel that none of few jets meets looks dry, and one that few meet is covered whole. */
 sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
+sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, uint64_t jets,
+                                 sp_error *error);
 /* Works out coverage->balance of this layout where it is not known: 20,000 jets of each nozzle are flown to their first
  * impact, evenly spread, which tells shares of the liquid to about 0.1 %. */
 bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
@@ -97,12 +101,12 @@ bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout,
  * type or flow. The flux (m/s) at the patch is Q · intensity(direction) · transfer. */
 typedef struct {
     uint32_t patch;
-    bool passes;        /* impact speed and incidence meet the criterion */
-    uint8_t arc;        /* which of sp_flights */
-    sp_vec3 direction;  /* unit, at the nozzle, world coordinates */
-    double transfer;    /* 1/m²: |n·w| / (v T √D) for a parabola, cos(incidence)/r² for a line */
-    double speed;       /* at impact, m/s */
-    double incidence;   /* rad */
+    bool passes;       /* impact speed and incidence meet the criterion */
+    uint8_t arc;       /* which of sp_flights */
+    sp_vec3 direction; /* unit, at the nozzle, world coordinates */
+    double transfer;   /* 1/m²: |n·w| / (v T √D) for a parabola, cos(incidence)/r² for a line */
+    double speed;      /* at impact, m/s */
+    double incidence;  /* rad */
     double breadth;    /* rad, of the patch as seen from the nozzle */
 } sp_arrival;
 

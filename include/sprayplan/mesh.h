@@ -98,6 +98,8 @@ sp_vec3 sp_triangle_point(const sp_mesh *mesh, uint32_t triangle, double u, doub
 bool sp_triangle_weights(const sp_mesh *mesh, uint32_t triangle, sp_vec3 point, double *u, double *v);
 /* Sum over all triangles, m². */
 double sp_mesh_area(const sp_mesh *mesh);
+/* The box around all triangles, m; both zero for an empty mesh. Returns its diagonal. */
+double sp_mesh_box(const sp_mesh *mesh, sp_vec3 *low, sp_vec3 *high);
 
 #ifdef __cplusplus
 }

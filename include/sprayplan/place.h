@@ -104,6 +104,18 @@ typedef struct {
     } every_aim;
 } sp_certificate;
 
+/* The proposal counted again by the other method: jets flown forward from its nozzles to their first impact, against
+ * the inverse evaluation on the same patches, which are the search's and may be coarser than the evaluator's. */
+typedef struct {
+    bool computed; /* false: there was no time, and nothing below means anything */
+    size_t texels; /* patches that both count on */
+    uint64_t jets;
+    double coverage;   /* by the jets, as a fraction */
+    double difference; /* that less the inverse evaluation's, points as a fraction */
+    double tolerance;  /* the accuracy asked for, or what so many jets can tell where that is more */
+    bool agrees;       /* the difference is no more than that */
+} sp_forward_check;
+
 typedef struct {
     char name[32];
     double seconds;
@@ -128,6 +140,7 @@ typedef struct {
     sp_front_point *front; /* best found for rising water, both strictly rising */
     size_t by_number_count;
     sp_front_point *by_number; /* best found for rising numbers of nozzles, whatever their water; bounds NAN */
+    sp_forward_check forward_check;
     sp_certificate certificate;
     size_t stage_count;
     sp_stage *stages;

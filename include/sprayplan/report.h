@@ -19,6 +19,10 @@ char *sp_report_html(const sp_result *result, sp_error *error);
  * pictures and model for each design with the suffixes -manual and -greedy where it is not the main one. */
 bool sp_report_write(const sp_result *result, sp_output *output, sp_error *error);
 
+/* Writes a picture of what is wet as PNG: blue what is cleaned and counted, orange the wet sides of obstacles, grey
+ * what is dry; from the front, from behind and from above, cut open at the middle (upper row) and whole. */
+bool sp_report_wet_png(const sp_evaluator *evaluator, const char *path, sp_error *error);
+
 /* A picture of the charts of one page, one colour a chart, malloc'd RGB of page_edge² pixels. */
 uint8_t *sp_report_charts(const sp_atlas *atlas, size_t page, sp_error *error);
 

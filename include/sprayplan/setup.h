@@ -48,7 +48,7 @@ typedef enum { SP_METHOD_AUTO, SP_METHOD_FORWARD, SP_METHOD_INVERSE } sp_method;
 typedef enum { SP_SPLAT_NEAREST, SP_SPLAT_LINEAR } sp_splat;
 
 /* The scene's `simulate:` block; in sp_evaluator_fidelity nothing is left to auto: the texel is then such that all that
- * is cleaned and counted, sides that are wet each for itself, has 200,000 texels, however large what else there is. */
+ * is cleaned and counted, sides that are wet each for itself, has 100,000 texels, however large what else there is. */
 typedef struct {
     sp_trajectory trajectory;
     sp_method method;

@@ -190,7 +190,7 @@ static void print_openings(const findings *found)
                openings[i].place.z, openings[i].width, openings[i].share);
 }
 
-static void print_table(const findings *found)
+static void print_table(const findings *found, const char *output)
 {
     const sp_setup *setup = setup_of(found);
     const sp_mesh *mesh = setup->mesh;
@@ -217,6 +217,10 @@ static void print_table(const findings *found)
                6e4 * sp_nozzle_flow(&layout->nozzles[i], &setup->liquid),
                sp_nozzle_speed(&layout->nozzles[i], &setup->liquid), sp_nozzle_angle(&layout->nozzles[i]) * 180 / M_PI);
     printf("\n");
+    if (output)
+        printf("%s/wet.png: blue is cleaned and counted, orange wet but an obstacle, grey dry; above cut open, below "
+               "whole\n",
+               output);
     for (size_t i = 0; i < found->warning_count; i++)
         printf("warning: %s\n", found->warnings[i]);
     if (!found->warning_count)
@@ -309,11 +313,13 @@ static bool examine(const cli_options *options, findings *found, sp_error *error
     warn_of_sides(found);
     warn_of_openings(found);
     warn_of_nozzles(found);
+    if (!cli_write_wet(options, found->opened, error))
+        return false;
     cli_progress_end();
     if (options->json)
         return print_json(found) || sp_fail_memory(error);
     if (!options->quiet)
-        print_table(found);
+        print_table(found, options->output);
     return true;
 }
 

@@ -117,6 +117,8 @@ bool cli_output_ready(const cli_options *options, const sp_scene *scene, sp_erro
 /* output.c: what simulate, place and compare end with. `layout` NULL: no layout.yaml. */
 bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *scene, const sp_layout *layout,
                sp_error *error);
+/* What check leaves: wet.png. True without -o. */
+bool cli_write_wet(const cli_options *options, const cli_scene *opened, sp_error *error);
 /* The result as JSON or as a table on standard output. */
 bool cli_print(const cli_options *options, const sp_result *result, sp_error *error);
 

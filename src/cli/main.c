@@ -4,7 +4,8 @@
 #include <string.h>
 
 static const cli_command commands[] = {
-    {"check", "SCENE", "what is in it, what is wrong with it, mesh diagnostics", OPTION_SET, cli_check, 1, 1},
+    {"check", "SCENE [-o DIR]", "what is in it, what is wrong with it, mesh diagnostics", OPTION_OUTPUT | OPTION_SET,
+     cli_check, 1, 1},
     {"simulate", "SCENE [-o DIR]", "evaluate the scene's own nozzles", OPTION_SET | OPTION_OUTPUT, cli_simulate, 1, 1},
     {"place", "SCENE [-o DIR]", "propose a layout; compares with the scene's own nozzles",
      OPTION_SET | OPTION_OUTPUT | OPTION_TIME_LIMIT | OPTION_MEMORY | OPTION_PROVE, cli_place, 1, 1},

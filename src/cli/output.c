@@ -48,6 +48,20 @@ bool cli_write(const cli_options *options, const sp_result *result, const sp_sce
     return false;
 }
 
+bool cli_write_wet(const cli_options *options, const cli_scene *opened, sp_error *error)
+{
+    if (!options->output)
+        return true;
+    sp_output *output = sp_output_open(options->output, error);
+    const char *path = output && protect_inputs(options, opened->scene, output, error)
+                           ? sp_output_path(output, "wet.png", error)
+                           : NULL;
+    if (path && sp_report_wet_png(opened->evaluator, path, error))
+        return sp_output_commit(output, error);
+    sp_output_discard(output);
+    return false;
+}
+
 static void print_figures(const sp_figures *figures, const char *name, int width)
 {
     printf("%-*s %8zu %12.1f %13.3f %10.1f", width, name, figures->nozzle_count, 6e4 * figures->flow,
@@ -87,6 +101,22 @@ static void print_liquid(const sp_result *result, const sp_figures *figures, int
 }
 
 /* What is proved, in the report's own words; rounded so that it stays true. */
+static void print_forward_check(const sp_forward_check *check)
+{
+    if (!check->computed)
+        return;
+    double inverse = 100 * (check->coverage - check->difference), forward = 100 * check->coverage;
+    if (check->agrees)
+        printf("\nCounted again by %.3g million jets, on %zu texels: %.1f %%, where the inverse evaluation finds %.1f "
+               "%%.\n",
+               1e-6 * (double)check->jets, check->texels, forward, inverse);
+    else
+        printf("\nwarning: the proposal's coverage is in doubt. Counted by %.3g million jets, on %zu texels, it is "
+               "%.1f %%, by "
+               "the inverse evaluation %.1f %%;\nthat is more apart than the accuracy of %.2g %%.\n",
+               1e-6 * (double)check->jets, check->texels, forward, inverse, 100 * check->tolerance);
+}
+
 static void print_certificate(const sp_proposal *proposal)
 {
     const sp_certificate *certificate = &proposal->certificate;
@@ -162,8 +192,10 @@ static bool print_summary(const sp_result *result, sp_error *error)
     for (size_t i = 0; i < result->design_count; i++)
         print_figures(&figures[i], result->designs[i].name, width);
     print_liquid(result, figures, width);
-    if (result->proposal)
+    if (result->proposal) {
+        print_forward_check(&result->proposal->forward_check);
         print_certificate(result->proposal);
+    }
     sp_figures_destroy(figures, result->design_count);
     return true;
 }

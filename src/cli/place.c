@@ -102,6 +102,8 @@ static void warn_of_own(const cli_scene *opened, const sp_layout *own)
 static int place(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error)
 {
     placement found = {0};
+    if (!cli_output_ready(options, opened->scene, error))
+        return cli_fail(error);
     const sp_layout *own = sp_scene_layout(opened->scene);
     if (!sp_scene_has_place(opened->scene))
         sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: found no mounts, expected where nozzles may be mounted");

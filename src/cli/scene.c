@@ -52,8 +52,7 @@ int cli_with_scene(const cli_options *options, cli_work *work)
     cli_clock_start(&clock);
     if (!cli_scene_open(&opened, options->inputs[0], options, &clock, &error))
         return cli_fail(&error);
-    int status =
-        cli_output_ready(options, opened.scene, &error) ? work(options, &opened, &clock, &error) : cli_fail(&error);
+    int status = work(options, &opened, &clock, &error);
     cli_scene_close(&opened);
     return status;
 }

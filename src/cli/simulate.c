@@ -8,6 +8,8 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
         sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "nozzles: found none, expected at least one to simulate");
         return cli_fail_in(opened, error);
     }
+    if (!cli_output_ready(options, opened->scene, error))
+        return cli_fail(error);
     sp_coverage *coverage = cli_simulated(opened, layout, error);
     cli_clock_stage(clock, "simulate");
     if (!coverage)

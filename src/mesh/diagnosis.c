@@ -1,17 +1,8 @@
 #include "mesh/counting_sort.h"
+#include "mesh/disjoint_sets.h"
 #include "mesh/half_edge.h"
 
 #include <stdlib.h>
-
-/* The representative of a triangle's shell so far; halves the path on the way. */
-static uint32_t shell_of(uint32_t *parent, uint32_t triangle)
-{
-    while (parent[triangle] != triangle) {
-        parent[triangle] = parent[parent[triangle]];
-        triangle = parent[triangle];
-    }
-    return triangle;
-}
 
 static void count_edges(const sp_mesh *mesh, const sp_half_edges *half_edges, uint32_t *parent, sp_mesh_diagnosis *d)
 {
@@ -23,7 +14,7 @@ static void count_edges(const sp_mesh *mesh, const sp_half_edges *half_edges, ui
         d->flipped_edges += half_edges->kind[edge[0]] == SP_EDGE_FLIPPED;
         d->non_manifold_edges += half_edges->kind[edge[0]] == SP_EDGE_NON_MANIFOLD;
         for (size_t k = 1; k < of_edge; k++)
-            parent[shell_of(parent, edge[k] / 3)] = shell_of(parent, edge[0] / 3);
+            sp_set_join(parent, edge[k] / 3, edge[0] / 3);
     }
 }
 
@@ -37,7 +28,7 @@ static bool count_shells(const sp_mesh *mesh, const sp_half_edges *half_edges, u
         closed[t] = true;
     for (size_t h = 0; h < 3 * mesh->triangle_count; h++)
         if (half_edges->kind[h] != SP_EDGE_PAIRED)
-            closed[shell_of(parent, (uint32_t)(h / 3))] = false;
+            closed[sp_set_root(parent, (uint32_t)(h / 3))] = false;
     for (size_t t = 0; t < mesh->triangle_count; t++) {
         d->shells += parent[t] == t;
         d->closed_shells += parent[t] == t && closed[t];
@@ -107,24 +98,10 @@ static bool count_duplicates(const sp_mesh *mesh, sp_mesh_diagnosis *d, sp_error
     return good;
 }
 
-static void measure(const sp_mesh *mesh, sp_mesh_diagnosis *d)
-{
-    if (mesh->triangle_count == 0)
-        return;
-    d->minimum = d->maximum = mesh->vertices[mesh->triangles[0][0]];
-    for (size_t t = 0; t < mesh->triangle_count; t++) {
-        for (int k = 0; k < 3; k++) {
-            sp_vec3 p = mesh->vertices[mesh->triangles[t][k]];
-            d->minimum = sp_v(fmin(d->minimum.x, p.x), fmin(d->minimum.y, p.y), fmin(d->minimum.z, p.z));
-            d->maximum = sp_v(fmax(d->maximum.x, p.x), fmax(d->maximum.y, p.y), fmax(d->maximum.z, p.z));
-        }
-    }
-    d->area = sp_mesh_area(mesh);
-}
-
 bool sp_mesh_diagnose(const sp_mesh *mesh, sp_mesh_diagnosis *diagnosis, sp_error *error)
 {
     *diagnosis = (sp_mesh_diagnosis){.degenerate = mesh->source_triangle_count - mesh->triangle_count};
-    measure(mesh, diagnosis);
+    sp_mesh_box(mesh, &diagnosis->minimum, &diagnosis->maximum);
+    diagnosis->area = sp_mesh_area(mesh);
     return diagnose_surface(mesh, diagnosis, error) && count_duplicates(mesh, diagnosis, error);
 }

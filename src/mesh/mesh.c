@@ -209,6 +209,18 @@ double sp_mesh_area(const sp_mesh *mesh)
     return area;
 }
 
+double sp_mesh_box(const sp_mesh *mesh, sp_vec3 *low, sp_vec3 *high)
+{
+    *low = *high = mesh->triangle_count ? mesh->vertices[mesh->triangles[0][0]] : sp_v(0, 0, 0);
+    for (size_t t = 0; t < mesh->triangle_count; t++)
+        for (int k = 0; k < 3; k++) {
+            sp_vec3 p = mesh->vertices[mesh->triangles[t][k]];
+            *low = sp_v(fmin(low->x, p.x), fmin(low->y, p.y), fmin(low->z, p.z));
+            *high = sp_v(fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z));
+        }
+    return sp_distance(*low, *high);
+}
+
 bool sp_triangle_weights(const sp_mesh *mesh, uint32_t triangle, sp_vec3 point, double *u, double *v)
 {
     const uint32_t *corner = mesh->triangles[triangle];

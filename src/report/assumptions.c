@@ -73,6 +73,18 @@ static void add_scene(sp_text *text, const sp_setup *setup)
     sp_text_add(text, "%s</dd>\n", cavities[setup->cavity]);
 }
 
+/* The other way of counting. */
+static void add_check(sp_text *text, const sp_forward_check *check)
+{
+    add_item(text, "Checked");
+    sp_text_add(text, "counted again by %.3g million jets, on %zu texels, the proposal covers ",
+                1e-6 * (double)check->jets, check->texels);
+    sp_markup_decimals(text, 100 * check->coverage, 1);
+    sp_text_add(text, "&nbsp;%%, where the inverse evaluation finds ");
+    sp_markup_decimals(text, 100 * (check->coverage - check->difference), 1);
+    sp_text_add(text, "&nbsp;%%</dd>\n");
+}
+
 static void add_search(sp_text *text, const sp_proposal *proposal)
 {
     add_item(text, "Search");
@@ -81,6 +93,8 @@ static void add_search(sp_text *text, const sp_proposal *proposal)
         "%zu poses at %zu mounting points; greedy choice by gain per water, then refinement, accepted only where "
         "the re-traced result improved</dd>\n",
         proposal->candidates, proposal->positions);
+    if (proposal->forward_check.computed)
+        add_check(text, &proposal->forward_check);
     add_item(text, "Not proved");
     sp_text_add(text, proposal->certificate.computed
                           ? "what poses between the candidates could do</dd>\n"

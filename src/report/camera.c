@@ -12,18 +12,18 @@ const sp_view sp_views[SP_VIEWS] = {
     {"From above, into the bottom", 0, 72 * RAD},
 };
 
-static bool is_wet(const sp_evaluator *evaluator, uint32_t triangle)
+static bool is_shown(const sp_evaluator *evaluator, const sp_result *result, uint32_t triangle)
 {
-    return sp_evaluator_wet(evaluator, triangle) != 0;
+    return !result || sp_evaluator_wet(evaluator, triangle) != 0;
 }
 
-static void wet_box(const sp_evaluator *evaluator, sp_vec3 *low, sp_vec3 *high)
+static void shown_box(const sp_evaluator *evaluator, const sp_result *result, sp_vec3 *low, sp_vec3 *high)
 {
     const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
     *low = sp_v(INFINITY, INFINITY, INFINITY);
     *high = sp_v(-INFINITY, -INFINITY, -INFINITY);
     for (uint32_t t = 0; t < mesh->triangle_count; ++t)
-        for (int k = 0; k < 3 && is_wet(evaluator, t); ++k) {
+        for (int k = 0; k < 3 && is_shown(evaluator, result, t); ++k) {
             sp_vec3 p = mesh->vertices[mesh->triangles[t][k]];
             *low = sp_v(fmin(low->x, p.x), fmin(low->y, p.y), fmin(low->z, p.z));
             *high = sp_v(fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z));
@@ -92,9 +92,9 @@ static void frame_all(sp_camera *camera, const sp_evaluator *evaluator, const sp
     frame f = {camera, false, camera->size * 1e-3, 1e-6, 1e-6};
     for (int pass = 0; pass < 2; ++pass) {
         for (uint32_t t = 0; t < mesh->triangle_count; ++t)
-            for (int k = 0; k < 3 && is_wet(evaluator, t); ++k)
+            for (int k = 0; k < 3 && is_shown(evaluator, result, t); ++k)
                 take_in(&f, mesh->vertices[mesh->triangles[t][k]], MARGIN);
-        for (size_t i = 0; i < result->design_count; ++i)
+        for (size_t i = 0; result && i < result->design_count; ++i)
             if (result->designs[i].evaluator == evaluator)
                 take_in_nozzles(&f, result->designs[i].layout);
         f.placed = true;
@@ -112,7 +112,7 @@ sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_result *resul
     sp_camera camera = {0};
     const sp_setup *setup = sp_evaluator_setup(evaluator);
     sp_vec3 low, high;
-    wet_box(evaluator, &low, &high);
+    shown_box(evaluator, result, &low, &high);
     camera.centre = sp_scale(sp_add(low, high), 0.5);
     camera.size = fmax(sp_distance(low, high), 1e-9);
     camera.cut = setup->cavity == SP_CAVITY_NONE && encloses(evaluator, camera.centre);

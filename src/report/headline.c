@@ -66,12 +66,26 @@ static void add_shortfall(const sp_figures *proposed, const sp_proposal *proposa
     sp_text_add(text, "&nbsp;m\xc2\xb2).</p>\n");
 }
 
+static void add_doubt(const sp_forward_check *check, sp_text *text)
+{
+    sp_text_add(text, "<p class=\"warning\" id=\"doubt\"><strong>The proposal&#39;s coverage is in doubt.</strong> "
+                      "Counted again by jets flown from its nozzles it is ");
+    sp_markup_decimals(text, 100 * check->coverage, 1);
+    sp_text_add(text, "&nbsp;%%, by the inverse evaluation, which the search uses, ");
+    sp_markup_decimals(text, 100 * (check->coverage - check->difference), 1);
+    sp_text_add(text, "&nbsp;%%, on the same %zu texels: more apart than the accuracy of ", check->texels);
+    sp_markup_significant(text, 100 * check->tolerance, 2);
+    sp_text_add(text, "&nbsp;%%.</p>\n");
+}
+
 static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal, sp_text *text)
 {
     if (proposal->interrupted)
         sp_text_add(text,
                     "<p class=\"warning\"><strong>Interrupted.</strong> The search was stopped before its end; this is "
                     "the best layout found until then.</p>\n");
+    if (proposal->forward_check.computed && !proposal->forward_check.agrees)
+        add_doubt(&proposal->forward_check, text);
     if (proposal->reached)
         return;
     if (!(proposal->target_area > 0))

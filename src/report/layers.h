@@ -15,7 +15,7 @@ typedef struct {
 bool sp_layers_create(sp_layers *layers, const sp_evaluator *evaluator, sp_error *error);
 void sp_layers_free(sp_layers *layers);
 
-/* True where that side of the triangle faces the liquid, cleaned or not. */
+/* True where some of that side of the triangle faces the liquid, cleaned or not. */
 bool sp_layers_wet(const sp_layers *layers, uint32_t triangle, int back);
 /* True where that side of the triangle is cleaned and counted. */
 bool sp_layers_clean(const sp_layers *layers, uint32_t triangle, int back);

@@ -1,4 +1,5 @@
 /* Three views of every design, with the colour bar. */
+#include "layers.h"
 #include "overlay.h"
 #include "page.h"
 #include "render.h"
@@ -6,6 +7,7 @@
 #include <sprayplan/image.h>
 
 #include <stdlib.h>
+#include <string.h>
 
 #define PIXELS 900
 #define PIXELS_OF_MANY 600 /* each, from the fifth design on */
@@ -66,11 +68,39 @@ static void add_colour_bar(const sp_page *page, sp_text *text)
         sp_colour_obstacle[0], sp_colour_obstacle[1], sp_colour_obstacle[2]);
 }
 
+#define LOOK_GREY (SP_LOOK_NOTHING - 1)
+
+/* Patches; grey what needs no cleaning; what is dry is looked through. */
+static uint32_t look_at_patch(const void *user, uint32_t triangle, double u, double v, int back)
+{
+    const sp_layers *layers = user;
+    if (!(sp_evaluator_wet_at(layers->evaluator, triangle, u, v) >> back & 1))
+        return SP_LOOK_NOTHING;
+    uint32_t patch = sp_layers_patch(layers, triangle, u, v, back);
+    return patch == SP_NONE ? LOOK_GREY : patch;
+}
+
+/* What the colours of one design's patches come from. */
+typedef struct {
+    const sp_deposits *deposits;
+    sp_flux_scale scale;
+} colouring;
+
+static void colour_patch(const void *user, uint32_t look, int stripe, uint8_t rgb[3])
+{
+    const colouring *by = user;
+    if (look == LOOK_GREY)
+        memcpy(rgb, sp_colour_obstacle, 3);
+    else
+        sp_false_colour(by->scale, by->deposits, look, stripe, rgb);
+}
+
 static bool add_picture(const sp_page *page, sp_text *text, size_t design, const sp_view *view, const sp_camera *camera,
                         const sp_shot *shot, sp_error *error)
 {
     const sp_design *shown = &page->result->designs[design];
-    uint8_t *pixels = sp_shot_picture(shot, shown->coverage, page->scale, error);
+    const colouring by = {&shown->coverage->deposits, page->scale};
+    uint8_t *pixels = sp_shot_picture(shot, colour_patch, &by, error);
     size_t size = 0;
     uint8_t *png = pixels ? sp_image_encode_png(pixels, shot->width, shot->height, 3, &size, error) : NULL;
     free(pixels);
@@ -113,7 +143,7 @@ static bool add_view(const sp_page *page, sp_text *text, const sp_view *view, in
             sp_shot_free(&shot);
             camera = sp_camera_create(evaluator, page->result, view, pixels);
             done = sp_layers_create(&layers, evaluator, error) &&
-                   sp_shot_create(&shot, &layers, &camera, sp_evaluator_setup(evaluator)->run.threads, error);
+                   sp_shot_create(&shot, evaluator, &camera, look_at_patch, &layers, error);
         }
         done = done && add_picture(page, text, i, view, &camera, &shot, error);
     }

@@ -19,8 +19,10 @@ typedef struct {
 /* Rows of samples that one thread looks at together: lines from one eye, side by side, are traced faster than one by
  * one. */
 typedef struct {
-    const sp_layers *layers;
+    const sp_evaluator *evaluator;
     const sp_camera *camera;
+    sp_look_at *look;
+    const void *user;
     size_t columns;
     sp_ray *rays;      /* [BAND columns] */
     sp_hit *hits;      /* the same */
@@ -29,27 +31,20 @@ typedef struct {
     sighting *seen;    /* the same */
 } band;
 
-static void take_sample(const band *b, uint32_t number, const sp_hit *hit, sp_vec3 direction, int back)
-{
-    const sp_mesh *mesh = sp_evaluator_setup(b->layers->evaluator)->mesh;
-    double facing = fabs(sp_dot(sp_triangle_normal(mesh, hit->triangle), sp_unit(direction)));
-    uint32_t patch = sp_layers_patch(b->layers, hit->triangle, hit->u, hit->v, back);
-    /* A light at the eye; weak, because brightness also means flux. */
-    b->sample[number] = (sp_sample){patch == SP_NONE ? SP_LOOK_GREY : patch, (float)(0.7 + 0.3 * facing)};
-    b->seen[number] = (sighting){hit->triangle, (float)hit->t}; /* the direction's forward component is 1 */
-}
-
-/* True where the ray is to be traced on: what it met shows its dry side. */
+/* True where the ray is to be traced on. */
 static bool looks_on(const band *b, size_t i)
 {
     const sp_hit *hit = &b->hits[i];
     sp_ray *ray = &b->rays[i];
     if (hit->triangle == SP_NONE)
         return false;
-    const sp_mesh *mesh = sp_evaluator_setup(b->layers->evaluator)->mesh;
-    int back = sp_dot(sp_triangle_normal(mesh, hit->triangle), ray->velocity) > 0;
-    if (sp_layers_wet(b->layers, hit->triangle, back)) {
-        take_sample(b, b->number[i], hit, ray->velocity, back);
+    const sp_mesh *mesh = sp_evaluator_setup(b->evaluator)->mesh;
+    double facing = sp_dot(sp_triangle_normal(mesh, hit->triangle), sp_unit(ray->velocity));
+    uint32_t look = b->look(b->user, hit->triangle, hit->u, hit->v, facing > 0), number = b->number[i];
+    if (look != SP_LOOK_NOTHING) {
+        /* A light at the eye; weak, because brightness also means flux. */
+        b->sample[number] = (sp_sample){look, (float)(0.7 + 0.3 * fabs(facing))};
+        b->seen[number] = (sighting){hit->triangle, (float)hit->t}; /* the direction's forward component is 1 */
         return false;
     }
     ray->t_min = hit->t;
@@ -71,13 +66,13 @@ static void aim(const band *b, size_t y, size_t count)
     }
 }
 
-/* The first surfaces that show their wet sides, `rows` rows from y on. */
-static void look(const band *b, size_t y, size_t rows)
+/* The first surfaces that are not looked through, `rows` rows from y on. */
+static void look_along(const band *b, size_t y, size_t rows)
 {
     size_t count = rows * b->columns;
     aim(b, y, count);
     for (int i = 0; count && i < LOOK_THROUGH_MOST; ++i) {
-        sp_trace_nearest_many(sp_evaluator_tracer(b->layers->evaluator), b->rays, count, sp_v(0, 0, 0), 1, b->hits);
+        sp_trace_nearest_many(sp_evaluator_tracer(b->evaluator), b->rays, count, sp_v(0, 0, 0), 1, b->hits);
         size_t kept = 0;
         for (size_t k = 0; k < count; ++k)
             if (looks_on(b, k)) {
@@ -124,8 +119,9 @@ static void ink_edges(sp_shot *shot, const sp_mesh *mesh, const sp_camera *camer
 }
 
 /* Bands are shared out among the threads, each with buffers of its own. */
-static bool look_at_all(sp_shot *shot, const sp_layers *layers, const sp_camera *camera, sighting *seen, int team)
+static bool look_at_all(sp_shot *shot, const band *common, sighting *seen, int team)
 {
+    const sp_camera *camera = common->camera;
     size_t columns = 2 * (size_t)camera->width, rows = 2 * (size_t)camera->height, at_once = BAND * columns;
     sp_ray *rays = malloc((size_t)team * at_once * sizeof *rays);
     sp_hit *hits = malloc((size_t)team * at_once * sizeof *hits);
@@ -135,15 +131,14 @@ static bool look_at_all(sp_shot *shot, const sp_layers *layers, const sp_camera 
 #pragma omp parallel for num_threads(team) schedule(dynamic)
         for (size_t y = 0; y < rows; y += BAND) {
             size_t own = (size_t)omp_get_thread_num() * at_once;
-            band b = {layers,
-                      camera,
-                      columns,
-                      &rays[own],
-                      &hits[own],
-                      &number[own],
-                      &shot->samples[y * columns],
-                      &seen[y * columns]};
-            look(&b, y, rows - y < BAND ? rows - y : BAND);
+            band b = *common;
+            b.columns = columns;
+            b.rays = &rays[own];
+            b.hits = &hits[own];
+            b.number = &number[own];
+            b.sample = &shot->samples[y * columns];
+            b.seen = &seen[y * columns];
+            look_along(&b, y, rows - y < BAND ? rows - y : BAND);
         }
     }
     free(rays);
@@ -152,15 +147,18 @@ static bool look_at_all(sp_shot *shot, const sp_layers *layers, const sp_camera 
     return done;
 }
 
-bool sp_shot_create(sp_shot *shot, const sp_layers *layers, const sp_camera *camera, int threads, sp_error *error)
+bool sp_shot_create(sp_shot *shot, const sp_evaluator *evaluator, const sp_camera *camera, sp_look_at *look,
+                    const void *user, sp_error *error)
 {
+    int threads = sp_evaluator_setup(evaluator)->run.threads;
+    const band common = {.evaluator = evaluator, .camera = camera, .look = look, .user = user};
     size_t count = 4 * (size_t)camera->width * (size_t)camera->height;
     int team = threads > 0 ? threads : omp_get_max_threads();
     *shot = (sp_shot){camera->width, camera->height, malloc(count * sizeof *shot->samples)};
     sighting *seen = malloc(count * sizeof *seen);
-    bool done = shot->samples && seen && look_at_all(shot, layers, camera, seen, team);
+    bool done = shot->samples && seen && look_at_all(shot, &common, seen, team);
     if (done)
-        ink_edges(shot, sp_evaluator_setup(layers->evaluator)->mesh, camera, seen, team);
+        ink_edges(shot, sp_evaluator_setup(evaluator)->mesh, camera, seen, team);
     free(seen);
     if (done)
         return true;
@@ -180,20 +178,17 @@ static int stripe_at(int x, int y)
     return (x + y) % 16 < 4;
 }
 
-static void sample_colour(const sp_sample *sample, const sp_deposits *deposits, sp_flux_scale scale, int stripe,
-                          uint8_t rgb[3])
+static void sample_colour(const sp_sample *sample, sp_look_colour *colour, const void *user, int stripe, uint8_t rgb[3])
 {
     if (sample->look == SP_LOOK_NOTHING)
         memset(rgb, 255, 3);
-    else if (sample->look == SP_LOOK_GREY)
-        memcpy(rgb, sp_colour_obstacle, 3);
     else
-        sp_false_colour(scale, deposits, sample->look, stripe, rgb);
+        colour(user, sample->look, stripe, rgb);
     for (int k = 0; k < 3; ++k)
         rgb[k] = (uint8_t)((float)rgb[k] * sample->shade + 0.5f);
 }
 
-uint8_t *sp_shot_picture(const sp_shot *shot, const sp_coverage *coverage, sp_flux_scale scale, sp_error *error)
+uint8_t *sp_shot_picture(const sp_shot *shot, sp_look_colour *colour, const void *user, sp_error *error)
 {
     size_t width = (size_t)shot->width, height = (size_t)shot->height;
     uint8_t *pixels = malloc(3 * width * height);
@@ -205,8 +200,8 @@ uint8_t *sp_shot_picture(const sp_shot *shot, const sp_coverage *coverage, sp_fl
             for (size_t k = 0; k < 4; ++k) {
                 size_t column = 2 * x + k % 2, row = 2 * y + k / 2;
                 uint8_t rgb[3];
-                sample_colour(&shot->samples[row * 2 * width + column], &coverage->deposits, scale,
-                              stripe_at((int)column, (int)row), rgb);
+                sample_colour(&shot->samples[row * 2 * width + column], colour, user, stripe_at((int)column, (int)row),
+                              rgb);
                 for (int c = 0; c < 3; ++c)
                     sum[c] += rgb[c];
             }

@@ -1,29 +1,33 @@
-/* Pictures of the vessel by our own tracer. A surface seen from its dry side is looked through. */
+/* Pictures of the vessel by our own tracer. */
 #ifndef REPORT_RENDER_H
 #define REPORT_RENDER_H
 
 #include "camera.h"
-#include "layers.h"
 
-/* What is seen through every quarter of every pixel; traced once, coloured for as many designs as share the evaluator.
- */
-typedef struct {
-    uint32_t look; /* a patch, SP_LOOK_GREY or SP_LOOK_NOTHING */
-    float shade;   /* brightness, 0 to 1 */
-} sp_sample;
-
+/* What is seen at a point of the surface from its front or back: a number that a colour is known for, or
+ * SP_LOOK_NOTHING where it is looked through. */
 #define SP_LOOK_NOTHING SP_NONE
-#define SP_LOOK_GREY (SP_NONE - 1)
+typedef uint32_t sp_look_at(const void *user, uint32_t triangle, double u, double v, int back);
+
+/* What is seen through every quarter of every pixel; traced once, coloured as often as is wanted. */
+typedef struct {
+    uint32_t look;
+    float shade; /* brightness, 0 to 1 */
+} sp_sample;
 
 typedef struct {
     int width, height;  /* pixels; samples are 2 width × 2 height */
     sp_sample *samples; /* owned */
 } sp_shot;
 
-/* Same samples whatever the number of threads (as in sp_run). */
-bool sp_shot_create(sp_shot *shot, const sp_layers *layers, const sp_camera *camera, int threads, sp_error *error);
+/* Same samples whatever the number of threads, which are the evaluator's setup's. `look` is called from all of them. */
+bool sp_shot_create(sp_shot *shot, const sp_evaluator *evaluator, const sp_camera *camera, sp_look_at *look,
+                    const void *user, sp_error *error);
 void sp_shot_free(sp_shot *shot);
+
+/* The colour of a look but for nothing, which is white. `stripe` picks a hatch's colour, 0 or 1. */
+typedef void sp_look_colour(const void *user, uint32_t look, int stripe, uint8_t rgb[3]);
 /* Malloc'd RGB, width × height. */
-uint8_t *sp_shot_picture(const sp_shot *shot, const sp_coverage *coverage, sp_flux_scale scale, sp_error *error);
+uint8_t *sp_shot_picture(const sp_shot *shot, sp_look_colour *colour, const void *user, sp_error *error);
 
 #endif

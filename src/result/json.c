@@ -219,6 +219,15 @@ static bool put_every_aim(json_t *certificate, const sp_certificate *found)
     return put(certificate, "every_aim", every) && done;
 }
 
+static bool put_forward_check(json_t *root, const sp_forward_check *found)
+{
+    json_t *check = json_object();
+    bool done = put_real(check, "coverage", found->coverage) && put_real(check, "difference", found->difference) &&
+                put_real(check, "tolerance", found->tolerance) && put(check, "agrees", json_boolean(found->agrees)) &&
+                put_count(check, "jets", (size_t)found->jets) && put_count(check, "texels", found->texels);
+    return put(root, "forward_check", check) && done;
+}
+
 /* Everything that it speaks of is counted on its own texels. */
 static bool put_certificate(json_t *root, const sp_certificate *found)
 {
@@ -260,10 +269,12 @@ static bool fill(json_t *root, const sp_result *result, const sp_figures *figure
         done = put_layout(layouts, &figures[i], !one_geometry, !one_fidelity);
     done = put(root, "layouts", layouts) && done;
     if (result->proposal)
-        done = done && put_target(root, result->proposal, figures[0].clean_area) &&
-               put_front(root, result->proposal, figures[0].clean_area) &&
-               put_front_by_nozzles(root, result->proposal, figures[0].clean_area) &&
-               (!result->proposal->certificate.computed || put_certificate(root, &result->proposal->certificate));
+        done =
+            done && put_target(root, result->proposal, figures[0].clean_area) &&
+            put_front(root, result->proposal, figures[0].clean_area) &&
+            put_front_by_nozzles(root, result->proposal, figures[0].clean_area) &&
+            (!result->proposal->forward_check.computed || put_forward_check(root, &result->proposal->forward_check)) &&
+            (!result->proposal->certificate.computed || put_certificate(root, &result->proposal->certificate));
     done = done && put_stages(stages, result->stages, result->stage_count) &&
            (!result->proposal || put_stages(stages, result->proposal->stages, result->proposal->stage_count));
     return put(root, "stages", stages) && done;

@@ -16,19 +16,6 @@ void sp_balance_add(sp_balance *balance, bool hit, bool clean, double arrived, d
         balance->other += stays;
 }
 
-static void start_jets(const sp_emitter *emitter, sp_ray *rays)
-{
-    uint64_t seed = emitter->source.evaluator->fidelity.seed;
-    for (size_t i = 0; i < JETS; i++) {
-        sp_vec3 d = sp_spray_direction(&emitter->spray, i, JETS, seed);
-        sp_vec3 across = sp_along(sp_scale(emitter->frame.x, d.x), d.y, emitter->frame.y);
-        rays[i] = (sp_ray){.origin = emitter->source.position,
-                           .velocity = sp_scale(sp_along(across, d.z, emitter->frame.z), emitter->source.speed),
-                           .t_max = INFINITY,
-                           .skip = SP_NONE};
-    }
-}
-
 /* What is thrown back is not followed: the inverse evaluator knows the first impact only. */
 static void end_jet(const sp_evaluator *evaluator, const sp_ray *ray, const sp_hit *hit, double flow,
                     sp_balance *balance)
@@ -62,7 +49,8 @@ bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout,
         double flow = sp_nozzle_flow(&layout->nozzles[n], &evaluator->setup.liquid);
         if (!(emitter.source.speed > 0) || !(flow > 0))
             continue;
-        start_jets(&emitter, rays);
+        for (size_t i = 0; i < JETS; i++)
+            rays[i] = sp_emitter_jet(&emitter, i, JETS);
         sp_trace_nearest_many(evaluator->tracer, rays, JETS, evaluator->gravity, evaluator->setup.run.threads, hits);
         for (size_t i = 0; i < JETS; i++)
             end_jet(evaluator, &rays[i], &hits[i], flow / JETS, &balance);

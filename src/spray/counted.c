@@ -1,5 +1,5 @@
 /* What of the surface is counted: clean, and wet. */
-#include "spray/wet.h"
+#include "spray/wet/wet.h"
 
 #define ROUND_OFF 1e-12 /* of a fragment */
 
@@ -81,7 +81,7 @@ void sp_counted_pieces(const sp_evaluator *evaluator, uint32_t texel, const sp_f
     }
     sp_triangle_piece whole = {.count = corners};
     for (int i = 0; i < corners; i++)
-        sp_weights_of(mesh, triangle, polygon[i], whole.at[i]);
+        sp_triangle_weights(mesh, triangle, polygon[i], &whole.at[i][0], &whole.at[i][1]);
     double area = area_in_weights(&whole);
     cell_walk walk = {evaluator, triangle, side, area > 0 ? fragment->area / area : 0, ROUND_OFF * fragment->area,
                       visit,     user};

@@ -1,11 +1,28 @@
 #include "emitter.h"
 
+/* Texels that a jet flies before anything stops it: on which side of the wall it stands in a nozzle is, is round-off.
+ */
+#define MOUTH 1e-7
+
 sp_emitter sp_emitter_of(const sp_evaluator *evaluator, const sp_nozzle *nozzle)
 {
     const sp_setup *setup = &evaluator->setup;
     return (sp_emitter){.source = {evaluator, nozzle->position, sp_nozzle_speed(nozzle, &setup->liquid)},
                         .frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up),
                         .spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle))};
+}
+
+sp_ray sp_emitter_jet(const sp_emitter *emitter, uint64_t index, uint64_t jets)
+{
+    const sp_fidelity *fidelity = &emitter->source.evaluator->fidelity;
+    const sp_frame *frame = &emitter->frame;
+    sp_vec3 d = sp_spray_direction(&emitter->spray, index, jets, fidelity->seed);
+    sp_vec3 direction = sp_along(sp_along(sp_scale(frame->x, d.x), d.y, frame->y), d.z, frame->z);
+    return (sp_ray){.origin = emitter->source.position,
+                    .velocity = sp_scale(direction, emitter->source.speed),
+                    .t_min = MOUTH * fidelity->texel / emitter->source.speed,
+                    .t_max = INFINITY,
+                    .skip = SP_NONE};
 }
 
 double sp_emitter_share(const sp_emitter *emitter, const sp_arrival *arrival)

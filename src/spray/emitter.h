@@ -11,6 +11,8 @@ typedef struct {
 } sp_emitter;
 
 sp_emitter sp_emitter_of(const sp_evaluator *evaluator, const sp_nozzle *nozzle);
+/* Jet `index` of `jets`, of which each carries as much liquid. */
+sp_ray sp_emitter_jet(const sp_emitter *emitter, uint64_t index, uint64_t jets);
 /* The share of the arrival's patch that lies inside the spray. */
 double sp_emitter_share(const sp_emitter *emitter, const sp_arrival *arrival);
 /* Whether the arrival's own direction does. */

@@ -1,6 +1,6 @@
 /* Building an evaluator, choosing what is left to auto, and asking it. */
 #include "density.h"
-#include "spray/wet.h"
+#include "spray/wet/wet.h"
 
 #include <stdlib.h>
 
@@ -344,6 +344,6 @@ sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout,
 {
     if (!evaluator || !layout)
         return NULL;
-    return evaluator->fidelity.method == SP_METHOD_FORWARD ? sp_evaluate_forward(evaluator, layout, error)
+    return evaluator->fidelity.method == SP_METHOD_FORWARD ? sp_evaluate_jets(evaluator, layout, error)
                                                            : sp_evaluate_inverse(evaluator, layout, error);
 }

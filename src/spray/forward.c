@@ -1,15 +1,12 @@
 /* The forward evaluator: jets are traced from the nozzles through their reflections, and leave their liquid on the
  * patches that they hit (study 3.2.3 and 3.3.1). */
+#include "emitter.h"
 #include "lit.h"
 #include "splat.h"
 
 #include <stdlib.h>
 
 #define BATCH 65536 /* jets in flight at once */
-/* Texels that a jet flies before anything stops it: on which side of the wall it stands in a nozzle is, is round-off.
- */
-#define MOUTH 1e-7
-
 /* What one jet does where it hits. */
 typedef struct {
     sp_shares shares; /* of the flow; none: a dry side, an obstacle or a miss */
@@ -31,6 +28,8 @@ typedef struct {
     sp_hit *hits;        /* [BATCH] */
     jet_impact *impacts; /* [BATCH] */
     int threads;
+    int reflections;
+    double per_jet; /* m³/s that a jet carries; 0: each nozzle has jets of its own number */
 } jet_flight;
 
 /* A parabola that leaves a triangle may come back to it, which its `skip` hides: of the two meetings with the
@@ -141,7 +140,7 @@ static void keep_balance(jet_flight *flight, size_t count)
 static void fly(jet_flight *flight, size_t count)
 {
     const sp_evaluator *evaluator = flight->evaluator;
-    for (int bounce = 0; bounce <= evaluator->fidelity.reflections && count > 0; bounce++) {
+    for (int bounce = 0; bounce <= flight->reflections && count > 0; bounce++) {
         sp_trace_nearest_many(evaluator->tracer, flight->rays, count, evaluator->gravity, flight->threads,
                               flight->hits);
 #pragma omp parallel for num_threads(flight->threads)
@@ -155,29 +154,23 @@ static void fly(jet_flight *flight, size_t count)
         flight->balance->unfollowed += flight->flow[i];
 }
 
-static uint64_t nozzle_jets(const sp_evaluator *evaluator, const sp_nozzle *nozzle)
+static uint64_t nozzle_jets(const jet_flight *flight, const sp_nozzle *nozzle)
 {
+    const sp_evaluator *evaluator = flight->evaluator;
+    if (flight->per_jet > 0)
+        return (uint64_t)ceil(sp_nozzle_flow(nozzle, &evaluator->setup.liquid) / flight->per_jet);
     return nozzle->jets ? nozzle->jets : evaluator->fidelity.jets;
 }
 
 /* Starts jets [first, first + count) of a nozzle. */
 static void spray_jets(jet_flight *flight, const sp_nozzle *nozzle, uint64_t first, size_t count)
 {
-    const sp_setup *setup = &flight->evaluator->setup;
-    uint64_t jets = nozzle_jets(flight->evaluator, nozzle), seed = flight->evaluator->fidelity.seed;
-    double speed = sp_nozzle_speed(nozzle, &setup->liquid), flow = sp_nozzle_flow(nozzle, &setup->liquid);
-    double mouth = MOUTH * flight->evaluator->fidelity.texel / speed; /* s */
-    sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
-    sp_frame frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up);
+    uint64_t jets = nozzle_jets(flight, nozzle);
+    double flow = sp_nozzle_flow(nozzle, &flight->evaluator->setup.liquid);
+    sp_emitter emitter = sp_emitter_of(flight->evaluator, nozzle);
 #pragma omp parallel for num_threads(flight->threads)
     for (size_t i = 0; i < count; i++) {
-        sp_vec3 d = sp_spray_direction(&spray, first + i, jets, seed);
-        sp_vec3 direction = sp_along(sp_along(sp_scale(frame.x, d.x), d.y, frame.y), d.z, frame.z);
-        flight->rays[i] = (sp_ray){.origin = nozzle->position,
-                                   .velocity = sp_scale(direction, speed),
-                                   .t_min = mouth,
-                                   .t_max = INFINITY,
-                                   .skip = SP_NONE};
+        flight->rays[i] = sp_emitter_jet(&emitter, first + i, jets);
         flight->flow[i] = flow / (double)jets;
     }
 }
@@ -186,7 +179,7 @@ static void spray_jets(jet_flight *flight, const sp_nozzle *nozzle, uint64_t fir
 static bool fly_nozzle(jet_flight *flight, const sp_nozzle *nozzle, double *done, double all, sp_error *error)
 {
     const sp_setup *setup = &flight->evaluator->setup;
-    uint64_t jets = nozzle_jets(flight->evaluator, nozzle);
+    uint64_t jets = nozzle_jets(flight, nozzle);
     if (!(sp_nozzle_speed(nozzle, &setup->liquid) > 0) || !(sp_nozzle_flow(nozzle, &setup->liquid) > 0))
         return true;
     for (uint64_t first = 0; first < jets; first += BATCH) {
@@ -221,7 +214,7 @@ static bool fly_layout(jet_flight *flight, const sp_layout *layout, sp_error *er
 {
     double done = 0, all = 0;
     for (size_t n = 0; n < layout->count; n++)
-        all += (double)nozzle_jets(flight->evaluator, &layout->nozzles[n]);
+        all += (double)nozzle_jets(flight, &layout->nozzles[n]);
     for (size_t n = 0; n < layout->count; n++) {
         if (!fly_nozzle(flight, &layout->nozzles[n], &done, all, error))
             return false;
@@ -230,7 +223,8 @@ static bool fly_layout(jet_flight *flight, const sp_layout *layout, sp_error *er
     return true;
 }
 
-sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
+static sp_coverage *evaluate(const sp_evaluator *evaluator, const sp_layout *layout, int reflections, double per_jet,
+                             sp_error *error)
 {
     sp_coverage *coverage = sp_evaluator_takes(evaluator, layout, error) ? sp_coverage_create(evaluator, error) : NULL;
     if (!coverage)
@@ -243,7 +237,9 @@ sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout 
                          .flow = malloc(BATCH * sizeof *flight.flow),
                          .hits = malloc(BATCH * sizeof *flight.hits),
                          .impacts = malloc(BATCH * sizeof *flight.impacts),
-                         .threads = sp_thread_count(evaluator->setup.run.threads)};
+                         .threads = sp_thread_count(evaluator->setup.run.threads),
+                         .reflections = reflections,
+                         .per_jet = per_jet};
     bool done = flight.rays && flight.flow && flight.hits && flight.impacts && flight.counted;
     if (!done)
         sp_fail_memory(error);
@@ -260,4 +256,21 @@ sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout 
         return coverage;
     sp_coverage_destroy(coverage);
     return NULL;
+}
+
+sp_coverage *sp_evaluate_jets(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
+{
+    return evaluate(evaluator, layout, evaluator->fidelity.reflections, 0, error);
+}
+
+sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, uint64_t jets, sp_error *error)
+{
+    if (!evaluator || !layout)
+        return NULL;
+    if (jets == 0) {
+        sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: no jets found, expected at least 1");
+        return NULL;
+    }
+    double flow = sp_layout_flow(layout, &evaluator->setup.liquid);
+    return evaluate(evaluator, layout, 0, flow / (double)jets, error);
 }

@@ -1,6 +1,6 @@
 #include "lit.h"
 
-#include "spray/cuts.h"
+#include "spray/wet/cuts.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,18 +5,6 @@
 
 #define TOUCH 1e-6 /* of the geometry's diagonal: nearer than this a nozzle is in the wall */
 
-static double diagonal(const sp_mesh *mesh)
-{
-    sp_vec3 low = mesh->vertices[mesh->triangles[0][0]], high = low;
-    for (size_t i = 0; i < mesh->triangle_count; i++)
-        for (int corner = 0; corner < 3; corner++) {
-            sp_vec3 p = mesh->vertices[mesh->triangles[i][corner]];
-            low = sp_v(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
-            high = sp_v(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
-        }
-    return sp_distance(low, high);
-}
-
 /* What sees the cavity's point is in its space, though it may see more of the sky than of walls: above an open tank. */
 static bool sees_cavity(const sp_evaluator *evaluator, sp_vec3 point)
 {
@@ -30,7 +18,8 @@ bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle,
 {
     const sp_mesh *mesh = evaluator->setup.mesh;
     sp_vec3 p = nozzle->position;
-    double touch = TOUCH * diagonal(mesh);
+    sp_vec3 low, high;
+    double touch = TOUCH * sp_mesh_box(mesh, &low, &high);
     if (!sp_is_clear(mesh, p, touch, SP_NONE)) {
         uint32_t triangle = sp_nearest_triangle(mesh, SP_NONE, p);
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,

@@ -30,12 +30,6 @@ bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done
 /* False, with an error, where a nozzle's liquid leaves faster than can be reckoned with. */
 bool sp_evaluator_takes(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
 
-/* caps.c: whether a line meets one of the setup's caps before t. */
-bool sp_caps_block(const sp_setup *setup, const sp_ray *line, double t);
-
-/* inside.c: direction `index` of `count`, spread evenly over the sphere. */
-sp_vec3 sp_sphere_direction(int index, int count);
-
 /* patches.c: from atlas, wet sides and roles. */
 bool sp_patches_create(sp_evaluator *evaluator, sp_error *error);
 void sp_patches_free(sp_patches *patches);
@@ -54,8 +48,8 @@ void sp_counted_pieces(const sp_evaluator *evaluator, uint32_t texel, const sp_f
  * where that side is dry or an obstacle. */
 uint32_t sp_patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back);
 
-/* forward.c, inverse.c: what sp_evaluate calls. */
-sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
+/* forward.c: with as many reflections and jets as the setup asks for. */
+sp_coverage *sp_evaluate_jets(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
 
 /* balance.c: what a jet does to the balance where it arrives, or does not; `onward` (m³/s) of what arrives is thrown
  * back. */

@@ -333,6 +333,9 @@ static void place_says_whether_the_coverage_asked_for_is_reached(void **state)
     json_t *proposed = layout_named(object, "proposed");
     assert_int_equal(json_array_size(json_object_get(proposed, "nozzles")), 1);
     assert_true(number(proposed, "water_l_min") <= 13);
+    json_t *check = json_object_get(object, "forward_check");
+    assert_true(json_is_true(json_object_get(check, "agrees")));
+    assert_true(fabs(number(check, "coverage") - number(proposed, "coverage")) < 0.01);
     json_decref(object);
 }
 

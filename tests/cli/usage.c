@@ -37,7 +37,7 @@ static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
         {"check room.yaml --threads 0", "--threads: found \"0\", expected a whole number"},
         {"check room.yaml --threads two", "--threads: found \"two\""},
         {"check room.yaml --set simulate.jets", "--set: found \"simulate.jets\", expected KEY=VALUE"},
-        {"check room.yaml -o out", "check does not take -o"},
+        {"bench room.obj -o out", "bench does not take -o"},
         {"simulate room.yaml --time-limit 3", "simulate does not take --time-limit"},
         {"simulate room.yaml --memory 1GB", "simulate does not take --memory"},
         {"place room.yaml --memory 2",

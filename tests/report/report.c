@@ -402,6 +402,39 @@ static void what_is_out_of_reach_is_said_first(void **state)
 }
 
 /* The words of the report are the promise: rounded so that they stay true. */
+static void what_jets_say_otherwise_is_a_warning(void **state)
+{
+    (void)state;
+    fixture *f = *state;
+    sp_proposal proposal = f->proposal;
+    sp_result result = f->result;
+    sp_error error = {0};
+    result.proposal = &proposal;
+    for (int agrees = 0; agrees < 2; agrees++) {
+        proposal.forward_check = (sp_forward_check){.computed = true,
+                                                    .texels = 20011,
+                                                    .jets = 2000000,
+                                                    .coverage = 0.1152,
+                                                    .difference = agrees ? 0.0049 : -0.4137,
+                                                    .tolerance = 0.01,
+                                                    .agrees = agrees};
+        char *html = sp_report_html(&result, &error), *text = sp_result_json(&result, &error);
+        assert_non_null(html);
+        assert_non_null(
+            strstr(html, "counted again by 2 million jets, on 20011 texels, the proposal covers 11.5&nbsp;%"));
+        assert_true((strstr(html, "id=\"doubt\"") == NULL) == (agrees == 1));
+        assert_non_null(strstr(html, agrees ? "finds 11.0&nbsp;%" : "which the search uses, 52.9&nbsp;%"));
+        json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL), *check = json_object_get(all, "forward_check");
+        EXPECT_KEYS(check, "coverage", "difference", "tolerance", "agrees", "jets", "texels");
+        assert_true(json_is_boolean(json_object_get(check, "agrees")));
+        assert_true(json_is_true(json_object_get(check, "agrees")) == (agrees == 1));
+        assert_true(real_of(check, "coverage") == 0.1152);
+        json_decref(all);
+        free(html);
+        free(text);
+    }
+}
+
 static void a_certificate_is_told_in_full(void **state)
 {
     fixture *f = *state;
@@ -535,6 +568,7 @@ int main(void)
         cmocka_unit_test(flux_is_told_as_it_is),
         cmocka_unit_test(figures_survive_the_file),
         cmocka_unit_test(what_is_out_of_reach_is_said_first),
+        cmocka_unit_test(what_jets_say_otherwise_is_a_warning),
         cmocka_unit_test(a_certificate_is_told_in_full),
         cmocka_unit_test(the_model_is_a_gltf),
     };

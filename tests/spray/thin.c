@@ -140,7 +140,7 @@ static void a_roof_leaves_the_texels_short(void **state)
         jets[with] = sp_evaluator_fidelity(evaluator)->jets;
         print_message("texel %g mm, %zu patches, %zu texels\n", 1e3 * texel[with], patches->count,
                       sp_evaluator_atlas(evaluator)->texel_count);
-        assert_true(fabs(texel[with] - sqrt(patches->total_area / 200000)) < 1e-3 * texel[with]);
+        assert_true(fabs(texel[with] - sqrt(patches->total_area / 100000)) < 1e-3 * texel[with]);
         assert_true(sp_evaluator_atlas(evaluator)->texel_count < 400000);
         sp_evaluator_destroy(evaluator);
         sp_mesh_destroy(mesh);

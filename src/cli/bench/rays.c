@@ -15,16 +15,7 @@ enum { SIGHTINGS = 256 };
 static void enclose(bench_stage *stage)
 {
     const sp_mesh *mesh = stage->mesh;
-    sp_vec3 low = sp_v(INFINITY, INFINITY, INFINITY), high = sp_scale(low, -1);
-    for (size_t t = 0; t < mesh->triangle_count; t++)
-        for (int k = 0; k < 3; k++) {
-            sp_vec3 p = mesh->vertices[mesh->triangles[t][k]];
-            low = sp_v(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
-            high = sp_v(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
-        }
-    stage->low = low;
-    stage->high = high;
-    stage->diagonal = sp_distance(low, high);
+    stage->diagonal = sp_mesh_box(mesh, &stage->low, &stage->high);
     stage->speed = sqrt(2 * GRAVITY * stage->diagonal);
 }
 

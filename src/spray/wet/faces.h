@@ -2,8 +2,8 @@
 #ifndef SPRAY_FACES_H
 #define SPRAY_FACES_H
 
-#include "spray/cuts.h"
-#include "spray/winding.h"
+#include "spray/wet/cuts.h"
+#include "spray/wet/winding.h"
 
 /* What became of one side of a face. */
 typedef enum {

@@ -1,7 +1,7 @@
 /* Lines of sight are cast from every free side, and two sides that see each other look into the same space. What is
  * joined, however indirectly, with what the cavity's point sees is wet. The lines come in rounds: a few from every
  * side, then more from those that are not wet yet, until further rounds join nothing. Large faces cast more. */
-#include "spray/flood.h"
+#include "spray/wet/flood.h"
 
 #include <stdlib.h>
 
@@ -103,9 +103,9 @@ static bool trace_block(sp_flood *flood, line_block *block)
         uint32_t met = sp_flood_met(flood, &block->rays[i], &block->hits[i]);
         done = note_sight(flood, (sp_sight){block->side[i], met, (uint32_t)block->line[i]});
         if (met == SP_SKY && flood->setup->cavity == SP_CAVITY_OUTSIDE)
-            block->joined += sp_flood_join(flood->parent, block->side[i], liquid);
+            block->joined += sp_set_join(flood->parent, block->side[i], liquid);
         else if (met != SP_SKY && met != SP_UNTOLD)
-            block->joined += sp_flood_join(flood->parent, block->side[i], met);
+            block->joined += sp_set_join(flood->parent, block->side[i], met);
     }
     block->count = 0;
     return done;
@@ -147,10 +147,10 @@ bool sp_flood_cast(sp_flood *flood, const bool *sides, uint64_t first, uint64_t 
 static size_t choose_sides(sp_flood *flood, uint64_t round, bool *sides)
 {
     size_t chosen = 0;
-    uint32_t liquid = sp_flood_root(flood->parent, (uint32_t)flood->sides);
+    uint32_t liquid = sp_set_root(flood->parent, (uint32_t)flood->sides);
     for (uint32_t side = 0; side < flood->sides; side++) {
         sides[side] = flood->faces->state[side] == SP_FACE_FREE &&
-                      (round < ROUNDS_OF_ALL || sp_flood_root(flood->parent, side) != liquid);
+                      (round < ROUNDS_OF_ALL || sp_set_root(flood->parent, side) != liquid);
         chosen += sides[side];
     }
     return chosen;
@@ -205,7 +205,7 @@ static void join_in_view(sp_flood *flood)
             flood->in_view[side] = flood->in_view[side] || sees_point(flood, side);
     for (uint32_t side = 0; side < flood->sides; side++)
         if (flood->in_view[side])
-            sp_flood_join(flood->parent, side, (uint32_t)flood->sides);
+            sp_set_join(flood->parent, side, (uint32_t)flood->sides);
 }
 
 /* Joins the liquid with what the cavity's point sees. */
@@ -214,11 +214,7 @@ static bool join_seen(sp_flood *flood, sp_error *error)
     sp_vec3 point = flood->setup->cavity_point;
     bool seen = false, touches = false;
     for (int i = 0; i < DIRECTIONS; i++) {
-        sp_ray line = {.origin = point,
-                       .velocity = sp_sphere_direction(i, DIRECTIONS),
-                       .t_min = 0,
-                       .t_max = INFINITY,
-                       .skip = SP_NONE};
+        sp_ray line = sp_sphere_sight(point, i, DIRECTIONS);
         sp_hit hit = sp_trace_nearest(flood->tracer, &line, sp_v(0, 0, 0));
         uint32_t met = sp_flood_met(flood, &line, &hit);
         touches = touches || starts_on_surface(flood, line);
@@ -227,7 +223,7 @@ static bool join_seen(sp_flood *flood, sp_error *error)
         seen = true;
         flood->seen[met]++;
         flood->in_view[met] = true;
-        sp_flood_join(flood->parent, met, (uint32_t)flood->sides);
+        sp_set_join(flood->parent, met, (uint32_t)flood->sides);
     }
     if (seen && !touches) {
         join_in_view(flood);
@@ -254,9 +250,9 @@ bool sp_flood_faces(const sp_setup *setup, const sp_tracer *tracer, const sp_fac
     }
     done = done && (setup->cavity == SP_CAVITY_OUTSIDE || join_seen(&flood, error)) && cast_rounds(&flood, error);
     if (done) {
-        uint32_t root = sp_flood_root(flood.parent, (uint32_t)flood.sides);
+        uint32_t root = sp_set_root(flood.parent, (uint32_t)flood.sides);
         for (uint32_t side = 0; side < flood.sides; side++)
-            found->liquid[side] = faces->state[side] == SP_FACE_FREE && sp_flood_root(flood.parent, side) == root;
+            found->liquid[side] = faces->state[side] == SP_FACE_FREE && sp_set_root(flood.parent, side) == root;
         done =
             setup->cavity == SP_CAVITY_OUTSIDE || sp_flood_keep_indoors(&flood, found->liquid, &found->outdoors, error);
         if (done && setup->cavity == SP_CAVITY_POINT)

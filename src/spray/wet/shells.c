@@ -1,10 +1,11 @@
 /* A part whose triangles close is a solid by itself, also where it is welded to others along edges: bodies that touch
  * in one file share their corners. What is left over may be closed by several parts together, as a vessel is by its
  * shell and its heads; sheets welded to it, which have free edges, are peeled off before that is asked. */
-#include "spray/shells.h"
+#include "spray/wet/shells.h"
 
-#include "spray/same_corners.h"
+#include "spray/wet/same_corners.h"
 
+#include "mesh/disjoint_sets.h"
 #include "mesh/half_edge.h"
 
 #include <stdlib.h>
@@ -19,25 +20,6 @@ typedef struct {
     bool *loose;      /* [triangles], peeled off */
     bool apart;       /* triangles of different parts do not hang together */
 } shell_search;
-
-static uint32_t root_of(uint32_t *parent, uint32_t node)
-{
-    while (parent[node] != node) {
-        parent[node] = parent[parent[node]];
-        node = parent[node];
-    }
-    return node;
-}
-
-static void unite(uint32_t *parent, uint32_t a, uint32_t b)
-{
-    a = root_of(parent, a);
-    b = root_of(parent, b);
-    if (a < b)
-        parent[b] = a;
-    else
-        parent[a] = b;
-}
 
 /* Whether two triangles at one edge hang together there. */
 static bool hang_together(const shell_search *search, uint32_t a, uint32_t b)
@@ -76,7 +58,7 @@ static void gather_shells(shell_search *search, const bool *among)
             for (size_t k = first; k < i && (!among || among[a]); k++) {
                 uint32_t b = search->edges.order[k] / 3;
                 if ((!among || among[b]) && hang_together(search, a, b))
-                    unite(search->parent, a, b);
+                    sp_set_join(search->parent, a, b);
             }
         }
     }
@@ -85,7 +67,7 @@ static void gather_shells(shell_search *search, const bool *among)
     for (uint32_t h = 0; h < 3 * triangles; h++) {
         size_t uses;
         if ((!among || among[h / 3]) && surplus(search, h, &uses) != 0)
-            search->open[root_of(search->parent, h / 3)] = true;
+            search->open[sp_set_root(search->parent, h / 3)] = true;
     }
 }
 
@@ -145,7 +127,7 @@ static bool find_shells(shell_search *search, bool *closed, sp_error *error)
     gather_shells(search, NULL);
     size_t remaining = 0;
     for (uint32_t t = 0; t < triangles; t++) {
-        left[t] = search->open[root_of(search->parent, t)];
+        left[t] = search->open[sp_set_root(search->parent, t)];
         closed[t] = !left[t];
         remaining += left[t];
     }
@@ -156,7 +138,7 @@ static bool find_shells(shell_search *search, bool *closed, sp_error *error)
         if (done)
             gather_shells(search, left);
         for (uint32_t t = 0; done && t < triangles; t++)
-            closed[t] = closed[t] || (!search->loose[t] && !search->open[root_of(search->parent, t)]);
+            closed[t] = closed[t] || (!search->loose[t] && !search->open[sp_set_root(search->parent, t)]);
     }
     free(left);
     return done;
@@ -223,7 +205,7 @@ static bool number_shells(sp_shells *shells, shell_search *search, const bool *c
     if (!allocate_shells(shells, count))
         return false;
     for (uint32_t t = 0; t < triangles; t++) {
-        shells->of[t] = shells->of[root_of(search->parent, t)];
+        shells->of[t] = shells->of[sp_set_root(search->parent, t)];
         shells->closed[shells->of[t]] = closed[t];
     }
     measure_shells(shells, search);

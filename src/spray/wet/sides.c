@@ -1,5 +1,5 @@
 /* What became of each part's surface, for whoever looks after the geometry. */
-#include "spray/wet.h"
+#include "spray/wet/wet.h"
 
 static void add_side(const sp_wet *wet, size_t side, sp_part_sides *part)
 {

@@ -2,7 +2,7 @@
 #ifndef SPRAY_PAIRS_H
 #define SPRAY_PAIRS_H
 
-#include "spray/shells.h"
+#include "spray/wet/shells.h"
 
 typedef struct {
     uint32_t a, b; /* triangles, a < b */

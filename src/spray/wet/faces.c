@@ -1,7 +1,7 @@
 /* Each face is judged at its middle. Where several triangles lie on each other there, one stands for all of them: a
  * sheet rather than a side of a solid, of equals the lowest; the others touch it and do not count. What the space just
  * beyond either side is, material or not, the winding number says. */
-#include "spray/faces.h"
+#include "spray/wet/faces.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -140,13 +140,6 @@ sp_vec3 sp_face_point(const sp_faces *faces, uint32_t face, double first, double
     return sp_triangle_point(faces->mesh, sp_face_triangle(faces, face), at[0], at[1]);
 }
 
-/* Whether the foot of p on a triangle's plane lies in it; its weights. */
-static bool lies_over(const sp_mesh *mesh, uint32_t triangle, sp_vec3 p, double at[2])
-{
-    sp_weights_of(mesh, triangle, p, at);
-    return at[0] >= 0 && at[1] >= 0 && at[0] + at[1] <= 1;
-}
-
 /* Whether triangle a stands for what lies on each other rather than b. */
 static bool goes_before(const sp_shells *shells, uint32_t a, uint32_t b)
 {
@@ -180,7 +173,7 @@ static void judge(const face_judge *judge, uint32_t face)
     bool touches = false;
     for (uint32_t i = faces->cuts->cover_start[triangle]; i < faces->cuts->cover_start[triangle + 1]; i++) {
         uint32_t other = faces->cuts->covers[i];
-        if (!lies_over(mesh, other, point, at))
+        if (!sp_triangle_weights(mesh, other, point, &at[0], &at[1]))
             continue;
         touches = true;
         if (goes_before(judge->shells, other, first)) {

@@ -2,9 +2,9 @@
  * those cells alone that it really passes through, but all of each, so that cells stay convex. A triangle that lies in
  * the plane of another cuts it along its own edges. Cells that are still long are halved: a shaft may lead through an
  * opening without touching it. The lines come in a shuffled order, which keeps the trees low. */
-#include "spray/cuts.h"
+#include "spray/wet/cuts.h"
 
-#include "spray/pairs.h"
+#include "spray/wet/pairs.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -245,24 +245,14 @@ static void cut_along(cutter *cutter, uint32_t triangle, uint32_t of, int which,
     }
 }
 
-void sp_weights_of(const sp_mesh *mesh, uint32_t triangle, sp_vec3 p, double at[2])
-{
-    const uint32_t *corner = mesh->triangles[triangle];
-    sp_vec3 a = mesh->vertices[corner[0]], ab = sp_sub(mesh->vertices[corner[1]], a);
-    sp_vec3 ac = sp_sub(mesh->vertices[corner[2]], a), normal = sp_cross(ab, ac), ap = sp_sub(p, a);
-    double area2 = sp_dot(normal, normal);
-    at[0] = sp_dot(sp_cross(ap, ac), normal) / area2;
-    at[1] = sp_dot(sp_cross(ab, ap), normal) / area2;
-}
-
 /* Clips a scratch to its triangle and cuts along what is left. */
 static void apply(cutter *cutter, const scratch *scratch)
 {
     const sp_mesh *mesh = cutter->mesh;
     const uint32_t *corner = mesh->triangles[scratch->triangle];
     stretch whole;
-    sp_weights_of(mesh, scratch->triangle, scratch->p, whole.from);
-    sp_weights_of(mesh, scratch->triangle, scratch->q, whole.to);
+    sp_triangle_weights(mesh, scratch->triangle, scratch->p, &whole.from[0], &whole.from[1]);
+    sp_triangle_weights(mesh, scratch->triangle, scratch->q, &whole.to[0], &whole.to[1]);
     sp_vec3 p = sp_triangle_point(mesh, scratch->triangle, whole.from[0], whole.from[1]);
     sp_vec3 q = sp_triangle_point(mesh, scratch->triangle, whole.to[0], whole.to[1]);
     if (!(sp_distance(p, q) > cutter->cuts->contact))

@@ -2,7 +2,7 @@
 #ifndef SPRAY_WINDING_H
 #define SPRAY_WINDING_H
 
-#include "spray/shells.h"
+#include "spray/wet/shells.h"
 
 typedef struct sp_winding sp_winding;
 

@@ -2,7 +2,7 @@
 #ifndef SPRAY_CUTS_H
 #define SPRAY_CUTS_H
 
-#include "spray/shells.h"
+#include "spray/wet/shells.h"
 
 #define SP_CONTACT 1e-6     /* of the geometry's diagonal: surfaces nearer than this to each other touch */
 #define SP_CELL 0x80000000u /* a child that is a cell: its number with this bit */
@@ -31,9 +31,6 @@ void sp_cuts_destroy(sp_cuts *cuts);
 
 /* The cell that holds a point of a triangle that has cells. *near is set where a cut is nearer than the contact. */
 uint32_t sp_cuts_cell(const sp_cuts *cuts, uint32_t triangle, double u, double v, bool *near);
-
-/* Weights of a triangle's second and third corner that give the foot of p in its plane. */
-void sp_weights_of(const sp_mesh *mesh, uint32_t triangle, sp_vec3 p, double at[2]);
 
 /* A convex part of a triangle, as weights of its second and third corner. */
 #define SP_PIECE_POINTS 64

@@ -2,7 +2,9 @@
 #ifndef SPRAY_FLOOD_H
 #define SPRAY_FLOOD_H
 
-#include "spray/faces.h"
+#include "spray/wet/faces.h"
+
+#include "mesh/disjoint_sets.h"
 
 /* What lines of sight met: side `to` of a face, or one of these. */
 #define SP_SKY (SP_NONE - 1)
@@ -27,25 +29,12 @@ typedef struct {
     bool *in_view;  /* [sides], the middle of the side sees the cavity's point */
 } sp_flood;
 
-static inline uint32_t sp_flood_root(uint32_t *parent, uint32_t node)
-{
-    while (parent[node] != node) {
-        parent[node] = parent[parent[node]];
-        node = parent[node];
-    }
-    return node;
-}
-/* False where they were one already. */
-static inline bool sp_flood_join(uint32_t *parent, uint32_t a, uint32_t b)
-{
-    a = sp_flood_root(parent, a);
-    b = sp_flood_root(parent, b);
-    if (a < b)
-        parent[b] = a;
-    else
-        parent[a] = b;
-    return a != b;
-}
+/* caps.c: whether a line meets one of the setup's caps before t. */
+bool sp_caps_block(const sp_setup *setup, const sp_ray *line, double t);
+
+/* inside.c: direction `index` of `count`, spread evenly over the sphere; the line of sight from a point that way. */
+sp_vec3 sp_sphere_direction(int index, int count);
+sp_ray sp_sphere_sight(sp_vec3 point, int index, int count);
 
 /* flood.c: a line from inside a face into the space that its side looks into; the side that a line meets. */
 sp_ray sp_flood_line(const sp_flood *flood, uint32_t side, uint64_t line);

@@ -1,7 +1,7 @@
 /* Openings, from the lines that leave the liquid for the sky or for what lies outdoors. Around such a line, from where
  * it starts, directions are tried until something is in the way: how far that is to either side, at the distance where
  * the nearest of it stands, is the opening's width. Lines that pass each other closely use the same opening. */
-#include "spray/flood.h"
+#include "spray/wet/flood.h"
 
 #include <stdlib.h>
 

@@ -13,9 +13,9 @@
  *  - A room drawn as one shell turned inwards has a wall without end: what is behind it, and what sticks out through
  * it, must count as material, and so 1 is added everywhere. A winding number above 0 at the cavity's point then means
  * that it lies in steel. */
-#include "spray/wet.h"
+#include "spray/wet/wet.h"
 
-#include "spray/flood.h"
+#include "spray/wet/flood.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -27,19 +27,6 @@
 #define SKY_LINES 1024 /* from a shell, to tell whether it lies under the sky */
 #define SKY_STRIDE 387 /* mixes their directions */
 #define SKY_LEAST 4    /* one line in so many may meet something */
-
-static double mesh_diagonal(const sp_mesh *mesh)
-{
-    sp_vec3 low = sp_v(INFINITY, INFINITY, INFINITY), high = sp_scale(low, -1);
-    for (size_t i = 0; i < mesh->triangle_count; i++) {
-        for (int corner = 0; corner < 3; corner++) {
-            sp_vec3 p = mesh->vertices[mesh->triangles[i][corner]];
-            low = sp_v(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
-            high = sp_v(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
-        }
-    }
-    return mesh->triangle_count ? sp_distance(low, high) : 0;
-}
 
 /* The least winding number of the other shells in front of some triangles of a shell. */
 static int winding_beside(const sp_wet *wet, const sp_mesh *mesh, uint32_t shell, double contact)
@@ -150,8 +137,9 @@ static bool find_solids(sp_wet *wet, const sp_setup *setup, const sp_tracer *tra
 static bool find_wet(sp_wet *wet, const sp_setup *setup, const sp_tracer *tracer, sp_error *error)
 {
     const sp_mesh *mesh = setup->mesh;
-    double contact = SP_CONTACT * mesh_diagonal(mesh);
-    if (!sp_shells_create(&wet->shells, mesh, SAME * mesh_diagonal(mesh), error) ||
+    sp_vec3 low, high;
+    double diagonal = sp_mesh_box(mesh, &low, &high), contact = SP_CONTACT * diagonal;
+    if (!sp_shells_create(&wet->shells, mesh, SAME * diagonal, error) ||
         !find_solids(wet, setup, tracer, contact, error) ||
         !sp_cuts_create(&wet->cuts, setup, &wet->shells, contact, error) ||
         !sp_faces_create(&wet->faces, mesh, &wet->shells, &wet->cuts, wet->solids, wet->base, setup->run.threads,

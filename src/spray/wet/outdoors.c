@@ -7,7 +7,7 @@
  * likely end belong to it, and so do flat and concave neighbours of what does, and whatever can be reached and sees no
  * sky even by way of others. The rest is outdoors. An opening that is narrow against what is behind it is never passed;
  * what is half open, such as a bell over a pot, may fall on either side. */
-#include "spray/flood.h"
+#include "spray/wet/flood.h"
 
 #include "mesh/half_edge.h"
 
@@ -161,13 +161,13 @@ static size_t take_skyless(indoors *known, uint32_t *parent, bool *sky)
     for (size_t i = 0; i < flood->sight_count; i++) {
         sp_sight sight = flood->sights[i];
         if (sight.to < flood->sides && !known->in[sight.from] && !known->in[sight.to])
-            sp_flood_join(parent, sight.from, sight.to);
+            sp_set_join(parent, sight.from, sight.to);
     }
     for (size_t i = 0; i < flood->sight_count; i++)
         if (flood->sights[i].to == SP_SKY && !known->in[flood->sights[i].from])
-            sky[sp_flood_root(parent, flood->sights[i].from)] = true;
+            sky[sp_set_root(parent, flood->sights[i].from)] = true;
     for (uint32_t side = 0; side < flood->sides; side++) {
-        if (known->in[side] || !known->liquid[side] || sky[sp_flood_root(parent, side)])
+        if (known->in[side] || !known->liquid[side] || sky[sp_set_root(parent, side)])
             continue;
         known->in[side] = true;
         joined++;

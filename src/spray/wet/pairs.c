@@ -1,7 +1,7 @@
 /* Space is halved again and again, and with it the triangles, until few are left; these are compared one by one. What
  * lies in both halves is compared in both, but noted only in the half that holds the low corner of what the two boxes
  * have in common. */
-#include "spray/pairs.h"
+#include "spray/wet/pairs.h"
 
 #include <stdlib.h>
 

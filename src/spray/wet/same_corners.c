@@ -1,6 +1,6 @@
 /* Faces of one body that were reckoned one by one may differ in a corner's last digits. Corners are sorted along a
  * direction that no drawing uses, and compared with those that follow close by. */
-#include "spray/same_corners.h"
+#include "spray/wet/same_corners.h"
 
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 /* Whether a point lies in the space that the wet sides face. */
-#include "spray/wet.h"
+#include "spray/wet/wet.h"
 
 #define SIGHTS 32
 
@@ -12,6 +12,11 @@ sp_vec3 sp_sphere_direction(int index, int count)
     return sp_v(radius * cos(longitude), radius * sin(longitude), height);
 }
 
+sp_ray sp_sphere_sight(sp_vec3 point, int index, int count)
+{
+    return (sp_ray){.origin = point, .velocity = sp_sphere_direction(index, count), .t_max = INFINITY, .skip = SP_NONE};
+}
+
 bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point)
 {
     if (evaluator->setup.cavity == SP_CAVITY_NONE)
@@ -20,11 +25,7 @@ bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point)
         return false;
     int votes = 0, sights = SIGHTS;
     for (int i = 0; i < SIGHTS; i++) {
-        sp_ray sight = {.origin = point,
-                        .velocity = sp_sphere_direction(i, SIGHTS),
-                        .t_min = 0,
-                        .t_max = INFINITY,
-                        .skip = SP_NONE};
+        sp_ray sight = sp_sphere_sight(point, i, SIGHTS);
         sp_hit hit = sp_trace_nearest(evaluator->tracer, &sight, sp_v(0, 0, 0));
         if (sp_caps_block(&evaluator->setup, &sight, hit.t)) {
             sights--;

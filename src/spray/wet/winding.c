@@ -2,7 +2,7 @@
  * that the shell goes round the point. "Up" is a direction that no drawing uses, and which triangles a line meets is
  * decided in the plane across it, edge by edge, the same for both triangles of an edge: so none is missed or met
  * twice. */
-#include "spray/winding.h"
+#include "spray/wet/winding.h"
 
 #include <stdlib.h>
 
