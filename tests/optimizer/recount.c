@@ -1,0 +1,109 @@
+/* Proposals and their certificates counted again by the public evaluator alone: what they say is covered is, and no
+ * layout that an independent search finds breaks a bound. An argument gives the seconds that each scene is searched
+ * for, a second one a part of the name of the scenes to run; then a table is printed. */
+#include "recount_search.h"
+
+#include <stdio.h>
+
+#ifdef SPRAYPLAN_SANITIZE
+#define HALL_TEXEL 0.7
+#define CHAMBER_TEXEL 0.2
+#define SECONDS 0.2
+#else
+#define HALL_TEXEL 0.28
+#define CHAMBER_TEXEL 0.08
+#define SECONDS 0.5
+#endif
+#define HALL_TEXEL_FULL 0.14 /* where seconds are given */
+#define CHAMBER_TEXEL_FULL 0.04
+
+static double seconds;
+static const char *wanted;
+
+static void check_counts(const recount_scene *scene, const sp_proposal *proposal)
+{
+    sp_error error = {0};
+    const sp_certificate *c = &proposal->certificate;
+    const sp_patches *patches = sp_evaluator_patches(scene->room.evaluator);
+    assert_true(c->computed);
+    assert_int_equal(c->texels, patches->count);
+    assert_true(fabs(c->whole - patches->total_area) <= 1e-6 * patches->total_area);
+    sp_coverage *coverage = sp_evaluate_inverse(scene->room.evaluator, proposal->layout, &error);
+    assert_non_null(coverage);
+    if (fabs(c->counted - coverage->covered_area) > 1e-6 * coverage->covered_area)
+        fail_msg("counted %.9g m2, evaluated %.9g", c->counted, coverage->covered_area);
+    sp_coverage_destroy(coverage);
+    for (size_t i = 0; i < proposal->front_count; i++) {
+        const sp_front_point *point = &proposal->front[i];
+        if (fabs(point->counted - point->area) > 1e-6 * point->area)
+            fail_msg("front: counted %.9g m2, evaluated %.9g", point->counted, point->area);
+    }
+}
+
+static void print_row(const recount_case *which, bool refined, const recount *r)
+{
+    const sp_proposal *p = r->proposal;
+    const sp_certificate *c = &p->certificate;
+    double whole = c->whole, water = LITRES_PER_MINUTE;
+    printf("| %s%s | %zu | %zu | %.2f | %.3f | %.3f | %.3f | %.3f | %.1e | %.2f | %.2f | ", which->name,
+           refined ? ", refined" : "", c->texels, r->poses, p->coverage->flow / water, 100 * c->counted / whole,
+           100 * r->best[RECOUNT_RANDOM] / whole, 100 * r->best[RECOUNT_ANNEALED] / whole, 100 * c->area_bound / whole,
+           r->margin, r->least_water / water, c->water_bound / water);
+    if (c->every_aim.computed)
+        printf("%.3f | %.3f | %.1e", 100 * r->best[RECOUNT_AIMED] / whole, 100 * c->every_aim.area_bound / whole,
+               r->aim_margin);
+    else
+        printf("| |");
+    printf(" | %zu | %zu |\n", r->tried, r->evaluated);
+    fflush(stdout);
+}
+
+static void check_case(const recount_case *which, bool refined)
+{
+    recount_scene scene;
+    sp_error error = {0};
+    double begun = recount_clock();
+    if (wanted)
+        which->open(&scene, which->hall ? HALL_TEXEL_FULL : CHAMBER_TEXEL_FULL);
+    else
+        which->open(&scene, which->hall ? HALL_TEXEL : CHAMBER_TEXEL);
+    if (refined)
+        scene.options.refine = sp_place_options_default().refine;
+    sp_proposal *proposal = sp_place(scene.room.evaluator, &scene.options, &error);
+    assert_string_equal(error.message, "");
+    room_check(proposal, &scene.options);
+    check_counts(&scene, proposal);
+    double placed = recount_clock() - begun;
+    recount r;
+    recount_open(&r, &scene, proposal);
+    recount_search(&r, seconds);
+    if (wanted)
+        print_row(which, refined, &r);
+    else
+        print_message("%s: placed in %.2f s, %zu layouts tried, %zu evaluated\n", which->name, placed, r.tried,
+                      r.evaluated);
+    recount_close(&r);
+    sp_proposal_destroy(proposal);
+    scene_close(&scene);
+}
+
+static void nothing_found_breaks_a_bound(void **state)
+{
+    const recount_case *which = *state;
+    check_case(which, false);
+    check_case(which, true);
+}
+
+int main(int argc, char **argv)
+{
+    struct CMUnitTest tests[RECOUNT_CASES];
+    size_t count = 0;
+    seconds = argc > 1 ? atof(argv[1]) : SECONDS;
+    wanted = argc > 2 ? argv[2] : argc > 1 ? "" : NULL;
+    for (size_t i = 0; i < RECOUNT_CASES; i++)
+        if (!wanted || strstr(recount_cases[i].name, wanted))
+            tests[count++] = (struct CMUnitTest){.name = recount_cases[i].name,
+                                                 .test_func = nothing_found_breaks_a_bound,
+                                                 .initial_state = (void *)(uintptr_t)&recount_cases[i]};
+    return _cmocka_run_group_tests("recount", tests, count, NULL, NULL);
+}
