@@ -10,8 +10,8 @@
 #define CHAMBER_TEXEL 0.2
 #define SECONDS 0.2
 #else
-#define HALL_TEXEL 0.28
-#define CHAMBER_TEXEL 0.08
+#define HALL_TEXEL 0.6
+#define CHAMBER_TEXEL 0.14
 #define SECONDS 0.5
 #endif
 #define HALL_TEXEL_FULL 0.14 /* where seconds are given */
@@ -80,6 +80,9 @@ static void check_case(const recount_case *which, bool refined)
     if (wanted)
         print_row(which, refined, &r);
     else
+        for (size_t i = 0; i < proposal->stage_count; i++)
+            print_message("  %s %.2f\n", proposal->stages[i].name, proposal->stages[i].seconds);
+    if (!wanted)
         print_message("%s: placed in %.2f s, %zu layouts tried, %zu evaluated\n", which->name, placed, r.tried,
                       r.evaluated);
     recount_close(&r);
