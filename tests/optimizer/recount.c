@@ -13,9 +13,9 @@
 #define PLACING 4
 #else
 #define HALL_TEXEL 0.6
-#define CHAMBER_TEXEL 0.16
-#define SECONDS 0.4
-#define PLACING 1.8 /* s for a proposal and its bounds */
+#define CHAMBER_TEXEL 0.14
+#define SECONDS 0.3
+#define PLACING 1.6 /* s for a proposal and its bounds */
 #endif
 #define HALL_TEXEL_FULL 0.14 /* where seconds are given */
 #define CHAMBER_TEXEL_FULL 0.04

@@ -83,6 +83,18 @@ static void lifted_shares_still_suffice(void **state)
     }
 }
 
+/* Fluxes that fall short of the threshold by less than single precision tells do not cover, whatever they round to. */
+static void what_falls_short_does_not_cover(void **state)
+{
+    (void)state;
+    uint64_t random = 9;
+    for (int i = 0; i < 10000; i++) {
+        double all = 1 - 1e-7 * next_random(&random), one = all * next_random(&random);
+        assert_true(sp_covered((float)one + (float)(all - one), 1) == 0);
+        assert_true(sp_covered((float)one + (float)(all - one) + 2e-6f, 1) == 1);
+    }
+}
+
 #define TYPES 7
 #ifdef SPRAYPLAN_SANITIZE
 #define TEXEL 0.12
@@ -299,6 +311,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(layouts_within_a_flow_are_so_in_units),
         cmocka_unit_test(lifted_shares_still_suffice),
+        cmocka_unit_test(what_falls_short_does_not_cover),
         cmocka_unit_test(no_pose_is_worth_more_than_its_price),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
