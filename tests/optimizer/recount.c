@@ -124,7 +124,7 @@ int main(int argc, char **argv)
                                                  .test_func = nothing_found_breaks_a_bound,
                                                  .initial_state = (void *)(uintptr_t)&recount_cases[i]};
     size_t scenes = count;
-    tests[count++] = (struct CMUnitTest){
-        .name = "most_were_certified", .test_func = most_were_certified, .initial_state = &scenes};
+    tests[count++] =
+        (struct CMUnitTest){.name = "most_were_certified", .test_func = most_were_certified, .initial_state = &scenes};
     return _cmocka_run_group_tests("recount", tests, count, NULL, NULL);
 }

@@ -181,7 +181,8 @@ static inline void few_nozzles(recount_scene *s, double texel)
     s->types[0].angle_max = 110 * DEGREE;
     s->types[0].flow_min = 0.7 * s->types[0].flow;
     s->types[0].flow_max = 1.3 * s->types[0].flow;
-    s->room.setup.criterion = (sp_criterion){.flux = 3 * LITRES_PER_MINUTE, .impact_speed = 5, .incidence = 70 * DEGREE};
+    s->room.setup.criterion =
+        (sp_criterion){.flux = 3 * LITRES_PER_MINUTE, .impact_speed = 5, .incidence = 70 * DEGREE};
     s->options.max_nozzles = 3;
     scene_open(s, &b, texel);
 }

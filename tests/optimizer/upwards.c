@@ -203,8 +203,8 @@ static void stage_open(stage *s, sp_criterion criterion, sp_trajectory trajector
                               .spacing = 0.9,
                               .from = sp_v(-0.7, 0.4, 0.9),
                               .to = sp_v(0.2, 0.4, 0.9)};
-    s->mounts[1] = (sp_mount){
-        .kind = SP_MOUNT_PORT, .position = sp_v(0.5, -0.4, 1), .axis = sp_v(0, 0, -1), .tilt = 40 * DEGREE};
+    s->mounts[1] =
+        (sp_mount){.kind = SP_MOUNT_PORT, .position = sp_v(0.5, -0.4, 1), .axis = sp_v(0, 0, -1), .tilt = 40 * DEGREE};
     s->watch = sp_watch_start(&s->options.run);
     assert_true(sp_sites_create(s->room.evaluator, &s->options, &s->sites, &error));
     assert_true(sp_candidates_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &error));
