@@ -122,15 +122,23 @@ static bool certify(sp_placement *placement, sp_proposal *proposal, sp_error *er
     return sp_certify(&placement->search, &placement->watch, &placement->front, &proposal->certificate, error);
 }
 
-static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *error)
+/* What a reported layout covers is attainable: patches of which it covers half or more, and never less in all than it
+ * covers. The attainable area, m². */
+static double note_attained(const sp_evaluator *fine, sp_proposal *proposal)
 {
-    const sp_place_options *options = placement->options;
     for (size_t p = 0; p < proposal->coverage->deposits.count; p++)
-        if (proposal->coverage->deposits.share[p] > 0 || proposal->greedy_coverage->deposits.share[p] > 0) {
+        if (proposal->coverage->deposits.covered[p] || proposal->greedy_coverage->deposits.covered[p]) {
             proposal->attainable[p] = true;
             proposal->reasons[p] = SP_REASON_ATTAINABLE;
         }
-    proposal->attainable_area = area_of(placement->fine, proposal->attainable);
+    return fmax(area_of(fine, proposal->attainable),
+                fmax(proposal->coverage->covered_area, proposal->greedy_coverage->covered_area));
+}
+
+static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *error)
+{
+    const sp_place_options *options = placement->options;
+    proposal->attainable_area = note_attained(placement->fine, proposal);
     proposal->reached = proposal->asked_area > 0 && proposal->coverage->covered_area >= proposal->asked_area &&
                         proposal->coverage->flow <= options->max_water * (1 + SP_ROUNDING) &&
                         (!options->max_nozzles || proposal->layout->count <= options->max_nozzles);

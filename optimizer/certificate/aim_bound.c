@@ -250,7 +250,7 @@ static void conclude(const aiming *a, sp_front *front, sp_certificate *certifica
     certificate->every_aim.places = count_places(a->task->search);
     certificate->every_aim.area_bound = area;
     certificate->every_aim.water_bound =
-        fmin(front->best.flow, a->task->search->kept_flow + a->units.unit * (double)water);
+        fmin(front->best.flow, a->task->search->kept_flow + sp_water_least(&a->units, water));
     certificate->every_aim.gap = (area - counted) / area;
 }
 

@@ -299,7 +299,7 @@ static void conclude(const certifying *c, sp_front *front, sp_certificate *certi
     certificate->counted = counted;
     certificate->area_bound = fmin(whole, c->bound.by_water[sp_problem_budget(&c->problem, front->best.flow)]);
     certificate->water_bound =
-        fmin(front->best.flow, c->problem.search->kept_flow + c->problem.units.unit * (double)water);
+        fmin(front->best.flow, c->problem.search->kept_flow + sp_water_least(&c->problem.units, water));
     certificate->gap = certificate->area_bound > 0 ? (certificate->area_bound - counted) / certificate->area_bound : 0;
 }
 

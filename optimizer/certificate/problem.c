@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#define ROUNDED 0x1p-22 /* more of a texel than single precision puts its area, and what of it is covered, wrong by */
+
 static double least_of(const double *values, size_t count)
 {
     double least = INFINITY;
@@ -91,7 +93,7 @@ static bool set_texels(sp_problem *p, sp_error *error)
         p->need[t] = need > margin ? (float)need : 0;
         /* of what their edges leave dry, other edges cover as large a part as of all of it */
         p->area[t] = p->need[t] > 0 ? search->area[t] * search->kept_dry[t] : 0;
-        p->cover.base += (double)search->area[t] - (double)p->area[t];
+        p->cover.base += (double)search->area[t] * (1 + ROUNDED) - (double)p->area[t];
     }
     p->cover.texel_count = search->patch_count;
     p->cover.area = p->area;

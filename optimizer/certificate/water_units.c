@@ -57,3 +57,8 @@ size_t sp_water_budget(const sp_water_units *units, double flow)
 {
     return flow > 0 ? (size_t)floor(flow / units->unit + SLACK) : 0;
 }
+
+double sp_water_least(const sp_water_units *units, size_t budget)
+{
+    return fmax(0, (double)budget - 2 * SLACK) * units->unit;
+}

@@ -22,5 +22,7 @@ sp_water_units sp_water_units_create(const double *flows, size_t count, double l
 /* A nozzle's flow, 1 at least. */
 uint32_t sp_water_weight(const sp_water_units *units, double flow);
 size_t sp_water_budget(const sp_water_units *units, double flow);
+/* The least flow that has a budget of so many units, rounded downwards. */
+double sp_water_least(const sp_water_units *units, size_t budget);
 
 #endif

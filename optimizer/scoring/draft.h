@@ -5,6 +5,9 @@
 #include "scoring/sweep.h"
 
 #define SP_ROUNDING 1e-9 /* share of the water by which a sum of flows may lie above what is allowed */
+/* Flux over threshold that covers: so much more than 1 that what was rounded up to it in single precision is no less
+ * than the threshold. Refinement would else stop where the search sees a patch covered and the evaluator does not. */
+#define SP_ENOUGH (1 + 0x1p-20f)
 
 /* Everything that the search's files share. Read-only once made. */
 typedef struct {
@@ -83,7 +86,7 @@ static inline void sp_pour(const sp_search *search, float field, float *wet, flo
 /* The share of a patch that is covered. */
 static inline float sp_covered(float wet, float dry)
 {
-    return wet >= 1 ? 1 : 1 - dry;
+    return wet >= SP_ENOUGH ? 1 : 1 - dry;
 }
 /* Draws wet, dry, flow, covered and value from the items. */
 void sp_draft_refresh(const sp_search *search, sp_draft *draft);

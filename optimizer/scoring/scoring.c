@@ -225,7 +225,7 @@ double sp_field_gain(const sp_search *search, const sp_draft *draft, const float
 {
     double gain = 0;
     for (size_t p = 0; p < search->patch_count; p++)
-        if (field[p] != 0 && draft->wet[p] < 1) {
+        if (field[p] != 0 && draft->wet[p] < SP_ENOUGH) {
             float wet = draft->wet[p], dry = draft->dry[p];
             sp_pour(search, field[p], &wet, &dry);
             gain += (double)(search->area[p] *

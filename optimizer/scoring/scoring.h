@@ -12,7 +12,7 @@ typedef struct {
 /* The worth of a patch per m² at this flux over threshold on all of it, `dry` of it being beyond what edges cover. */
 static inline float sp_worth(const sp_search *search, float wet, float dry)
 {
-    return wet >= 1 ? 1 : 1 - dry * (1 - search->credit * wet);
+    return wet >= SP_ENOUGH ? 1 : 1 - dry * (1 - search->credit * wet);
 }
 
 /* What scores many poses one after the other, those of one mounting point together: what an arrival is worth to a make

@@ -99,7 +99,7 @@ static bool has_number(const sp_lineup *lineup)
 static float more_worth(bool single, float credit, float had, float dry, float more)
 {
     float lack = 1 - credit * had, has = single ? fmaxf(had, more) : had + more;
-    return dry * (more < 0 ? -more * lack : has >= 1 ? lack : credit * (has - had));
+    return dry * (more < 0 ? -more * lack : has >= SP_ENOUGH ? lack : credit * (has - had));
 }
 
 static double gain_of(const sp_lineup *lineup, size_t row, float credit)
@@ -108,7 +108,7 @@ static double gain_of(const sp_lineup *lineup, size_t row, float credit)
     double gain = 0;
     for (size_t i = table->start[row]; i < table->start[row + 1]; i++) {
         uint32_t p = table->patch[i];
-        if (lineup->wet[p] < 1)
+        if (lineup->wet[p] < SP_ENOUGH)
             gain += (double)(table->area[p] * more_worth(table->search->single, credit, lineup->wet[p], lineup->dry[p],
                                                          table->field[i]));
     }
@@ -130,7 +130,7 @@ static void set_gains(sp_lineup *lineup, float credit)
     memset(lineup->gain, 0, table->row_count * sizeof *lineup->gain);
     for (size_t p = 0; p < table->patch_count; p++) {
         float had = lineup->wet[p], dry = lineup->dry[p], area = table->area[p];
-        if (had >= 1)
+        if (had >= SP_ENOUGH)
             continue;
         for (size_t i = table->column_start[p]; i < table->column_start[p + 1]; i++) {
             float more = more_worth(single, credit, had, dry, table->column_field[i]);

@@ -5,7 +5,7 @@
  * points would let it fall between them. */
 #include <sprayplan/nozzle.h>
 
-#define ROUND_OFF 1e-6 /* share that is none, or that all lacks */
+#define ROUND_OFF 1e-6 /* share that all lacks */
 /* Breadths over which an edge goes from all to nothing: the first length at which the step's slope, seen as a filter,
  * has a zero at the lattice's own frequency. */
 #define BLUR 1.834
@@ -72,7 +72,7 @@ double sp_spray_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 dire
 {
     double share = spray->kind == SP_PATTERN_FLAT_FAN ? fan_share(spray, frame, direction, breadth)
                                                       : cone_share(spray, frame, direction, breadth);
-    return share > 1 - ROUND_OFF ? 1 : share < ROUND_OFF ? 0 : share;
+    return share > 1 - ROUND_OFF ? 1 : share;
 }
 
 double sp_spray_fringe(double breadth)

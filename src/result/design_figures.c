@@ -161,7 +161,7 @@ static sp_reason *reported_reasons(const sp_result *result, const sp_evaluator *
                                              : SP_REASON_UNKNOWN;
     for (size_t i = 0; i < result->design_count; ++i)
         for (size_t k = 0; result->designs[i].evaluator == *evaluator && k < patches->count; ++k)
-            if (result->designs[i].coverage->deposits.share[k] > 0)
+            if (result->designs[i].coverage->deposits.covered[k])
                 reasons[k] = SP_REASON_ATTAINABLE;
     return reasons;
 }

@@ -10,15 +10,16 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
 {
     const sp_setup *setup = &emitter->source.evaluator->setup;
     sp_wetting wetting = {0, 1};
-    double counted = 0;
+    double counted = 0, area = emitter->source.evaluator->patches.area[first->patch];
     for (const sp_arrival *arrival = first; arrival < end; arrival++) {
         double flux = flow / emitter->spray.solid_angle * arrival->transfer, share = sp_emitter_share(emitter, arrival);
+        /* no patch receives more than there is, however dense the flights are at its point */
+        double mean = fmin(share * flux, flow / area);
         if (share > 0)
-            sp_deposit(deposits, first->patch, share * flux, 1, arrival->speed, arrival->incidence,
-                       setup->liquid.density);
+            sp_deposit(deposits, first->patch, mean, 1, arrival->speed, arrival->incidence, setup->liquid.density);
         if (!arrival->passes)
             continue;
-        counted += share * flux;
+        counted += mean;
         sp_wetting_add(&wetting, flux, setup->criterion.flux, share, sp_emitter_holds(emitter, arrival->direction));
     }
     sp_count_wetting(emitter->source.evaluator, deposits, first->patch, counted, &wetting);

@@ -3,7 +3,7 @@
 #include "room.h"
 
 #define PRESSURE 2e5
-#define SLACK 1.05 /* edges are blurred by about a texel, and need as much to spare */
+#define SLACK 1.08 /* edges are blurred by about a texel, and need as much to spare */
 
 /* Of each kind, the first so many are tried. */
 #ifdef SPRAYPLAN_SANITIZE
@@ -156,7 +156,7 @@ static void caps_on_the_sphere(void **state)
          * little is one that does not even know how much of the sphere a cap is */
         double share = 0.5 * (1 - cos(SLACK * known[i].degrees * DEGREE));
         print_message("  every cover takes %.2f or more\n", s.needed);
-        assert_true(s.needed <= (double)known[i].number + 1e-9 && s.needed >= floor(1 / share));
+        assert_true(s.needed <= (double)known[i].number + 1e-9 && s.needed + 1e-3 >= floor(1 / share));
     }
 }
 

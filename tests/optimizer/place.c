@@ -323,7 +323,8 @@ static void the_target_is_of_the_whole_surface(void **state)
         double attainable = proposal->attainable_area;
         assert_true(attainable < 0.2 * whole);
         assert_true(fabs(proposal->asked_area - 0.99 * whole) < 1e-9 * whole);
-        assert_true(fabs(proposal->target_area - 0.99 * attainable) < 0.01 * attainable);
+        /* what is attainable was told by points before anything was placed */
+        assert_true(fabs(proposal->target_area - 0.99 * attainable) < 0.03 * attainable);
         assert_true(proposal->coverage->covered_area >= proposal->target_area);
         assert_false(proposal->reached);
         sp_proposal_destroy(proposal);

@@ -16,7 +16,7 @@
 #define DEGREE (M_PI / 180)
 #define LITRES_PER_MINUTE (1e-3 / 60)
 
-#define ROOM_VERTICES 64
+#define ROOM_VERTICES 96
 typedef struct {
     sp_vec3 vertices[ROOM_VERTICES];
     uint32_t triangles[ROOM_VERTICES][3];

@@ -50,8 +50,9 @@ static void needles_and_triangles_of_every_size(void **state)
             sp_nozzle nozzle = nozzle_at(&type, sp_v(0.31, 0.13, 0.71), sp_v(0.9, 0.3, -0.2), 9);
             for (int k = 0; k < 2; k++) {
                 sp_coverage *coverage = sound_cover(evaluator, &nozzle, 1, k == 0);
-                assert_float_equal(coverage->area / 17.2, 1, 1e-9);
-                assert_float_equal(share_landed(coverage), 1, k ? 1e-9 : 0.01);
+                /* what is thinner than 1e-6 of the diagonal touches */
+                assert_float_equal(coverage->area / 17.2, 1, 3e-6);
+                assert_float_equal(share_landed(coverage), 1, k ? 1e-5 : 0.01); /* nor does it count */
                 fraction[fine][k] = coverage->fraction;
                 sp_coverage_destroy(coverage);
             }

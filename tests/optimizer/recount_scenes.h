@@ -1,0 +1,286 @@
+/* Scenes on which proposals and their bounds are counted again: unlike the example vessel, and each about one thing
+ * that search, certificate and evaluator might see differently. Texels are as many as the search takes, so that all
+ * count on the same. */
+#ifndef RECOUNT_SCENES_H
+#define RECOUNT_SCENES_H
+
+#include "room.h"
+
+#include <sprayplan/evaluator.h>
+
+#define RECOUNT_TYPES 4
+#define RECOUNT_MOUNTS 4
+
+typedef struct {
+    room room;
+    sp_nozzle_type types[RECOUNT_TYPES];
+    const sp_nozzle_type *type_list[RECOUNT_TYPES];
+    double pressures[2];
+    sp_mount mounts[RECOUNT_MOUNTS];
+    sp_nozzle kept[2];
+    size_t kept_count;
+    sp_layout *layout; /* of the kept */
+    sp_place_options options;
+} recount_scene;
+
+/* What a scene is before it is opened: a hall of 10 x 10 x 6 m or a chamber of 2 x 1.4 x 1.2 m, with no more in it. */
+static inline void scene_begin(recount_scene *s, room_builder *b, bool hall)
+{
+    *s = (recount_scene){.pressures = {2e5, 4e5}};
+    *b = (room_builder){0};
+    s->room.setup = sp_setup_default();
+    s->room.setup.cavity = SP_CAVITY_POINT;
+    s->room.setup.fidelity.method = SP_METHOD_INVERSE;
+    s->room.setup.fidelity.trajectory = SP_TRAJECTORY_LINE;
+    s->room.setup.cavity_point = hall ? sp_v(0.3, 0.2, 4.9) : sp_v(0.05, 0.02, 1.1);
+    if (hall)
+        room_box(b, sp_v(-5, -5, 0), sp_v(5, 5, 6), "walls", "lid");
+    else
+        room_box(b, sp_v(-1, -0.7, 0), sp_v(1, 0.7, 1.2), "walls", "lid");
+    s->options = room_options();
+    s->options.clearance = 0.02;
+    s->options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    s->options.pressure_count = 1;
+    s->options.mount_count = 1;
+    s->mounts[0] = hall ? (sp_mount){.kind = SP_MOUNT_LINE,
+                                     .axis = sp_v(0, 0, -1),
+                                     .tilt = 60 * DEGREE,
+                                     .spacing = 3.3,
+                                     .from = sp_v(-3.3, 0.4, 5),
+                                     .to = sp_v(3.3, 0.4, 5)}
+                        : (sp_mount){.kind = SP_MOUNT_LINE,
+                                     .axis = sp_v(0, 0, -1),
+                                     .tilt = 60 * DEGREE,
+                                     .spacing = 0.7,
+                                     .from = sp_v(-0.7, 0.1, 0.95),
+                                     .to = sp_v(0.7, 0.1, 0.95)};
+}
+
+static inline void scene_type(recount_scene *s, sp_pattern pattern, double angle, double thin, double litres)
+{
+    sp_nozzle_type *type = &s->types[s->options.type_count];
+    *type = room_cone((const char *[]){"one", "two", "three", "four"}[s->options.type_count], angle * DEGREE, litres);
+    type->pattern = pattern;
+    if (pattern == SP_PATTERN_FLAT_FAN)
+        type->thickness = thin * DEGREE;
+    if (pattern == SP_PATTERN_HOLLOW_CONE)
+        type->hollow = thin;
+    s->type_list[s->options.type_count++] = type;
+}
+
+/* What points into the scene is set once it lies where it stays. */
+static inline void scene_open(recount_scene *s, const room_builder *b, double texel)
+{
+    sp_error error = {0};
+    room_open(&s->room, b, texel);
+    s->options.types = s->type_list;
+    s->options.pressures = s->pressures;
+    s->options.mounts = s->mounts;
+    if (s->kept_count) {
+        s->layout = sp_layout_create(s->kept, s->kept_count, &error);
+        assert_non_null(s->layout);
+        s->options.kept = s->layout;
+    }
+}
+
+static inline void scene_close(recount_scene *s)
+{
+    sp_layout_destroy(s->layout);
+    room_close(&s->room);
+}
+
+static inline void fans_in_a_hall(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, true);
+    scene_type(s, SP_PATTERN_FLAT_FAN, 90, 1, 12);
+    scene_type(s, SP_PATTERN_FLAT_FAN, 60, 2, 19);
+    s->options.max_nozzles = 4;
+    s->options.max_water = 60 * LITRES_PER_MINUTE;
+    scene_open(s, &b, texel);
+}
+
+static inline void streams_in_a_hall(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, true);
+    scene_type(s, SP_PATTERN_SOLID_STREAM, 1, 0, 9);
+    scene_type(s, SP_PATTERN_SOLID_STREAM, 2, 0, 23);
+    s->options.max_nozzles = 4;
+    scene_open(s, &b, texel);
+}
+
+static inline void hollow_cones_in_a_hall(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, true);
+    scene_type(s, SP_PATTERN_HOLLOW_CONE, 60, 0.97, 14);
+    scene_type(s, SP_PATTERN_HOLLOW_CONE, 100, 0.97, 31);
+    s->room.setup.criterion.flux = 0.2 * LITRES_PER_MINUTE;
+    s->options.max_nozzles = 3;
+    scene_open(s, &b, texel);
+}
+
+/* Three ports, the first taken by a kept nozzle, another kept one beside them; flux that half suffices. */
+static inline void ports_and_kept(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_type(s, SP_PATTERN_FULL_CONE, 120, 0, 16);
+    scene_type(s, SP_PATTERN_FULL_CONE, 50, 0, 6.3);
+    scene_type(s, SP_PATTERN_FLAT_FAN, 80, 6, 5.1);
+    s->room.setup.criterion.flux = 4 * LITRES_PER_MINUTE;
+    for (int i = 0; i < 3; i++)
+        s->mounts[i] = (sp_mount){.kind = SP_MOUNT_PORT,
+                                  .name = {'A', (char)('1' + i)},
+                                  .position = sp_v(-0.6 + 0.6 * i, 0.2, 1.1),
+                                  .axis = sp_v(0, 0, -1),
+                                  .tilt = 40 * DEGREE,
+                                  .depth_to = 0.3,
+                                  .depth_spacing = 0.3};
+    s->options.mount_count = 3;
+    s->kept[0] = (sp_nozzle){.name = "first",
+                             .type = &s->types[0],
+                             .position = sp_v(-0.6, 0.2, 0.9),
+                             .axis = sp_v(0, 0, -1),
+                             .pressure = 2e5,
+                             .keep = true};
+    s->kept[1] = (sp_nozzle){.name = "second",
+                             .type = &s->types[1],
+                             .position = sp_v(0.4, -0.4, 0.5),
+                             .axis = sp_unit(sp_v(0.5, 0.2, -1)),
+                             .pressure = 2e5,
+                             .keep = true};
+    s->kept_count = 2;
+    scene_open(s, &b, texel);
+}
+
+/* Flows without a common measure. */
+static inline void little_water(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_type(s, SP_PATTERN_FULL_CONE, 90, 0, 7.1234567);
+    scene_type(s, SP_PATTERN_FULL_CONE, 60, 0, M_PI);
+    scene_type(s, SP_PATTERN_FULL_CONE, 40, 0, M_SQRT2);
+    s->room.setup.criterion.flux = 2 * LITRES_PER_MINUTE;
+    s->pressures[0] = 2.3e5;
+    s->options.max_water = 16.4 * LITRES_PER_MINUTE;
+    s->mounts[0].tilt = 45 * DEGREE;
+    scene_open(s, &b, texel);
+}
+
+/* Angles and flows that refinement sets. */
+static inline void few_nozzles(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_type(s, SP_PATTERN_FULL_CONE, 80, 0, 11);
+    scene_type(s, SP_PATTERN_FLAT_FAN, 70, 12, 8);
+    s->types[0].angle_min = 60 * DEGREE;
+    s->types[0].angle_max = 110 * DEGREE;
+    s->types[0].flow_min = 0.7 * s->types[0].flow;
+    s->types[0].flow_max = 1.3 * s->types[0].flow;
+    s->room.setup.criterion =
+        (sp_criterion){.flux = 3 * LITRES_PER_MINUTE, .impact_speed = 5, .incidence = 70 * DEGREE};
+    s->options.max_nozzles = 3;
+    scene_open(s, &b, texel);
+}
+
+static inline void one_alone(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_type(s, SP_PATTERN_FULL_CONE, 90, 0, 14);
+    scene_type(s, SP_PATTERN_HOLLOW_CONE, 80, 0.8, 7);
+    scene_type(s, SP_PATTERN_FLAT_FAN, 80, 10, 6);
+    s->room.setup.criterion.flux = 6 * LITRES_PER_MINUTE;
+    s->room.setup.criterion.combine = SP_COMBINE_SINGLE;
+    s->options.max_nozzles = 4;
+    scene_open(s, &b, texel);
+}
+
+/* A box stands on the floor and another on it, a sheet hangs between; low pressure bends both arcs down. */
+static inline void parts_and_parabolas(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    room_box(&b, sp_v(-0.5, -0.3, 0), sp_v(-0.1, 0.1, 0.4), "box", "top");
+    room_box(&b, sp_v(-0.4, -0.2, 0.4), sp_v(-0.2, 0, 0.6), "small", "small top");
+    room_part(&b, "baffle");
+    room_sheet(&b, sp_v(0.4, -0.5, 0.3), sp_v(0, 0.8, 0), sp_v(0.1, 0, 0.6));
+    scene_type(s, SP_PATTERN_FULL_CONE, 100, 0, 9);
+    scene_type(s, SP_PATTERN_FLAT_FAN, 60, 5, 4.3);
+    s->room.setup.fidelity.trajectory = SP_TRAJECTORY_PARABOLA;
+    s->room.setup.criterion.flux = 2.5 * LITRES_PER_MINUTE;
+    s->pressures[0] = 0.06e5;
+    s->mounts[0].from.z = s->mounts[0].to.z = 0.8;
+    s->mounts[0].tilt = 150 * DEGREE;
+    s->options.max_nozzles = 3;
+    scene_open(s, &b, texel);
+}
+
+/* On most of the walls it takes two, on some three. */
+static inline void weak_flux(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_type(s, SP_PATTERN_FULL_CONE, 120, 0, 12);
+    scene_type(s, SP_PATTERN_FULL_CONE, 360, 0, 37);
+    scene_type(s, SP_PATTERN_FULL_CONE, 70, 0, 5.7);
+    s->room.setup.criterion.flux = 9 * LITRES_PER_MINUTE;
+    s->options.max_nozzles = 5;
+    s->options.max_water = 90 * LITRES_PER_MINUTE;
+    scene_open(s, &b, texel);
+}
+
+static inline void any_liquid(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_type(s, SP_PATTERN_FULL_CONE, 40, 0, 4);
+    scene_type(s, SP_PATTERN_FLAT_FAN, 200, 8, 7.5);
+    scene_type(s, SP_PATTERN_HOLLOW_CONE, 120, 0.9, 6.2);
+    s->pressures[0] = 1e5;
+    s->options.pressure_count = 2;
+    s->options.max_water = 33 * LITRES_PER_MINUTE;
+    scene_open(s, &b, texel);
+}
+
+/* Few poses, so that branch and bound comes near to its end. */
+static inline void proved(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_type(s, SP_PATTERN_FULL_CONE, 30, 0, 3);
+    scene_type(s, SP_PATTERN_FLAT_FAN, 50, 3, 2.2);
+    s->mounts[0].tilt = 0;
+    s->mounts[0].spacing = 0.2;
+    s->options.max_nozzles = 4;
+    s->options.prove = true;
+    s->room.setup.criterion.flux = 5 * LITRES_PER_MINUTE;
+    scene_open(s, &b, texel);
+}
+
+typedef struct {
+    const char *name;
+    bool hall, refined; /* refined: where one look must do */
+    void (*open)(recount_scene *scene, double texel);
+} recount_case;
+
+static const recount_case recount_cases[] = {
+    {"thin fans in a hall", true, false, fans_in_a_hall},
+    {"streams in a hall", true, true, streams_in_a_hall},
+    {"hollow cones of 0.97", true, false, hollow_cones_in_a_hall},
+    {"ports, two kept", false, true, ports_and_kept},
+    {"little water", false, false, little_water},
+    {"few nozzles", false, true, few_nozzles},
+    {"one alone must do", false, false, one_alone},
+    {"parts, both arcs", false, true, parts_and_parabolas},
+    {"weak flux", false, true, weak_flux},
+    {"any liquid", false, false, any_liquid},
+    {"proved", false, false, proved},
+};
+#define RECOUNT_CASES (sizeof recount_cases / sizeof *recount_cases)
+
+#endif
