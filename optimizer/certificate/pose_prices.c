@@ -10,6 +10,7 @@
 
 #define UPWARDS (1 + 1e-4) /* more than a sweep's sum may lie off, see sweep.h */
 #define SLACK 1e-6         /* more than single precision puts an edge, or a flux over its threshold, wrong */
+#define PART_MORE 5e-5f    /* more than single precision puts a share at an edge wrong */
 #define ROWS_AT_A_TIME 300
 #define STRIDE 7 /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
 
@@ -204,7 +205,7 @@ bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64
     for (uint32_t t = 0; t < prices->search->patch_count; t++) {
         if (field[t] == 0 || !(prices->need[t] > 0))
             continue;
-        float share = field[t] < 0 ? fmaxf(field[t] * prices->upwards, -1) : share_of(prices, t, field[t], false);
+        float share = field[t] < 0 ? fmaxf(field[t] - PART_MORE, -1) : share_of(prices, t, field[t], false);
         if (share != 0) {
             prices->texels[count] = t;
             prices->shares[count++] = share;

@@ -148,6 +148,7 @@ bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen 
 
 void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_placed *placed, float *field)
 {
+    const sp_patches *patches = sp_evaluator_patches(search->coarse);
     const sp_nozzle *nozzle = &placed->nozzle;
     sp_posed_spray posed = sp_posed_spray_of(search, nozzle);
     bool moved = !equal(nozzle->position, sight->position);
@@ -155,11 +156,14 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
     for (size_t i = 0; i < sight->count; i++) {
         const sp_seen *seen = &sight->seen[i];
         sp_flight flight = {.direction = seen->direction};
-        double transfer = seen->transfer;
-        if (moved && !sp_sight_fly(search, sight, seen, nozzle->position, &flight, &transfer))
-            continue;
+        double transfer = seen->transfer, breadth = seen->breadth;
+        if (moved) {
+            if (!sp_sight_fly(search, sight, seen, nozzle->position, &flight, &transfer))
+                continue;
+            breadth = sp_flight_breadth(&flight, sight->speed, patches->length[seen->patch]);
+        }
         float *value = &field[seen->patch];
-        *value = sp_field_join(*value, sp_posed_spray_value(&posed, flight.direction, seen->breadth, transfer));
+        *value = sp_field_join(*value, sp_posed_spray_value(&posed, flight.direction, breadth, transfer));
     }
 }
 

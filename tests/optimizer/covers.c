@@ -153,10 +153,11 @@ static void caps_on_the_sphere(void **state)
         if (count != known[i].number)
             fail_msg("caps of %g deg: %zu, expected %zu", known[i].degrees, count, known[i].number);
         /* the nozzles' one place is given, so that what holds for every aim holds for all covers; a proof that says
-         * little is one that does not even know how much of the sphere a cap is */
+         * little is one that does not even know how much of the sphere a cap is, but for the patches at its edge,
+         * which count whole where an aim is not known exactly */
         double share = 0.5 * (1 - cos(SLACK * known[i].degrees * DEGREE));
         print_message("  every cover takes %.2f or more\n", s.needed);
-        assert_true(s.needed <= (double)known[i].number + 1e-9 && s.needed + 1e-3 >= floor(1 / share));
+        assert_true(s.needed <= (double)known[i].number + 1e-9 && s.needed + 1e-3 >= floor(1 / share) - 1);
     }
 }
 

@@ -25,6 +25,8 @@ static double seconds;
 static const char *wanted; /* NULL: a quick look */
 static size_t certified;
 
+#define ROUNDING 5e-6 /* of an area: candidates' directions are kept in single precision */
+
 static void check_counts(const recount_scene *scene, const sp_proposal *proposal)
 {
     sp_error error = {0};
@@ -34,12 +36,12 @@ static void check_counts(const recount_scene *scene, const sp_proposal *proposal
     assert_true(fabs(c->whole - patches->total_area) <= 1e-6 * patches->total_area);
     sp_coverage *coverage = sp_evaluate_inverse(scene->room.evaluator, proposal->layout, &error);
     assert_non_null(coverage);
-    if (fabs(c->counted - coverage->covered_area) > 1e-6 * coverage->covered_area)
+    if (fabs(c->counted - coverage->covered_area) > ROUNDING * coverage->covered_area)
         fail_msg("counted %.9g m2, evaluated %.9g", c->counted, coverage->covered_area);
     sp_coverage_destroy(coverage);
     for (size_t i = 0; i < proposal->front_count; i++) {
         const sp_front_point *point = &proposal->front[i];
-        if (fabs(point->counted - point->area) > 1e-6 * point->area)
+        if (fabs(point->counted - point->area) > ROUNDING * point->area)
             fail_msg("front: counted %.9g m2, evaluated %.9g", point->counted, point->area);
     }
 }
