@@ -27,8 +27,10 @@ static void add_flight(sp_text *text, const sp_evaluator *evaluator)
                     fidelity->reflections, fidelity->reflections == 1 ? "" : "s");
     sp_text_add(text, "; run-off along walls is not counted</dd>\n");
     add_item(text, "Resolution");
-    sp_text_add(text, "texels of %.3g&nbsp;mm, %zu patches; each is judged as a whole</dd>\n", 1e3 * fidelity->texel,
-                sp_evaluator_patches(evaluator)->count);
+    sp_text_add(text,
+                "texels of %.3g&nbsp;mm, %zu patches; each is judged at one point, and at a spray's edge "
+                "by the share of it that lies inside</dd>\n",
+                1e3 * fidelity->texel, sp_evaluator_patches(evaluator)->count);
 }
 
 static void add_criterion(sp_text *text, const sp_criterion *criterion)
