@@ -55,7 +55,7 @@ static void fan_thinner_than_a_texel(void **state)
     /* flat below the fan's middle: half a thickness times h² ∫ sec³ either side of it */
     double end = deg(35), area = type.thickness * h * h * (tan(end) / cos(end) + log(tan(end) + 1 / cos(end)));
     compare_with("thin fan's area", "inverse", inverse->covered_area, area, 0.01);
-    compare_with("thin fan's area", "forward", forward->covered_area, area, 0.15);
+    compare_with("thin fan's area", "forward", forward->covered_area, area, 0.15 * sqrt(COARSER));
     sp_coverage_destroy(inverse);
     sp_coverage_destroy(forward);
     sp_evaluator_destroy(evaluator);

@@ -9,9 +9,11 @@
 #ifdef SPRAYPLAN_SANITIZE
 #define TEXEL 0.12
 #define CELLS 60
+#define LOOSE_MOST 2.2 /* bounds of small cells: patches at an edge count whole, and are large */
 #else
 #define TEXEL 0.05
 #define CELLS 400
+#define LOOSE_MOST 1.4
 #endif
 #define AIMS 12 /* of each cell */
 
@@ -266,7 +268,7 @@ static void no_aim_is_worth_more_than_its_cell(void **state)
         }
         print_message("small cells: bounds %.4f, best of a few aims %.4f\n", small_upper, small_worth);
         assert_true(tried > CELLS / 2);
-        assert_true(sparse || (small_worth > 0 && small_upper < 1.4 * small_worth));
+        assert_true(sparse || (small_worth > 0 && small_upper < LOOSE_MOST * small_worth));
         stage_close(&s);
     }
 }
