@@ -107,9 +107,12 @@ sp_vec3 sp_spray_direction(const sp_spray *spray, uint64_t i, uint64_t n, uint64
 /* Half-angle (rad) of the smallest cone about z that holds the region. */
 double sp_spray_reach(const sp_spray *spray);
 
-/* The share, 0 to 1, of a patch that lies inside the spray: how far the region, in `frame`, holds what is `breadth` (rad)
- * broad about a unit direction of the world. Edges are blurred by about as much: shares of patches side by side come to
- * the region's solid angle over theirs, also where the region is thinner than a patch. */
+/* Breadths over which sp_spray_share goes from all to nothing at an edge: the first length at which its step's slope,
+ * seen as a filter, has a zero at the frequency of patches side by side. */
+#define SP_SPRAY_BLUR 1.834
+/* The share, 0 to 1, of a patch that lies inside the spray: how far the region, in `frame`, holds what is `breadth`
+ * (rad) broad about a unit direction of the world. Edges are blurred by about as much: shares of patches side by side
+ * come to the region's solid angle over theirs, also where the region is thinner than a patch. */
 double sp_spray_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth);
 /* Beyond so many rad outside of the region no patch of this breadth has a share. */
 double sp_spray_fringe(double breadth);

@@ -26,19 +26,11 @@ static void narrow(sp_vec3 v, float out[3])
     out[2] = (float)v.z;
 }
 
-/* What sp_spray_share makes of a patch's greatest breadth: an edge is blurred over so much, and a disc not broader than
- * SPOT breadths is spread over FRINGE: a little more than there, for round-off. */
-#define BLUR 1.834
-#define BLUR_HALF 0.925
-#define SPOT 1.84
-#define FRINGE 2.61
-#define FAN_CORNER 1.32
-
 static sp_rim rim_at(double angle, double beyond)
 {
     double chord = fmax(0, 2 * sin(0.5 * fmin(angle, M_PI)) + beyond), edge2 = angle >= M_PI ? 4 : chord * chord;
     double sine2 = fmax(edge2 * (1 - edge2 / 4), 1e-30);
-    return (sp_rim){(float)edge2, (float)(1 / (2 * BLUR * sqrt(sine2)))};
+    return (sp_rim){(float)edge2, (float)(1 / (2 * SP_SPRAY_BLUR * sqrt(sine2)))};
 }
 
 sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double strength, double slack)
@@ -49,7 +41,7 @@ sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double 
                         .alone = (float)((1 + slack) / strength)};
     if (region.fan) {
         region.height = spray->half_thickness < M_PI / 2 ? (float)(sin(spray->half_thickness) + slack) : 2;
-        region.rise = (float)(1 / (BLUR * cos(fmin(spray->half_thickness, 0.499 * M_PI))));
+        region.rise = (float)(1 / (SP_SPRAY_BLUR * cos(fmin(spray->half_thickness, 0.499 * M_PI))));
         region.wide = cos(spray->half_width) < 0;
         region.all_round = spray->half_width >= M_PI;
         region.end_cosine = (float)cos(spray->half_width + slack);
@@ -81,7 +73,7 @@ static float cosine_within(double angle)
 /* The same for one bin, where patches look broad against the pattern, or the region is generous. */
 static void cull_broad(double around, double broadest, const sp_spray *spray, sp_count count, size_t b, sp_cull *cull)
 {
-    double reach = sp_spray_reach(spray), far = FRINGE * broadest,
+    double reach = sp_spray_reach(spray), far = SP_VIEW_FRINGE * broadest,
            near = count == SP_COUNT_GENEROUS ? far : SP_VIEW_BLUR * broadest;
     bool fan = spray->kind == SP_PATTERN_FLAT_FAN;
     cull->outside[b] = cosine_within(fmax(reach + near, fan ? 0 : far) + around);
@@ -118,12 +110,12 @@ void sp_cull_create(const sp_bins *bins, const sp_view *view, const sp_spray *sp
     double reach = sp_spray_reach(spray);
     bool fan = spray->kind == SP_PATTERN_FLAT_FAN, all_round = reach >= M_PI, hole = !fan && spray->inner > 0;
     /* beyond a corner of a fan more is blurred than beyond its edges */
-    double corner = fan ? (FAN_CORNER - SP_VIEW_BLUR) * (double)view->most : 0;
+    double corner = fan ? (SP_VIEW_CORNER - SP_VIEW_BLUR) * (double)view->most : 0;
     sp_turned outer = turned(fmin(reach + corner, M_PI)), inner = turned(spray->inner),
               side = turned(spray->half_thickness);
-    float broad = (float)(fmin(2 * sin(0.5 * reach), all_round ? 2 : 2 * cos(0.5 * reach)) / SPOT);
+    float broad = (float)(fmin(2 * sin(0.5 * reach), all_round ? 2 : 2 * cos(0.5 * reach)) / SP_VIEW_SPOT);
     if (hole)
-        broad = fminf(broad, (float)(2 * sin(0.5 * spray->inner) / SPOT));
+        broad = fminf(broad, (float)(2 * sin(0.5 * spray->inner) / SP_VIEW_SPOT));
     for (size_t b = 0; b < SP_BINS; b++) {
         float c = view->cosine[b], s = view->sine[b];
         cull->outside[b] = all_round || reach + corner >= M_PI ? -2 : cosine_more(outer, c, s);

@@ -212,7 +212,7 @@ INLINE lanes root(lanes a)
 }
 
 /* What follows is share.c's, for many patches at a time. */
-#define BLUR 1.834f
+#define BLUR ((float)SP_SPRAY_BLUR)
 
 INLINE lanes smooth_step(lanes t)
 {
@@ -296,14 +296,14 @@ INLINE shares fan_shares(const sp_region *region, lanes x, lanes y, lanes z, lan
 /* All of a patch that any aim may give any share of. */
 INLINE lanes generous_shares(const sp_region *region, bool fan, lanes x, lanes y, lanes z, lanes sharp)
 {
-    lanes breadth = divide(all(1), sharp), spread = scale(breadth, 1.32f); /* corners of fans */
+    lanes breadth = divide(all(1), sharp), spread = scale(breadth, (float)SP_VIEW_CORNER); /* corners of fans */
     if (!fan) {
-        mask slim = at_least(all(region->narrowest), scale(breadth, 1.84f));
-        spread = choose(slim, scale(breadth, 0.925f), scale(breadth, 2.61f));
+        mask slim = at_least(all(region->narrowest), scale(breadth, (float)SP_VIEW_SPOT));
+        spread = choose(slim, scale(breadth, (float)SP_VIEW_BLUR), scale(breadth, (float)SP_VIEW_FRINGE));
         lanes chord = root(chords(region->z, x, y, z));
         mask in = at_least(add(spread, all(region->outer.edge2 >= 4 ? 5 : sqrtf(region->outer.edge2))), chord);
         if (region->inner.edge2 > 0)
-            in = both(in, at_least(add(chord, scale(breadth, 2.61f)), all(sqrtf(region->inner.edge2))));
+            in = both(in, at_least(add(chord, scale(breadth, (float)SP_VIEW_FRINGE)), all(sqrtf(region->inner.edge2))));
         return keep(all(1), in);
     }
     mask in = at_least(add(all(region->height), spread), magnitude(dot(x, y, z, region->y)));

@@ -6,8 +6,14 @@
 
 #define SP_BINS_EDGE 32
 #define SP_BINS (SP_BINS_EDGE * SP_BINS_EDGE)
-#define SP_VIEW_BLUR 0.925 /* of a patch's breadth: so far beyond a pattern's edge it may have a share */
-#define SP_LANES 16        /* floats that a sweep takes at a time: views have as many more, all 0, behind their last */
+/* Of a patch's breadth, each a little more than in sp_spray_share, for round-off: so far beyond a pattern's edge it may
+ * have a share; so far beyond a fan's corner; so far from the axis of a cone too narrow to be told from a spot; and the
+ * chord to the edge of the widest of these. */
+#define SP_VIEW_BLUR (0.505 * SP_SPRAY_BLUR)
+#define SP_VIEW_CORNER (0.72 * SP_SPRAY_BLUR)
+#define SP_VIEW_FRINGE (1.423 * SP_SPRAY_BLUR)
+#define SP_VIEW_SPOT (1.004 * SP_SPRAY_BLUR)
+#define SP_LANES 16 /* floats that a sweep takes at a time: views have as many more, all 0, behind their last */
 
 /* Arrivals that pass the criterion's speed and incidence, sorted by the octahedral bin of their direction, then by
  * patch. */

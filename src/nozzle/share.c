@@ -6,10 +6,6 @@
 #include <sprayplan/nozzle.h>
 
 #define ROUND_OFF 1e-6 /* share that all lacks */
-/* Breadths over which an edge goes from all to nothing: the first length at which the step's slope, seen as a filter,
- * has a zero at the lattice's own frequency. */
-#define BLUR 1.834
-
 /* 0 to 1, with two even derivatives at either end (Perlin, Improving noise, 2002): what is left of a lattice's own
  * wavelengths after it is under 1 %. */
 static double smooth_step(double t)
@@ -27,7 +23,7 @@ static double spot_share(double edge2, double chord2, double blur2)
 /* The share within the polar angle whose chord's square is edge2 (4: all directions). */
 static double disc_share(double edge2, double chord2, double breadth)
 {
-    double blur = BLUR * breadth, blur2 = blur * blur;
+    double blur = SP_SPRAY_BLUR * breadth, blur2 = blur * blur;
     if (edge2 <= 0 || edge2 >= 4)
         return edge2 > 0;
     if (edge2 < fmin(blur2, 2))
@@ -53,7 +49,7 @@ static double cone_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 d
 
 static double fan_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)
 {
-    double share = 1, blur = BLUR * breadth;
+    double share = 1, blur = SP_SPRAY_BLUR * breadth;
     if (spray->half_thickness < M_PI / 2) {
         double height = sin(spray->half_thickness), up = sp_dot(direction, frame->y),
                rise = blur * cos(spray->half_thickness);
@@ -72,10 +68,10 @@ double sp_spray_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 dire
 {
     double share = spray->kind == SP_PATTERN_FLAT_FAN ? fan_share(spray, frame, direction, breadth)
                                                       : cone_share(spray, frame, direction, breadth);
-    return share > 1 - ROUND_OFF ? 1 : share;
+    return share > 1 - ROUND_OFF ? 1 : fmax(0, share);
 }
 
 double sp_spray_fringe(double breadth)
 {
-    return sqrt(2) * BLUR * breadth;
+    return sqrt(2) * SP_SPRAY_BLUR * breadth;
 }
