@@ -34,24 +34,32 @@ typedef struct {
 /* What one nozzle's passing arrivals bring to a patch that may lie across the edge of its spray. An arrival that meets
  * the criterion alone covers the share of the patch that lies inside the spray; one that does not may still do so with
  * others', and counts where the patch's point lies inside. The shares that several nozzles cover are taken to lie
- * anywhere: together they leave dry the product of what each leaves dry. Starts as {0, 1}. */
+ * anywhere: together they leave dry the product of what each leaves dry. Of a patch that is cut into cells (see
+ * sp_arrival) each covers a share of its own part, or brings its part of what falls on all of the patch. Starts as
+ * {0, 1, 0}. */
 typedef struct {
-    double even; /* flux on all of the patch, as `threshold` */
-    double dry;  /* share that is not covered by the edges */
+    double even;  /* flux on all of the patch, as `threshold` */
+    double dry;   /* share that is not covered by the edges */
+    double cells; /* share that cells cover by themselves */
 } sp_wetting;
-/* `flux`: of the arrival inside the spray; `share` of the patch that is inside; `holds`: its point is. */
-static inline void sp_wetting_add(sp_wetting *wetting, double flux, double threshold, double share, bool holds)
+/* `flux`: of the arrival inside the spray; `share` of the `part` of the patch that is inside; `holds`: its point is. */
+static inline void sp_wetting_add(sp_wetting *wetting, double flux, double threshold, double part, double share,
+                                  bool holds)
 {
     bool alone = flux > 0 && flux >= threshold;
-    if (alone && share < 1)
+    if (alone && part < 1)
+        wetting->cells += part * share;
+    else if (alone && share < 1)
         wetting->dry *= 1 - share;
     else if (alone || holds)
-        wetting->even += flux;
+        wetting->even += part * flux;
 }
 /* What one nozzle's arrivals come to: all of the patch, or what its edge covers; what falls short besides is nothing.
  */
 static inline sp_wetting sp_wetting_settle(sp_wetting wetting, double threshold)
 {
+    if (wetting.cells > 0) /* sums of parts that are all there are round to 1 */
+        return (sp_wetting){0, wetting.cells < 1 - 1e-6 ? 1 - wetting.cells : 0, 0};
     if (wetting.dry < 1 && wetting.even > 0 && wetting.even >= threshold)
         wetting.dry = 1;
     else if (wetting.dry < 1)

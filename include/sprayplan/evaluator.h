@@ -98,21 +98,26 @@ bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout,
                          sp_error *error);
 
 /* How liquid from one position at one speed arrives at a patch: nothing here depends on the nozzle's axis, roll, angle,
- * type or flow. The flux (m/s) at the patch is Q · intensity(direction) · transfer. */
+ * type or flow. The flux (m/s) at the patch is Q · intensity(direction) · transfer. A patch so near to the position, or
+ * to the limits of reach, that its one point does not tell how liquid arrives there is cut into cells, each an arrival
+ * of its own; what is said of the patch then is of the cell. */
 typedef struct {
     uint32_t patch;
     bool passes;       /* impact speed and incidence meet the criterion */
     uint8_t arc;       /* which of sp_flights */
+    double part;       /* share of the patch's area that the cell is; 1: all of it, which is not cut */
     sp_vec3 direction; /* unit, at the nozzle, world coordinates */
     double transfer;   /* 1/m²: |n·w| / (v T √D) for a parabola, cos(incidence)/r² for a line */
     double speed;      /* at impact, m/s */
     double incidence;  /* rad */
     double breadth;    /* rad, of the patch as seen from the nozzle */
+    sp_vec3 point;     /* m, where it arrives */
+    sp_vec3 normal;    /* unit, as the patch's */
 } sp_arrival;
 
 typedef struct {
     size_t count;
-    sp_arrival *arrivals; /* ascending by patch; low arc before high arc */
+    sp_arrival *arrivals; /* ascending by patch; cell by cell; low arc before high arc */
 } sp_reach;
 
 /* All unoccluded arrivals from `position` at `speed` within `half_angle` (rad, π for all) about the unit `axis`, or so
@@ -124,8 +129,9 @@ sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, do
 sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                                      double half_angle, sp_error *error);
 /* The same of the patches first to end alone, for callers with little memory: it takes no more than SP_REACH_WORK bytes
- * for each of these patches, the answer included. `known` is NULL, or holds the answer of an earlier call, bit
- * 2 patch + arc (least bits first) set for every arrival: then the same is told again and nothing is traced. */
+ * for each of these patches and for each arrival of a cell, the answer included. `known` is NULL, or holds the answer of
+ * an earlier call, bit 2 patch + arc (least bits first) set for every arrival: then the same is told again, and nothing
+ * is traced but the way to cells. */
 #define SP_REACH_WORK 1024
 sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                                   double half_angle, size_t first, size_t end, const uint8_t *known, sp_error *error);
@@ -142,7 +148,9 @@ typedef struct {
 int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_flight flights[2]);
 /* How broad a square of this edge length (m) about the flight's end looks from where it starts at `speed` (m/s), at
  * most, however it is turned: by how much the flight's direction has to change for its end to move so far. Never more
- * than half a radian: nearer to the nozzle, or to the edge of its reach, a patch is no longer small against its way. */
+ * than SP_BREADTH_MOST (rad): a patch that looks broader is cut into cells that do not, and the spray's edge is blurred over
+ * them by as much, so that their shares still come to the region's solid angle. */
+#define SP_BREADTH_MOST 0.2
 double sp_flight_breadth(const sp_flight *flight, double speed, double length);
 /* True where nothing lies in the way of a flight that leaves `position` (m) at `speed` (m/s) for the patch's point. */
 bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, double speed, const sp_flight *flight,

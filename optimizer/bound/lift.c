@@ -29,10 +29,13 @@ static double round_mixed(double f, double parts, double rest)
 
 static void add(sp_lifts *lifts, const double values[SP_LIFT_LEVELS + 1])
 {
-    float *own = lifts->value[lifts->kinds++];
+    size_t kind = lifts->kinds++;
+    float *own = lifts->value[kind];
     for (size_t i = 0; i <= SP_LIFT_LEVELS; i++)
         own[i] = fminf(1, (float)values[i] * UPWARDS);
     own[0] = 0;
+    for (size_t i = 1; i <= SP_LIFT_LEVELS; i++)
+        lifts->steep[kind] = fmaxf(lifts->steep[kind], own[i] * (float)SP_LIFT_LEVELS / (float)i * UPWARDS);
 }
 
 void sp_lifts_create(size_t nozzles, sp_lifts *lifts)

@@ -4,6 +4,7 @@
 #ifndef OPTIMIZER_LIFT_H
 #define OPTIMIZER_LIFT_H
 
+#include <math.h>
 #include <stddef.h>
 
 #define SP_LIFT_KINDS 24
@@ -15,6 +16,7 @@ typedef struct {
     size_t nozzles; /* valid for layouts of at most so many */
     size_t kinds;
     float value[SP_LIFT_KINDS][SP_LIFT_LEVELS + 1];
+    float steep[SP_LIFT_KINDS]; /* most that g is above a level's share, times it */
 } sp_lifts;
 
 /* Functions for layouts of at most `nozzles`; all hold for fewer as well. */
@@ -26,6 +28,12 @@ static inline float sp_lift(const sp_lifts *lifts, size_t kind, float share)
     float scaled = share * SP_LIFT_LEVELS;
     size_t level = (size_t)scaled;
     return lifts->value[kind][level + ((float)level < scaled)];
+}
+/* Of a share that is one of several that a candidate has of one texel, so much that with the others' it comes to their
+ * sum's lift. */
+static inline float sp_lift_portion(const sp_lifts *lifts, size_t kind, float share)
+{
+    return fminf(1, lifts->steep[kind] * (share + 1.0f / SP_LIFT_LEVELS));
 }
 
 #endif

@@ -99,15 +99,15 @@ void sp_pose_prices_destroy(sp_pose_prices *prices)
 }
 
 /* The share of what a texel needs that a flux brings, rounded upwards. */
-static inline float share_of(const sp_pose_prices *prices, uint32_t texel, float flux, bool twice)
+static inline float share_of(const sp_pose_prices *prices, uint32_t texel, float flux, bool several)
 {
     float ratio = flux / prices->need[texel] * prices->upwards;
     if (ratio >= 1)
         return 1;
     if (!(ratio > 0))
         return 0;
-    /* two arcs of one nozzle add up, even where one nozzle alone must do */
-    return prices->search->single && !twice ? 0 : ratio;
+    /* several arrivals of one nozzle add up, even where one nozzle alone must do */
+    return prices->search->single && !several ? 0 : ratio;
 }
 
 void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, float strength, const sp_prices *u,
@@ -115,15 +115,17 @@ void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, flo
 {
     for (uint32_t i = 0; i < view->count; i++) {
         uint32_t t = view->patch[i];
-        bool twice = view->twice && view->twice[i];
+        float part = sp_view_part(view, i), flux = strength * view->transfer[i];
+        bool cell = part < 1, several = cell || (view->twice && view->twice[i]);
         worth[i] = 0;
         if (!(prices->need[t] > 0))
             continue;
-        float share = share_of(prices, t, strength * view->transfer[i], twice);
+        /* a cell that meets the criterion alone covers its part, another brings less than that */
+        float share = share_of(prices, t, cell ? part * fminf(flux, 1) : flux, several);
         worth[i] = u->plain[t] * share;
-        /* a lift of two arcs together may be more than the sum of theirs, but never more than 1 */
         if (u->lifts && u->lifted[t] > 0 && share > 0)
-            worth[i] += u->lifted[t] * (twice ? 1 : sp_lift(u->lifts, u->kind[t], share));
+            worth[i] += u->lifted[t] *
+                        (several ? sp_lift_portion(u->lifts, u->kind[t], share) : sp_lift(u->lifts, u->kind[t], share));
     }
     prices->search->sweeps->total(view, worth, total);
 }

@@ -74,6 +74,7 @@ typedef struct {
     double margin;    /* rad */
     sp_vec3 gradient; /* of the margin by `local`; for slopes alone */
     double inside;    /* soft, 0 to 1 */
+    bool by_flux;     /* more flux makes its level higher */
 } sp_borne;
 
 static sp_vec3 in_frame(const sp_frame *frame, sp_vec3 d)
@@ -121,17 +122,18 @@ static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool sl
     if (widths < -FAR)
         return false;
     borne->inside = widths > FAR ? 1 : sp_soft_step(widths);
+    /* a cell that has enough has no more to give to others */
+    borne->by_flux = posed->search->threshold > 0 &&
+                     !(seen->part < 1 && sp_levels_sum(posed->search) && posed->strength * borne->transfer >= 1);
     return true;
 }
 
 /* Derivatives of a flight when its start moves along `move`, differentiated from |r - g t²/2| = v t; with u the
  * direction, w the velocity on arrival: t' = u·r'/u·w, u' = (r' - w t')/(v t). Returns that of log transfer, and u'. */
-static double shift(const sp_posed *posed, const sp_borne *borne, uint32_t patch, sp_vec3 move, sp_vec3 *turn)
+static double shift(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, sp_vec3 move, sp_vec3 *turn)
 {
-    const sp_patches *patches = sp_evaluator_patches(posed->search->coarse);
-    sp_vec3 target = patches->point[patch], normal = patches->normal[patch];
     sp_vec3 g = sp_evaluator_gravity(posed->search->coarse);
-    sp_vec3 r = sp_sub(target, posed->nozzle.position), by = sp_scale(move, -1);
+    sp_vec3 r = sp_sub(seen->point, posed->nozzle.position), by = sp_scale(move, -1);
     sp_vec3 u = borne->flight.direction, w = borne->flight.velocity;
     double v = posed->sight->speed, t = borne->flight.time;
     double later = sp_dot(u, by) / sp_dot(u, w);
@@ -141,19 +143,19 @@ static double shift(const sp_posed *posed, const sp_borne *borne, uint32_t patch
     double b = v * v + sp_dot(r, g), root = borne->flight.spread / (v * t * t);
     double d = 2 * b * sp_dot(by, g) - 2 * sp_dot(g, g) * sp_dot(r, by);
     double spread = 2 * later / t + d / (2 * root * root);
-    return sp_dot(normal, faster) / sp_dot(normal, w) - spread;
+    return sp_dot(seen->normal, faster) / sp_dot(seen->normal, w) - spread;
 }
 
 /* Derivative of the logarithm of transfer times inside by unknown k, and of the strength. */
-static double log_slope(const sp_posed *posed, const sp_borne *borne, uint32_t patch, size_t k)
+static double log_slope(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, size_t k)
 {
     const sp_freedom *freedom = posed->freedom;
     double edge = (1 - borne->inside) / posed->width.edge, thicker = 0;
     sp_vec3 turn;
     switch (freedom->kind[k]) {
     case SP_UNKNOWN_PLACE:
-        thicker = shift(posed, borne, patch, freedom->move[k], &turn);
-        return (posed->search->threshold > 0 ? thicker : 0) +
+        thicker = shift(posed, borne, seen, freedom->move[k], &turn);
+        return (borne->by_flux ? thicker : 0) +
                edge * sp_dot(borne->gradient, in_frame(&posed->frame, turn));
     case SP_UNKNOWN_AXIS:
     case SP_UNKNOWN_ROLL:
@@ -161,24 +163,24 @@ static double log_slope(const sp_posed *posed, const sp_borne *borne, uint32_t p
     case SP_UNKNOWN_ANGLE:
         if (edge > 0)
             thicker = edge * (margin_of(&posed->other[k], borne->local, NULL) - borne->margin) / posed->step[k];
-        return thicker + (posed->search->threshold > 0 ? posed->thicken[k] : 0);
+        return thicker + (borne->by_flux ? posed->thicken[k] : 0);
     case SP_UNKNOWN_FLOW:
-        return posed->search->threshold > 0 ? posed->thicken[k] : 0;
+        return borne->by_flux ? posed->thicken[k] : 0;
     }
     return 0;
 }
 
 /* The level of an arrival, and by how much it changes per change of its logarithm's argument. */
-static double level_of(const sp_posed *posed, const sp_borne *borne, double *rise)
+static double level_of(const sp_posed *posed, const sp_borne *borne, double part, double *rise)
 {
-    double flux = posed->strength * borne->transfer * borne->inside;
+    double flux = posed->strength * borne->transfer;
     if (posed->search->threshold <= 0)
-        return *rise = borne->inside;
+        return *rise = part * borne->inside;
     if (sp_levels_sum(posed->search))
-        return *rise = flux;
-    double cover = sp_soft_step(log(flux) / posed->width.level);
-    *rise = cover * (1 - cover) / posed->width.level;
-    return cover;
+        return *rise = part * borne->inside * (borne->by_flux ? flux : 1);
+    double cover = sp_soft_step(log(flux * borne->inside) / posed->width.level);
+    *rise = part * cover * (1 - cover) / posed->width.level;
+    return part * cover;
 }
 
 static bool has_place(const sp_freedom *freedom)
@@ -199,11 +201,11 @@ void sp_levels(const sp_search *search, const sp_freedom *freedom, const sp_sigh
         sp_borne borne = {0};
         double rise = 0;
         bool borne_there = bear(&posed, seen, flies, slope != NULL, &borne);
-        level[i] = borne_there ? level_of(&posed, &borne, &rise) : 0;
+        level[i] = borne_there ? level_of(&posed, &borne, seen->part, &rise) : 0;
         if (!slope)
             continue;
         for (size_t k = 0; k < freedom->count; k++) {
-            double by_k = rise > 0 ? rise * log_slope(&posed, &borne, seen->patch, k) : 0;
+            double by_k = rise > 0 ? rise * log_slope(&posed, &borne, seen, k) : 0;
             slope[k * sight->count + i] = isfinite(by_k) ? by_k : 0;
         }
     }

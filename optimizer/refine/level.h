@@ -12,7 +12,8 @@ typedef struct {
     double edge; /* rad */
 } sp_width;
 
-/* Levels that add up are fluxes over threshold; others are covers, any of which suffices. */
+/* Levels that add up are fluxes over threshold; others are covers, any of which suffices, but that those of one
+ * nozzle's cells of a patch add up. */
 static inline bool sp_levels_sum(const sp_search *search)
 {
     return !search->single && search->threshold > 0;

@@ -58,18 +58,8 @@ static bool equal(sp_vec3 a, sp_vec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* The two arcs to a point leave on either side of the bisector of the way there and the vertical (Torricelli), the high
- * one above it. `up` is zero without gravity. */
-static bool is_high(sp_vec3 way, sp_vec3 up, sp_vec3 direction)
-{
-    sp_vec3 middle = sp_unit(sp_add(sp_unit(way), up));
-    return sp_dot(direction, sp_along(up, -sp_dot(up, middle), middle)) > 0;
-}
-
 static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
 {
-    const sp_patches *patches = sp_evaluator_patches(search->coarse);
-    sp_vec3 up = sp_unit(sp_scale(sp_evaluator_gravity(search->coarse), -1));
     sp_reach *reach = sp_evaluator_reach_passing(search->coarse, sight->position, sight->speed, sight->axis,
                                                  sight->half_angle, error);
     if (!reach)
@@ -77,9 +67,14 @@ static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
     sight->seen = malloc((reach->count ? reach->count : 1) * sizeof *sight->seen);
     for (size_t i = 0; sight->seen && i < reach->count; i++) {
         const sp_arrival *arrival = &reach->arrivals[i];
-        uint32_t arc = is_high(sp_sub(patches->point[arrival->patch], sight->position), up, arrival->direction);
-        sight->seen[sight->count++] =
-            (sp_seen){arrival->patch, arc, arrival->direction, arrival->transfer, arrival->breadth};
+        sight->seen[sight->count++] = (sp_seen){.patch = arrival->patch,
+                                                .arc = arrival->arc,
+                                                .part = arrival->part,
+                                                .point = arrival->point,
+                                                .normal = arrival->normal,
+                                                .direction = arrival->direction,
+                                                .transfer = arrival->transfer,
+                                                .breadth = arrival->breadth};
     }
     sp_reach_destroy(reach);
     return sight->seen || sp_fail_memory(error);
@@ -132,15 +127,13 @@ const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_er
 bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen *seen, sp_vec3 position,
                   sp_flight *flight, double *transfer)
 {
-    const sp_patches *patches = sp_evaluator_patches(search->coarse);
     sp_flight flights[2];
-    int count =
-        sp_flights(position, patches->point[seen->patch], sight->speed, sp_evaluator_gravity(search->coarse), flights);
+    int count = sp_flights(position, seen->point, sight->speed, sp_evaluator_gravity(search->coarse), flights);
     if ((int)seen->arc >= count)
         return false;
     *flight = flights[seen->arc];
-    double against = -sp_dot(flight->velocity, patches->normal[seen->patch]);
-    if (patches->side[seen->patch] == SP_SIDE_BOTH)
+    double against = -sp_dot(flight->velocity, seen->normal);
+    if (sp_evaluator_patches(search->coarse)->side[seen->patch] == SP_SIDE_BOTH)
         against = fabs(against);
     *transfer = fmax(0, against) / flight->spread;
     return *transfer > 0;
@@ -163,7 +156,8 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
             breadth = sp_flight_breadth(&flight, sight->speed, patches->length[seen->patch]);
         }
         float *value = &field[seen->patch];
-        *value = sp_field_join(*value, sp_posed_spray_value(&posed, flight.direction, breadth, transfer));
+        *value = sp_field_join(*value, sp_posed_spray_value(&posed, flight.direction, breadth, transfer),
+                               (float)seen->part);
     }
 }
 

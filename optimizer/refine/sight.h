@@ -8,9 +8,11 @@
 typedef struct {
     uint32_t patch;
     uint32_t arc; /* 0: low arc or line, 1: high arc */
+    double part;  /* of the patch, that the arrival is of */
+    sp_vec3 point, normal;
     sp_vec3 direction;
     double transfer; /* 1/m² */
-    double breadth; /* rad */
+    double breadth;  /* rad */
 } sp_seen;
 
 typedef struct {
@@ -43,7 +45,7 @@ void sp_sights_free(sp_sights *sights);
 /* From the nozzle's place, or one near enough, all that refinement may turn it to. Valid for the next capacity - 1
  * looks; NULL on error. */
 const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_error *error);
-/* Flies to a patch in sight from `position`, visibility as it was; false where no liquid arrives. */
+/* Flies to a patch in sight, or its cell, from `position`, visibility as it was; false where no liquid arrives. */
 bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen *seen, sp_vec3 position,
                   sp_flight *flight, double *transfer);
 /* The nozzle's field from where it is, visibility as in the sight; looking for oneself. */

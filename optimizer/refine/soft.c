@@ -85,13 +85,34 @@ static double miss_of_sum(const sp_soft *soft, size_t patch, double *factor)
     return 1 - cover;
 }
 
-/* The same where any one level suffices: the product of what each leaves dry, but for link `but` (SIZE_MAX: none). */
+static bool is_cell(const sp_soft *soft, size_t link)
+{
+    return soft->nozzles[soft->links[link].nozzle].sight->seen[soft->links[link].arrival].part < 1;
+}
+
+/* The link behind one that counts by itself, or behind all cells of its nozzle. */
+static size_t end_of_group(const sp_soft *soft, size_t patch, size_t first)
+{
+    size_t end = first + 1;
+    while (is_cell(soft, first) && end < soft->start[patch + 1] &&
+           soft->links[end].nozzle == soft->links[first].nozzle)
+        end++;
+    return end;
+}
+
+/* The same where any one level suffices: the product of what each leaves dry, or a nozzle's cells together; but for what
+ * link `but` (SIZE_MAX: none) belongs to. */
 static double miss_of_any(const sp_soft *soft, size_t patch, size_t but)
 {
     double miss = soft->search->kept_wet[patch] >= 1 ? 0 : (double)soft->search->kept_dry[patch];
-    for (size_t l = soft->start[patch]; l < soft->start[patch + 1]; l++)
-        if (l != but)
-            miss *= 1 - soft->nozzles[soft->links[l].nozzle].level[soft->links[l].arrival];
+    for (size_t l = soft->start[patch], end; l < soft->start[patch + 1]; l = end) {
+        double cover = 0;
+        end = end_of_group(soft, patch, l);
+        for (size_t k = l; k < end; k++)
+            cover += soft->nozzles[soft->links[k].nozzle].level[soft->links[k].arrival];
+        if (!(l <= but && but < end))
+            miss *= fmax(0, 1 - cover);
+    }
     return miss;
 }
 

@@ -40,9 +40,13 @@ typedef struct {
     float *field;
 } sp_placed;
 
-/* What two flights to one patch come to (see sp_wetting_settle). */
-static inline float sp_field_join(float a, float b)
+/* What a patch's field and one more flight to `part` of it come to (see sp_wetting_settle). */
+static inline float sp_field_join(float a, float b, float part)
 {
+    if (part < 1 && (b < 0 || b >= 1))
+        return fmaxf(fminf(a, 0) - part * fminf(fabsf(b), 1), -1);
+    if (part < 1)
+        return a < 0 ? a : a + part * b;
     if (a < 0 && b < 0)
         return a + b + a * b;
     if (a >= 0 && b >= 0)

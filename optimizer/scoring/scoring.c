@@ -72,9 +72,9 @@ void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draf
     sweeper->frame = sp_nozzle_frame(search->sites->items[site].axis, 0, sp_evaluator_setup(search->coarse)->up);
     if (!view->start)
         return;
-    for (size_t i = 0; i < view->count; i++) {
+    for (uint32_t i = 0; i < view->count; i++) {
         sweeper->had[i] = draft->wet[view->patch[i]];
-        sweeper->area[i] = search->area[view->patch[i]] * draft->dry[view->patch[i]];
+        sweeper->area[i] = search->area[view->patch[i]] * draft->dry[view->patch[i]] * sp_view_part(view, i);
     }
     sp_credit credit = {search->single, search->credit, 0};
     search->sweeps->room(&credit, view->count, sweeper->had, sweeper->area, sweeper->room);
@@ -177,7 +177,7 @@ void sp_field_view(const sp_search *search, const sp_view *view, const sp_spray 
             continue;
         for (uint32_t i = view->start[b]; i < view->start[b + 1]; i++) {
             float *value = &field[view->patch[i]];
-            *value = sp_field_join(*value, value_in_view(&posed, view, i));
+            *value = sp_field_join(*value, value_in_view(&posed, view, i), sp_view_part(view, i));
         }
     }
 }
@@ -204,7 +204,8 @@ static void field_reach(const sp_search *search, const sp_nozzle *nozzle, const 
         float *value = &field[arrival->patch];
         if (arrival->passes)
             *value = sp_field_join(
-                *value, sp_posed_spray_value(&posed, arrival->direction, arrival->breadth, arrival->transfer));
+                *value, sp_posed_spray_value(&posed, arrival->direction, arrival->breadth, arrival->transfer),
+                (float)arrival->part);
     }
 }
 

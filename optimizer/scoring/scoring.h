@@ -16,8 +16,8 @@ static inline float sp_worth(const sp_search *search, float wet, float dry)
 }
 
 /* What scores many poses one after the other, those of one mounting point together: what an arrival is worth to a make
- * does not depend on where the nozzle points, so that it is found once and then only summed. One thread's own. Both
- * arcs of a parabola to the same patch count one after the other, which matters only where both fall short. */
+ * does not depend on where the nozzle points, so that it is found once and then only summed. One thread's own. The
+ * arrivals at one patch count one after the other, which matters only where they fall short. */
 typedef struct {
     float *block;                    /* holds the four */
     float *had, *area, *room, *gain; /* [largest view + SP_LANES], by arrival */

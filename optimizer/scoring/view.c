@@ -55,12 +55,12 @@ void sp_bins_create(sp_bins *bins)
     }
 }
 
-size_t sp_sightings_work(void)
+size_t sp_sightings_work(size_t cells)
 {
-    return PART * SP_REACH_WORK;
+    return (PART + cells) * SP_REACH_WORK;
 }
 
-/* The two arcs to a patch follow one another. */
+/* The arrivals at a patch follow one another. */
 static bool take(const sp_reach *reach, sp_sightings *sightings)
 {
     size_t at = sightings->parts;
@@ -69,15 +69,25 @@ static bool take(const sp_reach *reach, sp_sightings *sightings)
     sp_sighting *part = sightings->part[at] = malloc(reach->count * sizeof *part);
     if (!part)
         return false;
+    size_t cells = 0;
     for (size_t i = 0; i < reach->count; i++) {
         const sp_arrival *arrival = &reach->arrivals[i];
         sp_vec3 d = arrival->direction;
-        part[i] = (sp_sighting){
-            (float)d.x, (float)d.y,   (float)d.z, (float)arrival->transfer, (float)arrival->breadth, arrival->patch,
-            bin_of(d),  arrival->arc, false};
+        part[i] = (sp_sighting){.x = (float)d.x,
+                                .y = (float)d.y,
+                                .z = (float)d.z,
+                                .transfer = (float)arrival->transfer,
+                                .breadth = (float)arrival->breadth,
+                                .part = (float)arrival->part,
+                                .patch = arrival->patch,
+                                .bin = bin_of(d),
+                                .arc = arrival->arc};
+        cells += arrival->part < 1;
         if (i && part[i - 1].patch == part[i].patch)
             part[i - 1].twice = part[i].twice = sightings->any_twice = true;
     }
+    sightings->any_twice |= cells > 0;
+    sightings->cells = cells > sightings->cells ? cells : sightings->cells;
     sightings->size[at] = reach->count;
     sightings->count += reach->count;
     sightings->parts++;
@@ -127,7 +137,7 @@ void sp_sightings_free(sp_sightings *sightings)
 size_t sp_view_bytes(size_t count, bool any_twice)
 {
     return (SP_BINS + 1 + count) * sizeof(uint32_t) + (3 * SP_BINS + COLUMNS * (count + SP_LANES)) * sizeof(float) +
-           (any_twice ? count : 0);
+           (any_twice ? count * (sizeof(float) + sizeof(uint8_t)) : 0);
 }
 
 /* The bins' starts first, then the arrays. */
@@ -146,7 +156,8 @@ static void lay_out(void *block, size_t count, bool any_twice, sp_view *view)
         for (size_t k = count; k < padded; k++)
             (*column[i])[k] = 0;
     }
-    view->twice = any_twice ? (uint8_t *)(columns + COLUMNS * padded) : NULL;
+    view->part = any_twice ? columns + COLUMNS * padded : NULL;
+    view->twice = any_twice ? (uint8_t *)(view->part + count) : NULL;
 }
 
 void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *block, sp_view *view)
@@ -176,8 +187,10 @@ void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *blo
             view->sharp[at] = 1 / from->breadth;
             view->broadest[from->bin] = fmaxf(view->broadest[from->bin], from->breadth);
             view->most = fmaxf(view->most, from->breadth);
-            if (view->twice)
+            if (view->twice) {
+                view->part[at] = from->part;
                 view->twice[at] = from->twice;
+            }
         }
     for (size_t b = 0; b < SP_BINS; b++) {
         double angle = (double)bins->radius[b] + SP_VIEW_BLUR * (double)view->broadest[b];

@@ -27,8 +27,14 @@ typedef struct {
     float *transfer;      /* [count + SP_LANES], 1/m² */
     float *sharp;         /* [count + SP_LANES], 1/rad: over the patch's breadth */
     uint32_t *patch;      /* [count] */
-    uint8_t *twice;       /* [count], whether both arcs reach the patch; NULL: nowhere */
+    float *part;          /* [count], share of the patch that the arrival is of; NULL: 1, and none twice */
+    uint8_t *twice;       /* [count], whether the patch has other arrivals, by its other arc or cells; NULL: none has */
 } sp_view;
+
+static inline float sp_view_part(const sp_view *view, uint32_t i)
+{
+    return view->part ? view->part[i] : 1;
+}
 
 /* The bins' cones: all directions of a bin are within `radius` of its centre. */
 typedef struct {
@@ -42,7 +48,7 @@ sp_vec3 sp_octahedron_decode(double u, double v);
 
 /* An arrival on its way into a view. */
 typedef struct {
-    float x, y, z, transfer, breadth;
+    float x, y, z, transfer, breadth, part;
     uint32_t patch;
     uint16_t bin;
     uint8_t arc;
@@ -54,18 +60,19 @@ typedef struct {
     size_t count, most_parts, parts; /* count: of all parts together */
     size_t *size;                    /* [most_parts] */
     sp_sighting **part;              /* [most_parts] */
-    bool any_twice;
+    size_t cells;                    /* most arrivals of cells in a part */
+    bool any_twice;                  /* or of a cell */
 } sp_sightings;
 
 /* Traces what `site` can reach at `speed` (m/s) within half_angle (rad) about its axis; or, where `known` is not NULL,
  * tells again what was traced before. While it runs it takes no more than sp_sightings_work() bytes besides the
- * sightings. The caller frees, also on failure. */
+ * sightings, for as many `cells` as they then have. The caller frees, also on failure. */
 bool sp_sightings_trace(const sp_evaluator *evaluator, const sp_site *site, double speed, double half_angle,
                         const uint8_t *known, sp_sightings *sightings, sp_error *error);
 /* Sets bit 2 patch + arc of `known` for every sighting. */
 void sp_sightings_note(const sp_sightings *sightings, uint8_t *known);
 void sp_sightings_free(sp_sightings *sightings);
-size_t sp_sightings_work(void);
+size_t sp_sightings_work(size_t cells);
 
 /* Bytes of a view's block. */
 size_t sp_view_bytes(size_t count, bool any_twice);

@@ -9,6 +9,8 @@
 #define RAYS_MOST 1e8      /* patches times views */
 #define SWEEPS_MOST 1.2e10 /* patches times poses */
 #define MEMORY 1e9         /* bytes, for all views, where the options do not say */
+#define CELLS 4000         /* arrivals of cells in a view that has not been traced yet: nearer to a wall than a hundredth
+                            * of a texel there may be more */
 #define BATCH 16           /* sites traced between two looks at clock and memory */
 #define TIME_SHARE 0.5     /* of a time limit, that tracing may take */
 
@@ -36,10 +38,10 @@ double sp_visibility_needed(const sp_place_options *options, const sp_candidates
 }
 
 /* Bytes that one desk takes for views of so many arrivals: the view, its sightings and the tracing. */
-static double desk_bytes(size_t arrivals, bool any_twice)
+static double desk_bytes(size_t arrivals, size_t cells, bool any_twice)
 {
     return (double)sp_view_bytes(arrivals, any_twice) + (double)arrivals * sizeof(sp_sighting) +
-           (double)sp_sightings_work();
+           (double)sp_sightings_work(cells);
 }
 
 static uint8_t *sights_of(const sp_visibility *visibility, size_t at)
@@ -79,6 +81,7 @@ static size_t strided(size_t i, size_t count)
 typedef struct {
     sp_visibility *visibility;
     size_t *sizes;     /* [views], arrivals */
+    size_t *cells;     /* [views], the same of cells, see sp_sightings */
     bool *any_twice;   /* [views] */
     bool twice_at_all; /* in some view */
     int threads;
@@ -100,6 +103,7 @@ static void survey_view(sp_survey *survey, size_t at, bool keep)
     sp_error error = {0};
     if (trace(visibility, at, &sightings, &error)) {
         survey->sizes[at] = sightings.count;
+        survey->cells[at] = sightings.cells;
         survey->any_twice[at] = sightings.any_twice;
         if (!visibility->known[at])
             sp_sightings_note(&sightings, sights_of(visibility, at));
@@ -133,6 +137,7 @@ static bool survey_batch(sp_survey *survey, size_t first, size_t end, bool keep,
     for (size_t i = first * speeds; i < end * speeds; i++) {
         size_t at = strided(i / speeds, sites) * speeds + i % speeds;
         visibility->largest = survey->sizes[at] > visibility->largest ? survey->sizes[at] : visibility->largest;
+        visibility->cells = survey->cells[at] > visibility->cells ? survey->cells[at] : visibility->cells;
         survey->twice_at_all |= survey->any_twice[at];
         if (visibility->views[at].start)
             survey->kept += (double)sp_view_bytes(survey->sizes[at], survey->any_twice[at]);
@@ -146,8 +151,8 @@ static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
 {
     sp_visibility *visibility = survey->visibility;
     const sp_place_options *options = visibility->options;
-    size_t sites = visibility->site_count, most = 2 * sp_evaluator_patches(visibility->evaluator)->count;
-    double memory = memory_of(options), work = desk_bytes(most, true);
+    size_t sites = visibility->site_count, most = 2 * sp_evaluator_patches(visibility->evaluator)->count + CELLS;
+    double memory = memory_of(options), work = desk_bytes(most, CELLS, true);
     survey->kept = (double)(sites * visibility->speed_count) * (double)visibility->sight_bytes;
     survey->threads = sp_threads(&options->run);
     if ((double)survey->threads * work > memory)
@@ -165,7 +170,7 @@ static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
         if (!survey_batch(survey, first, first + BATCH < sites ? first + BATCH : sites, keep, error))
             return false;
         visibility->bytes =
-            fmax(visibility->bytes, survey->kept + (double)survey->threads * desk_bytes(visibility->largest, true));
+            fmax(visibility->bytes, survey->kept + (double)survey->threads * desk_bytes(visibility->largest, visibility->cells, true));
     }
     return true;
 }
@@ -216,7 +221,7 @@ static bool furnish(sp_survey *survey, sp_error *error)
 {
     sp_visibility *visibility = survey->visibility;
     size_t views = visibility->site_count * visibility->speed_count, missing = 0;
-    double memory = memory_of(visibility->options), work = desk_bytes(visibility->largest, survey->twice_at_all);
+    double memory = memory_of(visibility->options), work = desk_bytes(visibility->largest, visibility->cells, survey->twice_at_all);
     double sights = (double)views * (double)visibility->sight_bytes;
     if (sights + work > memory)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
@@ -250,11 +255,14 @@ bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *op
     visibility->known = calloc(views + 1, sizeof *visibility->known);
     visibility->sights = calloc(views + 1, visibility->sight_bytes);
     survey.sizes = calloc(views + 1, sizeof *survey.sizes);
+    survey.cells = calloc(views + 1, sizeof *survey.cells);
     survey.any_twice = calloc(views + 1, sizeof *survey.any_twice);
-    bool done = visibility->views && visibility->known && visibility->sights && survey.sizes && survey.any_twice;
+    bool done = visibility->views && visibility->known && visibility->sights && survey.sizes && survey.cells &&
+                survey.any_twice;
     done = done || sp_fail_memory(error);
     done = done && survey_all(&survey, watch, error) && furnish(&survey, error);
     free(survey.sizes);
+    free(survey.cells);
     free(survey.any_twice);
     if (!done)
         sp_visibility_free(visibility);

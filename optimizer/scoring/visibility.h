@@ -25,6 +25,7 @@ typedef struct {
     const sp_candidates *candidates;
     size_t site_count, speed_count;
     size_t largest;  /* most arrivals of a view */
+    size_t cells;    /* most of them, of cells, that one part of the tracing has */
     sp_view *views;  /* [site_count x speed_count], those that are kept */
     bool *known;     /* [site_count x speed_count], traced before the time was up */
     uint8_t *sights; /* [site_count x speed_count][sight_bytes], bit 2 patch + arc: whether the way is free */

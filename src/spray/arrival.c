@@ -21,6 +21,8 @@ bool sp_arrive(const sp_source *source, const sp_target *target, const sp_flight
         return false;
     const sp_criterion *criterion = &source->evaluator->setup.criterion;
     arrival->direction = flight->direction;
+    arrival->point = target->point;
+    arrival->normal = target->normal;
     arrival->transfer = against / flight->spread;
     arrival->speed = sp_length(flight->velocity);
     arrival->incidence = atan2(sp_length(sp_cross(flight->velocity, target->normal)), against);

@@ -129,7 +129,7 @@ bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_layout *layout
             deposits->incidence[i] /= deposits->flux[i];
             deposits->impact[i] /= deposits->flux[i];
         }
-        deposits->share[i] = sp_wetting_share(&(sp_wetting){deposits->even[i], deposits->dry[i]}, threshold);
+        deposits->share[i] = sp_wetting_share(&(sp_wetting){deposits->even[i], deposits->dry[i], 0}, threshold);
         deposits->covered[i] = deposits->share[i] >= 0.5;
         coverage->covered_area += deposits->share[i] * patches->area[i];
     }

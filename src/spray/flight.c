@@ -37,13 +37,11 @@ int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_fligh
     return 2;
 }
 
-#define MOST_BREADTH 0.5 /* rad */
-
 /* Across the plane of the flight its end moves by v t per angle; in that plane by as much as makes the product of both,
  * the area across the flight per solid angle, spread over arriving speed. */
 double sp_flight_breadth(const sp_flight *flight, double speed, double length)
 {
     double lever = speed * flight->time, across = 1 / lever;
     double along = sp_length(flight->velocity) / flight->spread * lever;
-    return fmin(length * fmax(across, along), MOST_BREADTH);
+    return fmin(length * fmax(across, along), SP_BREADTH_MOST);
 }

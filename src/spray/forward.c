@@ -202,8 +202,8 @@ static void count_nozzle(jet_flight *flight)
     for (size_t i = 0; i < flight->deposits->count; i++) {
         double flux = flight->counted[i],
                share = flux > 0 && !spread ? sp_lit_share(evaluator, &flight->lit, (uint32_t)i) : 1;
-        sp_wetting wetting = {0, 1};
-        sp_wetting_add(&wetting, flux / share, evaluator->setup.criterion.flux, share, share >= 0.5);
+        sp_wetting wetting = {0, 1, 0};
+        sp_wetting_add(&wetting, flux / share, evaluator->setup.criterion.flux, 1, share, share >= 0.5);
         sp_count_wetting(evaluator, flight->deposits, (uint32_t)i, flux, &wetting);
         flight->counted[i] = 0;
     }

@@ -9,18 +9,21 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
                       sp_deposits *deposits)
 {
     const sp_setup *setup = &emitter->source.evaluator->setup;
-    sp_wetting wetting = {0, 1};
-    double counted = 0, area = emitter->source.evaluator->patches.area[first->patch];
+    sp_wetting wetting = {0, 1, 0};
+    /* no patch receives more than there is, however dense the flights are at its points */
+    double counted = 0, left = flow / emitter->source.evaluator->patches.area[first->patch];
     for (const sp_arrival *arrival = first; arrival < end; arrival++) {
         double flux = flow / emitter->spray.solid_angle * arrival->transfer, share = sp_emitter_share(emitter, arrival);
-        /* no patch receives more than there is, however dense the flights are at its point */
-        double mean = fmin(share * flux, flow / area);
+        double mean = fmin(arrival->part * share * flux, left);
+        left -= mean;
         if (share > 0)
-            sp_deposit(deposits, first->patch, mean, 1, arrival->speed, arrival->incidence, setup->liquid.density);
+            sp_deposit(deposits, first->patch, mean, arrival->part, arrival->speed, arrival->incidence,
+                       setup->liquid.density);
         if (!arrival->passes)
             continue;
         counted += mean;
-        sp_wetting_add(&wetting, flux, setup->criterion.flux, share, sp_emitter_holds(emitter, arrival->direction));
+        sp_wetting_add(&wetting, flux, setup->criterion.flux, arrival->part, share,
+                       sp_emitter_holds(emitter, arrival->direction));
     }
     sp_count_wetting(emitter->source.evaluator, deposits, first->patch, counted, &wetting);
 }

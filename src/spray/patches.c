@@ -1,51 +1,8 @@
 /* Patches: the clean, wet part of each texel, on each side. */
+#include "middle.h"
 #include "state.h"
 
 #include <stdlib.h>
-
-/* Of the way from a patch's nearest point towards the middle of the polygon that holds it: off the edges, where a line
- * of sight would have to choose between neighbouring triangles. */
-#define INWARDS 1e-4
-
-/* The point of triangle abc nearest to p: the foot of the perpendicular where that lies inside, else the nearest of its
- * feet on the three edges. */
-static sp_vec3 nearest_in_triangle(sp_vec3 p, sp_vec3 a, sp_vec3 b, sp_vec3 c)
-{
-    const sp_vec3 corner[3] = {a, b, c};
-    sp_vec3 normal = sp_cross(sp_sub(b, a), sp_sub(c, a)), nearest = a;
-    double area2 = sp_dot(normal, normal), least = INFINITY;
-    bool inside = area2 > 0;
-    for (int i = 0; i < 3; i++) {
-        sp_vec3 from = corner[i], edge = sp_sub(corner[(i + 1) % 3], from), offset = sp_sub(p, from);
-        inside = inside && sp_dot(sp_cross(edge, offset), normal) >= 0;
-        double length2 = sp_dot(edge, edge), share = length2 > 0 ? sp_dot(offset, edge) / length2 : 0;
-        sp_vec3 foot = sp_along(from, fmin(fmax(share, 0), 1), edge);
-        double distance = sp_distance(foot, p);
-        if (distance < least) {
-            least = distance;
-            nearest = foot;
-        }
-    }
-    return inside ? sp_along(p, -sp_dot(sp_sub(p, a), normal) / area2, normal) : nearest;
-}
-
-static double corner_area(sp_vec3 a, sp_vec3 b, sp_vec3 c)
-{
-    return 0.5 * sp_length(sp_cross(sp_sub(b, a), sp_sub(c, a)));
-}
-
-/* Area times centroid of a convex polygon; its area in *area. */
-static sp_vec3 polygon_moment(const sp_vec3 *polygon, int count, double *area)
-{
-    sp_vec3 moment = sp_v(0, 0, 0);
-    *area = 0;
-    for (int i = 2; i < count; i++) {
-        double part = corner_area(polygon[0], polygon[i - 1], polygon[i]);
-        moment = sp_along(moment, part / 3, sp_add(polygon[0], sp_add(polygon[i - 1], polygon[i])));
-        *area += part;
-    }
-    return moment;
-}
 
 /* Where one patch is judged, and how large it is. */
 typedef struct {
@@ -56,38 +13,23 @@ typedef struct {
 
 /* A patch while its pieces are being visited. */
 typedef struct {
-    patch_place *place;
+    sp_middle middle;
+    double area;       /* m², as the atlas measured it */
     uint32_t triangle; /* of the fragment in hand */
-    sp_vec3 moment;    /* m³ */
-    double drawn;      /* m², of the pieces that have corners */
-    sp_vec3 centroid;  /* m, once known */
-    double least;      /* m, from there to the nearest point so far */
 } patch_sum;
 
 static void add_piece(void *user, const sp_vec3 *polygon, int corners, double area)
 {
     patch_sum *sum = user;
-    double part;
-    sum->moment = sp_add(sum->moment, polygon_moment(polygon, corners, &part));
-    sum->drawn += part;
-    sum->place->area += area;
+    sp_middle_add(&sum->middle, polygon, corners);
+    sum->area += area;
 }
 
-static void look_for_nearest(void *user, const sp_vec3 *polygon, int corners, double piece_area)
+static void look_at_piece(void *user, const sp_vec3 *polygon, int corners, double area)
 {
     patch_sum *sum = user;
-    double area;
-    (void)piece_area;
-    sp_vec3 moment = polygon_moment(polygon, corners, &area);
-    for (int i = 2; area > 0 && i < corners; i++) {
-        sp_vec3 point = nearest_in_triangle(sum->centroid, polygon[0], polygon[i - 1], polygon[i]);
-        double distance = sp_distance(point, sum->centroid);
-        if (distance < sum->least) {
-            sum->least = distance;
-            sum->place->point = sp_along(point, INWARDS, sp_sub(sp_scale(moment, 1 / area), point));
-            sum->place->triangle = sum->triangle;
-        }
-    }
+    (void)area;
+    sp_middle_look(&sum->middle, polygon, corners, sum->triangle);
 }
 
 static void visit_patch(const sp_evaluator *evaluator, uint32_t texel, unsigned side, sp_counted_visitor *visit,
@@ -103,14 +45,13 @@ static void visit_patch(const sp_evaluator *evaluator, uint32_t texel, unsigned 
 /* False where the texel has nothing to count on that side. */
 static bool place_patch(const sp_evaluator *evaluator, uint32_t texel, unsigned side, patch_place *place)
 {
-    patch_sum sum = {.place = place, .least = INFINITY};
-    place->area = 0;
+    patch_sum sum = {0};
     visit_patch(evaluator, texel, side, add_piece, &sum);
-    if (!(sum.drawn > 0 && place->area > 0))
+    if (!(sum.middle.area > 0 && sum.area > 0))
         return false;
-    sum.centroid = sp_scale(sum.moment, 1 / sum.drawn);
-    visit_patch(evaluator, texel, side, look_for_nearest, &sum);
-    return sum.least < INFINITY;
+    visit_patch(evaluator, texel, side, look_at_piece, &sum);
+    *place = (patch_place){sum.area, sum.middle.point, sum.middle.triangle};
+    return sum.middle.found;
 }
 
 static bool allocate_patches(sp_patches *patches, size_t count)

@@ -1,6 +1,8 @@
 /* What one point can reach at one speed: the flights to every patch, less those that something blocks. */
 #include "reach.h"
 
+#include "near.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,18 +18,28 @@ sp_aim sp_aim_at(sp_vec3 axis, double half_angle)
 
 /* Flights that pass all questions but whether their way is free. */
 typedef struct flock {
-    size_t count;
-    sp_arrival *arrivals; /* [2 patches], as what follows */
-    sp_ray *rays;
+    size_t count, capacity;
+    sp_arrival *arrivals; /* [capacity], as what follows */
+    size_t ray_count;
+    sp_ray *rays; /* of those whose way is not known yet */
     bool *blocked;
+    bool failed; /* for want of memory */
 } flock;
 
-static bool flock_create(size_t patches, flock *flock)
+static bool make_room(flock *flock, size_t more)
 {
-    *flock = (struct flock){.arrivals = malloc(2 * patches * sizeof *flock->arrivals),
-                            .rays = malloc(2 * patches * sizeof *flock->rays),
-                            .blocked = malloc(2 * patches * sizeof *flock->blocked)};
-    return flock->arrivals && flock->rays && flock->blocked;
+    if (flock->count + more <= flock->capacity)
+        return true;
+    size_t capacity = flock->count + more > 2 * flock->capacity ? flock->count + more : 2 * flock->capacity;
+    sp_arrival *arrivals = realloc(flock->arrivals, capacity * sizeof *arrivals);
+    flock->arrivals = arrivals ? arrivals : flock->arrivals;
+    sp_ray *rays = realloc(flock->rays, capacity * sizeof *rays);
+    flock->rays = rays ? rays : flock->rays;
+    bool *blocked = realloc(flock->blocked, capacity * sizeof *blocked);
+    flock->blocked = blocked ? blocked : flock->blocked;
+    flock->failed = flock->failed || !arrivals || !rays || !blocked;
+    flock->capacity = flock->failed ? flock->capacity : capacity;
+    return !flock->failed;
 }
 
 static void flock_free(flock *flock)
@@ -51,25 +63,55 @@ static bool aimed(const sp_aim *aim, const sp_arrival *arrival)
            sp_emitter_holds(aim->emitter, arrival->direction);
 }
 
-static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, flock *flock)
+/* One patch while its flights are gathered. */
+typedef struct {
+    const sp_source *source;
+    const sp_aim *aim;
+    uint32_t patch;
+    flock *flock;
+} gathering;
+
+/* The flights to a patch, or to a cell that is `part` of it. */
+static void gather_at(void *user, const sp_target *target, double part)
 {
-    sp_target target = sp_patch_target(source->evaluator, patch);
+    gathering *own = user;
+    const sp_source *source = own->source;
+    const sp_aim *aim = own->aim;
+    flock *flock = own->flock;
     sp_flight flights[2];
-    int count = sp_flights(source->position, target.point, source->speed, source->evaluator->gravity, flights);
+    int count = sp_flights(source->position, target->point, source->speed, source->evaluator->gravity, flights);
+    if (!make_room(flock, 2))
+        return;
     for (int k = 0; k < count; k++) {
         sp_arrival *arrival = &flock->arrivals[flock->count];
-        size_t bit = 2 * (size_t)patch + (size_t)k;
+        size_t bit = 2 * (size_t)own->patch + (size_t)k;
+        bool traced = !aim->known || part < 1;
         if (aim->known && !(aim->known[bit / 8] >> bit % 8 & 1))
             continue;
-        if (!sp_arrive(source, &target, &flights[k], arrival) || (aim->passing && !arrival->passes))
+        if (!sp_arrive(source, target, &flights[k], arrival) || (aim->passing && !arrival->passes))
             continue;
-        arrival->breadth = sp_flight_breadth(&flights[k], source->speed, target.length);
-        if (!aimed(aim, arrival) || (!aim->known && sp_flight_pierces(source, &target, &flights[k])))
+        arrival->breadth = sp_flight_breadth(&flights[k], source->speed, target->length);
+        if (!aimed(aim, arrival) || (traced && sp_flight_pierces(source, target, &flights[k])))
             continue;
-        arrival->patch = patch;
+        arrival->patch = own->patch;
         arrival->arc = (uint8_t)k;
-        flock->rays[flock->count++] = sp_flight_ray(source, &target, &flights[k]);
+        arrival->part = part;
+        flock->count++;
+        if (traced)
+            flock->rays[flock->ray_count++] = sp_flight_ray(source, target, &flights[k]);
     }
+}
+
+static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, flock *flock)
+{
+    gathering own = {source, aim, patch, flock};
+    sp_target target = sp_patch_target(source->evaluator, patch);
+    if (aim->known && !(aim->known[patch / 4] >> 2 * (patch % 4) & 3))
+        return;
+    if (!sp_target_is_near(source, &target))
+        gather_at(&own, &target, 1);
+    else if (!sp_patch_cut(source, patch, gather_at, &own))
+        flock->failed = true;
 }
 
 /* A chunk's arrivals, malloc'd; NULL where there are none, or where memory ran out. */
@@ -82,16 +124,21 @@ typedef struct harvest {
 static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uint32_t end, flock *flock,
                  harvest *harvest)
 {
-    flock->count = 0;
+    flock->count = flock->ray_count = 0;
+    if (!make_room(flock, 2 * (size_t)(end - first)))
+        return false;
     for (uint32_t patch = first; patch < end; patch++)
         gather(source, aim, patch, flock);
-    if (!aim->known)
-        sp_trace_occluded_many(source->evaluator->tracer, flock->rays, flock->count, source->evaluator->gravity, 1,
-                               flock->blocked);
+    if (flock->failed)
+        return false;
+    sp_trace_occluded_many(source->evaluator->tracer, flock->rays, flock->ray_count, source->evaluator->gravity, 1,
+                           flock->blocked);
     size_t free_ways = 0;
-    for (size_t i = 0; i < flock->count; i++)
-        if (aim->known || !flock->blocked[i])
+    for (size_t i = 0, ray = 0; i < flock->count; i++) {
+        bool traced = !aim->known || flock->arrivals[i].part < 1;
+        if (!traced || !flock->blocked[ray++])
             flock->arrivals[free_ways++] = flock->arrivals[i];
+    }
     *harvest = (struct harvest){free_ways, free_ways ? malloc(free_ways * sizeof *harvest->arrivals) : NULL};
     if (harvest->arrivals)
         memcpy(harvest->arrivals, flock->arrivals, free_ways * sizeof *harvest->arrivals);
@@ -117,8 +164,6 @@ static bool reap_all(const sp_source *source, const sp_aim *aim, extent extent, 
         threads = extent.chunks ? (int)extent.chunks : 1;
     flock *flocks = calloc((size_t)threads, sizeof *flocks);
     bool done = flocks != NULL;
-    for (int i = 0; flocks && i < threads; i++)
-        done = flock_create(extent.count < CHUNK ? extent.count + 1 : CHUNK, &flocks[i]) && done;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads) reduction(&& : done)
     for (size_t i = 0; i < extent.chunks; i++) {
         size_t first = i * CHUNK, end = first + CHUNK < extent.count ? first + CHUNK : extent.count;

@@ -143,7 +143,7 @@ static inline double recount_area(recount *r, const recount_layout *layout)
     for (size_t i = 0; i < layout->count; i++)
         recount_pour(r, &r->choices[layout->item[i]]);
     for (size_t p = 0; p < r->patches->count; p++)
-        area += sp_wetting_share(&(sp_wetting){r->even[p], r->dry[p]}, threshold) * r->patches->area[p];
+        area += sp_wetting_share(&(sp_wetting){r->even[p], r->dry[p], 0}, threshold) * r->patches->area[p];
     r->tried++;
     return area;
 }

@@ -1,0 +1,18 @@
+/* Patches so near to where liquid leaves, or to the limits of its reach, that it arrives very differently over one of
+ * them: they are judged at more than one point. */
+#ifndef SPRAY_NEAR_H
+#define SPRAY_NEAR_H
+
+#include "arrival.h"
+
+/* Whether the patch behind this target is to be cut: where it looks broader than a quarter of a radian, or where flights
+ * bend by as much as tells within it since it lies at the parabola of safety. */
+bool sp_target_is_near(const sp_source *source, const sp_target *target);
+
+/* A cell of a patch: where it is judged, and which share of the patch's area it is. */
+typedef void sp_cell_visitor(void *user, const sp_target *target, double part);
+/* Cuts a patch until its cells are not near themselves, and visits those that may be reached; their shares come to 1,
+ * but for what is out of reach. Which they are depends on the patch and the source alone. False where memory ran out. */
+bool sp_patch_cut(const sp_source *source, uint32_t patch, sp_cell_visitor *visit, void *user);
+
+#endif
