@@ -284,7 +284,8 @@ static void check_prices(stage *s)
             worths += exact;
         }
     print_message("prices are %.2e above what poses are worth\n", prices / worths - 1);
-    assert_true(prices < 1.001 * worths);
+    /* of patches that are cut only little is known of what a lift makes of any of their cells */
+    assert_true(prices < (s->prices.lifts ? 1.003 : 1.001) * worths);
     sp_rows_free(&rows);
     sp_offers_free(&offers);
 }
