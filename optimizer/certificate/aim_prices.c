@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define UPWARDS (1 + 1e-4) /* more than a sweep's sum may lie off, see sweep.h */
 #define CLOSE 1.01         /* a cell's bound over the best known aim's price, that is not worth a split */
 #define CELLS_MOST 80000   /* that one pricing looks at, about */
 #define ROWS_AT_A_TIME 200
@@ -23,7 +24,8 @@ typedef struct {
 typedef struct {
     sp_desk *desk;
     const sp_view *view;
-    sp_worths worths;
+    float *worth; /* [largest view + SP_LANES] */
+    float total[SP_BINS];
     kept_cull *culls; /* [CULLS], of the view */
     size_t next_cull;
 } scratch;
@@ -66,10 +68,11 @@ struct sp_aim_prices {
     uint64_t keys;    /* given out so far */
 };
 
-static bool scratch_create(const sp_search *search, scratch *own, sp_error *error)
+static bool scratch_create(const sp_search *search, scratch *own)
 {
+    own->worth = calloc(search->visibility->largest + SP_LANES, sizeof *own->worth);
     own->culls = calloc(CULLS, sizeof *own->culls);
-    return (own->culls || sp_fail_memory(error)) && sp_worths_create(search, &own->worths, error);
+    return own->worth && own->culls;
 }
 
 sp_aim_prices *sp_aim_prices_create(const sp_search *search, const sp_cover *cover, const sp_aim_kinds *kinds,
@@ -96,7 +99,7 @@ sp_aim_prices *sp_aim_prices_create(const sp_search *search, const sp_cover *cov
         (prices->scratches && prices->best && prices->known && prices->field && prices->fair) || sp_fail_memory(error);
     done = done && sp_knapsack_create(cover->nozzles, cover->water, &prices->knapsack, error);
     for (int i = 0; done && i < prices->threads; i++)
-        done = scratch_create(search, &prices->scratches[i], error);
+        done = scratch_create(search, &prices->scratches[i]) || sp_fail_memory(error);
     if (done)
         return prices;
     sp_aim_prices_destroy(prices);
@@ -108,7 +111,7 @@ void sp_aim_prices_destroy(sp_aim_prices *prices)
     if (!prices)
         return;
     for (int i = 0; prices->scratches && i < prices->threads; i++) {
-        sp_worths_free(&prices->scratches[i].worths);
+        free(prices->scratches[i].worth);
         free(prices->scratches[i].culls);
     }
     free(prices->scratches);
@@ -203,7 +206,10 @@ static double reach_price(const sp_aim_prices *prices, scratch *own, const sp_ai
     region.count = count;
     region.narrowest = (float)(2 * sin(0.25 * cell->angle_low));
     const sp_bins *bins = &search->visibility->bins;
-    return sp_worths_sum(search, own->view, &own->worths, cull_of(own, bins, &spray, count), &region);
+    const sp_weight weight = {own->worth, own->total};
+    double price;
+    search->sweeps->sum(bins, cull_of(own, bins, &spray, count), &region, own->view, &weight, 1, &price);
+    return price * UPWARDS;
 }
 
 /* Turns to what a cell's aims bring at most; false where nothing is seen. */
@@ -216,7 +222,7 @@ static bool turn_to(const sp_aim_prices *prices, scratch *own, const sp_aim_cell
     own->view = sp_visibility_look(search->visibility, cell->site, kind->speed_class, &own->desk);
     if (!own->view->start)
         return false;
-    sp_pose_prices_worth(prices->poses, own->view, (float)strength_of(prices, cell), u, &own->worths);
+    sp_pose_prices_worth(prices->poses, own->view, (float)strength_of(prices, cell), u, own->worth, own->total);
     return true;
 }
 

@@ -8,7 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define UPWARDS (1 + 1e-4) /* more than a sweep's sum may lie off, see sweep.h */
 #define SLACK 1e-6         /* more than single precision puts an edge, or a flux over its threshold, wrong */
+#define SURELY (1 + 1e-5f) /* flux over threshold, from which a cell covers its part and brings others nothing */
 #define PART_MORE 5e-5f    /* more than single precision puts a share at an edge wrong */
 #define ROWS_AT_A_TIME 300
 #define STRIDE 7 /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
@@ -21,7 +23,8 @@ typedef struct {
 
 /* One thread's own. */
 typedef struct {
-    sp_worths worths; /* of the view's arrivals to a make */
+    float *worth; /* [arrivals of a view + SP_LANES], price that it brings to a make */
+    float total[SP_BINS];
     sp_cull cull;
     sp_desk *desk;
 } scratch;
@@ -38,12 +41,13 @@ struct sp_pose_prices {
     int threads;
     scratch *scratches; /* [threads] */
     float upwards;      /* more than a share may lie off */
+    bool bent;          /* flights are, so that two arcs may come to a cell */
     float *field;       /* [texels] */
     uint32_t *texels;
     float *shares;
 };
 
-static bool allocate(sp_pose_prices *prices, sp_error *error)
+static bool allocate(sp_pose_prices *prices)
 {
     const sp_search *search = prices->search;
     size_t texels = search->patch_count + 1;
@@ -53,11 +57,13 @@ static bool allocate(sp_pose_prices *prices, sp_error *error)
     prices->texels = malloc(texels * sizeof *prices->texels);
     prices->shares = malloc(texels * sizeof *prices->shares);
     if (!prices->bests || !prices->scratches || !prices->field || !prices->texels || !prices->shares)
-        return sp_fail_memory(error);
-    bool done = true;
-    for (int i = 0; done && i < prices->threads; i++)
-        done = sp_worths_create(search, &prices->scratches[i].worths, error);
-    return done;
+        return false;
+    for (int i = 0; i < prices->threads; i++) {
+        prices->scratches[i].worth = calloc(search->visibility->largest + SP_LANES, sizeof *prices->scratches[i].worth);
+        if (!prices->scratches[i].worth)
+            return false;
+    }
+    return true;
 }
 
 sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of,
@@ -72,11 +78,12 @@ sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *c
                                .need = need,
                                .ports = ports,
                                .upwards = (float)(1 + sp_field_margin(search->kept_count + cover->nozzles)),
+                               .bent = sp_length(sp_evaluator_gravity(search->coarse)) > 0,
                                .threads = sp_sweeper_threads(search)};
-    if (allocate(prices, error))
+    if (allocate(prices))
         return prices;
     sp_pose_prices_destroy(prices);
-    return NULL;
+    return sp_fail_memory(error);
 }
 
 void sp_pose_prices_destroy(sp_pose_prices *prices)
@@ -84,7 +91,7 @@ void sp_pose_prices_destroy(sp_pose_prices *prices)
     if (!prices)
         return;
     for (int i = 0; prices->scratches && i < prices->threads; i++)
-        sp_worths_free(&prices->scratches[i].worths);
+        free(prices->scratches[i].worth);
     free(prices->bests);
     free(prices->last);
     free(prices->scratches);
@@ -95,44 +102,41 @@ void sp_pose_prices_destroy(sp_pose_prices *prices)
 }
 
 /* The share of what a texel needs that a flux brings, rounded upwards. */
-static inline float share_of(const sp_pose_prices *prices, uint32_t texel, float flux, bool several)
+static inline float share_of(const sp_pose_prices *prices, uint32_t texel, float flux, bool twice)
 {
     float ratio = flux / prices->need[texel] * prices->upwards;
     if (ratio >= 1)
         return 1;
     if (!(ratio > 0))
         return 0;
-    /* several arrivals of one nozzle add up, even where one nozzle alone must do */
-    return prices->search->single && !several ? 0 : ratio;
+    /* two arcs of one nozzle add up, even where one nozzle alone must do */
+    return prices->search->single && !twice ? 0 : ratio;
 }
 
 void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, float strength, const sp_prices *u,
-                          sp_worths *worths)
+                          float *worth, float *total)
 {
-    worths->lift_most = 0;
     for (uint32_t i = 0; i < view->count; i++) {
         uint32_t t = view->patch[i];
         float part = sp_view_part(view, i), flux = strength * view->transfer[i];
-        bool cell = part < 1, twice = view->twice && view->twice[i];
-        worths->item[i] = worths->lift[i] = 0;
+        bool cell = part < 1, covers = cell && flux > SURELY, twice = view->twice && view->twice[i];
+        worth[i] = 0;
         if (!(prices->need[t] > 0))
             continue;
-        /* a cell that meets the criterion alone covers its part, another brings less than that */
-        float share = share_of(prices, t, cell ? part * fminf(flux, 1) : flux, cell || twice);
-        worths->item[i] = u->plain[t] * share;
-        if (cell && view->first[i] && u->lifts)
-            worths->lift_most += (double)u->lifted[t];
+        float share = covers ? fminf(part * prices->upwards, 1)
+                             : share_of(prices, t, part * flux, cell ? prices->bent : twice);
+        worth[i] = u->plain[t] * share;
         if (!u->lifts || !(u->lifted[t] > 0 && share > 0))
             continue;
-        /* a lift of two arcs together may be more than the sum of theirs, but never more than 1 */
-        if (!cell)
-            worths->item[i] += u->lifted[t] * (twice ? 1 : sp_lift(u->lifts, u->kind[t], share));
-        else
-            worths->lift[i] = u->lifted[t] * sp_lift_portion(u->lifts, u->kind[t], share);
+        /* a lift of two arcs together may be more than the sum of theirs, but never more than 1; what cells cover by
+         * themselves is not lifted */
+        float lift = covers  ? share
+                     : cell  ? sp_lift_portion(u->lifts, u->kind[t], share)
+                     : twice ? 1
+                             : sp_lift(u->lifts, u->kind[t], share);
+        worth[i] += u->lifted[t] * lift;
     }
-    prices->search->sweeps->total(view, worths->item, worths->item_total);
-    if (worths->lift_most > 0)
-        prices->search->sweeps->total(view, worths->lift, worths->lift_total);
+    prices->search->sweeps->total(view, worth, total);
 }
 
 /* What each arrival of a view brings to a make; returns the make's region about the site's axis. */
@@ -141,7 +145,7 @@ static sp_region prepare_worth(const sp_pose_prices *prices, scratch *own, const
 {
     double threshold = prices->search->threshold;
     double strength = threshold > 0 ? make->flow / (make->spray.solid_angle * threshold) : INFINITY;
-    sp_pose_prices_worth(prices, view, (float)strength, u, &own->worths);
+    sp_pose_prices_worth(prices, view, (float)strength, u, own->worth, own->total);
     sp_cull_create(&prices->search->visibility->bins, view, &make->spray, SP_COUNT_SHARE, &own->cull);
     return sp_region_create(&make->spray, frame, strength, SLACK);
 }
@@ -154,8 +158,11 @@ static double price_of(const sp_pose_prices *prices, const scratch *own, const s
     sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
     sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
     sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, up);
+    const sp_weight weight = {own->worth, own->total};
+    double price;
     sp_region_turn(region, &frame);
-    return sp_worths_sum(search, view, &own->worths, &own->cull, region);
+    search->sweeps->sum(&search->visibility->bins, &own->cull, region, view, &weight, 1, &price);
+    return price * UPWARDS;
 }
 
 /* What a site's pose of a make must be worth to matter: more than is on offer, or than is needed. */

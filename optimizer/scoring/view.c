@@ -82,7 +82,6 @@ static bool take(const sp_reach *reach, sp_sightings *sightings)
                                 .patch = arrival->patch,
                                 .bin = bin_of(d),
                                 .arc = arrival->arc};
-        part[i].first = arrival->part < 1 && !(i && part[i - 1].patch == part[i].patch);
         cells += arrival->part < 1;
         if (i && part[i - 1].patch == part[i].patch)
             part[i - 1].twice = part[i].twice = sightings->any_twice = true;
@@ -138,7 +137,7 @@ void sp_sightings_free(sp_sightings *sightings)
 size_t sp_view_bytes(size_t count, bool any_twice)
 {
     return (SP_BINS + 1 + count) * sizeof(uint32_t) + (3 * SP_BINS + COLUMNS * (count + SP_LANES)) * sizeof(float) +
-           (any_twice ? count * (sizeof(float) + 2 * sizeof(uint8_t)) : 0);
+           (any_twice ? count * (sizeof(float) + sizeof(uint8_t)) : 0);
 }
 
 /* The bins' starts first, then the arrays. */
@@ -159,7 +158,6 @@ static void lay_out(void *block, size_t count, bool any_twice, sp_view *view)
     }
     view->part = any_twice ? columns + COLUMNS * padded : NULL;
     view->twice = any_twice ? (uint8_t *)(view->part + count) : NULL;
-    view->first = any_twice ? view->twice + count : NULL;
 }
 
 void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *block, sp_view *view)
@@ -192,7 +190,6 @@ void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *blo
             if (view->twice) {
                 view->part[at] = from->part;
                 view->twice[at] = from->twice;
-                view->first[at] = from->first;
             }
         }
     for (size_t b = 0; b < SP_BINS; b++) {

@@ -28,8 +28,7 @@ typedef struct {
     float *sharp;         /* [count + SP_LANES], 1/rad: over the patch's breadth */
     uint32_t *patch;      /* [count] */
     float *part;          /* [count], share of the patch that the arrival is of; NULL: 1, and none twice */
-    uint8_t *twice;       /* [count], whether the patch has another arrival before or behind; NULL: none has */
-    uint8_t *first;       /* [count], of a cell: whether none of its patch was before; NULL as part */
+    uint8_t *twice;       /* [count], whether the patch has other arrivals, by its other arc or cells; NULL: none has */
 } sp_view;
 
 static inline float sp_view_part(const sp_view *view, uint32_t i)
@@ -53,7 +52,7 @@ typedef struct {
     uint32_t patch;
     uint16_t bin;
     uint8_t arc;
-    bool twice, first;
+    bool twice;
 } sp_sighting;
 
 /* What was traced, patches ascending, in parts of their own so that none has to be moved. */

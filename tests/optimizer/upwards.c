@@ -284,8 +284,8 @@ static void check_prices(stage *s)
             worths += exact;
         }
     print_message("prices are %.2e above what poses are worth\n", prices / worths - 1);
-    /* of patches that are cut only little is known of what a lift makes of any of their cells */
-    assert_true(prices < (s->prices.lifts ? 1.003 : 1.001) * worths);
+    /* where one nozzle alone must do, it is not asked whether both arcs to a cell do so together */
+    assert_true(prices < (s->search.single && !s->prices.lifts ? 1.02 : 1.001) * worths);
     sp_rows_free(&rows);
     sp_offers_free(&offers);
 }
