@@ -127,6 +127,13 @@ double sp_aim_cell_intensity(const sp_aim_cell *cell, const sp_aim_kind *kind)
     return kind->edge[cell->step + 1] / solid_angle;
 }
 
+double sp_aim_cell_intensity_least(const sp_aim_cell *cell, const sp_aim_kind *kind)
+{
+    double low = sp_spray_create(kind->type, cell->angle_low).solid_angle;
+    double high = sp_spray_create(kind->type, cell->angle_high).solid_angle;
+    return kind->edge[cell->step] / fmax(low, high);
+}
+
 sp_aim_cell sp_aim_cell_middle(const sp_aim_cell *cell, const sp_aim_kind *kind)
 {
     double solid_angle;

@@ -51,6 +51,8 @@ sp_spray sp_aim_cell_spray(const sp_aim_cell *cell, const sp_aim_kind *kind, dou
 sp_frame sp_aim_cell_frame(const sp_aim_cell *cell, const sp_aim_disc *disc, sp_vec3 up);
 /* No aim of the cell sprays more per steradian (m³/s/sr). */
 double sp_aim_cell_intensity(const sp_aim_cell *cell, const sp_aim_kind *kind);
+/* The same, the least. */
+double sp_aim_cell_intensity_least(const sp_aim_cell *cell, const sp_aim_kind *kind);
 /* A narrow aim of the cell that sprays as much per steradian: its middle. */
 sp_aim_cell sp_aim_cell_middle(const sp_aim_cell *cell, const sp_aim_kind *kind);
 /* False where a cell is as small as makes a difference. */

@@ -162,11 +162,16 @@ static double *known_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
     return &prices->known[place * prices->cover->tier_count + tier_of(prices, cell)];
 }
 
-/* The most flux over threshold per transfer (m²) of a cell's aims. */
+/* The most flux over threshold per transfer (m²) of a cell's aims, and the least. */
 static double strength_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
 {
     double threshold = prices->search->threshold;
     return threshold > 0 ? sp_aim_cell_intensity(cell, &prices->kinds->items[cell->kind]) / threshold : INFINITY;
+}
+static double least_strength_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
+{
+    double threshold = prices->search->threshold;
+    return threshold > 0 ? sp_aim_cell_intensity_least(cell, &prices->kinds->items[cell->kind]) / threshold : INFINITY;
 }
 
 /* Whether two cells need the same worths of arrivals. */
@@ -222,7 +227,8 @@ static bool turn_to(const sp_aim_prices *prices, scratch *own, const sp_aim_cell
     own->view = sp_visibility_look(search->visibility, cell->site, kind->speed_class, &own->desk);
     if (!own->view->start)
         return false;
-    sp_pose_prices_worth(prices->poses, own->view, (float)strength_of(prices, cell), u, own->worth, own->total);
+    sp_pose_prices_worth(prices->poses, own->view, (float)least_strength_of(prices, cell),
+                         (float)strength_of(prices, cell), u, own->worth, own->total);
     return true;
 }
 

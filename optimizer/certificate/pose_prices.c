@@ -11,6 +11,7 @@
 #define UPWARDS (1 + 1e-4) /* more than a sweep's sum may lie off, see sweep.h */
 #define SLACK 1e-6         /* more than single precision puts an edge, or a flux over its threshold, wrong */
 #define SURELY (1 + 1e-5f) /* flux over threshold, from which a cell covers its part and brings others nothing */
+#define HARDLY (1 - 1e-5f) /* the same, up to which it does not cover */
 #define PART_MORE 5e-5f    /* more than single precision puts a share at an edge wrong */
 #define ROWS_AT_A_TIME 300
 #define STRIDE 7 /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
@@ -113,27 +114,29 @@ static inline float share_of(const sp_pose_prices *prices, uint32_t texel, float
     return prices->search->single && !twice ? 0 : ratio;
 }
 
-void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, float strength, const sp_prices *u,
-                          float *worth, float *total)
+void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, float least, float most,
+                          const sp_prices *u, float *worth, float *total)
 {
     for (uint32_t i = 0; i < view->count; i++) {
         uint32_t t = view->patch[i];
-        float part = sp_view_part(view, i), flux = strength * view->transfer[i];
-        bool cell = part < 1, covers = cell && flux > SURELY, twice = view->twice && view->twice[i];
+        float part = sp_view_part(view, i), flux = most * view->transfer[i];
+        bool cell = part < 1, covers = cell && least * view->transfer[i] > SURELY;
+        /* cells of one arc fall short together where each of them does */
+        bool several = cell ? prices->bent || flux > HARDLY : view->twice && view->twice[i];
         worth[i] = 0;
         if (!(prices->need[t] > 0))
             continue;
         float share = covers ? fminf(part * prices->upwards, 1)
-                             : share_of(prices, t, part * flux, cell ? prices->bent : twice);
+                             : share_of(prices, t, cell ? part * fminf(flux, SURELY) : flux, several);
         worth[i] = u->plain[t] * share;
         if (!u->lifts || !(u->lifted[t] > 0 && share > 0))
             continue;
         /* a lift of two arcs together may be more than the sum of theirs, but never more than 1; what cells cover by
          * themselves is not lifted */
-        float lift = covers  ? share
-                     : cell  ? sp_lift_portion(u->lifts, u->kind[t], share)
-                     : twice ? 1
-                             : sp_lift(u->lifts, u->kind[t], share);
+        float lift = covers    ? share
+                     : cell    ? sp_lift_portion(u->lifts, u->kind[t], share)
+                     : several ? 1
+                               : sp_lift(u->lifts, u->kind[t], share);
         worth[i] += u->lifted[t] * lift;
     }
     prices->search->sweeps->total(view, worth, total);
@@ -145,7 +148,7 @@ static sp_region prepare_worth(const sp_pose_prices *prices, scratch *own, const
 {
     double threshold = prices->search->threshold;
     double strength = threshold > 0 ? make->flow / (make->spray.solid_angle * threshold) : INFINITY;
-    sp_pose_prices_worth(prices, view, (float)strength, u, own->worth, own->total);
+    sp_pose_prices_worth(prices, view, (float)strength, (float)strength, u, own->worth, own->total);
     sp_cull_create(&prices->search->visibility->bins, view, &make->spray, SP_COUNT_SHARE, &own->cull);
     return sp_region_create(&make->spray, frame, strength, SLACK);
 }

@@ -12,18 +12,22 @@ static sp_vec3 nearest_in_triangle(sp_vec3 p, sp_vec3 a, sp_vec3 b, sp_vec3 c)
     sp_vec3 normal = sp_cross(sp_sub(b, a), sp_sub(c, a)), nearest = a;
     double area2 = sp_dot(normal, normal), least = INFINITY;
     bool inside = area2 > 0;
+    for (int i = 0; inside && i < 3; i++)
+        inside = sp_dot(sp_cross(sp_sub(corner[(i + 1) % 3], corner[i]), sp_sub(p, corner[i])), normal) >= 0;
+    if (inside)
+        return sp_along(p, -sp_dot(sp_sub(p, a), normal) / area2, normal);
     for (int i = 0; i < 3; i++) {
         sp_vec3 from = corner[i], edge = sp_sub(corner[(i + 1) % 3], from), offset = sp_sub(p, from);
-        inside = inside && sp_dot(sp_cross(edge, offset), normal) >= 0;
         double length2 = sp_dot(edge, edge), share = length2 > 0 ? sp_dot(offset, edge) / length2 : 0;
         sp_vec3 foot = sp_along(from, fmin(fmax(share, 0), 1), edge);
-        double distance = sp_distance(foot, p);
-        if (distance < least) {
-            least = distance;
+        sp_vec3 way = sp_sub(foot, p);
+        double distance2 = sp_dot(way, way);
+        if (distance2 < least) {
+            least = distance2;
             nearest = foot;
         }
     }
-    return inside ? sp_along(p, -sp_dot(sp_sub(p, a), normal) / area2, normal) : nearest;
+    return nearest;
 }
 
 static double corner_area(sp_vec3 a, sp_vec3 b, sp_vec3 c)
@@ -58,16 +62,20 @@ sp_vec3 sp_middle_centroid(const sp_middle *middle)
 
 void sp_middle_look(sp_middle *middle, const sp_vec3 *polygon, int corners, uint32_t triangle)
 {
-    double area;
-    sp_vec3 moment = polygon_moment(polygon, corners, &area), centroid = sp_middle_centroid(middle);
-    for (int i = 2; area > 0 && i < corners; i++) {
+    double area = 0;
+    sp_vec3 moment = {0}, centroid = sp_middle_centroid(middle);
+    for (int i = 2; i < corners; i++) {
         sp_vec3 point = nearest_in_triangle(centroid, polygon[0], polygon[i - 1], polygon[i]);
         double distance = sp_distance(point, centroid);
-        if (!middle->found || distance < middle->least) {
-            middle->found = true;
-            middle->least = distance;
-            middle->point = sp_along(point, INWARDS, sp_sub(sp_scale(moment, 1 / area), point));
-            middle->triangle = triangle;
-        }
+        if (middle->found && !(distance < middle->least))
+            continue;
+        if (!(area > 0))
+            moment = polygon_moment(polygon, corners, &area);
+        if (!(area > 0))
+            return;
+        middle->found = true;
+        middle->least = distance;
+        middle->point = sp_along(point, INWARDS, sp_sub(sp_scale(moment, 1 / area), point));
+        middle->triangle = triangle;
     }
 }

@@ -17,7 +17,7 @@
 #define FINEST 0x1p-18   /* of the patch's length: no cell is halved below it */
 #define CELLS_MOST 4096  /* of one patch */
 #define CORNERS 14       /* 8 of a piece, and one more for every side of a box */
-#define ROUND_OFF 1e-12  /* of the patch's area, what a cut may leave of nothing */
+#define ROUND_OFF 1e-12  /* of the patch's area, that a cut may leave of nothing; rad */
 
 typedef enum {
     OUT_OF_REACH, /* all of it */
@@ -118,7 +118,9 @@ typedef struct {
     piece *pieces;
     size_t count, capacity;
     bool failed;
-    double area; /* m², of all */
+    double area;     /* m², of all */
+    sp_vec3 axis;    /* of the cone that is asked for */
+    double half_angle;
     size_t cells;
     sp_cell_visitor *visit;
     void *user;
@@ -201,6 +203,11 @@ typedef struct {
     sp_vec3 low, high;
 } cell;
 
+static inline double lesser(double a, double b)
+{
+    return b < a ? b : a;
+}
+
 static cell cell_of(const cutting *cut, size_t first, size_t end)
 {
     cell cell = {.first = first, .end = end, .low = {INFINITY, INFINITY, INFINITY}};
@@ -210,11 +217,26 @@ static cell cell_of(const cutting *cut, size_t first, size_t end)
         sp_middle_add(&cell.middle, own->corner, own->corners);
         for (int k = 0; k < own->corners; k++) {
             sp_vec3 p = own->corner[k];
-            cell.low = sp_v(fmin(cell.low.x, p.x), fmin(cell.low.y, p.y), fmin(cell.low.z, p.z));
-            cell.high = sp_v(fmax(cell.high.x, p.x), fmax(cell.high.y, p.y), fmax(cell.high.z, p.z));
+            cell.low = sp_v(lesser(cell.low.x, p.x), lesser(cell.low.y, p.y), lesser(cell.low.z, p.z));
+            cell.high = sp_v(-lesser(-cell.high.x, -p.x), -lesser(-cell.high.y, -p.y), -lesser(-cell.high.z, -p.z));
         }
     }
     return cell;
+}
+
+/* Whether no flight to within `radius` of a point leaves within the cone. Low flights leave within asin g d / (v √2b)
+ * of the way, as g²T is 2d²g²/b at most, and high ones within asin g d / b of the vertical, as it is 2b at least. */
+static bool is_aside(const cutting *cut, sp_vec3 point, double radius)
+{
+    sp_vec3 gravity = cut->source->evaluator->gravity, r = sp_sub(point, cut->source->position);
+    double distance = sp_length(r), g = sp_length(gravity), speed = cut->source->speed, far = distance + radius;
+    double b = speed * speed + sp_dot(r, gravity) - g * radius, most = cut->half_angle + ROUND_OFF;
+    if (most >= M_PI || distance <= radius || b <= 0 || g * far >= b || g * far >= speed * sqrt(2 * b))
+        return false;
+    double bend = asin(g * far / (speed * sqrt(2 * b))), spread = asin(radius / distance);
+    if (acos(fmin(1, fmax(-1, sp_dot(r, cut->axis) / distance))) <= most + spread + bend)
+        return false;
+    return g == 0 || acos(fmin(1, fmax(-1, -sp_dot(gravity, cut->axis) / g))) > most + asin(g * far / b);
 }
 
 static void visit_cell(cutting *cut, cell *cell)
@@ -245,8 +267,10 @@ static void cut_cell(cutting *cut, size_t first, size_t end)
     sp_vec3 size = sp_sub(cell.high, cell.low);
     int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     double side = coordinate(size, axis), plane = 0.5 * (coordinate(cell.low, axis) + coordinate(cell.high, axis));
-    bearing seen = bearing_of(cut->source, sp_middle_centroid(&cell.middle), side, 0.5 * sp_length(size));
-    if (seen == OUT_OF_REACH)
+    double radius = 0.5 * sp_length(size);
+    sp_vec3 middle = sp_scale(sp_add(cell.low, cell.high), 0.5);
+    bearing seen = bearing_of(cut->source, middle, side, radius);
+    if (seen == OUT_OF_REACH || is_aside(cut, middle, radius))
         return;
     if (seen == FINE || side < FINEST * cut->whole.length || cut->cells >= CELLS_MOST) {
         visit_cell(cut, &cell);
@@ -261,10 +285,15 @@ static void cut_cell(cutting *cut, size_t first, size_t end)
     }
 }
 
-bool sp_patch_cut(const sp_source *source, uint32_t patch, sp_cell_visitor *visit, void *user)
+bool sp_patch_cut(const sp_source *source, uint32_t patch, sp_vec3 axis, double half_angle, sp_cell_visitor *visit,
+                  void *user)
 {
-    cutting cut = {
-        .source = source, .whole = sp_patch_target(source->evaluator, patch), .visit = visit, .user = user};
+    cutting cut = {.source = source,
+                   .whole = sp_patch_target(source->evaluator, patch),
+                   .axis = axis,
+                   .half_angle = half_angle,
+                   .visit = visit,
+                   .user = user};
     bool done = take_pieces(&cut, patch);
     cut.area = cell_of(&cut, 0, cut.count).middle.area;
     if (done)

@@ -110,7 +110,8 @@ static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, f
         return;
     if (!sp_target_is_near(source, &target))
         gather_at(&own, &target, 1);
-    else if (!sp_patch_cut(source, patch, gather_at, &own))
+    else if (!sp_patch_cut(source, patch, aim->axis, aim->half_angle + sp_spray_fringe(SP_BREADTH_MOST), gather_at,
+                           &own))
         flock->failed = true;
 }
 
