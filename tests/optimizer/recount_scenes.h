@@ -262,6 +262,41 @@ static inline void proved(recount_scene *s, double texel)
     scene_open(s, &b, texel);
 }
 
+/* Nozzles one or two texels off a wall, some along it: the texels beside them are cut. */
+static inline void off_the_wall(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_type(s, SP_PATTERN_FULL_CONE, 360, 0, 17);
+    scene_type(s, SP_PATTERN_FULL_CONE, 80, 0, 6);
+    scene_type(s, SP_PATTERN_FLAT_FAN, 90, 14, 5);
+    s->room.setup.criterion.flux = 5 * LITRES_PER_MINUTE;
+    s->mounts[0].from = sp_v(-1 + 1.3 * texel, -0.5, 0.6);
+    s->mounts[0].to = sp_v(-1 + 2.6 * texel, 0.5, 0.6);
+    s->mounts[0].spacing = 0.4;
+    s->mounts[0].tilt = 90 * DEGREE;
+    s->options.max_nozzles = 3;
+    scene_open(s, &b, texel);
+}
+
+/* The same with so little pressure that all falls within a few texels. */
+static inline void feeble_off_the_wall(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_type(s, SP_PATTERN_FULL_CONE, 360, 0, 17);
+    scene_type(s, SP_PATTERN_FULL_CONE, 80, 0, 6);
+    s->room.setup.fidelity.trajectory = SP_TRAJECTORY_PARABOLA;
+    s->room.setup.criterion.flux = 15 * LITRES_PER_MINUTE;
+    s->pressures[0] = 700;
+    s->mounts[0].from = sp_v(-1 + 0.8 * texel, -0.5, 0.6);
+    s->mounts[0].to = sp_v(-1 + 2.6 * texel, 0.5, 0.6);
+    s->mounts[0].spacing = 0.4;
+    s->mounts[0].tilt = 90 * DEGREE;
+    s->options.max_nozzles = 3;
+    scene_open(s, &b, texel);
+}
+
 typedef struct {
     const char *name;
     bool hall, refined; /* refined: where one look must do */
@@ -280,6 +315,9 @@ static const recount_case recount_cases[] = {
     {"weak flux", false, true, weak_flux},
     {"any liquid", false, false, any_liquid},
     {"proved", false, false, proved},
+    {"off the wall", false, false, off_the_wall},
+    {"off the wall, refined", false, true, off_the_wall},
+    {"feeble, off the wall", false, false, feeble_off_the_wall},
 };
 #define RECOUNT_CASES (sizeof recount_cases / sizeof *recount_cases)
 
