@@ -20,7 +20,7 @@ typedef struct {
     uint32_t *texel;           /* [count] */
     sp_side *side;             /* [count] */
     double *area;              /* [count], m² */
-    sp_vec3 *point;            /* [count], where it is judged: its point nearest to its centroid, m */
+    sp_vec3 *point;            /* [count], where it is judged if not cut: its point nearest to its centroid, m */
     sp_vec3 *normal;           /* [count], unit, towards the side that is wet (the front where both are) */
     uint32_t *triangle;        /* [count], the one that holds `point` */
     double *length;            /* [count], m: its texel's edge, or where its chart has less area than a texel, the root
@@ -129,9 +129,9 @@ sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, do
 sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                                      double half_angle, sp_error *error);
 /* The same of the patches first to end alone, for callers with little memory: it takes no more than SP_REACH_WORK bytes
- * for each of these patches and for each arrival of a cell, the answer included. `known` is NULL, or holds the answer of
- * an earlier call, bit 2 patch + arc (least bits first) set for every arrival: then the same is told again, and nothing
- * is traced but the way to cells. */
+ * for each of these patches and for each arrival of a cell, the answer included. `known` is NULL, or holds the answer
+ * of an earlier call, bit 2 patch + arc (least bits first) set for every arrival: then the same is told again, and
+ * nothing is traced but the way to cells. */
 #define SP_REACH_WORK 1024
 sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                                   double half_angle, size_t first, size_t end, const uint8_t *known, sp_error *error);
@@ -148,8 +148,8 @@ typedef struct {
 int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_flight flights[2]);
 /* How broad a square of this edge length (m) about the flight's end looks from where it starts at `speed` (m/s), at
  * most, however it is turned: by how much the flight's direction has to change for its end to move so far. Never more
- * than SP_BREADTH_MOST (rad): a patch that looks broader is cut into cells that do not, and the spray's edge is blurred over
- * them by as much, so that their shares still come to the region's solid angle. */
+ * than SP_BREADTH_MOST (rad): a patch that looks broader is cut into cells that do not, and the spray's edge is blurred
+ * over them by as much, so that their shares still come to the region's solid angle. */
 #define SP_BREADTH_MOST 0.2
 double sp_flight_breadth(const sp_flight *flight, double speed, double length);
 /* True where nothing lies in the way of a flight that leaves `position` (m) at `speed` (m/s) for the patch's point. */

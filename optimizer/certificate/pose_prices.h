@@ -30,8 +30,8 @@ bool sp_pose_line(sp_pose_prices *prices, const sp_pose_order *order, sp_line *l
 sp_pricer sp_pose_pricer(sp_pose_prices *prices);
 /* What the pricer found everything to be worth when it last priced all, by position of the line, rounded upwards. */
 const float *sp_pose_prices_last(const sp_pose_prices *prices);
-/* What each arrival of a view brings to a nozzle of a strength, flux over threshold per transfer, from `least` to `most`,
- * rounded upwards (worth, [view->count]); and each bin in all (total, [SP_BINS]). */
+/* What each arrival of a view brings to a nozzle of a strength, flux over threshold per transfer, from `least` to
+ * `most`, rounded upwards (worth, [view->count]); and each bin in all (total, [SP_BINS]). */
 void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, float least, float most,
                           const sp_prices *u, float *worth, float *total);
 /* Appends a field (flux over threshold) as a row. */

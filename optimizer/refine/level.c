@@ -155,8 +155,7 @@ static double log_slope(const sp_posed *posed, const sp_borne *borne, const sp_s
     switch (freedom->kind[k]) {
     case SP_UNKNOWN_PLACE:
         thicker = shift(posed, borne, seen, freedom->move[k], &turn);
-        return (borne->by_flux ? thicker : 0) +
-               edge * sp_dot(borne->gradient, in_frame(&posed->frame, turn));
+        return (borne->by_flux ? thicker : 0) + edge * sp_dot(borne->gradient, in_frame(&posed->frame, turn));
     case SP_UNKNOWN_AXIS:
     case SP_UNKNOWN_ROLL:
         return edge > 0 ? edge * sp_dot(borne->gradient, in_frame(&posed->turn[k], borne->flight.direction)) : 0;

@@ -156,8 +156,8 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
             breadth = sp_flight_breadth(&flight, sight->speed, patches->length[seen->patch]);
         }
         float *value = &field[seen->patch];
-        *value = sp_field_join(*value, sp_posed_spray_value(&posed, flight.direction, breadth, transfer),
-                               (float)seen->part);
+        *value =
+            sp_field_join(*value, sp_posed_spray_value(&posed, flight.direction, breadth, transfer), (float)seen->part);
     }
 }
 

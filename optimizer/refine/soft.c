@@ -94,14 +94,13 @@ static bool is_cell(const sp_soft *soft, size_t link)
 static size_t end_of_group(const sp_soft *soft, size_t patch, size_t first)
 {
     size_t end = first + 1;
-    while (is_cell(soft, first) && end < soft->start[patch + 1] &&
-           soft->links[end].nozzle == soft->links[first].nozzle)
+    while (is_cell(soft, first) && end < soft->start[patch + 1] && soft->links[end].nozzle == soft->links[first].nozzle)
         end++;
     return end;
 }
 
-/* The same where any one level suffices: the product of what each leaves dry, or a nozzle's cells together; but for what
- * link `but` (SIZE_MAX: none) belongs to. */
+/* The same where any one level suffices: the product of what each leaves dry, or a nozzle's cells together; but for
+ * what link `but` (SIZE_MAX: none) belongs to. */
 static double miss_of_any(const sp_soft *soft, size_t patch, size_t but)
 {
     double miss = soft->search->kept_wet[patch] >= 1 ? 0 : (double)soft->search->kept_dry[patch];

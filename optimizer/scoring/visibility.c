@@ -9,10 +9,11 @@
 #define RAYS_MOST 1e8      /* patches times views */
 #define SWEEPS_MOST 1.2e10 /* patches times poses */
 #define MEMORY 1e9         /* bytes, for all views, where the options do not say */
-#define CELLS 4000         /* arrivals of cells in a view that has not been traced yet: nearer to a wall than a hundredth
-                            * of a texel there may be more */
-#define BATCH 16           /* sites traced between two looks at clock and memory */
-#define TIME_SHARE 0.5     /* of a time limit, that tracing may take */
+#define CELLS                                                                                                          \
+    4000               /* arrivals of cells in a view that has not been traced yet: nearer to a wall than a hundredth  \
+                        * of a texel there may be more */
+#define BATCH 16       /* sites traced between two looks at clock and memory */
+#define TIME_SHARE 0.5 /* of a time limit, that tracing may take */
 
 struct sp_desks {
     pthread_mutex_t lock;
@@ -170,7 +171,8 @@ static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
         if (!survey_batch(survey, first, first + BATCH < sites ? first + BATCH : sites, keep, error))
             return false;
         visibility->bytes =
-            fmax(visibility->bytes, survey->kept + (double)survey->threads * desk_bytes(visibility->largest, visibility->cells, true));
+            fmax(visibility->bytes,
+                 survey->kept + (double)survey->threads * desk_bytes(visibility->largest, visibility->cells, true));
     }
     return true;
 }
@@ -221,7 +223,8 @@ static bool furnish(sp_survey *survey, sp_error *error)
 {
     sp_visibility *visibility = survey->visibility;
     size_t views = visibility->site_count * visibility->speed_count, missing = 0;
-    double memory = memory_of(visibility->options), work = desk_bytes(visibility->largest, visibility->cells, survey->twice_at_all);
+    double memory = memory_of(visibility->options),
+           work = desk_bytes(visibility->largest, visibility->cells, survey->twice_at_all);
     double sights = (double)views * (double)visibility->sight_bytes;
     if (sights + work > memory)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,

@@ -8,8 +8,8 @@ static const double ends = 1e-7;
 sp_target sp_patch_target(const sp_evaluator *evaluator, uint32_t patch)
 {
     const sp_patches *patches = &evaluator->patches;
-    return (sp_target){patches->point[patch], patches->normal[patch], patches->side[patch], patches->triangle[patch],
-                       patches->length[patch]};
+    return (sp_target){patches->point[patch],    patches->normal[patch], patches->side[patch],
+                       patches->triangle[patch], patches->length[patch], 0};
 }
 
 bool sp_arrive(const sp_source *source, const sp_target *target, const sp_flight *flight, sp_arrival *arrival)
@@ -35,7 +35,8 @@ sp_ray sp_flight_ray(const sp_source *source, const sp_target *target, const sp_
     return (sp_ray){.origin = source->position,
                     .velocity = sp_scale(flight->direction, source->speed),
                     .t_min = ends * flight->time,
-                    .t_max = (1 - ends) * flight->time,
+                    .t_max =
+                        fmin((1 - ends) * flight->time, flight->time - target->moved / sp_length(flight->velocity)),
                     .skip = target->triangle};
 }
 

@@ -16,6 +16,7 @@ typedef struct {
     sp_side side;      /* SP_SIDE_BOTH takes liquid from either side */
     uint32_t triangle; /* that holds the point */
     double length;     /* m, of the texel's edges on the surface */
+    double moved;      /* m, from a point of the surface, in the triangle's plane */
 } sp_target;
 
 sp_target sp_patch_target(const sp_evaluator *evaluator, uint32_t patch);

@@ -3,9 +3,9 @@
  * halving of the distance.
  *
  * With r the way from the source, b = v² + r·g and D = b² - g²r² (see flight.c) the limit of reach is where D is 0. The
- * slope of D is 2 (b g - g² r), of length 2 g √(2 b v² - D), and its second derivatives are no more than 2 g²; so over a
- * distance e it changes by no more than 2 g √(2 b v² - D) e + g² e². Towards the limit flights turn as √D does, and what
- * arrives per area grows as 1/√D: over a cell there its mean is that of the one point where √D is the mean of its
+ * slope of D is 2 (b g - g² r), of length 2 g √(2 b v² - D), and its second derivatives are no more than 2 g²; so over
+ * a distance e it changes by no more than 2 g √(2 b v² - D) e + g² e². Towards the limit flights turn as √D does, and
+ * what arrives per area grows as 1/√D: over a cell there its mean is that of the one point where √D is the mean of its
  * least and most, of the share of the cell that is within reach. */
 #include "near.h"
 
@@ -13,11 +13,11 @@
 
 #include <stdlib.h>
 
-#define RIM 0.25         /* rad, by which flights turn over a cell at the limit of their reach, about */
-#define FINEST 0x1p-18   /* of the patch's length: no cell is halved below it */
-#define CELLS_MOST 4096  /* of one patch */
-#define CORNERS 14       /* 8 of a piece, and one more for every side of a box */
-#define ROUND_OFF 1e-12  /* of the patch's area, that a cut may leave of nothing; rad */
+#define RIM 0.25        /* rad, by which flights turn over a cell at the limit of their reach, about */
+#define FINEST 0x1p-18  /* of the patch's length: no cell is halved below it */
+#define CELLS_MOST 4096 /* of one patch: more than it takes a nanometre off a wall */
+#define CORNERS 14      /* 8 of a piece, and one more for every side of a box */
+#define ROUND_OFF 1e-12 /* of the patch's area, that a cut may leave of nothing; rad */
 
 typedef enum {
     OUT_OF_REACH, /* all of it */
@@ -35,8 +35,7 @@ static reserve reserve_at(const sp_source *source, sp_vec3 r)
 {
     sp_vec3 gravity = source->evaluator->gravity;
     double g = sp_length(gravity), distance = sp_length(r), b = source->speed * source->speed + sp_dot(r, gravity);
-    return (reserve){(b - g * distance) * (b + g * distance),
-                     sp_along(sp_scale(gravity, 2 * b), -2 * g * g, r)};
+    return (reserve){(b - g * distance) * (b + g * distance), sp_along(sp_scale(gravity, 2 * b), -2 * g * g, r)};
 }
 
 /* How what lies within `radius` of a point, and is `side` long, looks from the source. */
@@ -53,7 +52,8 @@ static bearing bearing_of(const sp_source *source, sp_vec3 point, double side, d
             return OUT_OF_REACH;
         if (own.value < change) {
             double time = sqrt(2 * distance / g), arriving = sqrt(fmax(0, speed * speed + 2 * sp_dot(r, gravity)));
-            return side > SP_BREADTH_MOST * speed * time || arriving * side > RIM * time * sqrt(change) ? TOO_BROAD : FINE;
+            return side > SP_BREADTH_MOST * speed * time || arriving * side > RIM * time * sqrt(change) ? TOO_BROAD
+                                                                                                        : FINE;
         }
     }
     sp_flight flights[2]; /* of which the low one looks broader */
@@ -118,8 +118,8 @@ typedef struct {
     piece *pieces;
     size_t count, capacity;
     bool failed;
-    double area;     /* m², of all */
-    sp_vec3 axis;    /* of the cone that is asked for */
+    double area;  /* m², of all */
+    sp_vec3 axis; /* of the cone that is asked for */
     double half_angle;
     size_t cells;
     sp_cell_visitor *visit;
@@ -253,6 +253,7 @@ static void visit_cell(cutting *cut, cell *cell)
     limit limit;
     if (limit_across(cut->source, &target, sqrt(cell->middle.area), &limit)) {
         target.point = sp_add(target.point, limit.along);
+        target.moved = sp_length(limit.along);
         part *= (limit.most - limit.least) / (2 * limit.half);
     }
     cut->cells++;

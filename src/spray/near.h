@@ -5,8 +5,8 @@
 
 #include "arrival.h"
 
-/* Whether the patch behind this target is to be cut: where it looks broader than a quarter of a radian, or where flights
- * bend by as much as tells within it since it lies at the parabola of safety. */
+/* Whether the patch behind this target is to be cut: where it looks broader than a quarter of a radian, or where
+ * flights bend by as much as tells within it since it lies at the parabola of safety. */
 bool sp_target_is_near(const sp_source *source, const sp_target *target);
 
 /* A cell of a patch: where it is judged, and which share of the patch's area it is. */

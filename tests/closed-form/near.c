@@ -191,6 +191,27 @@ static void fountains(void **state)
     }
 }
 
+/* In a sphere the limit of reach lies across a curved wall. */
+static void falls_in_a_sphere(void **state)
+{
+    (void)state;
+    double liquid = 0;
+    scene s;
+    scene_open(&s, mesh_of_sphere(1, 4), SP_TRAJECTORY_PARABOLA, 0.03);
+    s.setup.cavity = SP_CAVITY_POINT;
+    sp_evaluator *evaluator = scene_evaluator(&s);
+    sp_nozzle_type type = spray_type(SP_PATTERN_FULL_CONE, 360);
+    for (double speed = 0.5; speed < 5; speed += 0.5) {
+        sp_nozzle nozzle = nozzle_at(&type, sp_v(0.1, 0.2, -0.1), sp_v(0, 0, 1), speed);
+        sp_coverage *coverage = scene_cover(evaluator, &nozzle, 1, true);
+        liquid = worse(liquid, landed(coverage), 1);
+        sp_coverage_destroy(coverage);
+    }
+    assert_within("sphere, texel", 0.03, liquid, 0.02 * COARSER);
+    sp_evaluator_destroy(evaluator);
+    scene_close(&s);
+}
+
 /* Cells are the same whoever asks for which patches, and what lies in the way of them is found again. */
 static void told_again_in_parts(void **state)
 {
@@ -242,7 +263,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cones_before_a_wall), cmocka_unit_test(balls_before_a_wall),
         cmocka_unit_test(fans_along_a_wall),   cmocka_unit_test(feeble_sprays),
-        cmocka_unit_test(fountains),           cmocka_unit_test(told_again_in_parts),
+        cmocka_unit_test(fountains),           cmocka_unit_test(falls_in_a_sphere),
+        cmocka_unit_test(told_again_in_parts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,8 +50,7 @@ static void both_arcs_of_an_open_floor(void **state)
     reach = reach_of(evaluator, position, 5, sp_v(0, 0, 1), M_PI / 2); /* upwards: all high arcs, and low ones afar */
     assert_true(reach->count >= patches && reach->count < 2 * patches);
     for (size_t i = 0; i < reach->count; i++)
-        assert_true(asin(-reach->arrivals[i].direction.z) <=
-                    sp_spray_fringe(reach->arrivals[i].breadth) + 1e-9);
+        assert_true(asin(-reach->arrivals[i].direction.z) <= sp_spray_fringe(reach->arrivals[i].breadth) + 1e-9);
     sp_reach_destroy(reach);
     reach = reach_of(evaluator, position, 1, sp_v(0, 0, -1), M_PI); /* a feeble jet: within the envelope alone */
     double radius = 1 / 9.81 * sqrt(1 + 2 * 9.81 * 0.5);

@@ -25,7 +25,7 @@ static double seconds;
 static const char *wanted; /* NULL: a quick look */
 static size_t certified;
 
-#define ROUNDING 1e-6 /* of an area: candidates' directions are kept in single precision */
+#define ROUNDING 5e-6 /* of an area: candidates' directions are kept in single precision */
 
 static void check_counts(const recount_scene *scene, const sp_proposal *proposal)
 {
