@@ -1,6 +1,7 @@
 #include "refine/polish.h"
 
 #include "refine/compass.h"
+#include "scoring/scoring.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -92,6 +93,16 @@ static bool transfer(sp_sights *sights, const sp_draft *from, sp_draft *to, sp_e
     return done;
 }
 
+/* What every nozzle covers from just where it is: sights from beside it tell that of patches near by less well. */
+static bool look_again(const sp_search *search, sp_draft *draft, sp_error *error)
+{
+    for (size_t i = 0; i < draft->count; i++)
+        if (!sp_field_nozzle(search, &draft->items[i].nozzle, draft->items[i].field, error))
+            return false;
+    sp_draft_refresh(search, draft);
+    return true;
+}
+
 /* Within the budget by turning nozzles down; false in *fits where that is not enough. */
 static bool fit(sp_sights *sights, double budget, sp_draft *draft, bool *fits, sp_error *error)
 {
@@ -171,7 +182,8 @@ static bool take_over(const sp_polishing *polishing, int thread, sp_trial *trial
     sp_sights_forget(sights);
     if (!transfer(sights, &trial->refined, &draft, error))
         return false;
-    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, trial->budget, polishing->watch, &draft, error)) {
+    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, trial->budget, polishing->watch, &draft, error) ||
+        !look_again(polishing->search, &draft, error)) {
         sp_draft_free(&draft);
         return false;
     }
@@ -260,6 +272,5 @@ bool sp_sharpen(sp_polishing *polishing, double budget, sp_draft *draft, sp_erro
 
 bool sp_look_anew(sp_polishing *polishing, sp_draft *draft, sp_error *error)
 {
-    sp_sights_forget(&polishing->sights[0]);
-    return sp_draft_look(&polishing->sights[0], draft, error);
+    return look_again(polishing->search, draft, error);
 }
