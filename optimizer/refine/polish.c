@@ -2,6 +2,7 @@
 
 #include "refine/compass.h"
 #include "scoring/scoring.h"
+#include "search/walk.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -14,10 +15,11 @@
 #define STEP_LEAST 0.006
 #define SHARP_START 4   /* width at which the last polish starts */
 #define KEEPS_UP 0.002  /* of what is covered, by which few patches may mislead */
-#define TURNS 4         /* of kicks and new drafts, two that are annealed first */
+#define TURNS 4         /* of walks and new drafts, two that are annealed first */
+#define WALK 1e8        /* patches that a walk goes through */
 #define GAIN_LEAST 1e-5 /* of what is covered: less is no improvement */
 #define BEHIND_MOST                                                                                                    \
-    0.005 /* of what was covered before a kick: with more to make up for, annealing is the end of it                   \
+    0.005 /* of what was covered before a walk: with more to make up for, annealing is the end of it                   \
            */
 
 static bool sights_create(const sp_search *search, int threads, size_t capacity, sp_sights **sights, sp_error *error)
@@ -165,8 +167,8 @@ static bool begin(const sp_polishing *polishing, const sp_trial *trial, sp_draft
     const sp_draft *from = trial->kind == SP_TRIAL_OTHER ? &trial->other : &trial->draft;
     if (!sp_draft_copy(polishing->search, from, start, error))
         return false;
-    if (trial->kind == SP_TRIAL_KICK &&
-        !sp_kick(&tuned->search, &tuned->pool, trial->budget, trial->seed, start, error)) {
+    if (trial->kind == SP_TRIAL_WALK &&
+        !sp_walk(&tuned->search, trial->budget, WALK, trial->seed, polishing->watch, start, error)) {
         sp_draft_free(start);
         return false;
     }

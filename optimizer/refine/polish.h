@@ -3,13 +3,12 @@
 #define OPTIMIZER_POLISH_H
 
 #include "refine/anneal.h"
-#include "search/kick.h"
 #include "search/tuned.h"
 
 typedef enum {
     SP_TRIAL_ANNEAL, /* the draft as it is, annealed from every start */
     SP_TRIAL_POLISH, /* the same, annealed by turns as all that follow */
-    SP_TRIAL_KICK,   /* after a kick */
+    SP_TRIAL_WALK,   /* after a walk */
     SP_TRIAL_OTHER,  /* another in its place */
 } sp_trial_kind;
 
@@ -19,7 +18,7 @@ typedef struct {
     sp_draft draft;   /* what comes out takes its place, if better, and no other of the same water much more so */
     sp_draft other;   /* of the tuned search, where that kind asks for it */
     double budget;    /* m³/s */
-    uint64_t seed;    /* of the kick */
+    uint64_t seed;    /* of the walk */
     bool better;      /* it came to cover more on few patches; the search's and the final ones may see it otherwise */
     sp_draft refined; /* on few patches */
     double covered;   /* m² of these */
@@ -31,7 +30,7 @@ typedef struct {
     sp_watch *watch;
     sp_evaluator *rough_evaluator; /* NULL: the search's patches are few enough */
     sp_search rough;
-    sp_tuned tuned; /* where kicks and other drafts are drawn from */
+    sp_tuned tuned; /* where walks and other drafts find their poses */
     int threads;
     sp_sights *sights, *rough_sights; /* [threads] */
 } sp_polishing;

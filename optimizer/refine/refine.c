@@ -10,7 +10,7 @@
 #define FLOW_TRIALS 7     /* measurements to find how far the flow can be turned down */
 #define GAIN_LEAST 1e-4   /* of area or water: less is no improvement */
 #define MISSING_MOST 0.03 /* of the target: more, refinement is not expected to make up for */
-#define BATCH 8           /* kicks of one draft at a time; fixed, so that the answer does not depend on the threads */
+#define BATCH 8           /* walks from one draft at a time; fixed, so that the answer does not depend on the threads */
 #define BATCHES 2         /* before less water is given up */
 #define SAVINGS 3
 #define SAVING 0.015 /* less water than the best draft, so many times, for another */
@@ -232,10 +232,10 @@ static bool recombine_front(sp_refining *refining)
     return done;
 }
 
-static bool kick_front(sp_refining *refining)
+static bool walk_from_front(sp_refining *refining)
 {
     sp_trials trials = {0};
-    bool done = try_front(refining, &trials, SP_TRIAL_KICK) && carry_out(refining, &trials, NULL);
+    bool done = try_front(refining, &trials, SP_TRIAL_WALK) && carry_out(refining, &trials, NULL);
     trials_free(&trials);
     return done;
 }
@@ -279,7 +279,7 @@ static bool save_flow(sp_refining *refining)
     return done;
 }
 
-/* Polishes and kicks a draft until the front has one that takes less water than `before` and reaches the target, or
+/* Polishes a draft, then what walks from it find, until the front has one that takes less water than `before` and reaches the target, or
  * it is given up. */
 static bool insist(sp_refining *refining, sp_draft *draft, double budget, const sp_front_point *before)
 {
@@ -291,7 +291,7 @@ static bool insist(sp_refining *refining, sp_draft *draft, double budget, const 
             break;
         sp_trials trials = {0};
         for (size_t i = 0; done && i < (batch ? BATCH : 1); i++)
-            done = try_also(refining, &trials, draft, budget, batch ? SP_TRIAL_KICK : SP_TRIAL_ANNEAL);
+            done = try_also(refining, &trials, draft, budget, batch ? SP_TRIAL_WALK : SP_TRIAL_ANNEAL);
         done = done && carry_out(refining, &trials, draft);
         trials_free(&trials);
     }
@@ -353,8 +353,8 @@ static bool refine_all(sp_refining *refining)
     if (!polish_front(refining))
         return false;
     bool saves = front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
-    return (!saves || save_water(refining)) && kick_front(refining) && recombine_front(refining) &&
-           sharpen_best(refining) && (!saves || save_flow(refining));
+    return walk_from_front(refining) && recombine_front(refining) && (!saves || save_water(refining)) &&
+           recombine_front(refining) && sharpen_best(refining) && (!saves || save_flow(refining));
 }
 
 bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error)

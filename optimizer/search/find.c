@@ -2,12 +2,15 @@
 
 #include "search/fewest.h"
 #include "search/guess.h"
+#include "search/walk.h"
 
 #include <stdlib.h>
 
 #define ROUNDS_MOST 4    /* corrections for what the coarse patches misjudge */
 #define FRONT_BUDGETS 8  /* about as many points of the front are searched for */
 #define FRONT_RATIO 1.15 /* between two amounts of water at which the front is searched, at most */
+#define STARTS 2         /* of the search at one amount of water */
+#define WALK 4e8         /* patches that a walk from the better of these goes through */
 
 typedef struct {
     const sp_search *search;
@@ -82,56 +85,73 @@ static bool shrink_best(const sp_finding *finding)
     return done;
 }
 
-/* Start number i of a search within a budget: the first of the greedy order, what was found by guessing, and the pool's
- * greedy by less regard for water. */
+/* Start number i of a search within a budget: the first of the greedy order, or what was found by guessing. */
 static bool start_from(const sp_finding *finding, const sp_draft *greedy, const sp_lineup *guessed, double budget,
-                       size_t i, sp_bench *bench, sp_draft *draft)
+                       size_t i, sp_draft *draft)
 {
-    static const double powers[] = {0.5, 0};
-    const sp_search *search = finding->search;
     if (i == 1)
         return sp_lineup_draft(guessed, draft, finding->error);
-    if (i == 0) {
-        if (!sp_draft_copy(search, greedy, draft, finding->error))
-            return false;
-        while (draft->count && draft->flow > budget)
-            sp_draft_remove(search, draft, draft->count - 1);
-        return true;
-    }
-    if (!sp_draft_create(search, draft, finding->error))
+    if (!sp_draft_copy(finding->search, greedy, draft, finding->error))
         return false;
-    if (sp_greedy_pool(search, finding->pool, powers[i - 2], INFINITY, budget, bench, draft, finding->error))
-        return true;
-    sp_draft_free(draft);
-    return false;
+    while (draft->count && draft->flow > budget)
+        sp_draft_remove(finding->search, draft, draft->count - 1);
+    return true;
 }
 
-/* The best that four starts improve to within a budget. */
-static bool at_budget(const sp_finding *finding, const sp_draft *greedy, const sp_lineup *guessed, double budget)
+/* The better of what the starts improve to within a budget; *best, which holds a draft, becomes it. */
+static bool start_at(const sp_finding *finding, const sp_draft *greedy, const sp_lineup *guessed, double budget,
+                     sp_draft *best)
 {
-    sp_draft best;
-    sp_bench bench;
-    if (!sp_bench_create(finding->search, finding->pool, &bench, finding->error))
-        return false;
-    if (!sp_draft_create(finding->search, &best, finding->error)) {
-        sp_bench_free(&bench);
-        return false;
-    }
-    bool done = true;
-    for (size_t i = 0; done && i < 4 && sp_watch_goes_on(finding->watch, "front", 0); i++) {
+    for (size_t i = 0; i < STARTS && sp_watch_goes_on(finding->watch, "front", 0); i++) {
         sp_draft draft;
-        done = start_from(finding, greedy, guessed, budget, i, &bench, &draft);
-        if (!done)
-            break;
-        done = sp_improve(finding->search, finding->pool, budget, finding->watch, &draft, finding->error);
-        bool better = draft.covered > best.covered;
-        sp_draft_free(better ? &best : &draft);
+        if (!start_from(finding, greedy, guessed, budget, i, &draft))
+            return false;
+        bool done = sp_improve(finding->search, finding->pool, budget, finding->watch, &draft, finding->error);
+        bool better = done && draft.covered > best->covered;
+        sp_draft_free(better ? best : &draft);
         if (better)
-            best = draft;
+            *best = draft;
+        if (!done)
+            return false;
     }
-    done = done && sp_front_measure(finding->front, finding->search, &best, NULL, finding->error);
-    sp_bench_free(&bench);
-    sp_draft_free(&best);
+    return true;
+}
+
+/* Walks on from every draft within its budget, many at a time. */
+static bool walk_all(const sp_finding *finding, const double *budgets, sp_draft *drafts, size_t count)
+{
+    sp_error failure = {0};
+    int threads = sp_sweeper_threads(finding->search);
+    /* the last have most nozzles, so that no thread is left alone with one of these */
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+    for (size_t k = 0; k < count; k++) {
+        size_t i = count - 1 - k;
+        sp_error mine = {0};
+        if (!sp_walk(finding->search, budgets[i], WALK, i + 1, finding->watch, &drafts[i], &mine)) {
+#pragma omp critical(sp_find_failure)
+            failure = mine;
+        }
+    }
+    if (failure.kind == SP_OK)
+        return true;
+    return sp_fail(finding->error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
+}
+
+/* The best found within each budget, measured. */
+static bool search_budgets(const sp_finding *finding, const sp_draft *greedy, const sp_lineup *guessed,
+                           const double *budgets, size_t count)
+{
+    sp_draft *drafts = calloc(count + 1, sizeof *drafts);
+    bool done = drafts || sp_fail_memory(finding->error);
+    for (size_t i = 0; done && i < count; i++)
+        done = sp_draft_create(finding->search, &drafts[i], finding->error) &&
+               start_at(finding, greedy, &guessed[i], budgets[i], &drafts[i]);
+    done = done && walk_all(finding, budgets, drafts, count);
+    for (size_t i = 0; done && i < count; i++)
+        done = sp_front_measure(finding->front, finding->search, &drafts[i], NULL, finding->error);
+    for (size_t i = 0; drafts && i < count; i++)
+        sp_draft_free(&drafts[i]);
+    free(drafts);
     return done;
 }
 
@@ -172,15 +192,15 @@ static double *densify(double *budgets, size_t *count)
     return dense;
 }
 
-/* The water at which the front is searched: what the greedy order used as it went, what one nozzle of each make takes,
- * that of the scene's own layout, with which the proposal will be compared, and enough between. Rising; malloc'd, NULL
- * when memory runs out. */
+/* The water at which the front is searched: what the greedy order used as it went, all of it where that falls short of
+ * the target, what one nozzle of each make takes, that of the scene's own layout, with which the proposal will be
+ * compared, and enough between. Rising; malloc'd, NULL when memory runs out. */
 static double *list_budgets(const sp_finding *finding, const sp_draft *greedy, size_t *count)
 {
     const sp_search *search = finding->search;
     const sp_candidates *candidates = search->candidates;
     const sp_layout *own = search->options->kept;
-    double *budgets = malloc((greedy->count + candidates->make_count + 1) * sizeof *budgets);
+    double *budgets = malloc((greedy->count + candidates->make_count + 2) * sizeof *budgets);
     if (!budgets)
         return NULL;
     size_t found = 0, stride = greedy->count / (FRONT_BUDGETS + 1) + 1;
@@ -190,6 +210,8 @@ static double *list_budgets(const sp_finding *finding, const sp_draft *greedy, s
         if ((i + 1) % stride == 0)
             budgets[found++] = flow;
     }
+    if (!(finding->front->measured.area >= finding->target))
+        budgets[found++] = isfinite(search->options->max_water) ? search->options->max_water : greedy->flow;
     for (size_t m = 0; m < candidates->make_count; m++)
         budgets[found++] = search->kept_flow + candidates->makes[m].flow;
     if (own)
@@ -212,8 +234,7 @@ static bool fill_front(const sp_finding *finding, const sp_draft *greedy)
     bool done = guessed || sp_fail_memory(finding->error);
     done = done && sp_table_create(finding->search, finding->pool, NULL, 0, &table, finding->error) &&
            sp_guess(&table, budgets, count, finding->watch, guessed, finding->error);
-    for (size_t i = 0; done && i < count && sp_watch_goes_on(finding->watch, "front", (double)i / (double)count); i++)
-        done = at_budget(finding, greedy, &guessed[i], budgets[i]);
+    done = done && search_budgets(finding, greedy, guessed, budgets, count);
     for (size_t i = 0; guessed && i < count; i++)
         sp_lineup_free(&guessed[i]);
     sp_table_free(&table);

@@ -1,0 +1,178 @@
+#include "search/walk.h"
+
+#include <stdlib.h>
+
+#define SITES 3          /* mounting points that are looked at for one nozzle, each with one make */
+#define POSES 24         /* of each */
+#define MISSES 3         /* times that none of these gains, before a layout counts as full */
+#define HOT 3e-3         /* of the area: the loss that is taken in one of e cases, at first */
+#define COLD 1e-5        /* at last */
+#define TWO_SHARE 0.3    /* of the steps, that take two nozzles out */
+#define NEAR_SHARE 0.5   /* of the mounting points, that are the one a nozzle was taken from */
+#define CREDIT_SHARE 0.7 /* of the steps, that give credit for what is on the way */
+#define GAIN_LEAST 1e-6  /* of the area, for one more nozzle */
+#define STEP_EFFORT 10   /* patches that a step goes through, per patch and nozzle */
+#define STEPS_MOST 120   /* for each nozzle: on few patches a step takes as long as its poses do */
+
+typedef struct {
+    const sp_search *search; /* with the credit of now */
+    double budget, area;
+    uint64_t state;
+    sp_sweeper *sweeper;
+    sp_draft *draft;
+    sp_error *error;
+} sp_walker;
+
+/* SplitMix64: Steele, Lea and Flood, Fast splittable pseudorandom number generators, OOPSLA 2014. */
+static double uniform(sp_walker *walker)
+{
+    uint64_t z = walker->state += 0x9e3779b97f4a7c15;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+static size_t draw(sp_walker *walker, size_t count)
+{
+    return (size_t)(uniform(walker) * (double)count);
+}
+
+typedef struct {
+    sp_pose pose;
+    double merit; /* gain per water^power; 0: none */
+} sp_find_of_step;
+
+/* Some of the poses of one make at one mounting point. */
+static void look(sp_walker *walker, uint32_t site, uint32_t make, double power, sp_find_of_step *best)
+{
+    const sp_candidates *candidates = walker->search->candidates;
+    const sp_make *own = &candidates->makes[make];
+    size_t poses = own->roll_count *
+                   sp_candidates_axes(candidates, walker->search->sites->items[site].mount, make)->count;
+    double price = pow(own->flow, power);
+    for (size_t i = 0; i < POSES && i < poses; i++) {
+        size_t at = poses > POSES ? draw(walker, poses) : i;
+        sp_pose pose = {site, make, (uint32_t)(at / own->roll_count), (uint32_t)(at % own->roll_count)};
+        double gain = sp_score_pose(walker->sweeper, walker->search, walker->draft, pose).gain;
+        if (gain > GAIN_LEAST * walker->area && gain / price > best->merit)
+            *best = (sp_find_of_step){pose, gain / price};
+    }
+}
+
+/* Adds one nozzle; *added is false where nothing that was looked at gains. */
+static bool add(sp_walker *walker, uint32_t near, double power, bool *added)
+{
+    const sp_search *search = walker->search;
+    sp_find_of_step best = {.merit = 0};
+    for (int i = 0; i < SITES; i++) {
+        uint32_t site = uniform(walker) < NEAR_SHARE ? near : (uint32_t)draw(walker, search->sites->count);
+        uint32_t make = (uint32_t)draw(walker, search->candidates->make_count);
+        if (walker->draft->flow + search->candidates->makes[make].flow <= walker->budget &&
+            sp_draft_has_place(search, walker->draft, search->sites->items[site].mount))
+            look(walker, site, make, power, &best);
+    }
+    sp_sweepers_forget(walker->sweeper, 1);
+    *added = best.merit > 0;
+    return !*added || sp_draft_add_pose(search, walker->draft, best.pose, walker->error);
+}
+
+/* The mounting point nearest to where a nozzle is, which refinement may have moved. */
+static uint32_t site_of(const sp_sites *sites, const sp_placed *placed)
+{
+    size_t nearest = 0;
+    for (size_t i = 1; i < sites->count; i++)
+        if (sp_distance(sites->items[i].position, placed->nozzle.position) <
+            sp_distance(sites->items[nearest].position, placed->nozzle.position))
+            nearest = i;
+    return (uint32_t)nearest;
+}
+
+static bool refill(sp_walker *walker, uint32_t near)
+{
+    double power = 0.5 * (double)draw(walker, 3);
+    for (int misses = 0; misses < MISSES;) {
+        bool added;
+        if (!add(walker, near, power, &added))
+            return false;
+        misses += !added;
+    }
+    return true;
+}
+
+/* One step, taken back where it loses too much. */
+static bool step(sp_walker *walker, double temperature)
+{
+    const sp_search *search = walker->search;
+    sp_draft *draft = walker->draft;
+    double before = draft->value;
+    size_t wanted = 1 + (uniform(walker) < TWO_SHARE), removed = wanted < draft->count ? wanted : draft->count;
+    size_t left = draft->count - removed;
+    uint32_t near = 0;
+    sp_placed out[2];
+    for (size_t i = 0; i < removed; i++) {
+        out[i] = sp_draft_take(search, draft, draw(walker, draft->count));
+        near = site_of(search->sites, &out[i]);
+    }
+    bool done = refill(walker, near);
+    if (done && draft->value >= before + temperature * log(1 - uniform(walker))) {
+        for (size_t i = 0; i < removed; i++)
+            free(out[i].field);
+        return true;
+    }
+    while (draft->count > left)
+        sp_draft_remove(search, draft, draft->count - 1);
+    for (size_t i = 0; i < removed; i++)
+        done = sp_draft_add(search, draft, out[i], walker->error) && done;
+    return done;
+}
+
+/* Takes the draft over where it covers more than the best. */
+static bool keep(const sp_walker *walker, sp_draft *best)
+{
+    sp_draft copy;
+    if (walker->draft->covered <= best->covered)
+        return true;
+    if (!sp_draft_copy(walker->search, walker->draft, &copy, walker->error))
+        return false;
+    sp_draft_free(best);
+    *best = copy;
+    return true;
+}
+
+static bool walk(sp_walker *walker, const sp_search *exact, double effort, sp_watch *watch, sp_draft *best)
+{
+    double nozzles = (double)(best->count + 1);
+    double steps = effort / (STEP_EFFORT * (double)walker->search->patch_count * nozzles);
+    steps = fmin(ceil(steps), STEPS_MOST * nozzles);
+    for (double i = 0; i < steps && sp_watch_goes_on(watch, "front", 0); i++) {
+        if (walker->search != exact && i >= CREDIT_SHARE * steps) {
+            walker->search = exact;
+            sp_draft_refresh(exact, walker->draft);
+        }
+        if (!step(walker, walker->area * HOT * pow(COLD / HOT, i / steps)) || !keep(walker, best))
+            return false;
+    }
+    return true;
+}
+
+bool sp_walk(const sp_search *search, double budget, double effort, uint64_t seed, sp_watch *watch, sp_draft *draft,
+             sp_error *error)
+{
+    sp_search exact = *search;
+    exact.credit = 0;
+    sp_draft moving;
+    if (!sp_draft_copy(search, draft, &moving, error))
+        return false;
+    sp_walker walker = {.search = search,
+                        .budget = budget,
+                        .area = sp_evaluator_patches(search->coarse)->total_area,
+                        .state = seed,
+                        .sweeper = sp_sweepers_create(search, 1, error),
+                        .draft = &moving,
+                        .error = error};
+    bool done = walker.sweeper && walk(&walker, &exact, effort, watch, draft);
+    sp_sweepers_destroy(walker.sweeper, 1);
+    sp_draft_free(&moving);
+    sp_draft_refresh(search, draft);
+    return done;
+}

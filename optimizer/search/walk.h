@@ -1,0 +1,15 @@
+/* A random walk over layouts of all candidate poses: for what greedy orders and exchanges of the pool's poses do not
+ * find, such as nozzles that suffice only together. */
+#ifndef OPTIMIZER_WALK_H
+#define OPTIMIZER_WALK_H
+
+#include "scoring/scoring.h"
+
+/* Simulated annealing (Kirkpatrick, Gelatt and Vecchi, Science 220, 1983) whose step takes one or two nozzles out and
+ * puts in what gains most of a few candidate poses drawn at random (as ruin and recreate: Schrimpf and others, J.
+ * Comput. Phys. 159, 2000), within `budget` (m³/s). The draft becomes the layout met that covers most. `effort`: patches
+ * gone through, which sets the number of steps. Runs on the thread that calls; the same for the same seed. */
+bool sp_walk(const sp_search *search, double budget, double effort, uint64_t seed, sp_watch *watch, sp_draft *draft,
+             sp_error *error);
+
+#endif
