@@ -44,7 +44,7 @@ bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_
 /* Measures how far `coverage`, which this evaluator found for this layout, is off: for each of n points the covered
  * share of its patch less what sp_points_judge says of the point itself. The estimate is the size of the mean
  * difference and twice its standard error, the misjudged share the mean size of the difference. n doubles from 10,000
- * until twice the standard error is no more than an eighth of the setup's accuracy, or n 5,120,000: that what is then
+ * until twice the standard error is no more than a sixteenth of the setup's accuracy, or n 5,120,000: that what is then
  * left is more shows in the estimate.
  *
  * The standard error is that of pairs of neighbouring points (Cochran, Sampling techniques, 5A.12, collapsed strata),

@@ -7,9 +7,9 @@
 
 #define FEWEST 10000
 #define MOST (FEWEST << 9)
-#define BLOCK 65536     /* points in memory at a time; even */
-#define PRECISION 0.125 /* of the accuracy, that twice the standard error may come to */
-#define UNSEEN 3        /* points that may differ though none was found to, with 95 % confidence */
+#define BLOCK 65536      /* points in memory at a time; even */
+#define PRECISION 0.0625 /* of the accuracy, that twice the standard error may come to */
+#define UNSEEN 3         /* points that may differ though none was found to, with 95 % confidence */
 
 /* Sums over the points' differences, each from -1 to 1. */
 typedef struct {
