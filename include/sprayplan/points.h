@@ -44,8 +44,8 @@ bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_
 /* Measures how far `coverage`, which this evaluator found for this layout, is off: for each of n points the covered
  * share of its patch less what sp_points_judge says of the point itself. The estimate is the size of the mean
  * difference and twice its standard error, the misjudged share the mean size of the difference. n doubles from 10,000
- * until twice the standard error is no more than a sixteenth of the setup's accuracy, or n 5,120,000: that what is then
- * left is more shows in the estimate.
+ * until twice the standard error is no more than a sixteenth of the setup's accuracy, or of the mean difference where
+ * that is more, or n is 5,120,000: that what is then left is more shows in the estimate.
  *
  * The standard error is that of pairs of neighbouring points (Cochran, Sampling techniques, 5A.12, collapsed strata),
  * which on average is never less than the true one, on a count of three more points than were found to differ: where
@@ -53,7 +53,8 @@ bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_
  *
  * `reference` is how the liquid flies in truth; auto: as the setup says, parabolas where that leaves it open. The seed
  * draws the points. *measured is coverage->measured or another, the caller's. Where liquid that walls throw back was
- * followed, points know nothing of it: nothing is measured, and `known` is false. */
+ * followed, points know nothing of it: nothing is measured, and `known` is false. Given NULL from an earlier failure it
+ * returns false and keeps the error. */
 bool sp_measure_error(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
                       sp_trajectory reference, uint64_t seed, sp_measured_error *measured, sp_error *error);
 

@@ -95,10 +95,10 @@ void cli_scene_close(cli_scene *opened);
 typedef int cli_work(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error);
 int cli_with_scene(const cli_options *options, cli_work *work);
 
-/* Where a layout's liquid goes and how far its coverage is off, besides what sp_evaluate tells. */
-bool cli_look_closer(const cli_scene *opened, const sp_layout *layout, sp_coverage *coverage, sp_error *error);
-/* All that a layout does; NULL with an error, for instance where a nozzle is in a wall. */
+/* What the layout does and where its liquid goes; NULL with an error, for instance where a nozzle is in a wall. */
 sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_error *error);
+/* How far that is off, into coverage->measured. False, and the error kept, given NULL. */
+bool cli_measure(const cli_scene *opened, const sp_layout *layout, sp_coverage *coverage, sp_error *error);
 
 /* boxes.c: how far something reaches along the axes, m. */
 typedef struct {

@@ -76,12 +76,23 @@ static double time_left(const cli_options *options, const cli_clock *clock)
     return options->time_limit > 0 && left < 1e-3 ? 1e-3 : options->time_limit > 0 ? left : 0;
 }
 
-static bool look_closer(const cli_scene *opened, const placement *found, sp_error *error)
+/* Where the liquid of every layout goes. */
+static bool follow_liquid(const cli_scene *opened, const placement *found, sp_error *error)
+{
+    const sp_evaluator *evaluator = opened->evaluator;
+    const sp_proposal *proposal = found->proposal;
+    return (!found->manual || sp_evaluate_balance(evaluator, sp_scene_layout(opened->scene), found->manual, error)) &&
+           sp_evaluate_balance(evaluator, proposal->greedy, proposal->greedy_coverage, error) &&
+           sp_evaluate_balance(evaluator, proposal->layout, proposal->coverage, error);
+}
+
+/* How far the coverage of every layout is off. */
+static bool measure_errors(const cli_scene *opened, const placement *found, sp_error *error)
 {
     const sp_proposal *proposal = found->proposal;
-    return (!found->manual || cli_look_closer(opened, sp_scene_layout(opened->scene), found->manual, error)) &&
-           cli_look_closer(opened, proposal->greedy, proposal->greedy_coverage, error) &&
-           cli_look_closer(opened, proposal->layout, proposal->coverage, error);
+    return (!found->manual || cli_measure(opened, sp_scene_layout(opened->scene), found->manual, error)) &&
+           cli_measure(opened, proposal->greedy, proposal->greedy_coverage, error) &&
+           cli_measure(opened, proposal->layout, proposal->coverage, error);
 }
 
 /* A nozzle of the scene's own that could not stand where it is drawn: what the proposal is compared with is in doubt.
@@ -114,7 +125,7 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
         how.prove = options->prove;
         found.proposal = sp_place(opened->evaluator, &how, error);
     }
-    bool good = found.proposal && look_closer(opened, &found, error);
+    bool good = found.proposal && follow_liquid(opened, &found, error) && measure_errors(opened, &found, error);
     if (good && !options->quiet)
         warn_of_own(opened, own);
     int status = good ? report(options, opened, &found, clock, error) : cli_fail_in(opened, error);

@@ -26,24 +26,23 @@ void cli_scene_close(cli_scene *opened)
     *opened = (cli_scene){0};
 }
 
-bool cli_look_closer(const cli_scene *opened, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
-{
-    const sp_evaluator *evaluator = opened->evaluator;
-    return sp_evaluate_balance(evaluator, layout, coverage, error) &&
-           sp_measure_error(evaluator, layout, coverage, SP_TRAJECTORY_AUTO, sp_evaluator_fidelity(evaluator)->seed,
-                            &coverage->measured, error);
-}
-
 sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_error *error)
 {
     for (size_t i = 0; i < layout->count; i++)
         if (!sp_evaluator_admits(opened->evaluator, &layout->nozzles[i], error))
             return NULL;
     sp_coverage *coverage = sp_evaluate(opened->evaluator, layout, error);
-    if (coverage && cli_look_closer(opened, layout, coverage, error))
+    if (coverage && sp_evaluate_balance(opened->evaluator, layout, coverage, error))
         return coverage;
     sp_coverage_destroy(coverage);
     return NULL;
+}
+
+bool cli_measure(const cli_scene *opened, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
+{
+    uint64_t seed = sp_evaluator_fidelity(opened->evaluator)->seed;
+    return coverage &&
+           sp_measure_error(opened->evaluator, layout, coverage, SP_TRAJECTORY_AUTO, seed, &coverage->measured, error);
 }
 
 int cli_fail_in(const cli_scene *opened, sp_error *error)

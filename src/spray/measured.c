@@ -8,7 +8,7 @@
 #define FEWEST 10000
 #define MOST (FEWEST << 9)
 #define BLOCK 65536      /* points in memory at a time; even */
-#define PRECISION 0.0625 /* of the accuracy, that twice the standard error may come to */
+#define PRECISION 0.0625 /* of the accuracy or the difference, that twice the standard error may come to */
 #define UNSEEN 3         /* points that may differ though none was found to, with 95 % confidence */
 
 /* Sums over the points' differences, each from -1 to 1. */
@@ -64,16 +64,15 @@ static bool compare(const sp_evaluator *evaluator, const measuring *m, size_t n,
 
 static bool measure(const sp_evaluator *evaluator, const measuring *m, sp_measured_error *measured, sp_error *error)
 {
-    double spread = INFINITY, most = PRECISION * evaluator->setup.fidelity.accuracy;
-    for (size_t n = FEWEST; n <= MOST && spread > most; n *= 2) {
+    double accuracy = evaluator->setup.fidelity.accuracy, mean = 0, spread = INFINITY;
+    for (size_t n = FEWEST; n <= MOST && spread > PRECISION * fmax(accuracy, mean); n *= 2) {
         tally tally = {0};
         if (!compare(evaluator, m, n, &tally, error))
             return false;
+        mean = fabs(tally.sum) / (double)n;
         spread = 2 * sqrt(tally.scatter + UNSEEN) / (double)n;
-        *measured = (sp_measured_error){.known = true,
-                                        .estimate = fmin(1, fabs(tally.sum) / (double)n + spread),
-                                        .misjudged = tally.size / (double)n,
-                                        .points = n};
+        *measured = (sp_measured_error){
+            .known = true, .estimate = fmin(1, mean + spread), .misjudged = tally.size / (double)n, .points = n};
     }
     return true;
 }

@@ -363,7 +363,7 @@ static void compare_sets_scenes_side_by_side(void **state)
                 number(json_array_get(json_object_get(object, "layouts"), 1), "coverage"));
     json_decref(object);
     object = expect_json("compare room.yaml other.yaml room.yaml other.yaml --json", 0);
-    assert_int_equal(json_array_size(json_object_get(object, "stages")), 3);
+    assert_int_equal(json_array_size(json_object_get(object, "stages")), 4);
     json_decref(object);
     outcome result = run_program("compare room.yaml other.yaml -o compared --quiet");
     assert_int_equal(result.status, 0);
