@@ -103,6 +103,14 @@ typedef struct {
     double unfollowed; /* is thrown back from a wall and not followed any further */
 } sp_balance;
 
+/* How far a coverage is off, measured at points (see sp_measure_error); shares of the area. */
+typedef struct {
+    bool known;       /* false: nothing below means anything */
+    double estimate;  /* the error of the coverage is hardly ever larger than this */
+    double misjudged; /* mean size of what each point is off by, whichever way */
+    size_t points;    /* as many were judged */
+} sp_measured_error;
+
 typedef struct {
     double area;                                    /* clean (and wet) area, m² */
     double covered_area;                            /* Σ share area, m² */
@@ -110,7 +118,8 @@ typedef struct {
     double flow;                                    /* m³/s */
     double area_per_water;                          /* covered area over flow, m² per m³/s; 0 without flow */
     double flux_min, flux_mean, flux_p05, flux_max; /* m³/s per m² over the clean area, by area; p05: 5th percentile */
-    sp_balance balance; /* known from the forward evaluator; else sp_evaluate_balance works it out */
+    sp_balance balance;         /* known from the forward evaluator; else sp_evaluate_balance works it out */
+    sp_measured_error measured; /* not known until sp_measure_error is asked for it */
     sp_deposits deposits;
 } sp_coverage;
 

@@ -45,7 +45,8 @@ typedef struct {
     sp_missing_figures *missing;                         /* owned; those of most area first */
     char trajectory[16], evaluator[16];                  /* "line" or "parabola", "forward" or "inverse" */
     size_t reflections, jets;                            /* jets: per nozzle, unknown for the inverse evaluator */
-    double texel, error_estimate;                        /* m; points of coverage as a fraction */
+    double texel;                                        /* m */
+    double error_estimate, misjudged;                    /* of this layout, as sp_measured_error */
     double flow, covered_area;                           /* m³/s, m² */
     double coverage, of_attainable;                      /* fractions */
     double area_per_water;                               /* m² per m³/s */

@@ -16,6 +16,7 @@
 #include <sprayplan/mesh.h>
 #include <sprayplan/nozzle.h>
 #include <sprayplan/place.h>
+#include <sprayplan/points.h>
 #include <sprayplan/report.h>
 #include <sprayplan/result.h>
 #include <sprayplan/run.h>

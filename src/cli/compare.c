@@ -43,9 +43,11 @@ static bool open_input(compared *input, const char *path, const cli_options *opt
     }
     input->coverage = cli_simulated(&input->opened, layout, error);
     cli_clock_stage(clock, "simulate");
-    if (!input->coverage)
+    bool good = cli_measure(&input->opened, layout, input->coverage, error);
+    cli_clock_stage(clock, "measured error");
+    if (!good)
         sp_scene_locate(input->opened.scene, error);
-    return input->coverage != NULL;
+    return good;
 }
 
 static char *name_of(const char *path, const char *layout)

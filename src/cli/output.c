@@ -73,6 +73,15 @@ static void print_figures(const sp_figures *figures, const char *name, int width
     printf(" %14.4f\n", isnan(figures->area_per_water) ? 0 : figures->area_per_water / 6e4);
 }
 
+/* How far each coverage is off, where that was measured. Rounded upwards: the error is no larger than said. */
+static void print_errors(const sp_result *result, const sp_figures *figures, int width)
+{
+    for (size_t i = 0, told = 0; i < result->design_count; i++)
+        if (isfinite(figures[i].error_estimate))
+            printf("%s%-*s coverage %.2f %%, measured error \xc2\xb1%.2f points\n", told++ ? "" : "\n", width,
+                   result->designs[i].name, 100 * figures[i].coverage, ceil(1e4 * figures[i].error_estimate) / 100);
+}
+
 static void print_share(const sp_figures *figures, double flow)
 {
     printf(" %12.1f %5.1f %%", 6e4 * flow, figures->flow > 0 ? 100 * flow / figures->flow : 0);
@@ -191,6 +200,7 @@ static bool print_summary(const sp_result *result, sp_error *error)
            "of attainable %", "m2 per L/min");
     for (size_t i = 0; i < result->design_count; i++)
         print_figures(&figures[i], result->designs[i].name, width);
+    print_errors(result, figures, width);
     print_liquid(result, figures, width);
     if (result->proposal) {
         print_forward_check(&result->proposal->forward_check);

@@ -86,6 +86,15 @@ static bool follow_liquid(const cli_scene *opened, const placement *found, sp_er
            sp_evaluate_balance(evaluator, proposal->layout, proposal->coverage, error);
 }
 
+/* How far the coverage of every layout is off. */
+static bool measure_errors(const cli_scene *opened, const placement *found, sp_error *error)
+{
+    const sp_proposal *proposal = found->proposal;
+    return (!found->manual || cli_measure(opened, sp_scene_layout(opened->scene), found->manual, error)) &&
+           cli_measure(opened, proposal->greedy, proposal->greedy_coverage, error) &&
+           cli_measure(opened, proposal->layout, proposal->coverage, error);
+}
+
 /* A nozzle of the scene's own that could not stand where it is drawn: what the proposal is compared with is in doubt.
  */
 static void warn_of_own(const cli_scene *opened, const sp_layout *own)
@@ -116,7 +125,7 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
         how.prove = options->prove;
         found.proposal = sp_place(opened->evaluator, &how, error);
     }
-    bool good = found.proposal && follow_liquid(opened, &found, error);
+    bool good = found.proposal && follow_liquid(opened, &found, error) && measure_errors(opened, &found, error);
     if (good && !options->quiet)
         warn_of_own(opened, own);
     int status = good ? report(options, opened, &found, clock, error) : cli_fail_in(opened, error);

@@ -38,6 +38,13 @@ sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_
     return NULL;
 }
 
+bool cli_measure(const cli_scene *opened, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
+{
+    uint64_t seed = sp_evaluator_fidelity(opened->evaluator)->seed;
+    return coverage &&
+           sp_measure_error(opened->evaluator, layout, coverage, SP_TRAJECTORY_AUTO, seed, &coverage->measured, error);
+}
+
 int cli_fail_in(const cli_scene *opened, sp_error *error)
 {
     sp_scene_locate(opened->scene, error);

@@ -12,8 +12,8 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
         return cli_fail(error);
     sp_coverage *coverage = cli_simulated(opened, layout, error);
     cli_clock_stage(clock, "simulate");
-    if (!coverage)
-        return cli_fail_in(opened, error);
+    bool good = cli_measure(opened, layout, coverage, error);
+    cli_clock_stage(clock, "measured error");
     sp_design design = {.name = "manual", .evaluator = opened->evaluator, .layout = layout, .coverage = coverage};
     sp_result result = {.command = "simulate",
                         .scene = options->inputs[0],
@@ -21,7 +21,7 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
                         .designs = &design,
                         .stage_count = clock->count,
                         .stages = clock->stages};
-    bool good = cli_write(options, &result, opened->scene, layout, error) && cli_print(options, &result, error);
+    good = good && cli_write(options, &result, opened->scene, layout, error) && cli_print(options, &result, error);
     sp_coverage_destroy(coverage);
     return good ? EXIT_DONE : cli_fail_in(opened, error);
 }

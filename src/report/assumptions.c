@@ -6,6 +6,26 @@ static void add_item(sp_text *text, const char *term)
     sp_text_add(text, "<dt>%s</dt><dd>", term);
 }
 
+/* How far the coverage of each layout of an evaluator is off, where that was measured. */
+static void add_errors(const sp_page *page, sp_text *text, const sp_evaluator *evaluator)
+{
+    size_t told = 0;
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        const sp_figures *figures = &page->figures[i];
+        if (page->result->designs[i].evaluator != evaluator || !isfinite(figures->error_estimate))
+            continue;
+        if (!told++)
+            add_item(text, "Measured error");
+        else
+            sp_text_add(text, "; ");
+        sp_page_name(page, text, i);
+        sp_text_add(text, " \xc2\xb1%.2f&nbsp;points of coverage (%.2f&nbsp;%% of the area misjudged, either way)",
+                    ceil(1e4 * figures->error_estimate) / 100, 100 * figures->misjudged);
+    }
+    if (told)
+        sp_text_add(text, "; found at random points of the surface, each judged for itself in closed form</dd>\n");
+}
+
 static void add_flight(sp_text *text, const sp_evaluator *evaluator)
 {
     const sp_setup *setup = sp_evaluator_setup(evaluator);
@@ -120,6 +140,7 @@ void sp_page_assumptions(const sp_page *page, sp_text *text)
         sp_text_add(text, "<dl>\n");
         add_criterion(text, &sp_evaluator_setup(evaluator)->criterion);
         add_flight(text, evaluator);
+        add_errors(page, text, evaluator);
         add_scene(text, sp_evaluator_setup(evaluator));
         if (page->result->proposal)
             add_search(text, page->result->proposal);

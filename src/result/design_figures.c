@@ -18,7 +18,6 @@ static void set_geometry_and_fidelity(sp_figures *figures, const sp_evaluator *e
     figures->reflections = fidelity->reflections < 0 ? SP_UNKNOWN : (size_t)fidelity->reflections;
     figures->jets = inverse ? SP_UNKNOWN : fidelity->jets;
     figures->texel = fidelity->texel;
-    figures->error_estimate = NAN;
 }
 
 static void set_coverage(sp_figures *figures, const sp_coverage *coverage)
@@ -29,6 +28,8 @@ static void set_coverage(sp_figures *figures, const sp_coverage *coverage)
     figures->of_attainable = figures->attainable_area > 0 ? coverage->covered_area / figures->attainable_area : NAN;
     figures->area_per_water = coverage->flow > 0 ? coverage->area_per_water : NAN;
     const sp_balance *balance = &coverage->balance;
+    figures->error_estimate = coverage->measured.known ? coverage->measured.estimate : NAN;
+    figures->misjudged = coverage->measured.known ? coverage->measured.misjudged : NAN;
     figures->landed_clean = balance->known ? balance->clean : NAN;
     figures->landed_other = balance->known ? balance->other : NAN;
     figures->left = balance->known ? balance->left : NAN;

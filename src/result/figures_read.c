@@ -206,7 +206,20 @@ static bool read_fidelity(const reader *in, const json_t *fidelity, sp_figures *
            get_count(in, fidelity, "reflections", &figures->reflections) &&
            get_count(in, fidelity, "jets_per_nozzle", &figures->jets) &&
            get_real(in, fidelity, "texel_m", 0, 1e6, 1, &figures->texel) &&
-           get_real(in, fidelity, "error_estimate", 0, 1, 1, &figures->error_estimate);
+           get_real(in, fidelity, "error_estimate", 0, 1, 1, &figures->error_estimate) &&
+           get_real(in, fidelity, "misjudged", 0, 1, 1, &figures->misjudged);
+}
+
+/* The layout's own errors; where it tells none, what its fidelity says stays. */
+static bool read_errors(const reader *in, const json_t *layout, sp_figures *figures)
+{
+    double estimate, misjudged;
+    if (!get_real(in, layout, "error_estimate", 0, 1, 1, &estimate) ||
+        !get_real(in, layout, "misjudged", 0, 1, 1, &misjudged))
+        return false;
+    figures->error_estimate = isnan(estimate) ? figures->error_estimate : estimate;
+    figures->misjudged = isnan(misjudged) ? figures->misjudged : misjudged;
+    return true;
 }
 
 static bool read_coverage(const reader *in, const json_t *layout, sp_figures *figures)
@@ -324,7 +337,8 @@ static bool read_layout(const reader *in, const json_t *root, const json_t *layo
         return false;
     if (!figures->name[0])
         return wrong(in, "name", json_object_get(layout, "name"), "a text that is not empty");
-    return read_coverage(in, layout, figures) && read_liquid(in, layout, figures) && read_rows(in, layout, figures);
+    return read_errors(in, layout, figures) && read_coverage(in, layout, figures) && read_liquid(in, layout, figures) &&
+           read_rows(in, layout, figures);
 }
 
 static json_t *parse(const char *path, sp_error *error)

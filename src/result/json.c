@@ -75,14 +75,27 @@ static bool put_geometry(json_t *object, const sp_figures *figures)
     return put(object, "geometry", geometry) && done;
 }
 
-static bool put_fidelity(json_t *object, const sp_figures *figures)
+/* The largest of a figure in `count` layouts; NAN where one does not know it. */
+static double worst(const sp_figures *figures, size_t count, size_t offset)
+{
+    double most = 0;
+    for (size_t i = 0; i < count; ++i) {
+        double value = *(const double *)((const char *)&figures[i] + offset);
+        most = isnan(most) || isnan(value) ? NAN : fmax(most, value);
+    }
+    return most;
+}
+
+/* What `count` layouts share, and the worst of their errors. */
+static bool put_fidelity(json_t *object, const sp_figures *figures, size_t count)
 {
     json_t *fidelity = json_object();
     bool done =
         put_text(fidelity, "trajectory", figures->trajectory) && put_text(fidelity, "evaluator", figures->evaluator) &&
         put_count(fidelity, "reflections", figures->reflections) &&
         put_count(fidelity, "jets_per_nozzle", figures->jets) && put_real(fidelity, "texel_m", figures->texel) &&
-        put_real(fidelity, "error_estimate", figures->error_estimate);
+        put_real(fidelity, "error_estimate", worst(figures, count, offsetof(sp_figures, error_estimate))) &&
+        put_real(fidelity, "misjudged", worst(figures, count, offsetof(sp_figures, misjudged)));
     return put(object, "fidelity", fidelity) && done;
 }
 
@@ -135,6 +148,8 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, bool own_geom
     bool done = put_text(layout, "name", figures->name) && put_real(layout, "water_l_min", 6e4 * figures->flow) &&
                 put_real(layout, "covered_area_m2", figures->covered_area) &&
                 put_real(layout, "coverage", figures->coverage) &&
+                put_real(layout, "error_estimate", figures->error_estimate) &&
+                put_real(layout, "misjudged", figures->misjudged) &&
                 put_real(layout, "coverage_of_attainable", figures->of_attainable) &&
                 put_real(layout, "area_per_water", figures->area_per_water / 6e4) && put_flux(layout, figures) &&
                 put_liquid(layout, figures);
@@ -144,7 +159,8 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, bool own_geom
         done = put_nozzle(nozzles, &figures->nozzles[i]);
     done = put(layout, "shadows", shadows) && done;
     done = put(layout, "nozzles", nozzles) && done;
-    done = done && (!own_geometry || put_geometry(layout, figures)) && (!own_fidelity || put_fidelity(layout, figures));
+    done =
+        done && (!own_geometry || put_geometry(layout, figures)) && (!own_fidelity || put_fidelity(layout, figures, 1));
     return json_array_append_new(layouts, layout) == 0 && done;
 }
 
@@ -162,8 +178,7 @@ static bool same_geometry(const sp_figures *a, const sp_figures *b)
 static bool same_fidelity(const sp_figures *a, const sp_figures *b)
 {
     return strcmp(a->trajectory, b->trajectory) == 0 && strcmp(a->evaluator, b->evaluator) == 0 &&
-           a->reflections == b->reflections && a->jets == b->jets && equal(a->texel, b->texel) &&
-           equal(a->error_estimate, b->error_estimate);
+           a->reflections == b->reflections && a->jets == b->jets && equal(a->texel, b->texel);
 }
 
 /* What was asked for; where less is attainable, what was aimed at is less. */
@@ -262,7 +277,7 @@ static bool fill(json_t *root, const sp_result *result, const sp_figures *figure
     bool done = scene && put_text(root, "sprayplan", SP_VERSION) && put_text(root, "command", result->command) &&
                 put_text(root, "scene", scene) &&
                 (!one_geometry || result->design_count == 0 || put_geometry(root, figures)) &&
-                (!one_fidelity || result->design_count == 0 || put_fidelity(root, figures));
+                (!one_fidelity || result->design_count == 0 || put_fidelity(root, figures, result->design_count));
     free(scene);
     json_t *layouts = json_array(), *stages = json_array();
     for (size_t i = 0; done && i < result->design_count; ++i)

@@ -65,25 +65,48 @@ static void visit_cell(void *user, uint32_t cell, const sp_triangle_piece *part)
     walk->visit(walk->user, polygon, part->count, area);
 }
 
+/* `piece` of a triangle, of `area` m², cell by cell. */
+static void visit_cells(const sp_evaluator *evaluator, uint32_t triangle, unsigned side, const sp_triangle_piece *piece,
+                        double area, sp_counted_visitor *visit, void *user)
+{
+    double weights = area_in_weights(piece);
+    cell_walk walk = {evaluator, triangle, side, weights > 0 ? area / weights : 0, ROUND_OFF * area, visit, user};
+    sp_cuts_split(&evaluator->wet->cuts, triangle, piece, visit_cell, &walk);
+}
+
 void sp_counted_pieces(const sp_evaluator *evaluator, uint32_t texel, const sp_fragment *fragment, unsigned side,
                        sp_counted_visitor *visit, void *user)
 {
     const sp_mesh *mesh = evaluator->setup.mesh;
-    const sp_wet *wet = evaluator->wet;
     uint32_t triangle = fragment->triangle;
     if (!sp_side_is_counted(evaluator, triangle, side))
         return;
     sp_vec3 polygon[SP_FRAGMENT_POINTS];
     int corners = sp_atlas_fragment_polygon(evaluator->atlas, mesh, texel, triangle, polygon);
-    if (wet->whole[triangle] >> side & 1) {
+    if (evaluator->wet->whole[triangle] >> side & 1) {
         visit(user, polygon, corners, fragment->area);
         return;
     }
-    sp_triangle_piece whole = {.count = corners};
+    sp_triangle_piece piece = {.count = corners};
     for (int i = 0; i < corners; i++)
-        sp_triangle_weights(mesh, triangle, polygon[i], &whole.at[i][0], &whole.at[i][1]);
-    double area = area_in_weights(&whole);
-    cell_walk walk = {evaluator, triangle, side, area > 0 ? fragment->area / area : 0, ROUND_OFF * fragment->area,
-                      visit,     user};
-    sp_cuts_split(&wet->cuts, triangle, &whole, visit_cell, &walk);
+        sp_triangle_weights(mesh, triangle, polygon[i], &piece.at[i][0], &piece.at[i][1]);
+    visit_cells(evaluator, triangle, side, &piece, fragment->area, visit, user);
+}
+
+void sp_counted_parts(const sp_evaluator *evaluator, uint32_t triangle, unsigned side, sp_counted_visitor *visit,
+                      void *user)
+{
+    const sp_mesh *mesh = evaluator->setup.mesh;
+    double area = sp_triangle_area(mesh, triangle);
+    sp_triangle_piece all = {3, {{0, 0}, {1, 0}, {0, 1}}};
+    if (!sp_side_is_counted(evaluator, triangle, side))
+        return;
+    if (!(evaluator->wet->whole[triangle] >> side & 1)) {
+        visit_cells(evaluator, triangle, side, &all, area, visit, user);
+        return;
+    }
+    sp_vec3 corners[3];
+    for (int i = 0; i < 3; i++)
+        corners[i] = sp_triangle_point(mesh, triangle, all.at[i][0], all.at[i][1]);
+    visit(user, corners, 3, area);
 }

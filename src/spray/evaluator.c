@@ -217,9 +217,9 @@ static bool build(sp_evaluator *evaluator, sp_error *error)
            sp_evaluator_progress(setup, "atlas", 1, error);
 }
 
-static sp_vec3 resolve_gravity(const sp_setup *setup, const sp_fidelity *fidelity)
+sp_vec3 sp_gravity_for(const sp_setup *setup, sp_trajectory trajectory)
 {
-    return fidelity->trajectory == SP_TRAJECTORY_LINE ? sp_v(0, 0, 0) : sp_scale(sp_unit(setup->up), -setup->gravity);
+    return trajectory == SP_TRAJECTORY_LINE ? sp_v(0, 0, 0) : sp_scale(sp_unit(setup->up), -setup->gravity);
 }
 
 sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error)
@@ -234,7 +234,7 @@ sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error)
         sp_evaluator_destroy(evaluator);
         return NULL;
     }
-    evaluator->gravity = resolve_gravity(setup, &evaluator->fidelity);
+    evaluator->gravity = sp_gravity_for(setup, evaluator->fidelity.trajectory);
     if (!build(evaluator, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;

@@ -25,6 +25,8 @@ static inline int sp_thread_count(int threads)
 {
     return threads > 0 ? threads : omp_get_max_threads();
 }
+/* What pulls at liquid that flies so, m/s²; zero for lines. What is left to auto flies as parabolas. */
+sp_vec3 sp_gravity_for(const sp_setup *setup, sp_trajectory trajectory);
 /* Reports progress; false, with the error set, where the caller is to stop. */
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error);
 /* False, with an error, where a nozzle's liquid leaves faster than can be reckoned with. */
@@ -44,6 +46,9 @@ bool sp_point_is_counted(const sp_evaluator *evaluator, uint32_t triangle, doubl
 typedef void sp_counted_visitor(void *user, const sp_vec3 *polygon, int corners, double area);
 void sp_counted_pieces(const sp_evaluator *evaluator, uint32_t texel, const sp_fragment *fragment, unsigned side,
                        sp_counted_visitor *visit, void *user);
+/* The same of a whole triangle. */
+void sp_counted_parts(const sp_evaluator *evaluator, uint32_t triangle, unsigned side, sp_counted_visitor *visit,
+                      void *user);
 /* The patch that takes what arrives at the point (1-u-v, u, v) of a triangle, on its back or else its front; SP_NONE
  * where that side is dry or an obstacle. */
 uint32_t sp_patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back);

@@ -62,12 +62,42 @@ static void fan_thinner_than_a_texel(void **state)
     scene_close(&s);
 }
 
+/* As lines a thin fan's flights are one arc a patch, as parabolas two: lines are never the dearer, but for the few
+ * patches more that a straight fan may cross. Counted are the flights that arrive in an empty room, where none is
+ * blocked. */
+static void thin_fan_of_lines_is_not_dearer(void **state)
+{
+    (void)state;
+    rectangle faces[6];
+    box_rectangles(sp_v(-1, -0.8, 0), sp_v(2, 1.6, 1.5), faces);
+    sp_nozzle_type type = spray_type(SP_PATTERN_FLAT_FAN, 90);
+    type.thickness = deg(1);
+    sp_nozzle nozzle = nozzle_at(&type, sp_v(0.13, -0.47, 1.11), sp_v(0.1, 0.9, -0.5), 6);
+    double flights[2] = {0};
+    for (int parabolas = 0; parabolas < 2; parabolas++) {
+        scene s;
+        scene_open(&s, mesh_of_rectangles(faces, 6), parabolas ? SP_TRAJECTORY_PARABOLA : SP_TRAJECTORY_LINE, 0.01);
+        s.setup.cavity = SP_CAVITY_POINT;
+        s.setup.cavity_point = sp_v(0.6, -0.4, 1.2);
+        sp_evaluator *evaluator = scene_evaluator(&s);
+        sp_coverage *coverage = scene_cover(evaluator, &nozzle, 1, true);
+        for (size_t i = 0; i < coverage->deposits.count; i++)
+            flights[parabolas] += coverage->deposits.jets[i];
+        sp_coverage_destroy(coverage);
+        sp_evaluator_destroy(evaluator);
+        scene_close(&s);
+    }
+    print_message("flights of a thin fan: %.0f as lines, %.0f as parabolas\n", flights[0], flights[1]);
+    assert_true(flights[0] > 0 && flights[0] <= 1.02 * flights[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(thick_fan_on_a_plane),
         cmocka_unit_test(thin_fan_on_a_plane),
         cmocka_unit_test(fan_thinner_than_a_texel),
+        cmocka_unit_test(thin_fan_of_lines_is_not_dearer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,6 +34,8 @@ static int set_up(void **state)
     for (int i = 0; i < 3; i++) {
         f.coverages[i] = sp_evaluate(f.evaluator, f.layouts[i], &error);
         sp_evaluate_balance(f.evaluator, f.layouts[i], f.coverages[i], &error);
+        sp_measure_error(f.evaluator, f.layouts[i], f.coverages[i], SP_TRAJECTORY_AUTO, 1, &f.coverages[i]->measured,
+                         &error);
         f.designs[i] = (sp_design){names[i], f.evaluator, f.layouts[i], f.coverages[i], NULL};
     }
     if (error.kind != SP_OK) {
@@ -201,6 +203,7 @@ static void names_from_strangers_stay_text(void **state)
     assert_non_null(strstr(page, "N3 &lt;b&gt;"));
     assert_non_null(strstr(page, "flat-fan-90 &amp; co"));
     assert_non_null(strstr(page, "dip &lt;tube&gt;"));
+    assert_non_null(strstr(page, "<dt>Measured error</dt><dd>Manual \xc2\xb1"));
     assert_null(strstr(page, "N3 <b>"));
     assert_null(strstr(page, "dip <tube>"));
     free(page);
@@ -232,12 +235,13 @@ static void result_json_has_the_keys_of_the_contract(void **state)
                 "unattainable_m2", "unattainable_by_part");
     EXPECT_KEYS(json_object_get(json_object_get(all, "geometry"), "unattainable_m2"), "no_line_of_reach",
                 "reflection_only", "too_slow", "too_slanted", "too_little_flux");
-    EXPECT_KEYS(json_object_get(all, "fidelity"), "trajectory", "evaluator", "reflections", "texel_m");
+    EXPECT_KEYS(json_object_get(all, "fidelity"), "trajectory", "evaluator", "reflections", "texel_m", "error_estimate",
+                "misjudged");
     json_t *layouts = json_object_get(all, "layouts");
     assert_int_equal(json_array_size(layouts), 3);
     json_t *manual = json_array_get(layouts, 0);
-    EXPECT_KEYS(manual, "name", "water_l_min", "covered_area_m2", "coverage", "coverage_of_attainable",
-                "area_per_water", "flux_l_min_m2", "liquid_l_min", "shadows", "nozzles");
+    EXPECT_KEYS(manual, "name", "water_l_min", "covered_area_m2", "coverage", "error_estimate", "misjudged",
+                "coverage_of_attainable", "area_per_water", "flux_l_min_m2", "liquid_l_min", "shadows", "nozzles");
     EXPECT_KEYS(json_object_get(manual, "flux_l_min_m2"), "min", "mean", "p05", "max");
     EXPECT_KEYS(json_array_get(json_object_get(manual, "shadows"), 0), "area_m2", "centroid_m", "part", "reachable");
     EXPECT_KEYS(json_array_get(json_object_get(manual, "nozzles"), 0), "name", "type", "position_m", "axis", "roll_rad",
@@ -250,6 +254,11 @@ static void result_json_has_the_keys_of_the_contract(void **state)
     double water = json_number_value(json_object_get(manual, "water_l_min"));
     assert_true(fabs(water - 6e4 * f->coverages[0]->flow) < 1e-9 * water);
     assert_true(json_number_value(json_object_get(manual, "coverage")) == f->coverages[0]->fraction);
+    double worst = 0;
+    for (int i = 0; i < 3; i++)
+        worst = fmax(worst, f->coverages[i]->measured.estimate);
+    assert_true(json_number_value(json_object_get(json_object_get(all, "fidelity"), "error_estimate")) == worst);
+    assert_true(json_number_value(json_object_get(manual, "error_estimate")) == f->coverages[0]->measured.estimate);
     static const char *const keys[] = {"on_clean_surface", "on_other_surface", "left", "not_followed"};
     double liquid = 0;
     for (size_t i = 0; i < 4; i++)

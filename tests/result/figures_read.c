@@ -35,9 +35,10 @@ static void reads_what_design_says(void **state)
         "{\"sprayplan\": \"0.1.0\", \"geometry\": {\"triangles\": 12, \"area_m2\": 6, \"clean_area_m2\": 5},"
         " \"fidelity\": {\"trajectory\": \"line\", \"evaluator\": \"forward\", \"reflections\": 2, "
         "\"jets_per_nozzle\": 99,"
-        " \"texel_m\": 0.01}, \"unknown\": [1, 2], \"layouts\": ["
+        " \"texel_m\": 0.01, \"error_estimate\": 0.02, \"misjudged\": 0.03}, \"unknown\": [1, 2], \"layouts\": ["
         "{" LAYOUT
         "}, {\"name\": \"b\\u00e4d\\u0007\", \"water_l_min\": 30, \"coverage\": 0.9, \"covered_area_m2\": 4.5,"
+        " \"error_estimate\": 0.01,"
         " \"coverage_of_attainable\": 0.95, \"flux_l_min_m2\": {\"min\": 0, \"mean\": 6},"
         " \"shadows\": [{\"area_m2\": 0.5, \"centroid_m\": [1, 2, 3], \"part\": \"lid\", \"reachable\": false}, {}],"
         " \"nozzles\": [{\"name\": \"N1\", \"type\": \"t\", \"position_m\": [0, 0, 1.5], \"axis\": [0, 0, -1],"
@@ -48,6 +49,8 @@ static void reads_what_design_says(void **state)
     assert_int_equal(figures[0].triangles, 12);
     assert_true(isnan(figures[0].attainable_area) && isnan(figures[0].of_attainable) && isnan(figures[0].flux_max));
     assert_true(fabs(figures[0].flow - 1e-3) < 1e-15);
+    assert_true(figures[0].error_estimate == 0.02 && figures[1].error_estimate == 0.01);
+    assert_true(figures[0].misjudged == 0.03 && figures[1].misjudged == 0.03);
     assert_string_equal(figures[1].evaluator, "forward");
     assert_int_equal(figures[1].jets, 99);
     assert_string_equal(figures[1].name, "b\xc3\xa4"
@@ -104,6 +107,8 @@ static void rejects_bad_input(void **state)
     rejects(HEAD "[{" LAYOUT ", \"shadows\": [{\"reachable\": 1}]}]}", "shadows[0].reachable");
     rejects(HEAD "[{" LAYOUT ", \"flux_l_min_m2\": {\"p05\": -2}}]}", "flux_l_min_m2.p05");
     rejects(HEAD "[{" LAYOUT ", \"geometry\": {\"triangles\": 0.5}}]}", "layouts[0].geometry.triangles");
+    rejects(HEAD "[{\"name\": \"a\", \"water_l_min\": 1, \"coverage\": 1, \"error_estimate\": 2, \"nozzles\": []}]}",
+            "layouts[0].error_estimate: found 2");
     rejects("{\"fidelity\": {\"evaluator\": \"magic\"}, \"sprayplan\": \"\", \"layouts\": [{" LAYOUT "}]}",
             "fidelity.evaluator");
     rejects("{\"sprayplan\": \"\", \"layouts\": [{\"name\": \"a\\u0000b\"}]}", "JSON");

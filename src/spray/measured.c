@@ -1,0 +1,104 @@
+/* How far a coverage is off, measured at points. */
+#include "state.h"
+
+#include <sprayplan/points.h>
+
+#include <stdlib.h>
+
+#define FEWEST 10000
+#define MOST (FEWEST << 9)
+#define BLOCK 65536      /* points in memory at a time; even */
+#define PRECISION 0.0625 /* of the accuracy or the difference, that twice the standard error may come to */
+#define UNSEEN 3         /* points that may differ though none was found to, with 95 % confidence */
+
+/* Sums over the points' differences, each from -1 to 1. */
+typedef struct {
+    double sum, size;
+    double scatter; /* of the squared differences within pairs */
+} tally;
+
+/* What a point is off by. Where round-off left it no patch, nothing was said of it that could be wrong. */
+static double difference(const sp_coverage *coverage, const sp_point *point, bool covered)
+{
+    return point->patch == SP_NONE ? 0 : coverage->deposits.share[point->patch] - covered;
+}
+
+/* Neighbours have neighbouring parts of the surface to themselves, and are drawn independently: the square of what they
+ * are apart is on average the sum of their variances, and more where the means of their parts differ. */
+static void add_block(const sp_coverage *coverage, const sp_point *points, const bool *covered, size_t count,
+                      tally *tally)
+{
+    for (size_t i = 0; i < count; i += 2) {
+        double one = difference(coverage, &points[i], covered[i]);
+        double other = difference(coverage, &points[i + 1], covered[i + 1]);
+        tally->sum += one + other;
+        tally->size += fabs(one) + fabs(other);
+        tally->scatter += (one - other) * (one - other);
+    }
+}
+
+/* A surface, what was found of it, and what it is compared with. */
+typedef struct {
+    const sp_points *surface;
+    const sp_layout *layout;
+    const sp_coverage *coverage;
+    sp_trajectory reference;
+    uint64_t seed;
+    sp_point *points; /* [BLOCK] */
+    bool *covered;    /* [BLOCK] */
+} measuring;
+
+static bool compare(const sp_evaluator *evaluator, const measuring *m, size_t n, tally *tally, sp_error *error)
+{
+    for (size_t first = 0; first < n; first += BLOCK) {
+        size_t count = n - first < BLOCK ? n - first : BLOCK;
+#pragma omp parallel for num_threads(sp_thread_count(evaluator->setup.run.threads))
+        for (size_t i = 0; i < count; i++)
+            m->points[i] = sp_points_draw(m->surface, first + i, n, m->seed);
+        if (!sp_points_judge(evaluator, m->layout, m->reference, m->points, count, m->covered, error))
+            return false;
+        add_block(m->coverage, m->points, m->covered, count, tally);
+    }
+    return true;
+}
+
+static bool measure(const sp_evaluator *evaluator, const measuring *m, sp_measured_error *measured, sp_error *error)
+{
+    double accuracy = evaluator->setup.fidelity.accuracy, mean = 0, spread = INFINITY;
+    for (size_t n = FEWEST; n <= MOST && spread > PRECISION * fmax(accuracy, mean); n *= 2) {
+        tally tally = {0};
+        if (!compare(evaluator, m, n, &tally, error))
+            return false;
+        mean = fabs(tally.sum) / (double)n;
+        spread = 2 * sqrt(tally.scatter + UNSEEN) / (double)n;
+        *measured = (sp_measured_error){
+            .known = true, .estimate = fmin(1, mean + spread), .misjudged = tally.size / (double)n, .points = n};
+    }
+    return true;
+}
+
+bool sp_measure_error(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
+                      sp_trajectory reference, uint64_t seed, sp_measured_error *measured, sp_error *error)
+{
+    if (!evaluator || !layout || !coverage)
+        return false;
+    *measured = (sp_measured_error){.known = false};
+    if (evaluator->fidelity.reflections > 0)
+        return true;
+    sp_points *surface = sp_points_create(evaluator, error);
+    if (reference == SP_TRAJECTORY_AUTO)
+        reference = evaluator->setup.fidelity.trajectory;
+    measuring m = {surface,
+                   layout,
+                   coverage,
+                   reference,
+                   seed,
+                   malloc(BLOCK * sizeof *m.points),
+                   malloc(BLOCK * sizeof *m.covered)};
+    bool done =
+        surface && ((m.points && m.covered) || sp_fail_memory(error)) && measure(evaluator, &m, measured, error);
+    free(m.points);
+    free(m.covered);
+    sp_points_destroy(surface);
+    return done;
+}

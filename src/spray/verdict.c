@@ -1,0 +1,115 @@
+/* Verdicts: whether a layout covers a point, by closed form at the point itself. */
+#include "emitter.h"
+
+#include <sprayplan/points.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#define CHUNK 4096 /* points whose flights from a nozzle are traced together */
+
+/* The flights of one nozzle to a chunk of points, and what the points have received. */
+typedef struct {
+    size_t count;
+    uint32_t *point; /* [2 CHUNK], as what follows: of the chunk */
+    double *flux;    /* m³/s per m² */
+    sp_ray *rays;
+    bool *blocked;
+    double *received; /* [CHUNK], m³/s per m² */
+} flights;
+
+static bool flights_create(flights *f)
+{
+    *f = (flights){.point = malloc(2 * CHUNK * sizeof *f->point),
+                   .flux = malloc(2 * CHUNK * sizeof *f->flux),
+                   .rays = malloc(2 * CHUNK * sizeof *f->rays),
+                   .blocked = malloc(2 * CHUNK * sizeof *f->blocked),
+                   .received = malloc(CHUNK * sizeof *f->received)};
+    return f->point && f->flux && f->rays && f->blocked && f->received;
+}
+
+static void flights_free(flights *f)
+{
+    free(f->point);
+    free(f->flux);
+    free(f->rays);
+    free(f->blocked);
+    free(f->received);
+}
+
+/* The passing flights from a nozzle to a point, but for what may lie in the way. `index` is of the chunk. */
+static void gather(const sp_emitter *emitter, double flow, const sp_point *point, uint32_t index, flights *f)
+{
+    const sp_source *source = &emitter->source;
+    sp_target target = {
+        .point = point->position, .normal = point->normal, .side = point->side, .triangle = point->triangle};
+    sp_flight ways[2];
+    int count = sp_flights(source->position, target.point, source->speed, source->evaluator->gravity, ways);
+    for (int k = 0; k < count; k++) {
+        sp_arrival arrival;
+        if (!sp_emitter_holds(emitter, ways[k].direction) || !sp_arrive(source, &target, &ways[k], &arrival) ||
+            !arrival.passes || sp_flight_pierces(source, &target, &ways[k]))
+            continue;
+        f->point[f->count] = index;
+        f->flux[f->count] = flow / emitter->spray.solid_angle * arrival.transfer;
+        f->rays[f->count++] = sp_flight_ray(source, &target, &ways[k]);
+    }
+}
+
+/* What one nozzle adds. Who is covered already stays so. */
+static void spray(const sp_emitter *emitter, double flow, const sp_point *points, size_t count, flights *f,
+                  bool *covered)
+{
+    const sp_evaluator *evaluator = emitter->source.evaluator;
+    double threshold = evaluator->setup.criterion.flux;
+    f->count = 0;
+    for (size_t i = 0; i < count; i++)
+        if (!covered[i])
+            gather(emitter, flow, &points[i], (uint32_t)i, f);
+    sp_trace_occluded_many(evaluator->tracer, f->rays, f->count, evaluator->gravity, 1, f->blocked);
+    if (evaluator->setup.criterion.combine == SP_COMBINE_SINGLE)
+        memset(f->received, 0, count * sizeof *f->received);
+    for (size_t i = 0; i < f->count; i++) {
+        double *received = &f->received[f->point[i]];
+        *received += f->blocked[i] ? 0 : f->flux[i];
+        covered[f->point[i]] = *received > 0 && *received >= threshold;
+    }
+}
+
+static void judge(const sp_evaluator *evaluator, const sp_layout *layout, const sp_point *points, size_t count,
+                  flights *f, bool *covered)
+{
+    memset(covered, 0, count * sizeof *covered);
+    memset(f->received, 0, count * sizeof *f->received);
+    for (size_t n = 0; n < layout->count; n++) {
+        sp_emitter emitter = sp_emitter_of(evaluator, &layout->nozzles[n]);
+        double flow = sp_nozzle_flow(&layout->nozzles[n], &evaluator->setup.liquid);
+        if (flow > 0)
+            spray(&emitter, flow, points, count, f, covered);
+    }
+}
+
+bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_trajectory trajectory,
+                     const sp_point *points, size_t count, bool *covered, sp_error *error)
+{
+    if (!evaluator || !layout || !points || !sp_evaluator_takes(evaluator, layout, error))
+        return false;
+    sp_evaluator truth = *evaluator; /* the same but for how liquid flies */
+    truth.gravity = sp_gravity_for(&evaluator->setup, trajectory);
+    bool done = true;
+    size_t chunks = (count + CHUNK - 1) / CHUNK;
+    int threads = omp_in_parallel() ? 1 : sp_thread_count(evaluator->setup.run.threads);
+#pragma omp parallel num_threads(threads) reduction(&& : done)
+    {
+        flights f;
+        done = flights_create(&f);
+#pragma omp for schedule(dynamic, 1)
+        for (size_t c = 0; c < chunks; c++) {
+            size_t first = c * CHUNK, part = count - first < CHUNK ? count - first : CHUNK;
+            if (done)
+                judge(&truth, layout, points + first, part, &f, covered + first);
+        }
+        flights_free(&f);
+    }
+    return done || sp_fail_memory(error);
+}
