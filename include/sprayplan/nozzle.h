@@ -92,9 +92,14 @@ typedef struct {
     sp_pattern kind;
     double inner, outer;               /* cones: polar angles, rad */
     double half_width, half_thickness; /* fans: longitude and latitude, rad */
-    double solid_angle;                /* sr */
+    double solid_angle;                /* sr; this and what follows come from the angles, see sp_spray_settle */
+    double inner_chord2, outer_chord2; /* cones: squared chords from the axis to these angles; 4: no edge */
+    double height, rise;               /* fans: sine and cosine of half_thickness */
+    double end_sine, end_cosine;       /* of half_width */
 } sp_spray;
 sp_spray sp_spray_create(const sp_nozzle_type *type, double angle);
+/* Works out what follows from a pattern's kind and angles, after these were changed. */
+void sp_spray_settle(sp_spray *spray);
 /* Share of the liquid per steradian (1/sr) in a unit direction of the nozzle's frame: 1/solid_angle inside, 0 outside.
  */
 double sp_spray_intensity(const sp_spray *spray, sp_vec3 direction);

@@ -95,6 +95,7 @@ sp_spray sp_aim_cell_spray(const sp_aim_cell *cell, const sp_aim_kind *kind, dou
     if (wide.kind != SP_PATTERN_FLAT_FAN) {
         wide.outer = fmin(M_PI, wide.outer + by);
         wide.inner = fmax(0, low.inner - by);
+        sp_spray_settle(&wide);
         return wide;
     }
     by += cell->roll_half * sin(fmin(sp_spray_reach(&wide), M_PI / 2));
@@ -102,6 +103,7 @@ sp_spray sp_aim_cell_spray(const sp_aim_cell *cell, const sp_aim_kind *kind, dou
     bool about_pole = by + thickness >= M_PI / 2 - MARGIN;
     wide.half_width = about_pole ? M_PI : fmin(M_PI, wide.half_width + asin(sin(by) / cos(thickness)) + MARGIN);
     wide.half_thickness = fmin(M_PI / 2, thickness + by);
+    sp_spray_settle(&wide);
     return wide;
 }
 

@@ -5,9 +5,9 @@
 
 #include <stdlib.h>
 
-#define PLACE_LEAST 0.05 /* of half the range: each move of a place is traced */
-#define SWEEPS_MOST 4    /* at one size of step */
-#define GAIN_LEAST 1e-6  /* of the area, for a step to count */
+#define PLACE_LEAST 0.1 /* of half the range: each move of a place is traced */
+#define SWEEPS_MOST 4   /* at one size of step */
+#define GAIN_LEAST 1e-6 /* of the area, for a step to count */
 
 /* The nozzle in hand, and the draft without it. */
 typedef struct {

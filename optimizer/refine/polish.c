@@ -7,7 +7,7 @@
 #include <omp.h>
 #include <stdlib.h>
 
-#define ROUGH_PATCHES 4000.0 /* most of the polishing sees no more than these show */
+#define ROUGH_PATCHES 3000.0 /* most of the polishing sees no more than these show */
 #define SIGHTS 24            /* kept for each thread */
 #define STEP_FIRST 0.25      /* of half an unknown's range, of the compass */
 #define STEP_SHARP 0.12

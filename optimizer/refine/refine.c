@@ -11,11 +11,12 @@
 #define GAIN_LEAST 1e-4   /* of area or water: less is no improvement */
 #define MISSING_MOST 0.03 /* of the target: more, refinement is not expected to make up for */
 #define BATCH 8           /* walks from one draft at a time; fixed, so that the answer does not depend on the threads */
-#define BATCHES 2         /* before less water is given up */
+#define BATCHES 1         /* before less water is given up */
 #define SAVINGS 3
-#define SAVING 0.015 /* less water than the best draft, so many times, for another */
-#define BETWEEN 0.05 /* less water than a draft of the front, for another */
-#define APART 0.02   /* share by which waters must differ for that */
+#define SAVING 0.015    /* less water than the best draft, so many times, for another */
+#define MISJUDGED 0.003 /* of what is covered: by so much the search's patches may rank drafts wrongly */
+#define BETWEEN 0.05    /* less water than a draft of the front, for another */
+#define APART 0.02      /* share by which waters must differ for that */
 
 typedef struct {
     const sp_search *search;
@@ -56,6 +57,16 @@ static bool try_also(sp_refining *refining, sp_trials *trials, const sp_draft *d
     return true;
 }
 
+/* Whether the final patches may see the draft on the front: none of no more water covers clearly more on the search's.
+ */
+static bool may_count(const sp_front *front, const sp_draft *draft)
+{
+    for (size_t i = 0; i < front->by_water.count && front->by_water.entries[i].point.flow <= draft->flow; i++)
+        if (front->by_water.entries[i].draft.covered > draft->covered * (1 + MISJUDGED))
+            return false;
+    return true;
+}
+
 /* Polishes the trials and lets the front have them. *best, where not NULL, becomes a copy of the one that covers most,
  * if that is more than it does itself. */
 static bool carry_out(sp_refining *refining, sp_trials *trials, sp_draft *best)
@@ -64,7 +75,7 @@ static bool carry_out(sp_refining *refining, sp_trials *trials, sp_draft *best)
     bool done = sp_polish(&refining->polishing, trials->items, trials->count, refining->error);
     for (size_t i = 0; done && i < trials->count; i++) {
         sp_draft *draft = &trials->items[i].draft;
-        if (!trials->items[i].better)
+        if (!trials->items[i].better || !may_count(refining->front, draft))
             continue;
         done = sp_front_measure(refining->front, search, draft, NULL, refining->error);
         if (done && best && draft->covered > best->covered) {
@@ -279,8 +290,8 @@ static bool save_flow(sp_refining *refining)
     return done;
 }
 
-/* Polishes a draft, then what walks from it find, until the front has one that takes less water than `before` and reaches the target, or
- * it is given up. */
+/* Polishes a draft, then what walks from it find, until the front has one that takes less water than `before` and
+ * reaches the target, or it is given up. */
 static bool insist(sp_refining *refining, sp_draft *draft, double budget, const sp_front_point *before)
 {
     sp_front *front = refining->front;

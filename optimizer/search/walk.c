@@ -47,8 +47,8 @@ static void look(sp_walker *walker, uint32_t site, uint32_t make, double power, 
 {
     const sp_candidates *candidates = walker->search->candidates;
     const sp_make *own = &candidates->makes[make];
-    size_t poses = own->roll_count *
-                   sp_candidates_axes(candidates, walker->search->sites->items[site].mount, make)->count;
+    size_t poses =
+        own->roll_count * sp_candidates_axes(candidates, walker->search->sites->items[site].mount, make)->count;
     double price = pow(own->flow, power);
     for (size_t i = 0; i < POSES && i < poses; i++) {
         size_t at = poses > POSES ? draw(walker, poses) : i;

@@ -19,18 +19,36 @@ static double latitude(sp_vec3 d)
     return atan2(d.y, hypot(d.x, d.z));
 }
 
+static double squared_chord(double angle)
+{
+    double sine = 2 * sin(0.5 * angle);
+    return angle >= M_PI ? 4 : sine * sine;
+}
+
+void sp_spray_settle(sp_spray *spray)
+{
+    spray->height = sin(spray->half_thickness);
+    spray->rise = cos(spray->half_thickness);
+    spray->end_sine = sin(spray->half_width);
+    spray->end_cosine = cos(spray->half_width);
+    spray->outer_chord2 = squared_chord(spray->outer);
+    spray->inner_chord2 = squared_chord(spray->inner);
+    bool fan = spray->kind == SP_PATTERN_FLAT_FAN;
+    spray->solid_angle =
+        fan ? 4 * spray->half_width * spray->height : 2 * M_PI * (versine(spray->outer) - versine(spray->inner));
+}
+
 sp_spray sp_spray_create(const sp_nozzle_type *type, double angle)
 {
     sp_spray spray = {.kind = type->pattern};
     if (spray.kind == SP_PATTERN_FLAT_FAN) {
         spray.half_width = 0.5 * angle;
         spray.half_thickness = 0.5 * type->thickness;
-        spray.solid_angle = 4 * spray.half_width * sin(spray.half_thickness);
-        return spray;
+    } else {
+        spray.outer = 0.5 * angle;
+        spray.inner = spray.kind == SP_PATTERN_HOLLOW_CONE ? type->hollow * spray.outer : 0;
     }
-    spray.outer = 0.5 * angle;
-    spray.inner = spray.kind == SP_PATTERN_HOLLOW_CONE ? type->hollow * spray.outer : 0;
-    spray.solid_angle = 2 * M_PI * (versine(spray.outer) - versine(spray.inner));
+    sp_spray_settle(&spray);
     return spray;
 }
 

@@ -34,34 +34,27 @@ static double disc_share(double edge2, double chord2, double breadth)
     return smooth_step(0.5 + (edge2 - chord2) / (2 * blur * sqrt(edge2 * (1 - edge2 / 4))));
 }
 
-static double chord2_of(double angle)
-{
-    double sine = 2 * sin(0.5 * angle);
-    return angle >= M_PI ? 4 : sine * sine;
-}
-
 static double cone_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)
 {
     sp_vec3 to_axis = sp_sub(frame->z, direction);
-    double chord2 = sp_dot(to_axis, to_axis), outer = disc_share(chord2_of(spray->outer), chord2, breadth);
-    return spray->inner > 0 ? outer - disc_share(chord2_of(spray->inner), chord2, breadth) : outer;
+    double chord2 = sp_dot(to_axis, to_axis), outer = disc_share(spray->outer_chord2, chord2, breadth);
+    return spray->inner > 0 ? outer - disc_share(spray->inner_chord2, chord2, breadth) : outer;
 }
 
 static double fan_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)
 {
     double share = 1, blur = SP_SPRAY_BLUR * breadth;
     if (spray->half_thickness < M_PI / 2) {
-        double height = sin(spray->half_thickness), up = sp_dot(direction, frame->y),
-               rise = blur * cos(spray->half_thickness);
+        double height = spray->height, up = sp_dot(direction, frame->y), rise = blur * spray->rise;
         share = smooth_step(0.5 + (height - up) / rise) + smooth_step(0.5 + (height + up) / rise) - 1;
     }
     if (share <= 0 || spray->half_width >= M_PI)
         return share;
     /* heights over the planes through the fan's ends */
-    double c = cos(spray->half_width), along = sin(spray->half_width) * sp_dot(direction, frame->z),
-           across = c * sp_dot(direction, frame->x);
+    double along = spray->end_sine * sp_dot(direction, frame->z),
+           across = spray->end_cosine * sp_dot(direction, frame->x);
     double ends = smooth_step(0.5 + (along - across) / blur) + smooth_step(0.5 + (along + across) / blur);
-    return share * (c >= 0 ? fmax(0, ends - 1) : fmin(1, ends));
+    return share * (spray->end_cosine >= 0 ? fmax(0, ends - 1) : fmin(1, ends));
 }
 
 double sp_spray_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)

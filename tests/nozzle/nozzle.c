@@ -123,7 +123,7 @@ static void intensity_integrates_to_one(void **state)
     for (size_t s = 0; s < spray_count; s++) {
         sp_spray spray = spray_of(s),
                  sphere = {.kind = SP_PATTERN_FULL_CONE, .outer = fmin(M_PI, 1.2 * sp_spray_reach(&spray))};
-        sphere.solid_angle = 2 * M_PI * (1 - cos(sphere.outer));
+        sp_spray_settle(&sphere);
         const uint64_t n = 400000;
         double sum = 0, reach = sp_spray_reach(&spray);
         for (uint64_t i = 0; i < n; i++) {
