@@ -100,10 +100,13 @@ static void frame_follows_the_design(void **state)
 }
 
 static const sp_spray sprays[] = {
-    {SP_PATTERN_FULL_CONE, 0, 0.8, 0, 0, 0},       {SP_PATTERN_FULL_CONE, 0, M_PI, 0, 0, 0},
-    {SP_PATTERN_HOLLOW_CONE, 0.6, 0.8, 0, 0, 0},   {SP_PATTERN_FLAT_FAN, 0, 0, 0.5, 0.03, 0},
-    {SP_PATTERN_FLAT_FAN, 0, 0, 2.5, 0.4, 0},      {SP_PATTERN_FLAT_FAN, 0, 0, M_PI, 0.2, 0},
-    {SP_PATTERN_SOLID_STREAM, 0, 0.0087, 0, 0, 0},
+    {.kind = SP_PATTERN_FULL_CONE, .outer = 0.8},
+    {.kind = SP_PATTERN_FULL_CONE, .outer = M_PI},
+    {.kind = SP_PATTERN_HOLLOW_CONE, .inner = 0.6, .outer = 0.8},
+    {.kind = SP_PATTERN_FLAT_FAN, .half_width = 0.5, .half_thickness = 0.03},
+    {.kind = SP_PATTERN_FLAT_FAN, .half_width = 2.5, .half_thickness = 0.4},
+    {.kind = SP_PATTERN_FLAT_FAN, .half_width = M_PI, .half_thickness = 0.2},
+    {.kind = SP_PATTERN_SOLID_STREAM, .outer = 0.0087},
 };
 static const size_t spray_count = sizeof sprays / sizeof *sprays;
 
