@@ -31,7 +31,7 @@ double sp_points_area(const sp_points *points);
 /* Point i of n, each standing for an n-th of the area: one at random in every n-th part of that length, drawn from the
  * seed for itself (jittered sampling). Two points of one seed never depend on each other, and a number of points that
  * fall on a region is off by about the root of the parts that its outline crosses, not of all. The same whatever the
- * texels, and whatever the order in which it is asked. i < n. */
+ * texels, and whatever the order in which it is asked. i < n, of an area above 0. */
 sp_point sp_points_draw(const sp_points *points, size_t i, size_t n, uint64_t seed);
 
 /* Whether the layout covers each point: every flight that reaches it, in closed form, with the spray's intensity in the
@@ -53,8 +53,8 @@ bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_
  *
  * `reference` is how the liquid flies in truth; auto: as the setup says, parabolas where that leaves it open. The seed
  * draws the points. *measured is coverage->measured or another, the caller's. Where liquid that walls throw back was
- * followed, points know nothing of it: nothing is measured, and `known` is false. Given NULL from an earlier failure it
- * returns false and keeps the error. */
+ * followed, points know nothing of it, and where nothing is counted there are none: `known` is false. Given NULL from
+ * an earlier failure it returns false and keeps the error. */
 bool sp_measure_error(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
                       sp_trajectory reference, uint64_t seed, sp_measured_error *measured, sp_error *error);
 

@@ -83,7 +83,7 @@ bool sp_measure_error(const sp_evaluator *evaluator, const sp_layout *layout, co
     if (!evaluator || !layout || !coverage)
         return false;
     *measured = (sp_measured_error){.known = false};
-    if (evaluator->fidelity.reflections > 0)
+    if (evaluator->fidelity.reflections > 0 || !(coverage->area > 0))
         return true;
     sp_points *surface = sp_points_create(evaluator, error);
     if (reference == SP_TRAJECTORY_AUTO)
