@@ -52,7 +52,8 @@ static void all_arrives_in_a_box(void **state)
     scene s;
     scene_open(&s, mesh_of_rectangles(faces, 6), SP_TRAJECTORY_LINE, 0.02);
     make_nozzles(0);
-    assert_all_arrives("box, lines", &s, 0.01 * COARSER);
+    /* the error of streams much narrower than a texel grows faster than texels do */
+    assert_all_arrives("box, lines", &s, COARSER > 1 ? 0.05 : 0.01);
     s.setup.fidelity.trajectory = SP_TRAJECTORY_PARABOLA;
     make_nozzles(6);
     assert_all_arrives("box, parabolas", &s, 0.01 * COARSER);
