@@ -8,7 +8,7 @@
 #define ITERATIONS 8
 #define TOLERANCE 1e-5
 #define CHUNKS 16          /* fixed, so that sums do not depend on the number of threads */
-#define WATER_PENALTY 10.0 /* of the square root of the area, per share of water above the budget */
+#define WATER_PENALTY 10.0 /* beside the root of the share that is dry, per share of water above the budget */
 #define EDGE_LEAST 0.2     /* cosine of the unknown's angle at the start: at 0 it would be stuck at its limit */
 #define SURE 16.0          /* widths above the threshold where nothing is missing any more */
 
@@ -148,6 +148,7 @@ static void add_row(const sp_soft *soft, size_t patch, double weight, double mis
 static void sum_chunk(sp_soft *soft, size_t chunk, bool slopes, double *row, size_t *columns)
 {
     size_t n = soft->unknowns, patches = soft->search->patch_count;
+    double all = sp_evaluator_patches(soft->search->coarse)->total_area;
     double *gradient = &soft->chunk_gradient[chunk * n], *normal = &soft->chunk_normal[chunk * n * n], cost = 0;
     if (slopes) {
         memset(gradient, 0, n * sizeof *gradient);
@@ -156,7 +157,8 @@ static void sum_chunk(sp_soft *soft, size_t chunk, bool slopes, double *row, siz
     for (size_t p = patches * chunk / CHUNKS; p < patches * (chunk + 1) / CHUNKS; p++) {
         if (soft->start[p] == soft->start[p + 1])
             continue;
-        double weight = sqrt((double)soft->search->area[p]), factor = 0;
+        /* as a share of all: the solver's tolerances are absolute, and must not know the unit of length */
+        double weight = sqrt((double)soft->search->area[p] / all), factor = 0;
         double miss = soft->sums ? miss_of_sum(soft, p, &factor) : miss_of_any(soft, p, SIZE_MAX);
         cost += weight * weight * miss * miss;
         if (slopes && miss > 0)
@@ -193,8 +195,7 @@ static bool sum_patches(sp_soft *soft, bool slopes)
 static void add_water(sp_soft *soft, const double *x, bool slopes)
 {
     size_t n = soft->unknowns;
-    double flow = soft->search->kept_flow,
-           penalty = WATER_PENALTY * sqrt(sp_evaluator_patches(soft->search->coarse)->total_area);
+    double flow = soft->search->kept_flow;
     double *row = soft->chunk_gradient + n; /* chunk 1's, summed up already */
     for (size_t i = 0; i < soft->nozzle_count; i++) {
         const sp_soft_nozzle *own = &soft->nozzles[i];
@@ -204,11 +205,12 @@ static void add_water(sp_soft *soft, const double *x, bool slopes)
         flow += sp_nozzle_flow(&nozzle, &sp_evaluator_setup(soft->search->coarse)->liquid);
         for (size_t k = 0; k < own->freedom->count; k++) {
             double half = 0.5 * (own->freedom->high[k] - own->freedom->low[k]);
-            row[own->first + k] =
-                own->freedom->kind[k] == SP_UNKNOWN_FLOW ? penalty * half * cos(x[own->first + k]) / soft->budget : 0;
+            row[own->first + k] = own->freedom->kind[k] == SP_UNKNOWN_FLOW
+                                      ? WATER_PENALTY * half * cos(x[own->first + k]) / soft->budget
+                                      : 0;
         }
     }
-    double over = penalty * (flow / soft->budget - 1);
+    double over = WATER_PENALTY * (flow / soft->budget - 1);
     if (over <= 0)
         return;
     soft->chunk_cost[0] += over * over;

@@ -184,6 +184,72 @@ static void roll_follows_the_plank(void **state)
     room_close(&j.room);
 }
 
+/* A room of `edge` m by .8 by .6 of that, and nozzles whose water grows with its area. */
+static void open_scaled_room(job *j, double edge)
+{
+    *j = (job){.pressure = PRESSURE};
+    room_builder b = {0};
+    room_box(&b, sp_v(0, 0, 0), sp_v(edge, 0.8125 * edge, 0.625 * edge), "walls", "lid");
+    j->room.setup = sp_setup_default();
+    j->room.setup.fidelity.trajectory = SP_TRAJECTORY_LINE;
+    j->room.setup.cavity = SP_CAVITY_POINT;
+    j->room.setup.cavity_point = sp_v(0.5 * edge, 0.5 * edge, 0.25 * edge);
+    j->room.setup.criterion.flux = 2 * LITRES_PER_MINUTE;
+    room_open(&j->room, &b, 0.03125 * edge);
+    j->type = room_cone("set", 100 * DEGREE, 8 * edge * edge);
+    j->type.angle_min = 80 * DEGREE;
+    j->type.angle_max = 140 * DEGREE;
+    j->type.flow_min = 0.5 * j->type.flow;
+    j->types[0] = &j->type;
+    j->mount = (sp_mount){.kind = SP_MOUNT_LINE,
+                          .axis = sp_v(0, 0, -1),
+                          .tilt = 0.5,
+                          .spacing = 0.25 * edge,
+                          .from = sp_v(0.125 * edge, 0.25 * edge, 0.5 * edge),
+                          .to = sp_v(0.875 * edge, 0.5 * edge, 0.5 * edge)};
+    j->options = room_options();
+    j->options.types = j->types;
+    j->options.type_count = 1;
+    j->options.pressures = &j->pressure;
+    j->options.pressure_count = 1;
+    j->options.mounts = &j->mount;
+    j->options.mount_count = 1;
+    j->options.max_nozzles = 2;
+    j->options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    j->options.refine =
+        (sp_refine){.position = 0.125 * edge, .axis = 0.3, .roll = true, .angle = 40 * DEGREE, .flow = 0.3};
+}
+
+/* The solver's tolerances are absolute. Powers of two scale without rounding, so that not a bit may differ. */
+static void the_unit_of_length_does_not_matter(void **state)
+{
+    (void)state;
+    static const int powers[] = {0, 1, -1, 10, -20};
+    sp_proposal *first = NULL;
+    job jobs[5];
+    for (size_t i = 0; i < 5; i++) {
+        double edge = ldexp(1, powers[i]);
+        open_scaled_room(&jobs[i], edge);
+        sp_proposal *proposal = job_place(&jobs[i]);
+        first = i ? first : proposal;
+        assert_int_equal(proposal->layout->count, first->layout->count);
+        assert_true(proposal->coverage->fraction == first->coverage->fraction);
+        assert_true(proposal->coverage->flow == edge * edge * first->coverage->flow);
+        for (size_t n = 0; n < first->layout->count; n++) {
+            const sp_nozzle *own = &proposal->layout->nozzles[n], *at_one = &first->layout->nozzles[n];
+            assert_true(sp_distance(own->position, sp_scale(at_one->position, edge)) == 0);
+            assert_true(sp_distance(own->axis, at_one->axis) == 0);
+            assert_true(own->angle == at_one->angle && own->flow == edge * edge * at_one->flow);
+        }
+        if (i)
+            sp_proposal_destroy(proposal);
+    }
+    assert_true(first->coverage->covered_area > first->greedy_coverage->covered_area);
+    sp_proposal_destroy(first);
+    for (size_t i = 0; i < 5; i++)
+        room_close(&jobs[i].room);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -192,6 +258,7 @@ int main(void)
         cmocka_unit_test(a_cone_is_not_rolled),
         cmocka_unit_test(flow_is_turned_down_while_the_target_holds),
         cmocka_unit_test(roll_follows_the_plank),
+        cmocka_unit_test(the_unit_of_length_does_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
