@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define ITERATIONS 8
-#define TOLERANCE 1e-5
+#define TOLERANCE 1e-6
 #define CHUNKS 16          /* fixed, so that sums do not depend on the number of threads */
 #define WATER_PENALTY 10.0 /* beside the root of the share that is dry, per share of water above the budget */
 #define EDGE_LEAST 0.2     /* cosine of the unknown's angle at the start: at 0 it would be stuck at its limit */
