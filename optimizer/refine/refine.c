@@ -11,7 +11,7 @@
 #define GAIN_LEAST 1e-4   /* of area or water: less is no improvement */
 #define MISSING_MOST 0.03 /* of the target: more, refinement is not expected to make up for */
 #define BATCH 8           /* walks from one draft at a time; fixed, so that the answer does not depend on the threads */
-#define BATCHES 1         /* before less water is given up */
+#define BATCHES 2         /* before less water is given up */
 #define SAVINGS 3
 #define SAVING 0.015    /* less water than the best draft, so many times, for another */
 #define MISJUDGED 0.003 /* of what is covered: by so much the search's patches may rank drafts wrongly */
@@ -333,7 +333,7 @@ static bool save_share(sp_refining *refining, double share, bool *saved)
 
 static bool save_water(sp_refining *refining)
 {
-    static const double shares[] = {0.12, 0.06, 0.03};
+    static const double shares[] = {0.06, 0.03};
     for (size_t i = 0; i < sizeof shares / sizeof *shares;) {
         bool saved = false;
         if (!refining->front->best.count || !sp_watch_goes_on(refining->watch, "refine", 0))
