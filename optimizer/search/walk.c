@@ -37,13 +37,14 @@ static size_t draw(sp_walker *walker, size_t count)
     return (size_t)(uniform(walker) * (double)count);
 }
 
+/* The best pose that one addition has looked at. */
 typedef struct {
     sp_pose pose;
     double merit; /* gain per water^power; 0: none */
-} sp_find_of_step;
+} sp_walk_choice;
 
 /* Some of the poses of one make at one mounting point. */
-static void look(sp_walker *walker, uint32_t site, uint32_t make, double power, sp_find_of_step *best)
+static void look(sp_walker *walker, uint32_t site, uint32_t make, double power, sp_walk_choice *best)
 {
     const sp_candidates *candidates = walker->search->candidates;
     const sp_make *own = &candidates->makes[make];
@@ -55,7 +56,7 @@ static void look(sp_walker *walker, uint32_t site, uint32_t make, double power, 
         sp_pose pose = {site, make, (uint32_t)(at / own->roll_count), (uint32_t)(at % own->roll_count)};
         double gain = sp_score_pose(walker->sweeper, walker->search, walker->draft, pose).gain;
         if (gain > GAIN_LEAST * walker->area && gain / price > best->merit)
-            *best = (sp_find_of_step){pose, gain / price};
+            *best = (sp_walk_choice){pose, gain / price};
     }
 }
 
@@ -63,7 +64,7 @@ static void look(sp_walker *walker, uint32_t site, uint32_t make, double power, 
 static bool add(sp_walker *walker, uint32_t near, double power, bool *added)
 {
     const sp_search *search = walker->search;
-    sp_find_of_step best = {.merit = 0};
+    sp_walk_choice best = {.merit = 0};
     for (int i = 0; i < SITES; i++) {
         uint32_t site = uniform(walker) < NEAR_SHARE ? near : (uint32_t)draw(walker, search->sites->count);
         uint32_t make = (uint32_t)draw(walker, search->candidates->make_count);

@@ -1,12 +1,12 @@
-/* A patch's pieces are halved across the longest side of their box until no cell looks broad from the source, nor bends
- * flights much at the limit of their reach. Towards the point below a nozzle that takes about as many cells for every
- * halving of the distance.
+/* A patch's pieces are halved across the longest side of their box until no cell looks broad from the source, nor
+ * bends flights much at the limit of their reach. Towards the point below a nozzle that takes about as many cells for
+ * every halving of the distance.
  *
- * With r the way from the source, b = v² + r·g and D = b² - g²r² (see flight.c) the limit of reach is where D is 0. The
- * slope of D is 2 (b g - g² r), of length 2 g √(2 b v² - D), and its second derivatives are no more than 2 g²; so over
- * a distance e it changes by no more than 2 g √(2 b v² - D) e + g² e². Towards the limit flights turn as √D does, and
- * what arrives per area grows as 1/√D: over a cell there its mean is that of the one point where √D is the mean of its
- * least and most, of the share of the cell that is within reach. */
+ * With r the way from the source, b = v² + r·g and D = b² - g²r² (see flight.c) the limit of reach is where D is
+ * 0. The slope of D is 2 (b g - g² r), of length 2 g √(2 b v² - D), and its second derivatives are no more than
+ * 2 g²; so over a distance e it changes by no more than 2 g √(2 b v² - D) e + g² e². Towards the limit flights
+ * turn as √D does, and what arrives per area grows as 1/√D: over a cell there its mean is that of the one point
+ * where √D is the mean of its least and most, of the share of the cell that is within reach. */
 #include "near.h"
 
 #include "middle.h"

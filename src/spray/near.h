@@ -5,7 +5,7 @@
 
 #include "arrival.h"
 
-/* Whether the patch behind this target is to be cut: where it looks broader than a quarter of a radian, or where
+/* Whether the patch behind this target is to be cut: where it looks broader than SP_BREADTH_MOST, or where
  * flights bend by as much as tells within it since it lies at the parabola of safety. */
 bool sp_target_is_near(const sp_source *source, const sp_target *target);
 

@@ -12,6 +12,21 @@ typedef struct {
     sp_place_options options;
 } job;
 
+/* For as much coverage as so many nozzles of the job's type give. */
+static void job_ask(job *j, size_t most)
+{
+    j->types[0] = &j->type;
+    j->options = room_options();
+    j->options.types = j->types;
+    j->options.type_count = 1;
+    j->options.pressures = &j->pressure;
+    j->options.pressure_count = 1;
+    j->options.mounts = &j->mount;
+    j->options.mount_count = 1;
+    j->options.max_nozzles = most;
+    j->options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+}
+
 /* An open floor of `edge` m, straight jets, one mounting point 2 m above its middle. */
 static void job_open(job *j, double edge, double texel, double flux)
 {
@@ -24,17 +39,8 @@ static void job_open(job *j, double edge, double texel, double flux)
     j->room.setup.criterion.flux = flux;
     room_open(&j->room, &b, texel);
     j->type = room_cone("set", 60 * DEGREE, 20);
-    j->types[0] = &j->type;
     j->mount = (sp_mount){.kind = SP_MOUNT_BOX, .axis = sp_v(0, 0, -1), .from = sp_v(0, 0, 2), .to = sp_v(0, 0, 2)};
-    j->options = room_options();
-    j->options.types = j->types;
-    j->options.type_count = 1;
-    j->options.pressures = &j->pressure;
-    j->options.pressure_count = 1;
-    j->options.mounts = &j->mount;
-    j->options.mount_count = 1;
-    j->options.max_nozzles = 1;
-    j->options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    job_ask(j, 1);
 }
 
 static sp_proposal *job_place(job *j)
@@ -163,17 +169,8 @@ static void roll_follows_the_plank(void **state)
     j.type = room_cone("fan", 80 * DEGREE, 10);
     j.type.pattern = SP_PATTERN_FLAT_FAN;
     j.type.thickness = 8 * DEGREE;
-    j.types[0] = &j.type;
     j.mount = (sp_mount){.kind = SP_MOUNT_BOX, .axis = sp_v(0, 0, -1), .from = sp_v(0, 0, 1), .to = sp_v(0, 0, 1)};
-    j.options = room_options();
-    j.options.types = j.types;
-    j.options.type_count = 1;
-    j.options.pressures = &j.pressure;
-    j.options.pressure_count = 1;
-    j.options.mounts = &j.mount;
-    j.options.mount_count = 1;
-    j.options.max_nozzles = 1;
-    j.options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    job_ask(&j, 1);
     j.options.refine.roll = true;
     sp_proposal *proposal = job_place(&j);
     const sp_nozzle *nozzle = &proposal->layout->nozzles[0];
@@ -200,22 +197,13 @@ static void open_scaled_room(job *j, double edge)
     j->type.angle_min = 80 * DEGREE;
     j->type.angle_max = 140 * DEGREE;
     j->type.flow_min = 0.5 * j->type.flow;
-    j->types[0] = &j->type;
     j->mount = (sp_mount){.kind = SP_MOUNT_LINE,
                           .axis = sp_v(0, 0, -1),
                           .tilt = 0.5,
                           .spacing = 0.25 * edge,
                           .from = sp_v(0.125 * edge, 0.25 * edge, 0.5 * edge),
                           .to = sp_v(0.875 * edge, 0.5 * edge, 0.5 * edge)};
-    j->options = room_options();
-    j->options.types = j->types;
-    j->options.type_count = 1;
-    j->options.pressures = &j->pressure;
-    j->options.pressure_count = 1;
-    j->options.mounts = &j->mount;
-    j->options.mount_count = 1;
-    j->options.max_nozzles = 2;
-    j->options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    job_ask(j, 2);
     j->options.refine =
         (sp_refine){.position = 0.125 * edge, .axis = 0.3, .roll = true, .angle = 40 * DEGREE, .flow = 0.3};
 }

@@ -4,6 +4,7 @@
  * opening without touching it. The lines come in a shuffled order, which keeps the trees low. */
 #include "spray/wet/cuts.h"
 
+#include "nozzle/scramble.h"
 #include "spray/wet/pairs.h"
 
 #include <stdlib.h>
@@ -49,13 +50,9 @@ static void *grow(cutter *cutter, void *items, size_t count, size_t *room, size_
     return grown;
 }
 
-/* A number that looks random (Steele, Lea and Flood 2014, the finishing step of splitmix64). */
 static uint32_t shuffle(uint64_t index)
 {
-    uint64_t z = (index + 1) * 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (uint32_t)((z ^ (z >> 31)) >> 32);
+    return (uint32_t)(sp_scramble(index * 0x9e3779b97f4a7c15u) >> 32);
 }
 
 static void add_scratch(cutter *cutter, uint32_t triangle, sp_vec3 p, sp_vec3 q)
