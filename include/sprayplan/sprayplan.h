@@ -10,6 +10,7 @@
 
 #include <sprayplan/atlas.h>
 #include <sprayplan/coverage.h>
+#include <sprayplan/deviation.h>
 #include <sprayplan/error.h>
 #include <sprayplan/evaluator.h>
 #include <sprayplan/image.h>

@@ -88,6 +88,16 @@ size_t sp_tracer_bytes(const sp_tracer *tracer)
            tracer->tree.reference_room * sizeof *tracer->tree.references;
 }
 
+bool sp_tracer_visit(const sp_tracer *tracer, sp_box_test *test, sp_triangle_visitor *visit, const void *region)
+{
+    if (tracer->accelerator == SP_ACCELERATOR_BVH)
+        return sp_bvh_visit(&tracer->bvh, test, visit, region);
+    for (size_t t = 0; t < tracer->mesh->triangle_count; t++)
+        if (!visit(region, (uint32_t)t))
+            return false;
+    return true;
+}
+
 void sp_tracer_use(sp_tracer *tracer, sp_instructions instructions)
 {
     tracer->instructions = instructions;

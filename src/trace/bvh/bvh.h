@@ -7,6 +7,7 @@
 #define SPRAYPLAN_TRACE_BVH_H
 
 #include "trace/search.h"
+#include "trace/visit.h"
 
 #include <string.h>
 
@@ -49,6 +50,9 @@ typedef struct {
  * numbers for nodes run out. */
 bool sp_bvh_build(const sp_mesh *mesh, int threads, sp_bvh *bvh);
 void sp_bvh_clear(sp_bvh *bvh);
+
+/* sp_tracer_visit. */
+bool sp_bvh_visit(const sp_bvh *bvh, sp_box_test *test, sp_triangle_visitor *visit, const void *region);
 
 /* The corners of a triangle, m. */
 static inline void sp_bvh_corners(const sp_bvh *bvh, uint32_t triangle, sp_corners corners)
