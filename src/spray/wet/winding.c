@@ -7,11 +7,15 @@
 #include <stdlib.h>
 
 #define MOST_BINS 1024 /* along either axis of the plane */
+#define HALF_BIN 0.501 /* and some more */
 
 /* Triangles by where they lie in the plane across the lines. */
 typedef struct {
     double x, y;
 } plane_point;
+
+/* The box around a triangle there: its least x and y, and less its largest, to the nearest in single precision. */
+typedef float plane_box __attribute__((vector_size(16)));
 
 struct sp_winding {
     const sp_mesh *mesh;
@@ -20,8 +24,9 @@ struct sp_winding {
     sp_vec3 x, y, up;
     double low[2], step[2];
     int bins;
-    size_t *start;   /* [bins² + 1] */
-    uint32_t *items; /* triangles of closed shells, each in every bin that its box meets */
+    size_t *start;    /* [bins² + 1] */
+    uint32_t *items;  /* triangles of closed shells, each in every bin that it meets */
+    plane_box *boxes; /* of the items, together in memory: a bin where shells are finely meshed has hundreds */
 };
 
 static plane_point flatten(const sp_winding *winding, sp_vec3 p)
@@ -36,7 +41,7 @@ static int bin_of(const sp_winding *winding, int axis, double value)
 }
 
 /* The bins that a triangle's box meets: columns from[0] to to[0], rows from[1] to to[1]. */
-static void bins_of(const sp_winding *winding, uint32_t triangle, int from[2], int to[2])
+static plane_box bins_of(const sp_winding *winding, uint32_t triangle, int from[2], int to[2])
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (int k = 0; k < 3; k++) {
@@ -50,6 +55,7 @@ static void bins_of(const sp_winding *winding, uint32_t triangle, int from[2], i
         from[axis] = bin_of(winding, axis, low[axis]);
         to[axis] = bin_of(winding, axis, high[axis]);
     }
+    return (plane_box){(float)low[0], (float)low[1], -(float)high[0], -(float)high[1]};
 }
 
 static bool is_closed(const sp_winding *winding, uint32_t triangle)
@@ -81,20 +87,61 @@ static size_t lay_bins(sp_winding *winding)
     return count;
 }
 
+/* The edges of a triangle as the bins see them: normal·p <= most for what it holds of a bin, p being the bin's middle.
+ * Bins are taken for a little larger than they are, so that round-off leaves out none. */
+typedef struct {
+    plane_point normal[3];
+    double most[3];
+} bin_sieve;
+
+static bin_sieve sieve_of(const sp_winding *winding, uint32_t triangle)
+{
+    plane_point corner[3];
+    bin_sieve sieve;
+    for (int k = 0; k < 3; k++)
+        corner[k] = winding->flat[winding->mesh->triangles[triangle][k]];
+    double area = (corner[1].x - corner[0].x) * (corner[2].y - corner[0].y) -
+                  (corner[1].y - corner[0].y) * (corner[2].x - corner[0].x);
+    double way = (area > 0) - (area < 0);
+    for (int k = 0; k < 3; k++) {
+        plane_point from = corner[k], to = corner[(k + 1) % 3];
+        sieve.normal[k] = (plane_point){way * (to.y - from.y), way * (from.x - to.x)};
+        sieve.most[k] =
+            sieve.normal[k].x * from.x + sieve.normal[k].y * from.y +
+            HALF_BIN * (fabs(sieve.normal[k].x) * winding->step[0] + fabs(sieve.normal[k].y) * winding->step[1]);
+    }
+    return sieve;
+}
+
+static bool falls_in(const sp_winding *winding, const bin_sieve *sieve, int column, int row)
+{
+    double x = winding->low[0] + (column + 0.5) * winding->step[0];
+    double y = winding->low[1] + (row + 0.5) * winding->step[1];
+    for (int k = 0; k < 3; k++)
+        if (sieve->normal[k].x * x + sieve->normal[k].y * y > sieve->most[k])
+            return false;
+    return true;
+}
+
 static void fill_bins(sp_winding *winding, bool counting)
 {
     for (uint32_t t = 0; t < winding->mesh->triangle_count; t++) {
         if (!is_closed(winding, t))
             continue;
         int from[2], to[2];
-        bins_of(winding, t, from, to);
+        plane_box box = bins_of(winding, t, from, to);
+        bin_sieve sieve = sieve_of(winding, t);
         for (int row = from[1]; row <= to[1]; row++)
             for (int column = from[0]; column <= to[0]; column++) {
                 size_t bin = (size_t)row * (size_t)winding->bins + (size_t)column;
-                if (counting)
+                if (!falls_in(winding, &sieve, column, row))
+                    continue;
+                if (counting) {
                     winding->start[bin + 1]++;
-                else
-                    winding->items[winding->start[bin]++] = t;
+                    continue;
+                }
+                winding->boxes[winding->start[bin]] = box;
+                winding->items[winding->start[bin]++] = t;
             }
     }
 }
@@ -124,8 +171,9 @@ sp_winding *sp_winding_create(const sp_mesh *mesh, const sp_shells *shells, sp_e
         for (size_t i = 0; i < bins; i++)
             winding->start[i + 1] += winding->start[i];
         winding->items = malloc((winding->start[bins] + 1) * sizeof *winding->items);
+        winding->boxes = malloc((winding->start[bins] + 1) * sizeof *winding->boxes);
     }
-    if (!winding->items) {
+    if (!winding->items || !winding->boxes) {
         sp_winding_destroy(winding);
         return sp_fail_memory(error);
     }
@@ -143,6 +191,7 @@ void sp_winding_destroy(sp_winding *winding)
     free(winding->flat);
     free(winding->start);
     free(winding->items);
+    free(winding->boxes);
     free(winding);
 }
 
@@ -176,13 +225,24 @@ static int crossing(const sp_winding *winding, uint32_t triangle, sp_vec3 point,
     return height * way > 0 ? way : 0;
 }
 
+/* Whether a place lies outside of a box; never where it does not, as rounding keeps the order of numbers. */
+static inline bool is_out(const plane_box *box, const plane_box *place)
+{
+    __extension__ typedef long long halves __attribute__((vector_size(16)));
+    halves below = (halves)(*place < *box);
+    return (below[0] | below[1]) != 0;
+}
+
 static int add_crossings(const sp_winding *winding, sp_vec3 point, uint32_t only, uint32_t except)
 {
     plane_point p = flatten(winding, point);
+    plane_box place = {(float)p.x, (float)p.y, -(float)p.x, -(float)p.y};
     size_t row = (size_t)bin_of(winding, 1, p.y), column = (size_t)bin_of(winding, 0, p.x);
     size_t bin = row * (size_t)winding->bins + column;
     int sum = 0;
     for (size_t i = winding->start[bin]; i < winding->start[bin + 1]; i++) {
+        if (is_out(&winding->boxes[i], &place))
+            continue;
         uint32_t triangle = winding->items[i], shell = winding->shells->of[triangle];
         if (shell == except || (only != SP_NONE && shell != only))
             continue;
