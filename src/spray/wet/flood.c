@@ -10,9 +10,8 @@
 #define LINES_BY_AREA 4096 /* in a round, besides one for each side */
 #define MOST_LINES 1024    /* of a side in a round */
 #define ROUNDS_OF_ALL 3
-#define LEAST_ROUNDS 12 /* of what is not wet yet */
 #define MOST_ROUNDS 32
-#define SILENT_ROUNDS 2 /* that join nothing: then it ends */
+#define SILENT_ROUNDS 2 /* of what is not wet yet, that join nothing: then it ends */
 #define START 2.0       /* contacts: lines start so far before their face */
 #define ON_EDGE 1e-9    /* barycentric: a hit this near to an edge may belong to either neighbour */
 
@@ -163,12 +162,12 @@ static bool cast_rounds(sp_flood *flood, sp_error *error)
         return sp_fail_memory(error);
     int silent = 0;
     for (uint64_t round = 0; done && round < MOST_ROUNDS; round++) {
-        if (choose_sides(flood, round, sides) == 0 || (round >= LEAST_ROUNDS && silent >= SILENT_ROUNDS))
+        if (choose_sides(flood, round, sides) == 0 || silent >= SILENT_ROUNDS)
             break;
         size_t joined = 0;
         done = sp_flood_cast(flood, sides, round * MOST_LINES, 1, &joined, error) &&
                sp_evaluator_progress(flood->setup, "wet sides", (double)(round + 1) / MOST_ROUNDS, error);
-        silent = joined > 0 ? 0 : silent + 1;
+        silent = joined > 0 || round < ROUNDS_OF_ALL ? 0 : silent + 1;
     }
     free(sides);
     return done;
