@@ -46,8 +46,8 @@ sp_strain sp_measure_strain(const sp_sheets *sheets, const sp_sheet *sheet)
         const double *shape = sheets->shape[sheet->triangle[i]];
         const uint32_t *c = sheet->corner[i];
         double twice, strain = strain_of(shape, sheet->at[c[0]], sheet->at[c[1]], sheet->at[c[2]], &twice);
-        double longest = fmax(shape[0], hypot(shape[1], shape[2]));
-        found.flipped += !(twice > least * longest);
+        double beyond = 2 * (shape[0] + fabs(shape[1]) + shape[2]); /* of the longest edge, which takes a root */
+        found.flipped += !(twice > least * beyond) && !(twice > least * fmax(shape[0], hypot(shape[1], shape[2])));
         found.most = strain > found.most ? strain : found.most;
         over += strain <= SP_STRAIN_BOUND ? 0 : 0.5 * shape[0] * shape[2];
     }
