@@ -4,10 +4,20 @@
 
 #include "atlas/charts/sheets.h"
 
-/* Storage for sheets of up to `capacity` vertices; all zeros at first. */
+/* A place, or a vector: both coordinates are reckoned with at once. */
+typedef double sp_plane __attribute__((vector_size(16)));
+
+/* A triangle in its plane, as sp_sheets has it, beside its edges' weights. */
 typedef struct {
-    double (*residual)[2], (*move)[2], (*search)[2], (*image)[2], *diagonal;
-    size_t capacity;
+    double shape[3], weight[3];
+} sp_relaxed_triangle;
+
+/* Storage for sheets of up to `capacity` vertices and `triangle_capacity` triangles; all zeros at first. */
+typedef struct {
+    sp_plane *residual, *move, *search, *image;
+    double *diagonal;
+    sp_relaxed_triangle *triangles;
+    size_t capacity, triangle_capacity;
 } sp_relaxer;
 
 /* `rounds` rounds of as-rigid-as-possible flattening, in each of which `inner` steps of conjugate gradients. False when
