@@ -15,7 +15,8 @@ extern "C" {
 /* What a part of the mesh is in the scene. */
 typedef struct {
     bool clean;         /* is to be cleaned; otherwise an obstacle that only blocks and reflects */
-    double restitution; /* e, 0 to 1 */
+    double restitution; /* e, 0 to 1; what comes less high over a wall than 2^-30 of the geometry's farthest coordinate
+                         * stays there all the same */
     double rebound;     /* share of the liquid that flies on where e > 0, 0 to 1 */
 } sp_surface;
 

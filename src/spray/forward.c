@@ -7,6 +7,11 @@
 #include <stdlib.h>
 
 #define BATCH 65536 /* jets in flight at once */
+/* Of the geometry's farthest coordinate; flights are told to 2^-42 of it. What comes no higher over a wall than the
+ * lowest hop stays there: what hops ever lower, or is caught in an edge, would go on for ever and get nowhere. */
+#define STAND_OFF 0x1p-40
+#define LOWEST_HOP 0x1p-30
+
 /* What one jet does where it hits. */
 typedef struct {
     sp_shares shares; /* of the flow; none: a dry side, an obstacle or a miss */
@@ -29,20 +34,23 @@ typedef struct {
     jet_impact *impacts; /* [BATCH] */
     int threads;
     int reflections;
+    double extent;  /* m, the geometry's farthest coordinate */
     double per_jet; /* m³/s that a jet carries; 0: each nozzle has jets of its own number */
 } jet_flight;
 
-/* A parabola that leaves a triangle may come back to it, which its `skip` hides: of the two meetings with the
- * triangle's plane one is the start, so that the other follows without round-off. */
-static void return_to_start(const sp_mesh *mesh, const sp_ray *ray, sp_vec3 gravity, sp_hit *hit)
+/* What flies on starts a little before the wall, on the way that has been free so far: the impact itself may be rounded
+ * to beyond the wall. `across`: the speed at which the flight arrives, across the wall. */
+static sp_vec3 before_the_wall(const jet_flight *flight, const sp_ray *ray, double t, double across)
 {
-    sp_vec3 normal = sp_triangle_normal(mesh, ray->skip);
-    double rise = sp_dot(ray->velocity, normal), fall = sp_dot(gravity, normal);
-    if (!(rise * fall < 0) || !(-2 * rise / fall < hit->t))
-        return;
-    double t = -2 * rise / fall, u, v;
-    if (sp_triangle_weights(mesh, ray->skip, sp_ray_point(ray, gravity, t), &u, &v))
-        *hit = (sp_hit){.t = t, .u = u, .v = v, .triangle = ray->skip};
+    double back = STAND_OFF * flight->extent / fabs(across);
+    return sp_ray_point(ray, flight->evaluator->gravity, fmax(ray->t_min, t - back));
+}
+
+/* How high over the wall a flight of duration t comes (m) that meets it at the speed `across` it. */
+static double height_over(sp_vec3 gravity, sp_vec3 normal, double t, double across)
+{
+    double pull = sp_dot(gravity, normal) * copysign(1, across), speed = fabs(across);
+    return speed < pull * t ? 0.5 * speed * speed / pull : (speed - 0.5 * pull * t) * t;
 }
 
 /* Turns a hit into an impact, and the ray and its flow into what flies on: v' = v_t - e v_n (DESIGN §2). */
@@ -54,8 +62,6 @@ static void strike(jet_flight *flight, size_t i)
     sp_ray *ray = &flight->rays[i];
     sp_hit *hit = &flight->hits[i];
     jet_impact *impact = &flight->impacts[i];
-    if (ray->skip != SP_NONE)
-        return_to_start(mesh, ray, evaluator->gravity, hit);
     impact->shares.count = 0;
     impact->goes_on = false;
     if (hit->triangle == SP_NONE)
@@ -76,12 +82,13 @@ static void strike(jet_flight *flight, size_t i)
     impact->cell = sp_lit_cell(evaluator, hit->triangle, hit->u, hit->v);
 
     const sp_surface *surface = &evaluator->setup.surfaces[mesh->part[hit->triangle]];
-    ray->origin = sp_triangle_point(mesh, hit->triangle, hit->u, hit->v);
+    double height = height_over(evaluator->gravity, normal, hit->t, along_normal);
+    ray->origin = before_the_wall(flight, ray, hit->t, along_normal);
     ray->velocity = sp_along(velocity, -(1 + surface->restitution) * along_normal, normal);
     ray->t_min = 0;
-    ray->skip = hit->triangle;
     flight->flow[i] *= surface->rebound;
-    impact->goes_on = surface->restitution > 0 && flight->flow[i] > 0 && sp_length(ray->velocity) > 0;
+    impact->goes_on = surface->restitution > 0 && flight->flow[i] > 0 && sp_length(ray->velocity) > 0 &&
+                      height >= LOWEST_HOP * flight->extent;
 }
 
 /* Adds the impacts up. Each thread sees all of them but owns a range of the patches, so that every patch adds up in the
@@ -223,6 +230,13 @@ static bool fly_layout(jet_flight *flight, const sp_layout *layout, sp_error *er
     return true;
 }
 
+static double farthest_coordinate(const sp_mesh *mesh)
+{
+    sp_vec3 low, high;
+    sp_mesh_box(mesh, &low, &high);
+    return fmax(fmax(fmax(-low.x, high.x), fmax(-low.y, high.y)), fmax(-low.z, high.z));
+}
+
 static sp_coverage *evaluate(const sp_evaluator *evaluator, const sp_layout *layout, int reflections, double per_jet,
                              sp_error *error)
 {
@@ -239,6 +253,7 @@ static sp_coverage *evaluate(const sp_evaluator *evaluator, const sp_layout *lay
                          .impacts = malloc(BATCH * sizeof *flight.impacts),
                          .threads = sp_thread_count(evaluator->setup.run.threads),
                          .reflections = reflections,
+                         .extent = farthest_coordinate(evaluator->setup.mesh),
                          .per_jet = per_jet};
     bool done = flight.rays && flight.flow && flight.hits && flight.impacts && flight.counted;
     if (!done)
