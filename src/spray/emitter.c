@@ -1,8 +1,16 @@
 #include "emitter.h"
 
-/* Texels that a jet flies before anything stops it: on which side of the wall it stands in a nozzle is, is round-off.
- */
+/* Texels that a jet flies at most before anything stops it: on which side of the wall it stands in a nozzle is, is
+ * round-off. */
 #define MOUTH 1e-7
+
+/* Until it has gone as far by its speed or, where that is slow, by falling. */
+static double time_in_mouth(const sp_source *source)
+{
+    double length = MOUTH * source->evaluator->fidelity.texel, g = sp_length(source->evaluator->gravity);
+    double time = length / source->speed;
+    return g > 0 ? fmin(time, sqrt(2 * length / g)) : time;
+}
 
 sp_emitter sp_emitter_of(const sp_evaluator *evaluator, const sp_nozzle *nozzle)
 {
@@ -20,7 +28,7 @@ sp_ray sp_emitter_jet(const sp_emitter *emitter, uint64_t index, uint64_t jets)
     sp_vec3 direction = sp_along(sp_along(sp_scale(frame->x, d.x), d.y, frame->y), d.z, frame->z);
     return (sp_ray){.origin = emitter->source.position,
                     .velocity = sp_scale(direction, emitter->source.speed),
-                    .t_min = MOUTH * fidelity->texel / emitter->source.speed,
+                    .t_min = time_in_mouth(&emitter->source),
                     .t_max = INFINITY,
                     .skip = SP_NONE};
 }

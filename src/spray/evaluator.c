@@ -17,7 +17,6 @@
 #define MOST_PAGE_EDGE 16384 /* texels, for a triangle longer than PAGE_EDGE */
 #define PAGE_MARGIN 4        /* texels that a page needs beyond its chart */
 #define MOST_TEXELS 1e9
-#define MOST_SPEED 1e30 /* m/s: far beyond, fourth powers that flights are reckoned from overflow */
 
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error)
 {
@@ -77,7 +76,7 @@ static bool check_setup(const sp_setup *setup, sp_error *error)
         wrong = "a finite point of the cavity";
     if (wrong)
         return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: expected %s", wrong);
-    return check_caps(setup, error) && check_surfaces(setup, error);
+    return check_caps(setup, error) && check_surfaces(setup, error) && sp_geometry_is_resolved(setup, error);
 }
 
 static bool anything_reflects(const sp_setup *setup)
@@ -172,7 +171,7 @@ static bool build_atlas(sp_evaluator *evaluator, const sp_charts *charts, const 
     double texel = evaluator->fidelity.texel;
     double page = fmin(fmax(ceil(density->longest) + PAGE_MARGIN, PAGE_EDGE), MOST_PAGE_EDGE);
     sp_atlas_options options = {.texel = texel, .page_edge = (uint32_t)page, .chart_texel = density->texel};
-    if (check_number(texel, density->texels, error))
+    if (sp_texel_is_resolved(evaluator, texel, error) && check_number(texel, density->texels, error))
         evaluator->atlas = sp_atlas_create(evaluator->setup.mesh, charts, &options, error);
     return evaluator->atlas &&
            sp_fragments_create(&evaluator->fragments, evaluator->atlas, evaluator->setup.mesh, error) &&
@@ -326,18 +325,6 @@ unsigned sp_evaluator_wet_at(const sp_evaluator *evaluator, uint32_t triangle, d
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator)
 {
     return evaluator->gravity;
-}
-
-bool sp_evaluator_takes(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
-{
-    for (size_t i = 0; i < layout->count; i++) {
-        double speed = sp_nozzle_speed(&layout->nozzles[i], &evaluator->setup.liquid);
-        if (speed > MOST_SPEED)
-            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                           "nozzle %s: exit speed %g m/s found, from pressure and density; expected at most %g m/s",
-                           layout->nozzles[i].name, speed, MOST_SPEED);
-    }
-    return true;
 }
 
 sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)

@@ -2,6 +2,8 @@
  * flight times are T = 2(b ± √D)/g² (|r - g T/2|² = v² T); the short one is written 2r²/(b + √D), which keeps its
  * digits as g goes to 0. Flux per flux of solid angle is |n·w| / (v T √D) with w = v u + g t: the Jacobian of the map
  * from directions to points of the surface. */
+#include "reserve.h"
+
 #include <sprayplan/evaluator.h>
 
 static sp_flight parabola(sp_vec3 r, double speed, sp_vec3 gravity, double squared_time, double root)
@@ -25,7 +27,7 @@ int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_fligh
     }
     double b = speed * speed + sp_dot(r, gravity);
     /* D = b² - g²r² in factors: near the envelope, where D goes to 0, the difference of squares would lose it */
-    double discriminant = (b - g * distance) * (b + g * distance);
+    double discriminant = sp_reserve(speed, r, gravity) * (b + g * distance);
     if (b <= 0 || discriminant <= 0)
         return 0;
     double root = sqrt(discriminant);

@@ -230,13 +230,6 @@ static bool fly_layout(jet_flight *flight, const sp_layout *layout, sp_error *er
     return true;
 }
 
-static double farthest_coordinate(const sp_mesh *mesh)
-{
-    sp_vec3 low, high;
-    sp_mesh_box(mesh, &low, &high);
-    return fmax(fmax(fmax(-low.x, high.x), fmax(-low.y, high.y)), fmax(-low.z, high.z));
-}
-
 static sp_coverage *evaluate(const sp_evaluator *evaluator, const sp_layout *layout, int reflections, double per_jet,
                              sp_error *error)
 {
@@ -253,7 +246,7 @@ static sp_coverage *evaluate(const sp_evaluator *evaluator, const sp_layout *lay
                          .impacts = malloc(BATCH * sizeof *flight.impacts),
                          .threads = sp_thread_count(evaluator->setup.run.threads),
                          .reflections = reflections,
-                         .extent = farthest_coordinate(evaluator->setup.mesh),
+                         .extent = sp_farthest_coordinate(evaluator->setup.mesh),
                          .per_jet = per_jet};
     bool done = flight.rays && flight.flow && flight.hits && flight.impacts && flight.counted;
     if (!done)

@@ -3,21 +3,22 @@
  * every halving of the distance.
  *
  * With r the way from the source, b = v² + r·g and D = b² - g²r² (see flight.c) the limit of reach is where D is
- * 0. The slope of D is 2 (b g - g² r), of length 2 g √(2 b v² - D), and its second derivatives are no more than
- * 2 g²; so over a distance e it changes by no more than 2 g √(2 b v² - D) e + g² e². Towards the limit flights
- * turn as √D does, and what arrives per area grows as 1/√D: over a cell there its mean is that of the one point
+ * 0. The slope of D is 2 (b g - g² r) = 2 (v² g - g × (r × g)), of length 2 g √(2 b v² - D), and its second derivatives
+ * are no more than 2 g²; so over a distance e it changes by no more than 2 g √(2 b v² - D) e + g² e². Towards the limit
+ * flights turn as √D does, and what arrives per area grows as 1/√D: over a cell there its mean is that of the one point
  * where √D is the mean of its least and most, of the share of the cell that is within reach. */
 #include "near.h"
 
 #include "middle.h"
+#include "reserve.h"
 
 #include <stdlib.h>
 
 #define RIM 0.25        /* rad, by which flights turn over a cell at the limit of their reach, about */
-#define FINEST 0x1p-18  /* of the patch's length: no cell is halved below it */
+#define FINEST 0x1p-40  /* of the patch's length: no cell is halved below it */
 #define CELLS_MOST 4096 /* of one patch: more than it takes a nanometre off a wall */
 #define CORNERS 14      /* 8 of a piece, and one more for every side of a box */
-#define ROUND_OFF 1e-12 /* of the patch's area, that a cut may leave of nothing; rad */
+#define ROUND_OFF 1e-12 /* of a cell's area, that a cut may leave of nothing; rad */
 
 typedef enum {
     OUT_OF_REACH, /* all of it */
@@ -35,7 +36,9 @@ static reserve reserve_at(const sp_source *source, sp_vec3 r)
 {
     sp_vec3 gravity = source->evaluator->gravity;
     double g = sp_length(gravity), distance = sp_length(r), b = source->speed * source->speed + sp_dot(r, gravity);
-    return (reserve){(b - g * distance) * (b + g * distance), sp_along(sp_scale(gravity, 2 * b), -2 * g * g, r)};
+    sp_vec3 level = sp_cross(gravity, sp_cross(r, gravity)); /* g² times r's part across gravity */
+    return (reserve){sp_reserve(source->speed, r, gravity) * (b + g * distance),
+                     sp_along(sp_scale(gravity, 2 * source->speed * source->speed), -2, level)};
 }
 
 /* How what lies within `radius` of a point, and is `side` long, looks from the source. */
@@ -260,10 +263,11 @@ static void visit_cell(cutting *cut, cell *cell)
     cut->visit(cut->user, &target, part);
 }
 
-static void cut_cell(cutting *cut, size_t first, size_t end)
+/* `whole`: the area of the cell that it is cut from, m². */
+static void cut_cell(cutting *cut, size_t first, size_t end, double whole)
 {
     cell cell = cell_of(cut, first, end);
-    if (!(cell.middle.area > ROUND_OFF * cut->area))
+    if (!(cell.middle.area > ROUND_OFF * whole))
         return;
     sp_vec3 size = sp_sub(cell.high, cell.low);
     int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -281,7 +285,7 @@ static void cut_cell(cutting *cut, size_t first, size_t end)
         size_t start = cut->count;
         for (size_t i = first; i < end && !cut->failed; i++)
             clip(cut, i, axis, plane, above);
-        cut_cell(cut, start, cut->count);
+        cut_cell(cut, start, cut->count, cell.middle.area);
         cut->count = start;
     }
 }
@@ -298,7 +302,7 @@ bool sp_patch_cut(const sp_source *source, uint32_t patch, sp_vec3 axis, double 
     bool done = take_pieces(&cut, patch);
     cut.area = cell_of(&cut, 0, cut.count).middle.area;
     if (done)
-        cut_cell(&cut, 0, cut.count);
+        cut_cell(&cut, 0, cut.count, 0);
     free(cut.pieces);
     return done && !cut.failed;
 }

@@ -29,7 +29,13 @@ static inline int sp_thread_count(int threads)
 sp_vec3 sp_gravity_for(const sp_setup *setup, sp_trajectory trajectory);
 /* Reports progress; false, with the error set, where the caller is to stop. */
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error);
-/* False, with an error, where a nozzle's liquid leaves faster than can be reckoned with. */
+
+/* limits.c: the largest coordinate of all triangles, whatever its sign, m. */
+double sp_farthest_coordinate(const sp_mesh *mesh);
+/* False, with an error, where double precision does not tell what is asked: a geometry too large, too small or too far
+ * off the origin, too strong a gravity; too short a texel; what leaves a nozzle too fast or too slowly. */
+bool sp_geometry_is_resolved(const sp_setup *setup, sp_error *error);
+bool sp_texel_is_resolved(const sp_evaluator *evaluator, double texel, sp_error *error);
 bool sp_evaluator_takes(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
 
 /* patches.c: from atlas, wet sides and roles. */

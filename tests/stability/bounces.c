@@ -30,8 +30,8 @@ static sp_mesh *box(void)
 /* 2 m long and 1 m wide; its bottom an edge of 53 degrees, or one of 6. */
 static sp_mesh *trough(double depth)
 {
-    const sp_vec3 corner[6] = {{-1, -0.5, 0.5},        {-1, 0.5, 0.5}, {-1, 0.02, 0.5 - depth}, {1, -0.5, 0.5},
-                               {1, 0.5, 0.5},          {1, -0.02, 0.5 - depth}};
+    const sp_vec3 corner[6] = {{-1, -0.5, 0.5}, {-1, 0.5, 0.5}, {-1, 0.02, 0.5 - depth},
+                               {1, -0.5, 0.5},  {1, 0.5, 0.5},  {1, -0.02, 0.5 - depth}};
     static const uint32_t triangle[8][3] = {{0, 1, 2}, {3, 5, 4}, {0, 3, 4}, {0, 4, 1},
                                             {0, 2, 5}, {0, 5, 3}, {1, 4, 5}, {1, 5, 2}};
     return sp_mesh_create(corner, 6, triangle, 8, NULL, NULL, 0, NULL);
@@ -93,7 +93,8 @@ static void in_troughs(void **state)
     assert_none_is_lost("trough of 6 degrees", trough(10));
 }
 
-/* A stream straight down arrives once more for every hop, the last of which is the first lower than 2^-30 of the box. */
+/* A stream straight down arrives once more for every hop, the last of which is the first lower than 2^-30 of the box.
+ */
 static void as_often_as_it_comes_off(void **state)
 {
     (void)state;

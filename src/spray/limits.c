@@ -1,0 +1,73 @@
+/* What can be reckoned with in double precision, and errors for what cannot. */
+#include "state.h"
+
+#define MOST_SPEED 1e30  /* m/s: far beyond, fourth powers that flights are reckoned from overflow */
+#define MOST_LENGTH 1e50 /* m, and its inverse: far beyond, so do fourth powers of lengths */
+/* Times the geometry's diagonal, that it may lie off the origin: surfaces nearer to each other than 1e-6 of it touch,
+ * and coordinates must tell so much apart. */
+#define FARTHEST 1e9
+#define FINEST_TEXEL 0x1p-40   /* of the farthest coordinate */
+#define SLOWEST_SQUARE 0x1p-58 /* of g times the diagonal, that v² is told beside */
+
+double sp_farthest_coordinate(const sp_mesh *mesh)
+{
+    sp_vec3 low, high;
+    sp_mesh_box(mesh, &low, &high);
+    return fmax(fmax(fmax(-low.x, high.x), fmax(-low.y, high.y)), fmax(-low.z, high.z));
+}
+
+bool sp_geometry_is_resolved(const sp_setup *setup, sp_error *error)
+{
+    sp_vec3 low, high;
+    double diagonal = sp_mesh_box(setup->mesh, &low, &high), farthest = sp_farthest_coordinate(setup->mesh);
+    if (!(diagonal >= 1 / MOST_LENGTH && diagonal <= MOST_LENGTH))
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "geometry: %g m across found, expected %g m to %g m",
+                       diagonal, 1 / MOST_LENGTH, MOST_LENGTH);
+    if (farthest > FARTHEST * diagonal)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "geometry: coordinates up to %g m found for what is %g m across; there they tell no less than "
+                       "%.2g m apart; expected it within %.2g m of the origin",
+                       farthest, diagonal, nextafter(farthest, INFINITY) - farthest, FARTHEST * diagonal);
+    double speed = sqrt(2 * setup->gravity) * sqrt(diagonal);
+    return setup->fidelity.trajectory == SP_TRAJECTORY_LINE || speed <= MOST_SPEED ||
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "gravity: %g m/s2 found, by which what falls through the geometry gains %g m/s; expected at most "
+                   "%g m/s",
+                   setup->gravity, speed, MOST_SPEED);
+}
+
+bool sp_texel_is_resolved(const sp_evaluator *evaluator, double texel, sp_error *error)
+{
+    double farthest = sp_farthest_coordinate(evaluator->setup.mesh);
+    return texel >= FINEST_TEXEL * farthest ||
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "texel: %g m found, too small for coordinates up to %g m; expected at least %.2g m", texel, farthest,
+                   FINEST_TEXEL * farthest);
+}
+
+/* Whether a nozzle's liquid leaves neither so fast nor so slowly that its flights cannot be told. */
+static bool is_flying(const sp_evaluator *evaluator, const sp_nozzle *nozzle, double slowest, sp_error *error)
+{
+    double speed = sp_nozzle_speed(nozzle, &evaluator->setup.liquid);
+    if (speed > MOST_SPEED)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "nozzle %s: exit speed %g m/s found, from pressure and density; expected at most %g m/s",
+                       nozzle->name, speed, MOST_SPEED);
+    return speed >= slowest || !(speed > 0) ||
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "nozzle %s: exit speed %g m/s found, which under gravity of %g m/s2 cannot be told from none; "
+                   "expected at least %.2g m/s",
+                   nozzle->name, speed, evaluator->setup.gravity, slowest);
+}
+
+bool sp_evaluator_takes(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
+{
+    const sp_setup *setup = &evaluator->setup;
+    sp_vec3 low, high;
+    double gravity = setup->fidelity.trajectory == SP_TRAJECTORY_LINE ? 0 : setup->gravity;
+    double slowest = sqrt(SLOWEST_SQUARE * gravity) * sqrt(sp_mesh_box(setup->mesh, &low, &high));
+    for (size_t i = 0; i < layout->count; i++)
+        if (!is_flying(evaluator, &layout->nozzles[i], slowest, error))
+            return false;
+    return true;
+}
