@@ -43,6 +43,11 @@ void sp_evaluator_destroy(sp_evaluator *evaluator);
 
 const sp_setup *sp_evaluator_setup(const sp_evaluator *evaluator);
 const sp_fidelity *sp_evaluator_fidelity(const sp_evaluator *evaluator); /* nothing left to auto */
+/* Jets per nozzle that so short a texel wants, where the forward evaluator flies fewer (whether they were asked for or
+ * are the most that it chooses itself); else 0. */
+double sp_evaluator_jets_wanted(const sp_evaluator *evaluator);
+/* By how many of a nozzle's jets a texel that is just covered is met; its flux is off by about one in their root. */
+double sp_evaluator_jets_met(const sp_evaluator *evaluator);
 const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator);
 const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator);
 const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator);

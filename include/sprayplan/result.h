@@ -45,6 +45,7 @@ typedef struct {
     sp_missing_figures *missing;                         /* owned; those of most area first */
     char trajectory[16], evaluator[16];                  /* "line" or "parabola", "forward" or "inverse" */
     size_t reflections, jets;                            /* jets: per nozzle, unknown for the inverse evaluator */
+    size_t jets_wanted;                                  /* per nozzle, where they are fewer; else unknown */
     double texel;                                        /* m */
     double error_estimate, misjudged;                    /* of this layout, as sp_measured_error */
     double flow, covered_area;                           /* m³/s, m² */

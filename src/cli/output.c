@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define FEW_JETS 10 /* on a texel that is just covered: with fewer, longer texels were more exact on the vessel */
+
 static bool protect_inputs(const cli_options *options, const sp_scene *scene, sp_output *output, sp_error *error)
 {
     bool good = true;
@@ -80,6 +82,24 @@ static void print_errors(const sp_result *result, const sp_figures *figures, int
         if (isfinite(figures[i].error_estimate))
             printf("%s%-*s coverage %.2f %%, measured error \xc2\xb1%.2f points\n", told++ ? "" : "\n", width,
                    result->designs[i].name, 100 * figures[i].coverage, ceil(1e4 * figures[i].error_estimate) / 100);
+}
+
+/* Where jets are so few that their noise tells more than a shorter texel does. */
+static void print_noise(const sp_result *result)
+{
+    for (size_t i = 0; i < result->design_count; i++) {
+        const sp_evaluator *evaluator = result->designs[i].evaluator;
+        if (!evaluator || !(sp_evaluator_jets_wanted(evaluator) > 0) || sp_evaluator_jets_met(evaluator) >= FEW_JETS)
+            continue;
+        const sp_fidelity *fidelity = sp_evaluator_fidelity(evaluator);
+        double met = sp_evaluator_jets_met(evaluator);
+        printf("\nwarning: %.3g million jets a nozzle are fewer than the %.3g million that texels of %.3g mm want. One "
+               "that is just covered is\nmet by about %.2g, and its flux is off by some %.0f %%: longer texels or more "
+               "jets are more exact.\n",
+               1e-6 * (double)fidelity->jets, 1e-6 * sp_evaluator_jets_wanted(evaluator), 1e3 * fidelity->texel, met,
+               100 / sqrt(fmax(1, met)));
+        return;
+    }
 }
 
 static void print_share(const sp_figures *figures, double flow)
@@ -201,6 +221,7 @@ static bool print_summary(const sp_result *result, sp_error *error)
     for (size_t i = 0; i < result->design_count; i++)
         print_figures(&figures[i], result->designs[i].name, width);
     print_errors(result, figures, width);
+    print_noise(result);
     print_liquid(result, figures, width);
     if (result->proposal) {
         print_forward_check(&result->proposal->forward_check);

@@ -45,6 +45,12 @@ static void add_flight(sp_text *text, const sp_evaluator *evaluator)
     else
         sp_text_add(text, "forward: %llu jets a nozzle, up to %d reflection%s", (unsigned long long)fidelity->jets,
                     fidelity->reflections, fidelity->reflections == 1 ? "" : "s");
+    if (sp_evaluator_jets_wanted(evaluator) > 0)
+        sp_text_add(text,
+                    "; texels so short want %.3g&nbsp;million: one that is just covered is met by about %.2g, and its "
+                    "flux is off by some %.0f&nbsp;%%",
+                    1e-6 * sp_evaluator_jets_wanted(evaluator), sp_evaluator_jets_met(evaluator),
+                    100 / sqrt(fmax(1, sp_evaluator_jets_met(evaluator))));
     sp_text_add(text, "; run-off along walls is not counted</dd>\n");
     add_item(text, "Resolution");
     sp_text_add(text,

@@ -17,6 +17,8 @@ static void set_geometry_and_fidelity(sp_figures *figures, const sp_evaluator *e
     strcpy(figures->evaluator, inverse ? "inverse" : "forward");
     figures->reflections = fidelity->reflections < 0 ? SP_UNKNOWN : (size_t)fidelity->reflections;
     figures->jets = inverse ? SP_UNKNOWN : fidelity->jets;
+    double wanted = sp_evaluator_jets_wanted(evaluator);
+    figures->jets_wanted = wanted > 0 ? (size_t)fmin(wanted, 9e15) : SP_UNKNOWN; /* JSON's whole numbers end there */
     figures->texel = fidelity->texel;
 }
 

@@ -205,6 +205,7 @@ static bool read_fidelity(const reader *in, const json_t *fidelity, sp_figures *
            get_choice(in, fidelity, "evaluator", "forward", "inverse", figures->evaluator) &&
            get_count(in, fidelity, "reflections", &figures->reflections) &&
            get_count(in, fidelity, "jets_per_nozzle", &figures->jets) &&
+           get_count(in, fidelity, "jets_wanted_per_nozzle", &figures->jets_wanted) &&
            get_real(in, fidelity, "texel_m", 0, 1e6, 1, &figures->texel) &&
            get_real(in, fidelity, "error_estimate", 0, 1, 1, &figures->error_estimate) &&
            get_real(in, fidelity, "misjudged", 0, 1, 1, &figures->misjudged);

@@ -90,12 +90,14 @@ static double worst(const sp_figures *figures, size_t count, size_t offset)
 static bool put_fidelity(json_t *object, const sp_figures *figures, size_t count)
 {
     json_t *fidelity = json_object();
-    bool done =
-        put_text(fidelity, "trajectory", figures->trajectory) && put_text(fidelity, "evaluator", figures->evaluator) &&
-        put_count(fidelity, "reflections", figures->reflections) &&
-        put_count(fidelity, "jets_per_nozzle", figures->jets) && put_real(fidelity, "texel_m", figures->texel) &&
-        put_real(fidelity, "error_estimate", worst(figures, count, offsetof(sp_figures, error_estimate))) &&
-        put_real(fidelity, "misjudged", worst(figures, count, offsetof(sp_figures, misjudged)));
+    bool done = put_text(fidelity, "trajectory", figures->trajectory) &&
+                put_text(fidelity, "evaluator", figures->evaluator) &&
+                put_count(fidelity, "reflections", figures->reflections) &&
+                put_count(fidelity, "jets_per_nozzle", figures->jets) &&
+                put_count(fidelity, "jets_wanted_per_nozzle", figures->jets_wanted) &&
+                put_real(fidelity, "texel_m", figures->texel) &&
+                put_real(fidelity, "error_estimate", worst(figures, count, offsetof(sp_figures, error_estimate))) &&
+                put_real(fidelity, "misjudged", worst(figures, count, offsetof(sp_figures, misjudged)));
     return put(object, "fidelity", fidelity) && done;
 }
 

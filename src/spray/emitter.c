@@ -1,13 +1,10 @@
 #include "emitter.h"
 
-/* Texels that a jet flies at most before anything stops it: on which side of the wall it stands in a nozzle is, is
- * round-off. */
-#define MOUTH 1e-7
-
-/* Until it has gone as far by its speed or, where that is slow, by falling. */
+/* How long nothing stops a jet, as on which side of the wall it stands in a nozzle is, is round-off: until it has gone
+ * off it by its speed or, where that is slow, by falling. */
 static double time_in_mouth(const sp_source *source)
 {
-    double length = MOUTH * source->evaluator->fidelity.texel, g = sp_length(source->evaluator->gravity);
+    double length = sp_stand_off(source->evaluator), g = sp_length(source->evaluator->gravity);
     double time = length / source->speed;
     return g > 0 ? fmin(time, sqrt(2 * length / g)) : time;
 }

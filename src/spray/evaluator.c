@@ -138,10 +138,9 @@ static double jets_per_texel(const sp_evaluator *evaluator)
     return evaluator->setup.criterion.flux > 0 ? AUTO_JETS_AT_THRESHOLD : AUTO_JETS_TO_TOUCH;
 }
 
-static uint64_t jets_for(const sp_evaluator *evaluator, double texel)
+static double jets_for(const sp_evaluator *evaluator, double texel)
 {
-    double texels = counted_area(evaluator) / (texel * texel);
-    return (uint64_t)fmin(AUTO_MOST_JETS, ceil(jets_per_texel(evaluator) * texels));
+    return ceil(jets_per_texel(evaluator) * counted_area(evaluator) / (texel * texel));
 }
 
 /* Shorter texels than the jets can meet each would look dry, and few thin parts are not worth more jets for all. */
@@ -188,7 +187,9 @@ static bool build_texels(sp_evaluator *evaluator, const sp_charts *charts, const
                : sp_density_create(evaluator, charts, &limits, &density, error)))
         return false;
     if (fidelity->jets == 0)
-        fidelity->jets = jets_for(evaluator, fidelity->method == SP_METHOD_INVERSE ? fidelity->texel : density.finest);
+        fidelity->jets =
+            (uint64_t)fmin(AUTO_MOST_JETS, jets_for(evaluator, fidelity->method == SP_METHOD_INVERSE ? fidelity->texel
+                                                                                                     : density.finest));
     bool done = build_atlas(evaluator, charts, &density, error);
     sp_density_free(&density);
     return done;
@@ -234,6 +235,7 @@ sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error)
         return NULL;
     }
     evaluator->gravity = sp_gravity_for(setup, evaluator->fidelity.trajectory);
+    evaluator->farthest = sp_farthest_coordinate(setup->mesh);
     if (!build(evaluator, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;
@@ -260,6 +262,7 @@ sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_e
     evaluator->fidelity.splat = SP_SPLAT_NEAREST;
     evaluator->fidelity.texel = texel;
     evaluator->gravity = fine->gravity;
+    evaluator->farthest = fine->farthest;
     evaluator->origin = origin;
     evaluator->tracer = origin->tracer;
     evaluator->charts = origin->charts;
@@ -295,6 +298,19 @@ const sp_setup *sp_evaluator_setup(const sp_evaluator *evaluator)
 const sp_fidelity *sp_evaluator_fidelity(const sp_evaluator *evaluator)
 {
     return &evaluator->fidelity;
+}
+
+double sp_evaluator_jets_wanted(const sp_evaluator *evaluator)
+{
+    const sp_fidelity *fidelity = &evaluator->fidelity;
+    double wanted = fidelity->method == SP_METHOD_FORWARD ? jets_for(evaluator, fidelity->texel) : 0;
+    return wanted > (double)fidelity->jets ? wanted : 0;
+}
+
+double sp_evaluator_jets_met(const sp_evaluator *evaluator)
+{
+    return jets_per_texel(evaluator) * (double)evaluator->fidelity.jets /
+           jets_for(evaluator, evaluator->fidelity.texel);
 }
 
 const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator)

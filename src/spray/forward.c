@@ -7,9 +7,8 @@
 #include <stdlib.h>
 
 #define BATCH 65536 /* jets in flight at once */
-/* Of the geometry's farthest coordinate; flights are told to 2^-42 of it. What comes no higher over a wall than the
- * lowest hop stays there: what hops ever lower, or is caught in an edge, would go on for ever and get nowhere. */
-#define STAND_OFF 0x1p-40
+/* Of the geometry's farthest coordinate. What comes no higher over a wall stays there: what hops ever lower, or is
+ * caught in an edge, would go on for ever and get nowhere. */
 #define LOWEST_HOP 0x1p-30
 
 /* What one jet does where it hits. */
@@ -34,7 +33,6 @@ typedef struct {
     jet_impact *impacts; /* [BATCH] */
     int threads;
     int reflections;
-    double extent;  /* m, the geometry's farthest coordinate */
     double per_jet; /* m³/s that a jet carries; 0: each nozzle has jets of its own number */
 } jet_flight;
 
@@ -42,7 +40,7 @@ typedef struct {
  * to beyond the wall. `across`: the speed at which the flight arrives, across the wall. */
 static sp_vec3 before_the_wall(const jet_flight *flight, const sp_ray *ray, double t, double across)
 {
-    double back = STAND_OFF * flight->extent / fabs(across);
+    double back = sp_stand_off(flight->evaluator) / fabs(across);
     return sp_ray_point(ray, flight->evaluator->gravity, fmax(ray->t_min, t - back));
 }
 
@@ -88,7 +86,7 @@ static void strike(jet_flight *flight, size_t i)
     ray->t_min = 0;
     flight->flow[i] *= surface->rebound;
     impact->goes_on = surface->restitution > 0 && flight->flow[i] > 0 && sp_length(ray->velocity) > 0 &&
-                      height >= LOWEST_HOP * flight->extent;
+                      height >= LOWEST_HOP * evaluator->farthest;
 }
 
 /* Adds the impacts up. Each thread sees all of them but owns a range of the patches, so that every patch adds up in the
@@ -246,7 +244,6 @@ static sp_coverage *evaluate(const sp_evaluator *evaluator, const sp_layout *lay
                          .impacts = malloc(BATCH * sizeof *flight.impacts),
                          .threads = sp_thread_count(evaluator->setup.run.threads),
                          .reflections = reflections,
-                         .extent = sp_farthest_coordinate(evaluator->setup.mesh),
                          .per_jet = per_jet};
     bool done = flight.rays && flight.flow && flight.hits && flight.impacts && flight.counted;
     if (!done)

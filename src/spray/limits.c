@@ -38,7 +38,7 @@ bool sp_geometry_is_resolved(const sp_setup *setup, sp_error *error)
 
 bool sp_texel_is_resolved(const sp_evaluator *evaluator, double texel, sp_error *error)
 {
-    double farthest = sp_farthest_coordinate(evaluator->setup.mesh);
+    double farthest = evaluator->farthest;
     return texel >= FINEST_TEXEL * farthest ||
            sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "texel: %g m found, too small for coordinates up to %g m; expected at least %.2g m", texel, farthest,

@@ -10,6 +10,7 @@ struct sp_evaluator {
     sp_setup setup;
     sp_fidelity fidelity;       /* resolved: nothing left to auto */
     sp_vec3 gravity;            /* zero for lines */
+    double farthest;            /* m, the geometry's farthest coordinate */
     const sp_evaluator *origin; /* of a resampled evaluator: owns tracer, charts and wet; else NULL */
     sp_tracer *tracer;
     sp_charts *charts;
@@ -29,6 +30,12 @@ static inline int sp_thread_count(int threads)
 sp_vec3 sp_gravity_for(const sp_setup *setup, sp_trajectory trajectory);
 /* Reports progress; false, with the error set, where the caller is to stop. */
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error);
+
+/* m off a wall that liquid starts from: what double precision tells surely. */
+static inline double sp_stand_off(const sp_evaluator *evaluator)
+{
+    return 0x1p-40 * evaluator->farthest; /* flights are told to 2^-42 of it */
+}
 
 /* limits.c: the largest coordinate of all triangles, whatever its sign, m. */
 double sp_farthest_coordinate(const sp_mesh *mesh);
