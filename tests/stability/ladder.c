@@ -7,7 +7,7 @@
 
 static const double half_angles[] = {0.5, 5, 30, 60, 180}; /* deg */
 static const sp_vec3 places[] = {{-0.61, 0.17, 1.23}, {0.13, -0.47, 1.11}, {0.2, 0.3, 1e-3}, {-0.999, 0.1, 0.7}};
-static const double speeds[] = {3, 12, 100};
+static const double speeds[] = {8, 12, 100};
 
 static size_t count_flights(const sp_evaluator *evaluator, sp_vec3 place, double speed, double half_angle)
 {
@@ -20,8 +20,8 @@ static size_t count_flights(const sp_evaluator *evaluator, sp_vec3 place, double
     return count;
 }
 
-/* In a room without obstacles, so that none is left out because something lies in its way. What slow parabolas of a
- * cone come to is other surface than lines do; of them whole spheres alone are compared. */
+/* In a room without obstacles, so that none is left out because something lies in its way. They are fast enough
+ * to come to every wall as parabolas too. */
 static void lines_are_no_dearer_than_parabolas(void **state)
 {
     (void)state;
@@ -41,11 +41,9 @@ static void lines_are_no_dearer_than_parabolas(void **state)
     for (int i = 0; i < 4; i++)
         for (int v = 0; v < 3; v++)
             for (int a = 0; a < 5; a++) {
-                if (speeds[v] < 10 && half_angles[a] < 180)
-                    continue;
                 size_t line = count_flights(rungs[0], places[i], speeds[v], half_angles[a]);
                 size_t parabola = count_flights(rungs[1], places[i], speeds[v], half_angles[a]);
-                if (line < 50) /* a stream within a few texels */
+                if (line < 50 || parabola < 50) /* a stream within a few texels */
                     continue;
                 compared++;
                 worst = fmax(worst, (double)line / (double)parabola);
