@@ -58,7 +58,8 @@ static void every_accelerator_and_thread_count_gives_the_same_bytes(void **state
     free(text);
     static const char *const gravities[] = {"0,0,0", "0,0,-9.81"};
     for (int g = 0; g < 2; ++g) {
-        static const char *const ways[] = {"--accel sah", "--accel naive", "--accel none", "--accel bvh", "--threads 3"};
+        static const char *const ways[] = {"--accel sah", "--accel naive", "--accel none", "--accel bvh",
+                                           "--threads 3"};
         outcome first = {0};
         for (int i = 0; i < 5; ++i) {
             char line[256];
@@ -115,6 +116,30 @@ static void a_bad_ray_is_located(void **state)
     }
 }
 
+/* Every number of a ray and of gravity. */
+static void no_number_that_is_none(void **state)
+{
+    (void)state;
+    static const char *const none[] = {"nan", "-nan", "inf", "-inf", "Infinity", "1e999", "-1e999", "0x", ""};
+    write_file("good.csv", "0.5,0.5,0.5,1,1,1\n");
+    for (int column = 0; column < 9; ++column)
+        for (size_t k = 0; k < sizeof none / sizeof *none; ++k) {
+            char ray[256] = "0.25,0.75,0.5,0,0,-2\n", gravity[128] = "", line[512];
+            for (int c = 0; c < 6; ++c)
+                snprintf(ray + strlen(ray), 32, "%s%s", c ? "," : "", c == column ? none[k] : "0.5");
+            for (int c = 6; c < 9; ++c)
+                snprintf(gravity + strlen(gravity), 32, "%s%s", c > 6 ? "," : "", c == column ? none[k] : "0.5");
+            write_file("bad.csv", ray);
+            snprintf(line, sizeof line, "trace room.obj --rays %s --gravity %s", column < 6 ? "bad.csv" : "good.csv",
+                     gravity);
+            outcome result = run_program(line);
+            const char *where = column < 6 ? "bad.csv:2:" : "gravity";
+            if (result.status != (column < 6 ? 3 : 2) || !strstr(result.err, where))
+                fail_msg("column %d, '%s': status %d, %s", column, none[k], result.status, result.err);
+            forget(&result);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -123,6 +148,7 @@ int main(void)
         cmocka_unit_test(every_accelerator_and_thread_count_gives_the_same_bytes),
         cmocka_unit_test(json_holds_the_same),
         cmocka_unit_test(a_bad_ray_is_located),
+        cmocka_unit_test(no_number_that_is_none),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }
