@@ -3,6 +3,9 @@
 /* Of the way from the nearest point towards the middle of the polygon that holds it: off the edges, where a line of
  * sight would have to choose between neighbouring triangles. */
 #define INWARDS 1e-4
+/* Of the edge of a square of the piece's area: polygons whose distances differ by less are equally near, and the first
+ * has the point. A centroid on the edge of two would else fall to either by round-off. */
+#define TIE 1e-9
 
 /* The point of triangle abc nearest to p: the foot of the perpendicular where that lies inside, else the nearest of its
  * feet on the three edges. */
@@ -62,12 +65,12 @@ sp_vec3 sp_middle_centroid(const sp_middle *middle)
 
 void sp_middle_look(sp_middle *middle, const sp_vec3 *polygon, int corners, uint32_t triangle)
 {
-    double area = 0;
+    double area = 0, tie = TIE * sqrt(middle->area);
     sp_vec3 moment = {0}, centroid = sp_middle_centroid(middle);
     for (int i = 2; i < corners; i++) {
         sp_vec3 point = nearest_in_triangle(centroid, polygon[0], polygon[i - 1], polygon[i]);
         double distance = sp_distance(point, centroid);
-        if (middle->found && !(distance < middle->least))
+        if (middle->found && !(distance < middle->least - tie))
             continue;
         if (!(area > 0))
             moment = polygon_moment(polygon, corners, &area);

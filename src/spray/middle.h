@@ -19,7 +19,7 @@ typedef struct {
 
 void sp_middle_add(sp_middle *middle, const sp_vec3 *polygon, int corners);
 sp_vec3 sp_middle_centroid(const sp_middle *middle);
-/* Takes the polygon's point nearest to the centroid where none yet was nearer. `triangle` is the polygon's. */
+/* Takes the polygon's point nearest to the centroid where none yet was as near. `triangle` is the polygon's. */
 void sp_middle_look(sp_middle *middle, const sp_vec3 *polygon, int corners, uint32_t triangle);
 
 #endif
