@@ -111,6 +111,12 @@ typedef struct {
     size_t points;    /* as many were judged */
 } sp_measured_error;
 
+/* How much of the surface round-off could judge otherwise (see sp_find_borderline). */
+typedef struct {
+    bool known;  /* false: nothing below means anything */
+    double area; /* m², of patches whole */
+} sp_borderline;
+
 typedef struct {
     double area;                                    /* clean (and wet) area, m² */
     double covered_area;                            /* Σ share area, m² */
@@ -120,6 +126,7 @@ typedef struct {
     double flux_min, flux_mean, flux_p05, flux_max; /* m³/s per m² over the clean area, by area; p05: 5th percentile */
     sp_balance balance;         /* known from the forward evaluator; else sp_evaluate_balance works it out */
     sp_measured_error measured; /* not known until sp_measure_error is asked for it */
+    sp_borderline borderline;   /* not known until sp_find_borderline is asked for it */
     sp_deposits deposits;
 } sp_coverage;
 

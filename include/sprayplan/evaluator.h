@@ -102,6 +102,19 @@ sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout 
 bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
                          sp_error *error);
 
+/* Finds the patches whose verdict round-off could turn, for `coverage` that sp_evaluate_inverse found for this layout:
+ * where a flux, speed or incidence lies within 1e-9 (relative) of its criterion, or the patch's point, or that of a
+ * cell of it, within 1e-9 rad of the edge of a spray or of what stands before it; and with no criterion of flux and
+ * incidence where the nozzle lies in the wall's own plane. Two evaluations of one scene that differ in round-off alone
+ * (in its unit or place, in compilers) agree on all other patches. What stands before them is looked for where flights
+ * to neighbouring patches fare differently: an occluder thinner than a patch that blocks none is not seen.
+ *
+ * Takes about as long as evaluating. `patches` is NULL or the caller's [patches], true for those found. *borderline is
+ * coverage->borderline or another, the caller's. Given NULL from an earlier failure it returns false and keeps the
+ * error. */
+bool sp_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
+                        bool *patches, sp_borderline *borderline, sp_error *error);
+
 /* How liquid from one position at one speed arrives at a patch: nothing here depends on the nozzle's axis, roll, angle,
  * type or flow. The flux (m/s) at the patch is Q · intensity(direction) · transfer. A patch so near to the position, or
  * to the limits of reach, that its one point does not tell how liquid arrives there is cut into cells, each an arrival
@@ -109,6 +122,7 @@ bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout,
 typedef struct {
     uint32_t patch;
     bool passes;       /* impact speed and incidence meet the criterion */
+    bool blocked;      /* something lies in the way: never in a reach, but where this is asked for */
     uint8_t arc;       /* which of sp_flights */
     double part;       /* share of the patch's area that the cell is; 1: all of it, which is not cut */
     sp_vec3 direction; /* unit, at the nozzle, world coordinates */

@@ -97,7 +97,8 @@ int cli_with_scene(const cli_options *options, cli_work *work);
 
 /* What the layout does and where its liquid goes; NULL with an error, for instance where a nozzle is in a wall. */
 sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_error *error);
-/* How far that is off, into coverage->measured. False, and the error kept, given NULL. */
+/* How far that is off, into coverage->measured, and of the inverse evaluator how much of it round-off could turn, into
+ * coverage->borderline. False, and the error kept, given NULL. */
 bool cli_measure(const cli_scene *opened, const sp_layout *layout, sp_coverage *coverage, sp_error *error);
 
 /* boxes.c: how far something reaches along the axes, m. */

@@ -40,9 +40,12 @@ sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_
 
 bool cli_measure(const cli_scene *opened, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
 {
-    uint64_t seed = sp_evaluator_fidelity(opened->evaluator)->seed;
+    const sp_fidelity *fidelity = sp_evaluator_fidelity(opened->evaluator);
     return coverage &&
-           sp_measure_error(opened->evaluator, layout, coverage, SP_TRAJECTORY_AUTO, seed, &coverage->measured, error);
+           sp_measure_error(opened->evaluator, layout, coverage, SP_TRAJECTORY_AUTO, fidelity->seed,
+                            &coverage->measured, error) &&
+           (fidelity->method != SP_METHOD_INVERSE ||
+            sp_find_borderline(opened->evaluator, layout, coverage, NULL, &coverage->borderline, error));
 }
 
 int cli_fail_in(const cli_scene *opened, sp_error *error)

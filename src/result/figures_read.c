@@ -230,6 +230,7 @@ static bool read_coverage(const reader *in, const json_t *layout, sp_figures *fi
     if (!get_real(in, layout, "water_l_min", 0, 1e9, l_min, &figures->flow) ||
         !get_real(in, layout, "covered_area_m2", 0, 1e12, 1, &figures->covered_area) ||
         !get_real(in, layout, "coverage", 0, 1 + 1e-9, 1, &figures->coverage) ||
+        !get_real(in, layout, "borderline_m2", 0, 1e12, 1, &figures->borderline) ||
         !get_real(in, layout, "coverage_of_attainable", 0, 1 + 1e-9, 1, &figures->of_attainable) ||
         !get_real(in, layout, "area_per_water", 0, 1e12, 6e4, &figures->area_per_water) ||
         !get_part(in, layout, "flux_l_min_m2", JSON_OBJECT, false, &flux))

@@ -152,6 +152,7 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, bool own_geom
                 put_real(layout, "coverage", figures->coverage) &&
                 put_real(layout, "error_estimate", figures->error_estimate) &&
                 put_real(layout, "misjudged", figures->misjudged) &&
+                put_real(layout, "borderline_m2", figures->borderline) &&
                 put_real(layout, "coverage_of_attainable", figures->of_attainable) &&
                 put_real(layout, "area_per_water", figures->area_per_water / 6e4) && put_flux(layout, figures) &&
                 put_liquid(layout, figures);

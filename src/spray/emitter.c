@@ -35,9 +35,18 @@ double sp_emitter_share(const sp_emitter *emitter, const sp_arrival *arrival)
     return sp_spray_share(&emitter->spray, &emitter->frame, arrival->direction, arrival->breadth);
 }
 
+/* A direction of the world in the nozzle's frame. */
+static sp_vec3 local(const sp_frame *frame, sp_vec3 direction)
+{
+    return sp_v(sp_dot(direction, frame->x), sp_dot(direction, frame->y), sp_dot(direction, frame->z));
+}
+
 bool sp_emitter_holds(const sp_emitter *emitter, sp_vec3 direction)
 {
-    const sp_frame *frame = &emitter->frame;
-    sp_vec3 local = sp_v(sp_dot(direction, frame->x), sp_dot(direction, frame->y), sp_dot(direction, frame->z));
-    return sp_spray_intensity(&emitter->spray, local) > 0;
+    return sp_spray_intensity(&emitter->spray, local(&emitter->frame, direction)) > 0;
+}
+
+double sp_emitter_margin(const sp_emitter *emitter, sp_vec3 direction)
+{
+    return sp_spray_margin(&emitter->spray, local(&emitter->frame, direction));
 }

@@ -17,5 +17,7 @@ sp_ray sp_emitter_jet(const sp_emitter *emitter, uint64_t index, uint64_t jets);
 double sp_emitter_share(const sp_emitter *emitter, const sp_arrival *arrival);
 /* Whether the arrival's own direction does. */
 bool sp_emitter_holds(const sp_emitter *emitter, sp_vec3 direction);
+/* How far (rad) inside the spray a direction lies, negative outside. */
+double sp_emitter_margin(const sp_emitter *emitter, sp_vec3 direction);
 
 #endif

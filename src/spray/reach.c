@@ -63,6 +63,17 @@ static bool aimed(const sp_aim *aim, const sp_arrival *arrival)
            sp_emitter_holds(aim->emitter, arrival->direction);
 }
 
+/* The flight as it leaves on one of four sides of itself. */
+static sp_flight flight_beside(sp_flight flight, unsigned side)
+{
+    sp_vec3 own = flight.direction, other = fabs(own.x) < 0.6 ? sp_v(1, 0, 0) : sp_v(0, 1, 0);
+    sp_vec3 across = sp_unit(sp_cross(own, other));
+    if (side > 2)
+        across = sp_cross(own, across);
+    flight.direction = sp_unit(sp_along(own, side % 2 ? SP_BESIDE : -SP_BESIDE, across));
+    return flight;
+}
+
 /* One patch while its flights are gathered. */
 typedef struct {
     const sp_source *source;
@@ -91,14 +102,16 @@ static void gather_at(void *user, const sp_target *target, double part)
         if (!sp_arrive(source, target, &flights[k], arrival) || (aim->passing && !arrival->passes))
             continue;
         arrival->breadth = sp_flight_breadth(&flights[k], source->speed, target->length);
-        if (!aimed(aim, arrival) || (traced && sp_flight_pierces(source, target, &flights[k])))
+        sp_flight way = aim->beside ? flight_beside(flights[k], aim->beside) : flights[k];
+        arrival->blocked = traced && sp_flight_pierces(source, target, &way);
+        if (!aimed(aim, arrival) || (arrival->blocked && !aim->blocked))
             continue;
         arrival->patch = own->patch;
         arrival->arc = (uint8_t)k;
         arrival->part = part;
         flock->count++;
         if (traced)
-            flock->rays[flock->ray_count++] = sp_flight_ray(source, target, &flights[k]);
+            flock->rays[flock->ray_count++] = sp_flight_ray(source, target, &way);
     }
 }
 
@@ -106,7 +119,7 @@ static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, f
 {
     gathering own = {source, aim, patch, flock};
     sp_target target = sp_patch_target(source->evaluator, patch);
-    if (aim->known && !(aim->known[patch / 4] >> 2 * (patch % 4) & 3))
+    if ((aim->known && !(aim->known[patch / 4] >> 2 * (patch % 4) & 3)) || (aim->among && !aim->among[patch]))
         return;
     if (!sp_target_is_near(source, &target))
         gather_at(&own, &target, 1);
@@ -134,16 +147,19 @@ static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uin
         return false;
     sp_trace_occluded_many(source->evaluator->tracer, flock->rays, flock->ray_count, source->evaluator->gravity, 1,
                            flock->blocked);
-    size_t free_ways = 0;
+    size_t kept = 0;
     for (size_t i = 0, ray = 0; i < flock->count; i++) {
-        bool traced = !aim->known || flock->arrivals[i].part < 1;
-        if (!traced || !flock->blocked[ray++])
-            flock->arrivals[free_ways++] = flock->arrivals[i];
+        sp_arrival *arrival = &flock->arrivals[i];
+        bool traced = !aim->known || arrival->part < 1;
+        if (traced && flock->blocked[ray++])
+            arrival->blocked = true;
+        if (!arrival->blocked || aim->blocked)
+            flock->arrivals[kept++] = *arrival;
     }
-    *harvest = (struct harvest){free_ways, free_ways ? malloc(free_ways * sizeof *harvest->arrivals) : NULL};
+    *harvest = (struct harvest){kept, kept ? malloc(kept * sizeof *harvest->arrivals) : NULL};
     if (harvest->arrivals)
-        memcpy(harvest->arrivals, flock->arrivals, free_ways * sizeof *harvest->arrivals);
-    return harvest->arrivals || !free_ways;
+        memcpy(harvest->arrivals, flock->arrivals, kept * sizeof *harvest->arrivals);
+    return harvest->arrivals || !kept;
 }
 
 /* The patches that are asked for: how many, and into how many chunks they fall. */

@@ -115,10 +115,12 @@ static void simulate_gives_the_figures(void **state)
     assert_true(number(fidelity, "error_estimate") > 0 && number(fidelity, "error_estimate") < 0.01);
     assert_true(number(fidelity, "error_estimate") == number(manual, "error_estimate"));
     assert_true(number(fidelity, "misjudged") >= 0 && number(fidelity, "misjudged") < 0.05);
+    assert_true(number(manual, "borderline_m2") >= 0 && number(manual, "borderline_m2") < 6e-6);
     json_decref(object);
     object = expect_json("simulate room.yaml --json --set simulate.evaluator=forward --set simulate.reflections=2", 0);
     assert_null(json_object_get(json_object_get(object, "fidelity"), "error_estimate"));
     assert_null(json_object_get(layout_named(object, "manual"), "misjudged"));
+    assert_null(json_object_get(layout_named(object, "manual"), "borderline_m2"));
     json_decref(object);
 }
 
@@ -320,8 +322,8 @@ static void the_written_layout_gives_the_same_figures(void **state)
     json_t *placed = json_file("one/result.json");
     json_t *again = expect_json("simulate one/layout.yaml --json", 0);
     json_t *proposed = layout_named(placed, "proposed"), *manual = layout_named(again, "manual");
-    static const char *const same[] = {"water_l_min",    "covered_area_m2", "coverage",
-                                       "area_per_water", "error_estimate",  "misjudged"};
+    static const char *const same[] = {"water_l_min",    "covered_area_m2", "coverage",     "area_per_water",
+                                       "error_estimate", "misjudged",       "borderline_m2"};
     for (size_t i = 0; i < sizeof same / sizeof *same; ++i)
         assert_true(number(proposed, same[i]) == number(manual, same[i]));
     assert_true(json_equal(json_object_get(proposed, "flux_l_min_m2"), json_object_get(manual, "flux_l_min_m2")));

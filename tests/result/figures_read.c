@@ -38,7 +38,7 @@ static void reads_what_design_says(void **state)
         " \"texel_m\": 0.01, \"error_estimate\": 0.02, \"misjudged\": 0.03}, \"unknown\": [1, 2], \"layouts\": ["
         "{" LAYOUT
         "}, {\"name\": \"b\\u00e4d\\u0007\", \"water_l_min\": 30, \"coverage\": 0.9, \"covered_area_m2\": 4.5,"
-        " \"error_estimate\": 0.01,"
+        " \"error_estimate\": 0.01, \"borderline_m2\": 0.04,"
         " \"coverage_of_attainable\": 0.95, \"flux_l_min_m2\": {\"min\": 0, \"mean\": 6},"
         " \"shadows\": [{\"area_m2\": 0.5, \"centroid_m\": [1, 2, 3], \"part\": \"lid\", \"reachable\": false}, {}],"
         " \"nozzles\": [{\"name\": \"N1\", \"type\": \"t\", \"position_m\": [0, 0, 1.5], \"axis\": [0, 0, -1],"
@@ -50,6 +50,7 @@ static void reads_what_design_says(void **state)
     assert_true(isnan(figures[0].attainable_area) && isnan(figures[0].of_attainable) && isnan(figures[0].flux_max));
     assert_true(fabs(figures[0].flow - 1e-3) < 1e-15);
     assert_true(figures[0].error_estimate == 0.02 && figures[1].error_estimate == 0.01);
+    assert_true(isnan(figures[0].borderline) && figures[1].borderline == 0.04);
     assert_true(figures[0].misjudged == 0.03 && figures[1].misjudged == 0.03);
     assert_string_equal(figures[1].evaluator, "forward");
     assert_int_equal(figures[1].jets, 99);
