@@ -33,13 +33,19 @@ typedef struct {
     covering *coverings;
     size_t covering_count, covering_room;
     size_t cut_room, cell_room;
-    bool failed; /* memory ran out */
+    bool *copies; /* [triangles] */
+    bool failed;  /* memory ran out, or numbers did */
+    bool crowded; /* numbers did */
 } cutter;
 
 static void *grow(cutter *cutter, void *items, size_t count, size_t *room, size_t size)
 {
     if (count < *room)
         return items;
+    if (count >= SP_CELL / 2) {
+        cutter->failed = cutter->crowded = true;
+        return items;
+    }
     size_t more = 2 * *room + 256;
     void *grown = realloc(items, more * size);
     if (!grown) {
@@ -121,6 +127,11 @@ static void cover(cutter *cutter, uint32_t triangle, uint32_t other)
 
 static void scratch_pair(cutter *cutter, sp_pair pair)
 {
+    if (pair.copy) {
+        add_covering(cutter, pair.a, pair.b);
+        add_covering(cutter, pair.b, pair.a);
+        return;
+    }
     double height[2][3];
     int side[2][3];
     take_sides(cutter, pair.a, pair.b, height[0], side[0]);
@@ -311,7 +322,8 @@ static void begin_cell(cutter *cutter, uint32_t triangle)
     cuts->cell_triangle[cuts->cell_count++] = triangle;
 }
 
-/* Every triangle that is scratched or covered begins as one cell. */
+/* Every triangle that is scratched or covered begins as one cell; not the copies of another, which lie on it all over.
+ */
 static void begin_cells(cutter *cutter, bool *touched)
 {
     sp_cuts *cuts = cutter->cuts;
@@ -327,7 +339,7 @@ static void begin_cells(cutter *cutter, bool *touched)
         touched[cutter->coverings[i].triangle] = true;
     for (uint32_t t = 0; t < triangles && !cutter->failed; t++) {
         cuts->root[t] = SP_NONE;
-        if (touched[t])
+        if (touched[t] && !cutter->copies[t])
             begin_cell(cutter, t);
     }
 }
@@ -399,6 +411,8 @@ static void halve_long_faces(cutter *cutter, double longest)
         const sp_triangle_piece whole = {.count = 3, .at = {{0, 0}, {1, 0}, {0, 1}}};
         halving halving = {cutter, t, longest};
         sp_cut cut;
+        if (cutter->copies[t])
+            continue;
         if (cutter->cuts->root[t] == SP_NONE) {
             if (!middle_cut(&halving, &whole, &cut))
                 continue;
@@ -412,8 +426,11 @@ static void cut_mesh(cutter *cutter, const sp_pair *pairs, size_t pair_count)
 {
     for (size_t i = 0; i < pair_count && !cutter->failed; i++)
         scratch_pair(cutter, pairs[i]);
-    bool *touched = calloc(cutter->mesh->triangle_count + 1, 1);
-    cutter->failed = cutter->failed || !touched;
+    bool *touched = calloc(cutter->mesh->triangle_count + 1, sizeof *touched);
+    cutter->copies = calloc(cutter->mesh->triangle_count + 1, sizeof *cutter->copies);
+    cutter->failed = cutter->failed || !touched || !cutter->copies;
+    for (size_t i = 0; i < pair_count && !cutter->failed; i++)
+        cutter->copies[pairs[i].b] = cutter->copies[pairs[i].b] || pairs[i].copy;
     if (!cutter->failed)
         begin_cells(cutter, touched);
     free(touched);
@@ -440,10 +457,14 @@ bool sp_cuts_create(sp_cuts *cuts, const sp_setup *setup, const sp_shells *shell
     free(pairs);
     free(cutter.scratches);
     free(cutter.coverings);
+    free(cutter.copies);
     if (!cutter.failed)
         return true;
     sp_cuts_destroy(cuts);
-    return sp_fail_memory(error);
+    if (!cutter.crowded)
+        return sp_fail_memory(error);
+    return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "geometry: its triangles meet or lie on each other more than %u times", SP_CELL / 2);
 }
 
 void sp_cuts_destroy(sp_cuts *cuts)

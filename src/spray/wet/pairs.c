@@ -3,7 +3,10 @@
  * have in common. */
 #include "spray/wet/pairs.h"
 
+#include "nozzle/scramble.h"
+
 #include <stdlib.h>
+#include <string.h>
 
 #define FEW 24          /* triangles that are compared one by one */
 #define MOST_HALVES 60  /* how often space is halved */
@@ -31,7 +34,7 @@ static bool overlap(const space_box *a, const space_box *b)
     return true;
 }
 
-static void note(pair_search *search, uint32_t a, uint32_t b)
+static void note(pair_search *search, uint32_t a, uint32_t b, bool copy)
 {
     if (search->count == search->capacity) {
         size_t capacity = 2 * search->capacity + 1024;
@@ -43,7 +46,7 @@ static void note(pair_search *search, uint32_t a, uint32_t b)
         search->pairs = pairs;
         search->capacity = capacity;
     }
-    search->pairs[search->count++] = (sp_pair){a, b};
+    search->pairs[search->count++] = (sp_pair){a, b, copy};
 }
 
 /* Whether two triangles have two corners in common and lie side by side there, at whatever angle, rather than folded
@@ -86,7 +89,7 @@ static void compare(pair_search *search, const space_box *space, uint32_t a, uin
             return;
     }
     if (!lie_side_by_side(search->mesh, a, b))
-        note(search, a < b ? a : b, a < b ? b : a);
+        note(search, a < b ? a : b, a < b ? b : a, false);
 }
 
 static void search_space(pair_search *search, const space_box *space, const uint32_t *triangles, size_t count,
@@ -159,6 +162,51 @@ static bool may_meet(const pair_search *search, uint32_t triangle, double margin
     return false;
 }
 
+static bool same_corners(const sp_mesh *mesh, uint32_t a, uint32_t b)
+{
+    const uint32_t *p = mesh->triangles[a], *q = mesh->triangles[b];
+    for (int i = 0; i < 3; i++)
+        if (p[i] != q[0] && p[i] != q[1] && p[i] != q[2])
+            return false;
+    return true;
+}
+
+/* Triangles by hash of their corners, SP_NONE where free. */
+typedef struct {
+    size_t size; /* a power of two */
+    uint32_t *slots;
+} corner_table;
+
+static bool table_create(corner_table *table, size_t triangles)
+{
+    for (table->size = 16; table->size < 2 * triangles;)
+        table->size *= 2;
+    table->slots = malloc(table->size * sizeof *table->slots);
+    if (table->slots)
+        memset(table->slots, 0xff, table->size * sizeof *table->slots);
+    return table->slots != NULL;
+}
+
+/* Whether an earlier triangle has the same corners and stands for this one: of a thousand copies one is compared with
+ * the rest of the mesh, and each of the others with that one alone. A solid's triangle does not
+ * stand for a sheet's. */
+static bool is_copy(pair_search *search, corner_table *table, uint32_t triangle)
+{
+    const sp_shells *shells = search->shells;
+    const uint32_t *corner = search->mesh->triangles[triangle];
+    uint64_t hash = sp_scramble(corner[0]) + sp_scramble(corner[1]) + sp_scramble(corner[2]);
+    size_t slot = hash & (table->size - 1);
+    while (table->slots[slot] != SP_NONE && !same_corners(search->mesh, table->slots[slot], triangle))
+        slot = (slot + 1) & (table->size - 1);
+    uint32_t first = table->slots[slot];
+    if (first == SP_NONE || (shells->closed[shells->of[first]] && !shells->closed[shells->of[triangle]])) {
+        table->slots[slot] = triangle;
+        return false;
+    }
+    note(search, first, triangle, true);
+    return true;
+}
+
 static space_box box_of(const sp_mesh *mesh, uint32_t triangle, double margin)
 {
     space_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
@@ -190,11 +238,12 @@ sp_pair *sp_pairs_create(const sp_mesh *mesh, const sp_shells *shells, double ma
                           .box = malloc((triangles + 1) * sizeof *search.box),
                           .pairs = malloc(1024 * sizeof *search.pairs),
                           .capacity = 1024};
-    search.failed = !list || !search.box || !search.pairs;
+    corner_table table = {0};
+    search.failed = !list || !search.box || !search.pairs || !table_create(&table, triangles);
     space_box space = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     for (uint32_t t = 0; !search.failed && t < triangles; t++) {
         search.box[t] = box_of(mesh, t, margin);
-        if (!may_meet(&search, t, margin))
+        if (!may_meet(&search, t, margin) || is_copy(&search, &table, t))
             continue;
         list[candidates++] = t;
         for (int k = 0; k < 3; k++) {
@@ -204,6 +253,7 @@ sp_pair *sp_pairs_create(const sp_mesh *mesh, const sp_shells *shells, double ma
     }
     search_space(&search, &space, list, candidates, 0);
     free(list);
+    free(table.slots);
     free(search.box);
     if (search.failed) {
         free(search.pairs);
