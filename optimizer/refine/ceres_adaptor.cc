@@ -2,6 +2,8 @@
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
 #include <limits>
 #include <vector>
@@ -12,7 +14,7 @@ namespace
 class Function : public ceres::CostFunction
 {
   public:
-    explicit Function(const sp_least_squares &problem) : problem_(problem)
+    Function(const sp_least_squares &problem, bool &broken) : problem_(problem), broken_(broken)
     {
         set_num_residuals(static_cast<int>(problem.residuals));
         mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.unknowns));
@@ -20,11 +22,26 @@ class Function : public ceres::CostFunction
 
     bool Evaluate(double const *const *x, double *residuals, double **jacobians) const override
     {
-        return problem_.function(problem_.user, x[0], residuals, jacobians ? jacobians[0] : nullptr);
+        const size_t count = problem_.residuals, slopes = count * problem_.unknowns;
+        double *jacobian = jacobians ? jacobians[0] : nullptr;
+        broken_ = broken_ || !problem_.function(problem_.user, x[0], residuals, jacobian) ||
+                  !finite(residuals, count) || (jacobian && !finite(jacobian, slopes));
+        if (broken_) {
+            // Ceres would print what it was given, and go on from where it was: nothing missing, and it ends.
+            std::fill_n(residuals, count, 0.0);
+            std::fill_n(jacobian, jacobian ? slopes : 0, 0.0);
+        }
+        return true;
     }
 
   private:
+    static bool finite(const double *numbers, size_t count)
+    {
+        return std::all_of(numbers, numbers + count, [](double number) { return std::isfinite(number); });
+    }
+
     const sp_least_squares &problem_;
+    bool &broken_;
 };
 
 } // namespace
@@ -36,12 +53,10 @@ bool sp_ceres_solve(const sp_least_squares *problem, double *x, double *cost, sp
         return sp_fail(error, SP_ERROR_ARGUMENT, nullptr, 0, 0,
                        "a least squares problem of %zu unknowns, %zu residuals", problem->unknowns, problem->residuals);
     try {
-        // Ceres logs an error to stderr where the first evaluation fails, whatever its logging type.
-        std::vector<double> residuals(problem->residuals);
-        if (!problem->function(problem->user, x, residuals.data(), nullptr))
-            return sp_fail(error, SP_ERROR_ARGUMENT, nullptr, 0, 0, "least squares: no residuals at the start");
+        bool broken = false;
+        std::vector<double> found(x, x + problem->unknowns);
         ceres::Problem ceres_problem;
-        ceres_problem.AddResidualBlock(new Function(*problem), nullptr, x);
+        ceres_problem.AddResidualBlock(new Function(*problem, broken), nullptr, found.data());
         ceres::Solver::Options options;
         options.minimizer_type = ceres::TRUST_REGION;
         options.linear_solver_type = ceres::DENSE_QR;
@@ -54,8 +69,11 @@ bool sp_ceres_solve(const sp_least_squares *problem, double *x, double *cost, sp
         options.minimizer_progress_to_stdout = false;
         ceres::Solver::Summary summary;
         ceres::Solve(options, &ceres_problem, &summary);
+        if (broken)
+            return sp_fail(error, SP_ERROR_ARGUMENT, nullptr, 0, 0, "least squares: no residuals, or not of numbers");
         if (summary.termination_type == ceres::FAILURE)
             return sp_fail(error, SP_ERROR_ARGUMENT, nullptr, 0, 0, "least squares: %s", summary.message.c_str());
+        std::copy(found.begin(), found.end(), x);
         if (cost)
             *cost = summary.final_cost;
         return true;

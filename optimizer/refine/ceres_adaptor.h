@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /* Residuals at x [unknowns], and where `jacobian` is not NULL their derivatives, [residuals][unknowns] row-major.
- * Returning false (where something is not finite) makes Ceres take a shorter step. */
+ * Returning false ends the solving in an error, as a number does that is not finite. */
 typedef bool (*sp_residual_function)(void *user, const double *x, double *residuals, double *jacobian);
 
 typedef struct {
@@ -23,7 +23,8 @@ typedef struct {
 } sp_least_squares;
 
 /* Minimises half the sum of squared residuals from x, which it improves in place (x never gets worse).
- * Levenberg-Marquardt, one thread, no logging. Fails only where the function fails at the start or memory runs out. */
+ * Levenberg-Marquardt, one thread, no logging. Fails where the function ever fails or memory runs out; x is then as it
+ * was. */
 bool sp_ceres_solve(const sp_least_squares *problem, double *x, double *cost, sp_error *error);
 
 #ifdef __cplusplus

@@ -110,7 +110,7 @@ static double miss_of_any(const sp_soft *soft, size_t patch, size_t but)
         for (size_t k = l; k < end; k++)
             cover += soft->nozzles[soft->links[k].nozzle].level[soft->links[k].arrival];
         if (!(l <= but && but < end))
-            miss *= fmax(0, 1 - cover);
+            miss *= cover > 1 ? 0 : 1 - cover; /* and not a number where it is none */
     }
     return miss;
 }
