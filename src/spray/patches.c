@@ -114,13 +114,13 @@ static bool set_lengths(sp_evaluator *evaluator)
 static bool link_patches(sp_evaluator *evaluator, const sp_texel_links *touching)
 {
     sp_patches *patches = &evaluator->patches;
-    uint32_t links = 0;
+    size_t links = 0; /* the caller has seen to it that they fit */
     for (int pass = 0; pass < 2; pass++) {
         links = 0;
         for (size_t patch = 0; patch < patches->count; patch++) {
             uint32_t texel = patches->texel[patch];
             bool back = patches->side[patch] == SP_SIDE_BACK;
-            patches->neighbour_start[patch] = links;
+            patches->neighbour_start[patch] = (uint32_t)links;
             for (uint32_t k = touching->start[texel]; k < touching->start[texel + 1]; k++) {
                 uint32_t other = evaluator->texel_patch[touching->items[k]][back];
                 if (other == SP_NONE)
@@ -135,8 +135,34 @@ static bool link_patches(sp_evaluator *evaluator, const sp_texel_links *touching
         if (!patches->neighbours)
             return false;
     }
-    patches->neighbour_start[patches->count] = links;
+    patches->neighbour_start[patches->count] = (uint32_t)links;
     return true;
+}
+
+/* Patches and their neighbours have numbers of 32 bits. Every link of two texels is one of two patches on either side.
+ */
+static bool numbers_fit(const sp_evaluator *evaluator, size_t patches, size_t texel_links, sp_error *error)
+{
+    return (patches < SP_NONE && texel_links < SP_NONE / 2) ||
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "a texel of %g m cuts the surface into %zu patches, too many: take a coarser one",
+                   evaluator->atlas->texel, patches);
+}
+
+static bool fill_patches(sp_evaluator *evaluator, patch_place (*places)[2], size_t count, sp_error *error)
+{
+    if (!numbers_fit(evaluator, count, 0, error))
+        return false;
+    if (!allocate_patches(&evaluator->patches, count))
+        return sp_fail_memory(error);
+    number_patches(evaluator, places);
+    sp_texel_links touching = {0};
+    bool done = set_lengths(evaluator) || sp_fail_memory(error);
+    done = done && sp_texel_links_create(&touching, evaluator->atlas, evaluator->setup.mesh, error) &&
+           numbers_fit(evaluator, count, touching.start[evaluator->atlas->texel_count], error) &&
+           (link_patches(evaluator, &touching) || sp_fail_memory(error));
+    sp_texel_links_destroy(&touching);
+    return done;
 }
 
 bool sp_patches_create(sp_evaluator *evaluator, sp_error *error)
@@ -156,17 +182,9 @@ bool sp_patches_create(sp_evaluator *evaluator, sp_error *error)
     size_t count = 0;
     for (size_t texel = 0; texel < texels; texel++)
         count += (places[texel][0].triangle != SP_NONE) + (places[texel][1].triangle != SP_NONE);
-    bool done = allocate_patches(&evaluator->patches, count);
-    if (done) {
-        number_patches(evaluator, places);
-        sp_texel_links touching = {0};
-        done = set_lengths(evaluator) &&
-               sp_texel_links_create(&touching, evaluator->atlas, evaluator->setup.mesh, error) &&
-               link_patches(evaluator, &touching);
-        sp_texel_links_destroy(&touching);
-    }
+    bool done = fill_patches(evaluator, places, count, error);
     free(places);
-    return done || sp_fail_memory(error);
+    return done;
 }
 
 void sp_patches_free(sp_patches *patches)

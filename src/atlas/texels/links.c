@@ -86,18 +86,21 @@ static bool pair_edges(pairs *p, const sp_atlas *atlas, const sp_mesh *mesh, sp_
     return done;
 }
 
-static bool collect(sp_texel_links *links, const sp_atlas *atlas, pairs *p)
+static bool collect(sp_texel_links *links, const sp_atlas *atlas, pairs *p, sp_error *error)
 {
     if (p->count && !sp_sort_keys(p->items, p->count))
-        return false;
+        return sp_fail_memory(error);
     size_t unique = 0;
     for (size_t i = 0; i < p->count; i++)
         if (i == 0 || p->items[i] != p->items[i - 1])
             p->items[unique++] = p->items[i];
     links->start = calloc(atlas->texel_count + 1, sizeof *links->start);
     links->items = malloc((unique + !unique) * sizeof *links->items);
-    if (!links->start || !links->items || unique >= SP_NONE)
-        return false;
+    if (!links->start || !links->items)
+        return sp_fail_memory(error);
+    if (unique >= SP_NONE)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "a texel of %g m has more than 2^32 neighbours on the surface",
+                       atlas->texel);
     for (size_t i = 0; i < unique; i++) {
         links->start[(p->items[i] >> 32) + 1]++;
         links->items[i] = (uint32_t)p->items[i];
@@ -117,7 +120,7 @@ bool sp_texel_links_create(sp_texel_links *links, const sp_atlas *atlas, const s
     bool done = true;
     for (uint32_t t = 0; t < mesh->triangle_count && done; t++)
         done = pair_inside(&p, &pieces, atlas, mesh, t);
-    done = done && pair_edges(&p, atlas, mesh, error) && collect(links, atlas, &p);
+    done = done && pair_edges(&p, atlas, mesh, error) && collect(links, atlas, &p, error);
     free(p.items);
     sp_pieces_free(&pieces);
     if (done)
