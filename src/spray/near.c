@@ -18,6 +18,7 @@
 #define FINEST 0x1p-40  /* of the patch's length: no cell is halved below it */
 #define CELLS_MOST 4096 /* of one patch: more than it takes a nanometre off a wall */
 #define CORNERS 14      /* 8 of a piece, and one more for every side of a box */
+#define EQUAL 1e-9      /* share by which a side is no longer than another: the first of equal ones is halved */
 #define ROUND_OFF 1e-12 /* of a cell's area, that a cut may leave of nothing; rad */
 
 typedef enum {
@@ -270,7 +271,8 @@ static void cut_cell(cutting *cut, size_t first, size_t end, double whole)
     if (!(cell.middle.area > ROUND_OFF * whole))
         return;
     sp_vec3 size = sp_sub(cell.high, cell.low);
-    int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    double longest = fmax(size.x, fmax(size.y, size.z)) * (1 - EQUAL);
+    int axis = size.x >= longest ? 0 : size.y >= longest ? 1 : 2;
     double side = coordinate(size, axis), plane = 0.5 * (coordinate(cell.low, axis) + coordinate(cell.high, axis));
     double radius = 0.5 * sp_length(size);
     sp_vec3 middle = sp_scale(sp_add(cell.low, cell.high), 0.5);
