@@ -6,7 +6,7 @@
 #define JETS_LEAST 256.0 /* of a mounting point at a speed */
 #define JETS_MOST 16384.0
 #define BOUNCES 3
-#define MOUTH 1e-6 /* m that a jet flies off a wall before anything stops it */
+#define MOUTH 1e-7 /* texels that a jet flies off a wall before anything stops it */
 
 /* The patch of `evaluator` on a triangle's side; SP_NONE where that is not counted. */
 static uint32_t patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back)
@@ -52,7 +52,7 @@ static void follow(const sp_evaluator *coarse, sp_ray ray, bool *met)
         double speed = sp_length(ray.velocity);
         if (!(speed > 0))
             return;
-        ray.t_min = MOUTH / speed;
+        ray.t_min = MOUTH * sp_evaluator_fidelity(coarse)->texel / speed;
     }
 }
 

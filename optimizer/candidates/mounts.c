@@ -9,7 +9,7 @@
 
 #define SITES_MOST 100000   /* beyond that a spacing is taken for a mistake */
 #define SAMPLES_PER_SITE 16 /* points to choose from, per square of the spacing */
-#define STANDOFF_LEAST 1e-4 /* m: on the surface itself every line of sight would start in it */
+#define STANDOFF_LEAST 1e-3 /* of the spacing: on the surface itself every line of sight would start in it */
 
 static bool append(sp_sites *sites, const sp_site *site, sp_error *error)
 {
@@ -113,7 +113,7 @@ static sp_site stood_off(const sp_mesh *mesh, const sp_mount *mount, uint32_t in
     sp_vec3 normal = sp_triangle_normal(mesh, triangle);
     if (back)
         normal = sp_scale(normal, -1);
-    return (sp_site){.position = sp_along(point, fmax(mount->standoff, STANDOFF_LEAST), normal),
+    return (sp_site){.position = sp_along(point, fmax(mount->standoff, STANDOFF_LEAST * mount->spacing), normal),
                      .axis = normal,
                      .mount = index,
                      .own = mesh->part[triangle]};
