@@ -162,16 +162,16 @@ static double *known_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
     return &prices->known[place * prices->cover->tier_count + tier_of(prices, cell)];
 }
 
-/* The most flux over threshold per transfer (m²) of a cell's aims, and the least. */
+/* The most flux over threshold per transfer of a view of a cell's aims, and the least. */
 static double strength_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
 {
-    double threshold = prices->search->threshold;
-    return threshold > 0 ? sp_aim_cell_intensity(cell, &prices->kinds->items[cell->kind]) / threshold : INFINITY;
+    double plenty = prices->search->plenty;
+    return plenty > 0 ? sp_aim_cell_intensity(cell, &prices->kinds->items[cell->kind]) / plenty : INFINITY;
 }
 static double least_strength_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
 {
-    double threshold = prices->search->threshold;
-    return threshold > 0 ? sp_aim_cell_intensity_least(cell, &prices->kinds->items[cell->kind]) / threshold : INFINITY;
+    double plenty = prices->search->plenty;
+    return plenty > 0 ? sp_aim_cell_intensity_least(cell, &prices->kinds->items[cell->kind]) / plenty : INFINITY;
 }
 
 /* Whether two cells need the same worths of arrivals. */

@@ -284,7 +284,7 @@ static void conclude(const certifying *c, sp_front *front, sp_certificate *certi
 {
     double whole = 0, counted = sp_draft_counted(c->problem.search, &front->best);
     for (size_t p = 0; p < c->problem.search->patch_count; p++)
-        whole += (double)c->problem.search->area[p];
+        whole += (double)c->problem.search->area[p] * c->problem.search->all;
     for (size_t i = 0; i < front->by_water.count; i++) {
         sp_front_point *point = &front->by_water.entries[i].point;
         point->counted = sp_draft_counted(c->problem.search, &front->by_water.entries[i].draft);

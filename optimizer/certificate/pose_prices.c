@@ -146,8 +146,8 @@ void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, flo
 static sp_region prepare_worth(const sp_pose_prices *prices, scratch *own, const sp_view *view, const sp_make *make,
                                const sp_frame *frame, const sp_prices *u)
 {
-    double threshold = prices->search->threshold;
-    double strength = threshold > 0 ? make->flow / (make->spray.solid_angle * threshold) : INFINITY;
+    double plenty = prices->search->plenty;
+    double strength = plenty > 0 ? make->flow / (make->spray.solid_angle * plenty) : INFINITY;
     sp_pose_prices_worth(prices, view, (float)strength, (float)strength, u, own->worth, own->total);
     sp_cull_create(&prices->search->visibility->bins, view, &make->spray, SP_COUNT_SHARE, &own->cull);
     return sp_region_create(&make->spray, frame, strength, SLACK);

@@ -92,8 +92,9 @@ static bool set_texels(sp_problem *p, sp_error *error)
         double need = had >= 1 ? 0 : search->single ? 1 : 1 - had;
         p->need[t] = need > margin ? (float)need : 0;
         /* of what their edges leave dry, other edges cover as large a part as of all of it */
-        p->area[t] = p->need[t] > 0 ? search->area[t] * search->kept_dry[t] : 0;
-        p->cover.base += (double)search->area[t] * (1 + ROUNDED) - (double)p->area[t];
+        double whole = (double)search->area[t] * search->all;
+        p->area[t] = p->need[t] > 0 ? (float)whole * search->kept_dry[t] : 0;
+        p->cover.base += whole * (1 + ROUNDED) - (double)p->area[t];
     }
     p->cover.texel_count = search->patch_count;
     p->cover.area = p->area;

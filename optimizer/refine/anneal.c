@@ -80,7 +80,7 @@ static bool line_search(const sp_annealing *annealing, const sp_freedom *freedom
             sp_draft_free(&trial);
             return false;
         }
-        bool better = trial.value > draft->value;
+        bool better = trial.value > draft->value + SP_TIE * search->all;
         sp_draft_free(better ? draft : &trial);
         if (better) {
             *draft = trial;
@@ -116,9 +116,9 @@ static bool step(const sp_annealing *annealing, size_t width, sp_draft *draft)
 }
 
 /* Takes the copy over where it covers more with no more water. */
-static void keep_better(sp_draft *draft, sp_draft *copy, double budget)
+static void keep_better(const sp_search *search, sp_draft *draft, sp_draft *copy, double budget)
 {
-    bool better = copy->covered > draft->covered && copy->flow <= budget * (1 + SP_ROUNDING);
+    bool better = sp_covers_more(search, copy, draft) && copy->flow <= budget * (1 + SP_ROUNDING);
     sp_draft_free(better ? draft : copy);
     if (better)
         *draft = *copy;
@@ -138,7 +138,7 @@ bool sp_anneal(sp_sights *sights, size_t start, size_t end, double budget, sp_wa
         sp_draft copy;
         done = step(&annealing, w, &moving) && sp_draft_copy(sights->search, &moving, &copy, error);
         if (done)
-            keep_better(draft, &copy, budget);
+            keep_better(sights->search, draft, &copy, budget);
     }
     sp_draft_free(&moving);
     return done;

@@ -60,7 +60,7 @@ static bool try_nozzle(const sp_search *search, sp_sights *sights, double budget
                         .draft = draft,
                         .budget = budget,
                         .error = error,
-                        .least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area};
+                        .least = GAIN_LEAST * search->all};
     needle.placed = sp_draft_take(search, draft, 0);
     needle.trial = malloc(search->patch_count * sizeof *needle.trial);
     bool done = needle.trial || sp_fail_memory(error);

@@ -78,7 +78,7 @@ static bool carry_out(sp_refining *refining, sp_trials *trials, sp_draft *best)
         if (!trials->items[i].better || !may_count(refining->front, draft))
             continue;
         done = sp_front_measure(refining->front, search, draft, NULL, refining->error);
-        if (done && best && draft->covered > best->covered) {
+        if (done && best && sp_covers_more(search, draft, best)) {
             sp_draft copy;
             done = sp_draft_copy(search, draft, &copy, refining->error);
             if (done) {

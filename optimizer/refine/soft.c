@@ -148,7 +148,6 @@ static void add_row(const sp_soft *soft, size_t patch, double weight, double mis
 static void sum_chunk(sp_soft *soft, size_t chunk, bool slopes, double *row, size_t *columns)
 {
     size_t n = soft->unknowns, patches = soft->search->patch_count;
-    double all = sp_evaluator_patches(soft->search->coarse)->total_area;
     double *gradient = &soft->chunk_gradient[chunk * n], *normal = &soft->chunk_normal[chunk * n * n], cost = 0;
     if (slopes) {
         memset(gradient, 0, n * sizeof *gradient);
@@ -158,7 +157,7 @@ static void sum_chunk(sp_soft *soft, size_t chunk, bool slopes, double *row, siz
         if (soft->start[p] == soft->start[p + 1])
             continue;
         /* as a share of all: the solver's tolerances are absolute, and must not know the unit of length */
-        double weight = sqrt((double)soft->search->area[p] / all), factor = 0;
+        double weight = sqrt((double)soft->search->area[p]), factor = 0;
         double miss = soft->sums ? miss_of_sum(soft, p, &factor) : miss_of_any(soft, p, SIZE_MAX);
         cost += weight * weight * miss * miss;
         if (slopes && miss > 0)

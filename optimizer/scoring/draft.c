@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define CREDIT 0.2f /* of a patch that has almost the flux it needs: a saturating surrogate misleads the search */
-#define PORT_TOLERANCE 1e-3 /* m: a kept nozzle this near to a port's lance sits in the port */
+#define PORT_TOLERANCE 4e-4 /* of the geometry's diagonal: a kept nozzle this near to a port's lance sits in the port */
 
 static bool kept_create(sp_search *search, sp_error *error)
 {
@@ -32,11 +32,11 @@ static bool kept_create(sp_search *search, sp_error *error)
     return done;
 }
 
-static bool sits_in(const sp_nozzle *nozzle, const sp_mount *mount)
+static bool sits_in(const sp_nozzle *nozzle, const sp_mount *mount, double tolerance)
 {
     double depth = sp_dot(sp_sub(nozzle->position, mount->position), mount->axis);
     depth = fmin(fmax(depth, mount->depth_from), mount->depth_to);
-    return sp_distance(nozzle->position, sp_along(mount->position, depth, mount->axis)) <= PORT_TOLERANCE;
+    return sp_distance(nozzle->position, sp_along(mount->position, depth, mount->axis)) <= tolerance;
 }
 
 bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
@@ -52,7 +52,9 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
                           .sweeps = sp_sweep_best(),
                           .coarse = coarse,
                           .patch_count = patches->count,
+                          .all = patches->total_area,
                           .threshold = criterion->flux,
+                          .plenty = criterion->flux * sp_evaluator_patches(visibility->evaluator)->total_area,
                           .single = criterion->combine == SP_COMBINE_SINGLE,
                           .credit = criterion->combine == SP_COMBINE_SINGLE ? 0 : CREDIT};
     search->area = malloc(patches->count * sizeof *search->area);
@@ -64,16 +66,18 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
         return sp_fail_memory(error);
     }
     for (size_t p = 0; p < patches->count; p++) {
-        search->area[p] = (float)patches->area[p];
+        search->area[p] = (float)(patches->area[p] / patches->total_area);
         search->kept_dry[p] = 1;
     }
     if (options->kept && !kept_create(search, error)) {
         sp_search_free(search);
         return false;
     }
+    sp_vec3 low, high;
+    double tolerance = PORT_TOLERANCE * sp_mesh_box(sp_evaluator_setup(coarse)->mesh, &low, &high);
     for (size_t m = 0; m < options->mount_count; m++)
         for (size_t i = 0; options->mounts[m].kind == SP_MOUNT_PORT && i < search->kept_count; i++)
-            search->port_taken[m] |= sits_in(&search->kept[i], &options->mounts[m]);
+            search->port_taken[m] |= sits_in(&search->kept[i], &options->mounts[m], tolerance);
     return true;
 }
 
@@ -103,6 +107,8 @@ void sp_draft_refresh(const sp_search *search, sp_draft *draft)
         draft->value += (double)(search->area[p] * sp_worth(search, draft->wet[p], draft->dry[p]));
         draft->covered += (double)(search->area[p] * sp_covered(draft->wet[p], draft->dry[p]));
     }
+    draft->value *= search->all;
+    draft->covered *= search->all;
 }
 
 bool sp_draft_create(const sp_search *search, sp_draft *draft, sp_error *error)
@@ -199,7 +205,7 @@ double sp_draft_counted(const sp_search *search, const sp_draft *draft)
     double area = 0;
     for (size_t p = 0; p < search->patch_count; p++)
         area += (double)(search->area[p] * sp_covered(draft->wet[p], draft->dry[p]));
-    return area;
+    return area * search->all;
 }
 
 bool sp_draft_has_place(const sp_search *search, const sp_draft *draft, uint32_t mount)

@@ -8,6 +8,11 @@
 /* Flux over threshold that covers: so much more than 1 that what was rounded up to it in single precision is no less
  * than the threshold. Refinement would else stop where the search sees a patch covered and the evaluator does not. */
 #define SP_ENOUGH (1 + 0x1p-20f)
+/* Shares of the area by which equal things may differ, so that where geometry is mirrored or repeated the first of
+ * equals is taken, not the one that round-off favours: what a draft covers, and scores, which are summed in single
+ * precision. */
+#define SP_TIE 1e-9
+#define SP_SCORE_TIE 1e-6
 
 /* Everything that the search's files share. Read-only once made. */
 typedef struct {
@@ -17,8 +22,10 @@ typedef struct {
     const sp_visibility *visibility;
     const sp_evaluator *coarse;
     size_t patch_count;
-    float *area;      /* [patch_count], m² */
+    double all;       /* m² of all patches */
+    float *area;      /* [patch_count], share of all: what is rounded to single precision has no unit of length */
     double threshold; /* m³/s per m² that cover; 0: any liquid */
+    double plenty;    /* m³/s that cover all that the views show, spread evenly; 0: any liquid */
     bool single;      /* one nozzle alone must cover */
     float credit;     /* worth of an uncovered patch per share of the threshold that it has */
     const sp_sweep_set *sweeps;
@@ -96,6 +103,11 @@ static inline float sp_covered(float wet, float dry)
 void sp_draft_refresh(const sp_search *search, sp_draft *draft);
 /* What it covers of the search's patches, m², added up in their order. */
 double sp_draft_counted(const sp_search *search, const sp_draft *draft);
+/* True where a covers more than b, and not the same but for round-off. */
+static inline bool sp_covers_more(const sp_search *search, const sp_draft *a, const sp_draft *b)
+{
+    return a->covered > b->covered + SP_TIE * search->all;
+}
 /* True where the draft may take one more nozzle at the site: number and ports, not water. */
 bool sp_draft_has_place(const sp_search *search, const sp_draft *draft, uint32_t mount);
 /* Named nozzles, the kept ones first. */

@@ -56,7 +56,7 @@ void sp_sweepers_destroy(sp_sweeper *sweepers, int count)
 
 static double strength_of(const sp_search *search, const sp_make *make)
 {
-    return search->threshold > 0 ? make->flow / (make->spray.solid_angle * search->threshold) : INFINITY;
+    return search->plenty > 0 ? make->flow / (make->spray.solid_angle * search->plenty) : INFINITY;
 }
 
 void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, uint32_t site, size_t speed)
@@ -121,7 +121,7 @@ sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t rol
     const sp_weight weights[] = {{sweeper->gain, sweeper->gain_total}, {sweeper->room, sweeper->room_total}};
     double sums[2];
     search->sweeps->sum(&search->visibility->bins, &sweeper->cull, &region, sweeper->view, weights, 2, sums);
-    return (sp_score){sums[0], sums[1]};
+    return (sp_score){sums[0] * search->all, sums[1] * search->all};
 }
 
 sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose)
@@ -232,5 +232,5 @@ double sp_field_gain(const sp_search *search, const sp_draft *draft, const float
             gain += (double)(search->area[p] *
                              (sp_worth(search, wet, dry) - sp_worth(search, draft->wet[p], draft->dry[p])));
         }
-    return gain;
+    return gain * search->all;
 }

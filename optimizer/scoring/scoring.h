@@ -65,7 +65,7 @@ sp_posed_spray sp_posed_spray_of(const sp_search *search, const sp_nozzle *nozzl
 /* What one arrival comes to in a field. */
 float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 direction, double breadth, double transfer);
 /* Field [patch_count] (see sp_placed) of a spray at a view's mounting point, of so much flux over threshold per
- * transfer (m²). */
+ * transfer, as the view has it. */
 void sp_field_view(const sp_search *search, const sp_view *view, const sp_spray *spray, const sp_frame *frame,
                    double strength, float *field);
 /* The same of a candidate pose; of any nozzle, traced anew. */

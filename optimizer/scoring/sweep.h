@@ -30,7 +30,7 @@ typedef struct {
     float end[2][3];            /* fans: normals of the planes through its ends, inwards */
     bool wide, all_round;       /* fans of more than half a turn; of a whole one */
     float end_cosine, end_sine; /* fans: of the half-width */
-    float alone_from;           /* transfer (1/m²) from which an arrival may meet the criterion alone */
+    float alone_from;           /* a view's transfer from which an arrival may meet the criterion alone */
     float alone;                /* from which it surely does */
     sp_count count;
     float narrowest; /* SP_COUNT_GENEROUS: chord to the edge of the narrowest cone that is meant */
@@ -83,7 +83,7 @@ extern const size_t sp_sweep_set_count;
 /* The widest that this processor has. */
 const sp_sweep_set *sp_sweep_best(void);
 
-/* `strength`: flux over threshold per transfer (m²). `slack`: how far beyond (rad, and as a share of the transfer) an
+/* `strength`: flux over threshold per transfer of a view. `slack`: how far beyond (rad, and as a share of the transfer) an
  * edge may lie, for sums that must not be too small. */
 sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double strength, double slack);
 /* Brings the region into another frame. */

@@ -61,7 +61,7 @@ size_t sp_sightings_work(size_t cells)
 }
 
 /* The arrivals at a patch follow one another. */
-static bool take(const sp_reach *reach, sp_sightings *sightings)
+static bool take(const sp_reach *reach, double all, sp_sightings *sightings)
 {
     size_t at = sightings->parts;
     if (!reach->count)
@@ -76,7 +76,7 @@ static bool take(const sp_reach *reach, sp_sightings *sightings)
         part[i] = (sp_sighting){.x = (float)d.x,
                                 .y = (float)d.y,
                                 .z = (float)d.z,
-                                .transfer = (float)arrival->transfer,
+                                .transfer = (float)(arrival->transfer * all),
                                 .breadth = (float)arrival->breadth,
                                 .part = (float)arrival->part,
                                 .patch = arrival->patch,
@@ -108,7 +108,7 @@ bool sp_sightings_trace(const sp_evaluator *evaluator, const sp_site *site, doub
                                                   first + PART < patches ? first + PART : patches, known, error);
         if (!reach)
             return false;
-        bool done = take(reach, sightings);
+        bool done = take(reach, sp_evaluator_patches(evaluator)->total_area, sightings);
         sp_reach_destroy(reach);
         if (!done)
             return sp_fail_memory(error);

@@ -24,7 +24,7 @@ typedef struct {
     float *broadest;      /* [SP_BINS], rad, the greatest breadth of a bin's patches */
     float *cosine, *sine; /* [SP_BINS], of the bin's radius and SP_VIEW_BLUR of that together */
     float *x, *y, *z;     /* [count + SP_LANES], unit direction at the nozzle */
-    float *transfer;      /* [count + SP_LANES], 1/m² */
+    float *transfer;      /* [count + SP_LANES], per area of all patches */
     float *sharp;         /* [count + SP_LANES], 1/rad: over the patch's breadth */
     uint32_t *patch;      /* [count] */
     float *part;          /* [count], share of the patch that the arrival is of; NULL: 1, and none twice */

@@ -12,7 +12,7 @@ static bool replace(const sp_search *search, const sp_pool *pool, double budget,
 {
     double before = draft->value;
     sp_placed own = sp_draft_take(search, draft, i);
-    double step = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
+    double step = GAIN_LEAST * search->all;
     double least = sp_field_gain(search, draft, own.field) + step;
     sp_pose pose;
     if (sp_pool_best(search, pool, draft, 0, budget, bench, &pose) <= least)
@@ -85,7 +85,7 @@ static size_t *by_loss(const sp_search *search, const sp_draft *draft, sp_error 
             break;
         }
         size_t at = i;
-        for (; at > 0 && loss[order[at - 1]] > loss[i]; at--)
+        for (; at > 0 && loss[order[at - 1]] > loss[i] + SP_TIE * search->all; at--)
             order[at] = order[at - 1];
         order[at] = i;
     }
@@ -112,7 +112,7 @@ bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_draft *dra
         while (trial.count && trial.flow > budget)
             sp_draft_remove(search, &trial, trial.count - 1);
         done = sp_improve(search, pool, budget, watch, &trial, error);
-        if (done && trial.flow <= budget && (!*found || trial.covered > reduced->covered)) {
+        if (done && trial.flow <= budget && (!*found || sp_covers_more(search, &trial, reduced))) {
             if (*found)
                 sp_draft_free(reduced);
             *reduced = trial;

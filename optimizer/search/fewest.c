@@ -32,7 +32,7 @@ static bool add_one(const sp_search *search, const sp_pool *pool, const sp_draft
         return false;
     bool done = improve(search, pool, number, budget, watch, &other, error) &&
                 improve(search, pool, number, budget, watch, best, error);
-    bool better = done && other.covered > best->covered;
+    bool better = done && sp_covers_more(search, &other, best);
     sp_draft_free(better ? best : &other);
     if (better)
         *best = other;

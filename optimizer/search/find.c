@@ -54,7 +54,7 @@ static bool other_draft(const sp_finding *finding, double power)
                               finding->error);
         sp_bench_free(&bench);
     }
-    double budget = draft.covered >= coarse ? draft.flow : finding->budget;
+    double budget = draft.covered >= coarse ? draft.flow * (1 + SP_ROUNDING) : finding->budget;
     done = done && sp_improve(finding->search, finding->pool, budget, finding->watch, &draft, finding->error) &&
            sp_front_measure(finding->front, finding->search, &draft, NULL, finding->error);
     sp_draft_free(&draft);
@@ -107,7 +107,7 @@ static bool start_at(const sp_finding *finding, const sp_draft *greedy, const sp
         if (!start_from(finding, greedy, guessed, budget, i, &draft))
             return false;
         bool done = sp_improve(finding->search, finding->pool, budget, finding->watch, &draft, finding->error);
-        bool better = done && draft.covered > best->covered;
+        bool better = done && sp_covers_more(finding->search, &draft, best);
         sp_draft_free(better ? best : &draft);
         if (better)
             *best = draft;

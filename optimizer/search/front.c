@@ -7,17 +7,29 @@
 
 #define FLOW_LEAST 0.01 /* share of the water by which points of the front differ */
 
+/* m² by which equal coverages may differ. */
+static double tie_of(const sp_front *front)
+{
+    return SP_TIE * sp_evaluator_patches(front->fine)->total_area;
+}
+
+static bool less_water(const sp_front_point *a, const sp_front_point *b)
+{
+    return a->flow < b->flow * (1 - SP_ROUNDING);
+}
+
 bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b)
 {
+    double tie = tie_of(front);
     bool both = a->area >= front->target && b->area >= front->target;
     if (front->objective == SP_OBJECTIVE_MAX_COVERAGE || !both) {
         if (front->objective != SP_OBJECTIVE_MAX_COVERAGE && (a->area >= front->target) != (b->area >= front->target))
             return a->area >= front->target;
-        return a->area > b->area || (a->area == b->area && a->flow < b->flow);
+        return a->area > b->area + tie || (a->area >= b->area - tie && less_water(a, b));
     }
     if (front->objective == SP_OBJECTIVE_AREA_PER_WATER)
-        return a->area * b->flow > b->area * a->flow;
-    return a->flow < b->flow || (a->flow == b->flow && a->area > b->area);
+        return a->area * b->flow > b->area * a->flow * (1 + SP_TIE);
+    return less_water(a, b) || (!less_water(b, a) && a->area > b->area + tie);
 }
 
 static double by_water(const sp_front_point *point)
@@ -31,24 +43,24 @@ static double by_number(const sp_front_point *point)
 }
 
 /* Enters the draft at its place by `key` unless some entry of no higher key covers as much, and drops what it betters.
- */
-static bool note(sp_front_list *list, double (*key)(const sp_front_point *), const sp_search *search,
+ * What differs by round-off is equal. */
+static bool note(sp_front_list *list, double (*key)(const sp_front_point *), double tie, const sp_search *search,
                  const sp_draft *draft, const sp_front_point *point, sp_error *error)
 {
     size_t at = 0;
-    while (at < list->count && key(&list->entries[at].point) <= key(point))
+    while (at < list->count && key(&list->entries[at].point) <= key(point) * (1 + SP_ROUNDING))
         at++;
-    if (at > 0 && list->entries[at - 1].point.area >= point->area)
+    if (at > 0 && list->entries[at - 1].point.area >= point->area - tie)
         return true;
     sp_draft copy;
     if (!sp_grow(&list->entries, &list->capacity, list->count + 1, sizeof *list->entries))
         return sp_fail_memory(error);
     if (!sp_draft_copy(search, draft, &copy, error))
         return false;
-    if (at > 0 && key(&list->entries[at - 1].point) == key(point))
+    if (at > 0 && key(&list->entries[at - 1].point) * (1 + SP_ROUNDING) >= key(point))
         at--;
     size_t end = at;
-    for (; end < list->count && list->entries[end].point.area <= point->area; end++)
+    for (; end < list->count && list->entries[end].point.area <= point->area + tie; end++)
         sp_draft_free(&list->entries[end].draft);
     memmove(&list->entries[at + 1], &list->entries[end], (list->count - end) * sizeof *list->entries);
     list->entries[at] = (sp_front_entry){*point, copy};
@@ -67,8 +79,8 @@ bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *
     bool done = coverage != NULL;
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
-    if (!done || !note(&front->by_water, by_water, search, draft, &measured, error) ||
-        !note(&front->by_number, by_number, search, draft, &measured, error))
+    if (!done || !note(&front->by_water, by_water, tie_of(front), search, draft, &measured, error) ||
+        !note(&front->by_number, by_number, tie_of(front), search, draft, &measured, error))
         return false;
     if (point)
         *point = measured;

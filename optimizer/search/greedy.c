@@ -1,6 +1,7 @@
 #include "search/greedy.h"
 
 #include "grow.h"
+#include "ranking.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -54,6 +55,7 @@ typedef struct {
 typedef struct {
     const sp_search *search;
     double power, budget;
+    double tie;          /* m² by which gains may differ that are equal */
     float *room;         /* [poses], what each could gain at most; INFINITY: not yet known */
     sp_round_best *best; /* [sites x makes] */
     int threads;
@@ -76,7 +78,11 @@ static bool is_last(const sp_search *search, const sp_draft *draft)
 static bool rounds_create(const sp_search *search, double power, double budget, sp_rounds *rounds, sp_error *error)
 {
     size_t sites = search->sites->count, poses = search->candidates->pose_start[sites];
-    *rounds = (sp_rounds){.search = search, .power = power, .budget = budget, .threads = sp_sweeper_threads(search)};
+    *rounds = (sp_rounds){.search = search,
+                          .power = power,
+                          .budget = budget,
+                          .tie = SP_SCORE_TIE * search->all,
+                          .threads = sp_sweeper_threads(search)};
     rounds->room = malloc((poses ? poses : 1) * sizeof *rounds->room);
     rounds->best = calloc(sites, search->candidates->make_count * sizeof *rounds->best);
     if (!rounds->room || !rounds->best)
@@ -93,6 +99,31 @@ static void rounds_free(sp_rounds *rounds)
     sp_sweepers_destroy(rounds->sweepers, rounds->threads);
 }
 
+/* The poses of a make that gained more than all before them, of those within a tie of the highest: the first of the
+ * equals is always among them. Where there are more than fit, the last makes room. */
+typedef struct {
+    size_t count;
+    struct {
+        sp_pose pose;
+        double gain;
+    } step[16];
+} sp_rise;
+
+static void rise_note(sp_rise *rise, sp_pose pose, double gain, double tie)
+{
+    size_t kept = 0;
+    if (!(gain > 0) || (rise->count && gain <= rise->step[rise->count - 1].gain))
+        return;
+    for (size_t i = 0; i < rise->count; i++)
+        if (rise->step[i].gain + tie >= gain)
+            rise->step[kept++] = rise->step[i];
+    if (kept == sizeof rise->step / sizeof *rise->step)
+        kept--;
+    rise->step[kept].pose = pose;
+    rise->step[kept].gain = gain;
+    rise->count = kept + 1;
+}
+
 /* Scores one site's poses of a make but those that cannot beat `least`, a merit that some pose of this round has. The
  * sweeper takes the make where that is needed. */
 static void scan_make(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t make, size_t number, double least)
@@ -103,18 +134,20 @@ static void scan_make(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t make, siz
     size_t axes = sp_candidates_axes(candidates, rounds->search->sites->items[sweeper->site].mount, make)->count;
     double price = pow(own->flow, rounds->power);
     bool taken = false;
+    sp_rise rise = {0};
     for (uint32_t a = 0; a < axes; a++)
         for (uint32_t r = 0; r < own->roll_count; r++, number++) {
-            if ((double)rounds->room[number] * (1 + 1e-6) < least * price)
+            if ((double)rounds->room[number] * (1 + 1e-6) + rounds->tie < least * price)
                 continue;
             if (!taken)
                 sp_sweeper_take(sweeper, make);
             taken = true;
             sp_score score = sp_sweeper_score(sweeper, a, r);
             rounds->room[number] = (float)score.room;
-            if (score.gain / price > best->merit)
-                *best = (sp_round_best){{sweeper->site, make, a, r}, score.gain / price, score.gain};
+            rise_note(&rise, (sp_pose){sweeper->site, make, a, r}, score.gain, rounds->tie);
         }
+    if (rise.count)
+        *best = (sp_round_best){rise.step[0].pose, rise.step[0].gain / price, rise.step[0].gain};
 }
 
 static void scan_site(sp_rounds *rounds, const sp_draft *draft, sp_sweeper *sweeper, uint32_t site, double least)
@@ -172,29 +205,21 @@ static void scan(sp_rounds *rounds, const sp_draft *draft)
     sp_sweepers_forget(rounds->sweepers, rounds->threads);
 }
 
-static int compare_merit(const void *a, const void *b)
-{
-    const sp_round_best *p = a, *q = b;
-    if (p->merit != q->merit)
-        return p->merit > q->merit ? -1 : 1;
-    return compare_poses(&p->pose, &q->pose);
-}
-
 /* Of the first round every site's and make's best is remembered, of later ones the best few. */
 static bool remember(const sp_rounds *rounds, bool first, sp_pool *pool, sp_error *error)
 {
     size_t count = rounds->search->sites->count * rounds->search->candidates->make_count;
-    sp_round_best *sorted = malloc(count * sizeof *sorted);
+    sp_ranked *sorted = malloc(count * sizeof *sorted);
     if (!sorted)
         return sp_fail_memory(error);
     size_t found = 0;
     for (size_t i = 0; i < count; i++)
         if (rounds->best[i].merit > 0)
-            sorted[found++] = rounds->best[i];
-    qsort(sorted, found, sizeof *sorted, compare_merit);
+            sorted[found++] = (sp_ranked){rounds->best[i].merit, i};
+    sp_rank_falling_ties(sorted, found, SP_SCORE_TIE);
     bool done = true;
     for (size_t i = 0; done && i < found && (first || i < POOL_PER_ROUND); i++)
-        done = sp_pool_add(pool, sorted[i].pose, error);
+        done = sp_pool_add(pool, rounds->best[sorted[i].at].pose, error);
     free(sorted);
     return done;
 }
@@ -202,18 +227,23 @@ static bool remember(const sp_rounds *rounds, bool first, sp_pool *pool, sp_erro
 static const sp_round_best *round_best(const sp_rounds *rounds)
 {
     size_t count = rounds->search->sites->count * rounds->search->candidates->make_count;
-    const sp_round_best *best = &rounds->best[0];
-    for (size_t i = 1; i < count; i++)
-        if (rounds->best[i].merit > best->merit)
-            best = &rounds->best[i];
-    return best;
+    const sp_make *makes = rounds->search->candidates->makes;
+    double most = 0;
+    for (size_t i = 0; i < count; i++)
+        most = fmax(most, rounds->best[i].merit);
+    for (size_t i = 0; most > 0 && i < count; i++) {
+        const sp_round_best *best = &rounds->best[i];
+        if (best->merit > 0 && best->gain + rounds->tie >= most * pow(makes[best->pose.make].flow, rounds->power))
+            return best;
+    }
+    return &rounds->best[0];
 }
 
 bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_watch *watch, sp_draft *draft,
                sp_pool *pool, sp_error *error)
 {
     sp_rounds rounds;
-    double least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
+    double least = GAIN_LEAST * search->all;
     bool done = rounds_create(search, power, budget, &rounds, error);
     bool first = true;
     sp_search exact = *search;
@@ -257,6 +287,11 @@ void sp_bench_free(sp_bench *bench)
     *bench = (sp_bench){0};
 }
 
+static double price_of(const sp_search *search, const sp_pose *pose, double power)
+{
+    return pow(search->candidates->makes[pose->make].flow, power);
+}
+
 double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
                     sp_bench *bench, sp_pose *best)
 {
@@ -270,22 +305,21 @@ double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft
         scores[i] = allowed ? sp_score_pose(sweeper, search, draft, pose).gain : 0;
     }
     sp_sweepers_forget(bench->sweepers, bench->threads);
-    double merit = 0, gain = 0;
-    for (size_t i = 0; i < pool->count; i++) {
-        double candidate = scores[i] / pow(search->candidates->makes[pool->items[i].make].flow, power);
-        if (candidate > merit) {
-            merit = candidate;
-            gain = scores[i];
+    double merit = 0, tie = SP_SCORE_TIE * search->all;
+    for (size_t i = 0; i < pool->count; i++)
+        merit = fmax(merit, scores[i] / price_of(search, &pool->items[i], power));
+    for (size_t i = 0; merit > 0 && i < pool->count; i++)
+        if (scores[i] > 0 && scores[i] + tie >= merit * price_of(search, &pool->items[i], power)) {
             *best = pool->items[i];
+            return scores[i];
         }
-    }
-    return gain;
+    return 0;
 }
 
 bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, double target, double budget,
                     sp_bench *bench, sp_draft *draft, sp_error *error)
 {
-    double least = GAIN_LEAST * sp_evaluator_patches(search->coarse)->total_area;
+    double least = GAIN_LEAST * search->all;
     bool done = true;
     while (done && draft->covered < target) {
         sp_pose pose;

@@ -92,7 +92,7 @@ static void enter(guessing *g, const path *p)
         while (n < p->count && p->flow[n] <= g->budgets[b])
             n++;
         start *own = &g->starts[b * SP_LINEUP_MOST + n - (n > 0)];
-        if (!n || p->covered[n - 1] <= own->covered)
+        if (!n || p->covered[n - 1] <= own->covered + SP_TIE * g->table->search->all)
             continue;
         *own = (start){.count = n, .covered = p->covered[n - 1], .flow = p->flow[n - 1]};
         memcpy(own->row, p->row, n * sizeof *own->row);
@@ -144,7 +144,7 @@ static bool add_guesses(guessing *g, const sp_lineup *lineup, size_t most, sp_er
         if (gain > 0)
             list[found++] = (sp_ranked){gain / sqrt(sp_table_flow(g->table, r)), r};
     }
-    sp_rank_falling(list, found);
+    sp_rank_falling_ties(list, found, SP_SCORE_TIE);
     for (size_t i = 0; i < found && i < most; i++)
         for (int way = 0; way < 2; way++) {
             path *p = &g->paths[g->path_count++];
@@ -201,7 +201,7 @@ static void improve(const guessing *g, size_t b, sp_lineup *own, sp_lineup *scra
             break;
         sp_lineup_set(own, from->row, from->count);
         sp_lineup_improve(own, g->budgets[b]);
-        if (own->covered > best->covered)
+        if (own->covered > best->covered + SP_TIE * g->table->search->all)
             sp_lineup_set(best, own->row, own->count);
     }
     if (6 * (double)best->count * work_of(g, best->count) <= REGROUP_WORK)

@@ -34,6 +34,7 @@ static void count_covered(sp_lineup *lineup)
     lineup->covered = 0;
     for (size_t p = 0; p < lineup->table->patch_count; p++)
         lineup->covered += (double)(lineup->table->area[p] * sp_covered(lineup->wet[p], lineup->dry[p]));
+    lineup->covered *= lineup->table->search->all;
 }
 
 static void pour(sp_lineup *lineup, uint32_t row)
@@ -112,7 +113,7 @@ static double gain_of(const sp_lineup *lineup, size_t row, float credit)
             gain += (double)(table->area[p] * more_worth(table->search->single, credit, lineup->wet[p], lineup->dry[p],
                                                          table->field[i]));
     }
-    return gain;
+    return gain * table->search->all;
 }
 
 double sp_lineup_gain(const sp_lineup *lineup, uint32_t row, double budget)
@@ -122,7 +123,7 @@ double sp_lineup_gain(const sp_lineup *lineup, uint32_t row, double budget)
     return fits ? gain_of(lineup, row, lineup->table->search->credit) : 0;
 }
 
-/* What every row gains. Patch by patch: most patches are wet already when the last rows are chosen. */
+/* What every row gains, as a share of all. Patch by patch: most patches are wet already when the last rows are chosen. */
 static void set_gains(sp_lineup *lineup, float credit)
 {
     const sp_table *table = lineup->table;
@@ -139,32 +140,35 @@ static void set_gains(sp_lineup *lineup, float credit)
     }
 }
 
+static double price_of(const sp_table *table, size_t row, double power)
+{
+    return power == 0 ? 1 : pow(sp_table_flow(table, row), power);
+}
+
 uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double budget, double *gain)
 {
     const sp_table *table = lineup->table;
-    uint32_t best = 0;
     double merit = 0;
     *gain = 0;
     if (!has_number(lineup))
         return 0;
     set_gains(lineup, credit);
     for (size_t r = 0; r < table->row_count; r++) {
-        double flow = sp_table_flow(table, r);
-        if (lineup->flow + flow > budget || !has_place(lineup, r))
-            continue;
-        double own = lineup->gain[r], per = power == 0 ? own : own / pow(flow, power);
-        if (per > merit) {
-            merit = per;
-            best = (uint32_t)r;
-            *gain = own;
-        }
+        if (lineup->flow + sp_table_flow(table, r) > budget || !has_place(lineup, r))
+            lineup->gain[r] = 0;
+        merit = fmax(merit, lineup->gain[r] / price_of(table, r, power));
     }
-    return best;
+    for (size_t r = 0; merit > 0 && r < table->row_count; r++)
+        if (lineup->gain[r] > 0 && lineup->gain[r] + SP_SCORE_TIE >= merit * price_of(table, r, power)) {
+            *gain = lineup->gain[r] * table->search->all;
+            return (uint32_t)r;
+        }
+    return 0;
 }
 
 static double least_gain(const sp_lineup *lineup)
 {
-    return GAIN_LEAST * sp_evaluator_patches(lineup->table->search->coarse)->total_area;
+    return GAIN_LEAST * lineup->table->search->all;
 }
 
 static void fill(sp_lineup *lineup, float credit, double budget)
@@ -228,7 +232,7 @@ static size_t nearest(const sp_lineup *lineup, size_t i)
 {
     const sp_table *table = lineup->table;
     size_t near = i;
-    double most = -1;
+    double most = -1; /* share of all */
     for (size_t k = 0; k < lineup->count; k++) {
         size_t a = table->start[lineup->row[i]], b = table->start[lineup->row[k]];
         double shared = 0;
@@ -239,7 +243,7 @@ static size_t nearest(const sp_lineup *lineup, size_t i)
             a += p <= q;
             b += q <= p;
         }
-        if (k != i && shared > most) {
+        if (k != i && shared > most + SP_SCORE_TIE) {
             near = k;
             most = shared;
         }

@@ -11,7 +11,7 @@ typedef struct {
     size_t row_count;
     const sp_placed *const *others; /* the rows behind the pool's */
     size_t patch_count;             /* of the sample */
-    float *area;                    /* [patch_count], m²: each stands for its neighbours, too */
+    float *area;                    /* [patch_count], share of all: each stands for its neighbours, too */
     float *kept_wet, *kept_dry;     /* [patch_count] */
     size_t *start;                  /* [row_count + 1] */
     uint32_t *patch;

@@ -55,7 +55,7 @@ static void look(sp_walker *walker, uint32_t site, uint32_t make, double power, 
         size_t at = poses > POSES ? draw(walker, poses) : i;
         sp_pose pose = {site, make, (uint32_t)(at / own->roll_count), (uint32_t)(at % own->roll_count)};
         double gain = sp_score_pose(walker->sweeper, walker->search, walker->draft, pose).gain;
-        if (gain > GAIN_LEAST * walker->area && gain / price > best->merit)
+        if (gain > GAIN_LEAST * walker->area && (gain - SP_SCORE_TIE * walker->area) / price > best->merit)
             *best = (sp_walk_choice){pose, gain / price};
     }
 }
@@ -131,7 +131,7 @@ static bool step(sp_walker *walker, double temperature)
 static bool keep(const sp_walker *walker, sp_draft *best)
 {
     sp_draft copy;
-    if (walker->draft->covered <= best->covered)
+    if (walker->draft->covered <= best->covered + SP_TIE * walker->area)
         return true;
     if (!sp_draft_copy(walker->search, walker->draft, &copy, walker->error))
         return false;
@@ -166,7 +166,7 @@ bool sp_walk(const sp_search *search, double budget, double effort, uint64_t see
         return false;
     sp_walker walker = {.search = search,
                         .budget = budget,
-                        .area = sp_evaluator_patches(search->coarse)->total_area,
+                        .area = search->all,
                         .state = seed,
                         .sweeper = sp_sweepers_create(search, 1, error),
                         .draft = &moving,

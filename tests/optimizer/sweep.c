@@ -169,7 +169,7 @@ static void views_hold_what_single_rays_find(void **state)
         assert_true(expected > 100);
         for (size_t i = 0; i < view->count; i++)
             if (!is_cut[view->patch[i]]) {
-                found += (double)view->transfer[i];
+                found += (double)view->transfer[i] / s.search.all;
                 whole++;
             }
         assert_int_equal(whole, expected);
@@ -259,7 +259,8 @@ static void every_instruction_set_gives_the_same_bits(void **state)
         const sp_view *view = &s.visibility.views[pose.site * 2 + make->speed_class];
         sp_nozzle nozzle = sp_pose_nozzle(&s.candidates, &s.sites, pose, sp_v(0, 0, 1));
         sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, sp_v(0, 0, 1));
-        const double strength = 1 / (0.3 + 2 * next_random(&random)); /* of some arrivals enough for one nozzle alone */
+        /* of some arrivals enough for one nozzle alone */
+        const double strength = 1 / (s.search.all * (0.3 + 2 * next_random(&random)));
         sp_region region = sp_region_create(&make->spray, &frame, strength, 0);
         sp_cull cull;
         sp_cull_create(&s.visibility.bins, view, &make->spray, SP_COUNT_SHARE, &cull);
@@ -322,7 +323,7 @@ static void scores_are_what_fields_add(void **state)
             double gain = sp_field_gain(&s.search, &draft, field), room = 0;
             for (size_t p = 0; p < patches; p++)
                 room += field[p] != 0 && draft.wet[p] < 1
-                            ? (double)s.search.area[p] * fmin(1, fabs((double)fminf(field[p], 0)) + (field[p] > 0)) *
+                            ? s.search.all * (double)s.search.area[p] * fmin(1, fabs((double)fminf(field[p], 0)) + (field[p] > 0)) *
                                   (1 - (double)sp_worth(&s.search, draft.wet[p], draft.dry[p]))
                             : 0;
             /* single precision may see two points on the pattern's very edge otherwise */
