@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #define SHARE_LEAST 0.2 /* of a step, that is tried before it is given up */
+#define MARKS 512       /* of half an unknown's range: finer, the solver's answers are round-off */
 
 static const sp_width widths[SP_WIDTHS] = {{0.8, 0.085},  {0.4, 0.06},    {0.2, 0.042},   {0.1, 0.03},
                                            {0.05, 0.021}, {0.025, 0.015}, {0.0125, 0.006}};
@@ -90,6 +91,17 @@ static bool line_search(const sp_annealing *annealing, const sp_freedom *freedom
     return true;
 }
 
+/* The solver takes its slopes from differences, so that its answers hold to 1e-8 or so of the range, and what comes of
+ * them would be another layout at another scale. They are brought to the nearest mark, which is finer than the
+ * compass's least step. */
+static void mark(const sp_freedom *freedom, double values[SP_UNKNOWNS])
+{
+    for (size_t k = 0; k < freedom->count; k++) {
+        double half = 0.5 * (freedom->high[k] - freedom->low[k]), middle = freedom->low[k] + half;
+        values[k] = middle + half * (nearbyint((values[k] - middle) / half * MARKS) / MARKS);
+    }
+}
+
 /* One outer step: solve with visibility frozen, apply, look again. */
 static bool step(const sp_annealing *annealing, size_t width, sp_draft *draft)
 {
@@ -105,10 +117,11 @@ static bool step(const sp_annealing *annealing, size_t width, sp_draft *draft)
         views[i] = sp_sights_look(annealing->sights, &draft->items[i], annealing->error);
         done = views[i] != NULL;
     }
-    done = done &&
-           sp_soft_solve(search, freedoms, views, draft->count, widths[width], annealing->budget, values,
-                         annealing->error) &&
-           line_search(annealing, freedoms, values, width >= SP_CAREFUL, draft);
+    done = done && sp_soft_solve(search, freedoms, views, draft->count, widths[width], annealing->budget, values,
+                                 annealing->error);
+    for (size_t i = 0; done && i < draft->count; i++)
+        mark(&freedoms[i], values[i]);
+    done = done && line_search(annealing, freedoms, values, width >= SP_CAREFUL, draft);
     free(freedoms);
     free(views);
     free(values);
