@@ -4,6 +4,8 @@
 #include "search/find.h"
 #include "refine/refine.h"
 
+#include <sprayplan/points.h>
+
 #include <stdlib.h>
 
 /* Of the time limit, at most, for all that goes before the certificate; the second with --prove. */
@@ -107,10 +109,73 @@ static bool write_down(const sp_placement *placement, sp_layout **layout, sp_cov
     return *coverage != NULL;
 }
 
+static bool measure(const sp_placement *placement, sp_proposal *proposal, sp_error *error)
+{
+    return sp_measure_error(placement->fine, proposal->layout, proposal->coverage, SP_TRAJECTORY_AUTO,
+                            sp_evaluator_fidelity(placement->fine)->seed, &proposal->coverage->measured, error);
+}
+
+/* Every draft of the fronts, counted on the fine evaluator of now. */
+static bool count_front_again(sp_placement *placement, const sp_front *before, sp_error *error)
+{
+    const sp_front_list *lists[] = {&before->by_water, &before->by_number};
+    bool done = sp_front_measure(&placement->front, &placement->search, &before->best, NULL, error);
+    for (int k = 0; k < 2; k++)
+        for (size_t i = 0; done && i < lists[k]->count; i++)
+            done = sp_front_measure(&placement->front, &placement->search, &lists[k]->entries[i].draft, NULL, error);
+    return done;
+}
+
+/* All that was found, on another evaluator, which becomes the proposal's; what is best then is proposed. */
+static bool count_again(sp_placement *placement, sp_proposal *proposal, sp_evaluator *again, sp_error *error)
+{
+    sp_front before = placement->front;
+    sp_evaluator *outdated = proposal->again;
+    placement->front = (sp_front){0};
+    placement->fine = proposal->again = again;
+    free(proposal->attainable);
+    free(proposal->reasons);
+    sp_coverage_destroy(proposal->greedy_coverage);
+    sp_coverage_destroy(proposal->coverage);
+    sp_layout_destroy(proposal->layout);
+    proposal->attainable = NULL;
+    proposal->reasons = NULL;
+    proposal->coverage = NULL;
+    proposal->layout = NULL;
+    proposal->greedy_coverage = sp_evaluate(again, proposal->greedy, error);
+    bool done = proposal->greedy_coverage && set_target(placement, proposal, error) &&
+                count_front_again(placement, &before, error) &&
+                write_down(placement, &proposal->layout, &proposal->coverage, error);
+    sp_front_free(&before);
+    sp_evaluator_destroy(outdated);
+    return done;
+}
+
+/* No coverage is proposed that points of the surface do not confirm: where auto's choice does not keep the accuracy, or
+ * was made by lines for another layout, all is counted again by a dearer one, as long as there are any. */
+static bool confirm(sp_placement *placement, sp_proposal *proposal, sp_error *error)
+{
+    sp_watch_allow(&placement->watch, 1);
+    double accuracy = sp_evaluator_fidelity(placement->fine)->accuracy;
+    while (measure(placement, proposal, error)) {
+        const sp_measured_error *measured = &proposal->coverage->measured;
+        bool off = measured->known && measured->estimate > accuracy;
+        sp_evaluator *again = NULL;
+        if (!sp_watch_has_time(&placement->watch, "measured error", 0))
+            return true;
+        if (!sp_evaluator_again(placement->fine, off, &again, error))
+            return false;
+        if (!again)
+            return sp_watch_stage(&placement->watch, "measured error", error);
+        if (!count_again(placement, proposal, again, error))
+            return false;
+    }
+    return false;
+}
+
 /* Nothing is proved by the one evaluation of which the other was not asked first. */
 static bool check_forward(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
-    sp_watch_allow(&placement->watch, 1);
     return sp_check_forward(placement->search.coarse, proposal->layout, &placement->watch, &proposal->forward_check,
                             error) &&
            sp_watch_stage(&placement->watch, "forward check", error);
@@ -169,7 +234,8 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
                 sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
                 sp_visibility_sound(&placement.visibility, error) &&
                 write_down(&placement, &proposal->layout, &proposal->coverage, error) &&
-                sp_watch_stage(&placement.watch, "refine", error) && check_forward(&placement, proposal, error) &&
+                sp_watch_stage(&placement.watch, "refine", error) && confirm(&placement, proposal, error) &&
+                check_forward(&placement, proposal, error) &&
                 certify(&placement, proposal, error) && sp_visibility_sound(&placement.visibility, error) &&
                 sp_watch_stage(&placement.watch, "certificate", error) && conclude(&placement, proposal, error);
     placement_free(&placement);
@@ -192,5 +258,6 @@ void sp_proposal_destroy(sp_proposal *proposal)
     free(proposal->front);
     free(proposal->by_number);
     free(proposal->stages);
+    sp_evaluator_destroy(proposal->again);
     free(proposal);
 }

@@ -107,6 +107,7 @@ typedef struct {
 typedef struct {
     bool known;       /* false: nothing below means anything */
     double estimate;  /* the error of the coverage is hardly ever larger than this */
+    double bias;      /* mean difference that was found: above 0, too much is covered */
     double misjudged; /* mean size of what each point is off by, whichever way */
     size_t points;    /* as many were judged */
 } sp_measured_error;
@@ -116,6 +117,12 @@ typedef struct {
     bool known;  /* false: nothing below means anything */
     double area; /* m², of patches whole */
 } sp_borderline;
+
+/* Counted, so that it is the same on every machine. */
+typedef struct {
+    size_t places; /* patches and cells to which flights were solved for */
+    size_t rays;   /* traced */
+} sp_work;
 
 typedef struct {
     double area;                                    /* clean (and wet) area, m² */
@@ -127,6 +134,7 @@ typedef struct {
     sp_balance balance;         /* known from the forward evaluator; else sp_evaluate_balance works it out */
     sp_measured_error measured; /* not known until sp_measure_error is asked for it */
     sp_borderline borderline;   /* not known until sp_find_borderline is asked for it */
+    sp_work work;               /* of evaluating */
     sp_deposits deposits;
 } sp_coverage;
 

@@ -33,16 +33,42 @@ typedef struct {
 typedef struct sp_evaluator sp_evaluator;
 
 /* Builds accelerator, wet sides, atlas and patches. The setup is copied, its mesh and surfaces are borrowed and must
- * outlive the evaluator. Settings left to auto are chosen now. Given NULL it returns NULL and keeps the error. */
+ * outlive the evaluator. Settings left to auto become the plain safe ones: parabolas, 100,000 texels on what is cleaned
+ * and counted, jets for them, and jets at all, with three reflections, only where walls throw liquid back. Given NULL
+ * it returns NULL and keeps the error. */
 sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error);
+/* The same for a layout (borrowed for the call; NULL or without nozzles: as above), with the cheapest settings that keep
+ * the setup's accuracy as measured on it (see sp_measure_error), so that they hold for it and layouts like it:
+ *  - the texel, inverse: the longest, between that of 30,000 texels and of 1,600,000, on which no more area is
+ *    misjudged than the accuracy and the error estimated is at most half of it
+ *  - the trajectory, inverse: lines where the error against parabolas is at most half the accuracy and a tenth of the work, as
+ *    counted, is saved
+ *  - forward: shorter texels where the first impact of few jets on long texels is found to cover too much, more jets
+ *    where too little, until its error estimated is at most half the accuracy; in the end the best that was tried
+ *  - reflections: as many as it takes until the liquid that still flies can change the coverage by no more than a
+ *    quarter of the accuracy, eight at most
+ * Nothing depends on time or threads. It costs about as much as two or three evaluations. */
+sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *layout, sp_error *error);
 /* A second evaluator on the same geometry with another texel size (m), sharing accelerator, charts and wet sides with
  * `fine`, which must outlive it. On thin parts and on what is not cleaned its texels differ from `texel` in proportion
  * to those of `fine`. Inverse, whatever the setup asks: for searching. */
 sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_error *error);
+/* A third on the same geometry, by the scene's own method, to count on again what was found on `evaluator`, which must
+ * outlive it: by parabolas where auto took lines, and with `shorter` on texels half as long where auto chose them. NULL
+ * in *again where neither changes anything: auto takes no shorter texels than 1,600,000. False on error. */
+bool sp_evaluator_again(const sp_evaluator *evaluator, bool shorter, sp_evaluator **again, sp_error *error);
 void sp_evaluator_destroy(sp_evaluator *evaluator);
 
 const sp_setup *sp_evaluator_setup(const sp_evaluator *evaluator);
 const sp_fidelity *sp_evaluator_fidelity(const sp_evaluator *evaluator); /* nothing left to auto */
+/* Why settings that the setup left to auto are as they are, a clause of plain text each; "" where the setup itself says
+ * or nothing was measured. */
+#define SP_WHY 160
+typedef struct {
+    char trajectory[SP_WHY], method[SP_WHY], reflections[SP_WHY], jets[SP_WHY], texel[SP_WHY];
+    bool missed; /* nothing that was tried keeps the accuracy with half of it to spare */
+} sp_choice;
+const sp_choice *sp_evaluator_choice(const sp_evaluator *evaluator);
 /* Jets per nozzle that so short a texel wants, where the forward evaluator flies fewer (whether they were asked for or
  * are the most that it chooses itself); else 0. */
 double sp_evaluator_jets_wanted(const sp_evaluator *evaluator);
@@ -137,6 +163,7 @@ typedef struct {
 typedef struct {
     size_t count;
     sp_arrival *arrivals; /* ascending by patch; cell by cell; low arc before high arc */
+    sp_work work;         /* that it took */
 } sp_reach;
 
 /* All unoccluded arrivals from `position` at `speed` within `half_angle` (rad, π for all) about the unit `axis`, or so

@@ -124,10 +124,12 @@ typedef struct {
 /* Owned by the caller. */
 typedef struct {
     sp_layout *layout;     /* the proposal, refined */
-    sp_coverage *coverage; /* of it, by the scene's own settings */
+    sp_coverage *coverage; /* of it, by the scene's own settings, its error measured */
+    sp_evaluator *again;   /* NULL; or owned, and all here is counted on it: what auto had chosen for the search did not
+                            * keep the accuracy on the proposal (sp_evaluator_again) */
     sp_layout *greedy;     /* the best found on the candidates, before refinement */
     sp_coverage *greedy_coverage;
-    bool *attainable;       /* [patches], by the allowed nozzles or either layout above */
+    bool *attainable;       /* [patches], of `again` where there is one, by the allowed nozzles or either layout above */
     sp_reason *reasons;     /* [patches]: why not */
     double attainable_area; /* m² */
     double asked_area;      /* m²: options' coverage of the surface to be cleaned */
@@ -147,7 +149,8 @@ typedef struct {
 } sp_proposal;
 
 /* Greedy next-best-view placement by the inverse evaluator, then refinement with Ceres accepted only where the
- * re-traced objective improves. Deterministic. Returns NULL on error, never for a target that cannot be reached. Fails
+ * re-traced objective improves. The error of the proposal's coverage is measured; where it is above the accuracy, and
+ * auto chose the settings, everything found is counted again by dearer ones. Deterministic. Returns NULL on error, never for a target that cannot be reached. Fails
  * with SP_ERROR_INPUT where no mount, type or pressure is given, no mounting point is inside and clear or a kept nozzle
  * is in a wall or outside. */
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error);

@@ -35,7 +35,8 @@ char *sp_scene_file_path(const sp_scene *scene, size_t index, sp_error *error);
 void sp_scene_locate(const sp_scene *scene, sp_error *error);
 
 /* The scene as YAML text with `layout` in place of its nozzles and `fidelity` (nothing left to auto) under `simulate:`,
- * its paths relative to `directory`, its numbers reading back exactly. Malloc'd, the caller frees. */
+ * its paths relative to `directory`, its numbers reading back exactly. Lines that auto took stay `trajectory: auto`:
+ * written as `line` they would pass for the truth. Malloc'd, the caller frees. */
 char *sp_scene_text(const sp_scene *scene, const sp_layout *layout, const sp_fidelity *fidelity, const char *directory,
                     sp_error *error);
 

@@ -343,5 +343,5 @@ static int check(const cli_options *options, const cli_scene *opened, cli_clock 
 
 int cli_check(const cli_options *options)
 {
-    return cli_with_scene(options, check);
+    return cli_with_scene(options, false, check);
 }

@@ -89,17 +89,21 @@ typedef struct {
     sp_scene *scene;
     sp_evaluator *evaluator;
 } cli_scene;
-bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *options, cli_clock *clock, sp_error *error);
+/* `evaluates`: settings left to auto are chosen for the scene's own nozzles. */
+bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *options, bool evaluates, cli_clock *clock,
+                    sp_error *error);
 void cli_scene_close(cli_scene *opened);
 /* Opens the first input, does the work with it and closes it; the exit status. */
 typedef int cli_work(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error);
-int cli_with_scene(const cli_options *options, cli_work *work);
+int cli_with_scene(const cli_options *options, bool evaluates, cli_work *work);
 
 /* What the layout does and where its liquid goes; NULL with an error, for instance where a nozzle is in a wall. */
 sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_error *error);
-/* How far that is off, into coverage->measured, and of the inverse evaluator how much of it round-off could turn, into
- * coverage->borderline. False, and the error kept, given NULL. */
-bool cli_measure(const cli_scene *opened, const sp_layout *layout, sp_coverage *coverage, sp_error *error);
+/* How much of it round-off could turn, into coverage->borderline, where the inverse evaluator counted it. */
+bool cli_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
+                         sp_error *error);
+/* That, and how far it is off, into coverage->measured. False, and the error kept, given NULL. */
+bool cli_measure(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, sp_error *error);
 
 /* boxes.c: how far something reaches along the axes, m. */
 typedef struct {

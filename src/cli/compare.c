@@ -33,7 +33,7 @@ static bool open_input(compared *input, const char *path, const cli_options *opt
         input->figures = sp_figures_read(path, &input->figure_count, error);
         return input->figures != NULL;
     }
-    if (!cli_scene_open(&input->opened, path, options, clock, error))
+    if (!cli_scene_open(&input->opened, path, options, true, clock, error))
         return false;
     const sp_layout *layout = sp_scene_layout(input->opened.scene);
     if (layout->count == 0) {
@@ -43,7 +43,7 @@ static bool open_input(compared *input, const char *path, const cli_options *opt
     }
     input->coverage = cli_simulated(&input->opened, layout, error);
     cli_clock_stage(clock, "simulate");
-    bool good = cli_measure(&input->opened, layout, input->coverage, error);
+    bool good = cli_measure(input->opened.evaluator, layout, input->coverage, error);
     cli_clock_stage(clock, "measured error");
     if (!good)
         sp_scene_locate(input->opened.scene, error);

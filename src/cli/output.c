@@ -102,6 +102,41 @@ static void print_noise(const sp_result *result)
     }
 }
 
+/* A setting that was left to auto. */
+static void print_setting(int setting, const sp_evaluator *evaluator, const char *why)
+{
+    const sp_fidelity *fidelity = sp_evaluator_fidelity(evaluator);
+    if (setting == 0)
+        printf("auto: texel %.3g mm, %s\n", 1e3 * fidelity->texel, why);
+    else if (setting == 1)
+        printf("auto: %llu jets a nozzle, %s\n", (unsigned long long)fidelity->jets, why);
+    else if (setting == 4)
+        printf("auto: %d reflections, %s\n", fidelity->reflections, why);
+    else
+        printf("auto: %s\n", why);
+}
+
+/* What auto took and why, once for every evaluator, and what does not keep the accuracy. */
+static void print_choice(const sp_result *result, const sp_figures *figures)
+{
+    const sp_evaluator *before = NULL;
+    for (size_t i = 0; i < result->design_count; i++) {
+        const sp_evaluator *evaluator = result->designs[i].evaluator;
+        if (!evaluator)
+            continue;
+        const sp_choice *choice = sp_evaluator_choice(evaluator);
+        double accuracy = sp_evaluator_fidelity(evaluator)->accuracy, error = figures[i].error_estimate;
+        const char *why[] = {choice->texel, choice->jets, choice->trajectory, choice->method, choice->reflections};
+        for (int k = 0; k < 5 && evaluator != before; k++)
+            if (why[k][0])
+                print_setting(k, evaluator, why[k]);
+        if (error > accuracy || (!isfinite(error) && evaluator != before && choice->missed))
+            printf("warning: the coverage of %s does not keep the accuracy of %.3g %% that was asked for\n",
+                   result->designs[i].name, 100 * accuracy);
+        before = evaluator;
+    }
+}
+
 static void print_share(const sp_figures *figures, double flow)
 {
     printf(" %12.1f %5.1f %%", 6e4 * flow, figures->flow > 0 ? 100 * flow / figures->flow : 0);
@@ -221,6 +256,7 @@ static bool print_summary(const sp_result *result, sp_error *error)
     for (size_t i = 0; i < result->design_count; i++)
         print_figures(&figures[i], result->designs[i].name, width);
     print_errors(result, figures, width);
+    print_choice(result, figures);
     print_noise(result);
     print_liquid(result, figures, width);
     if (result->proposal) {

@@ -6,18 +6,26 @@ typedef struct {
     sp_proposal *proposal;
 } placement;
 
-static sp_design design(const cli_scene *opened, const char *name, const sp_layout *layout, const sp_coverage *coverage)
+/* What all designs are counted on. */
+static const sp_evaluator *counted_on(const cli_scene *opened, const placement *found)
 {
-    return (sp_design){.name = name, .evaluator = opened->evaluator, .layout = layout, .coverage = coverage};
+    return found->proposal->again ? found->proposal->again : opened->evaluator;
+}
+
+static sp_design design(const sp_evaluator *evaluator, const char *name, const sp_layout *layout,
+                        const sp_coverage *coverage)
+{
+    return (sp_design){.name = name, .evaluator = evaluator, .layout = layout, .coverage = coverage};
 }
 
 static size_t list_designs(const cli_scene *opened, const placement *found, sp_design designs[3])
 {
+    const sp_evaluator *evaluator = counted_on(opened, found);
     size_t count = 0;
     if (found->manual)
-        designs[count++] = design(opened, "manual", sp_scene_layout(opened->scene), found->manual);
-    designs[count++] = design(opened, "greedy", found->proposal->greedy, found->proposal->greedy_coverage);
-    designs[count++] = design(opened, "proposed", found->proposal->layout, found->proposal->coverage);
+        designs[count++] = design(evaluator, "manual", sp_scene_layout(opened->scene), found->manual);
+    designs[count++] = design(evaluator, "greedy", found->proposal->greedy, found->proposal->greedy_coverage);
+    designs[count++] = design(evaluator, "proposed", found->proposal->layout, found->proposal->coverage);
     return count;
 }
 
@@ -76,23 +84,34 @@ static double time_left(const cli_options *options, const cli_clock *clock)
     return options->time_limit > 0 && left < 1e-3 ? 1e-3 : options->time_limit > 0 ? left : 0;
 }
 
+/* The scene's own nozzles, where everything else was counted again. */
+static bool count_manual_again(const cli_scene *opened, placement *found, sp_error *error)
+{
+    if (!found->manual || !found->proposal->again)
+        return true;
+    sp_coverage_destroy(found->manual);
+    found->manual = sp_evaluate(found->proposal->again, sp_scene_layout(opened->scene), error);
+    return found->manual != NULL;
+}
+
 /* Where the liquid of every layout goes. */
 static bool follow_liquid(const cli_scene *opened, const placement *found, sp_error *error)
 {
-    const sp_evaluator *evaluator = opened->evaluator;
+    const sp_evaluator *evaluator = counted_on(opened, found);
     const sp_proposal *proposal = found->proposal;
     return (!found->manual || sp_evaluate_balance(evaluator, sp_scene_layout(opened->scene), found->manual, error)) &&
            sp_evaluate_balance(evaluator, proposal->greedy, proposal->greedy_coverage, error) &&
            sp_evaluate_balance(evaluator, proposal->layout, proposal->coverage, error);
 }
 
-/* How far the coverage of every layout is off. */
+/* How far the coverage of the other layouts is off: the proposal's is measured. */
 static bool measure_errors(const cli_scene *opened, const placement *found, sp_error *error)
 {
     const sp_proposal *proposal = found->proposal;
-    return (!found->manual || cli_measure(opened, sp_scene_layout(opened->scene), found->manual, error)) &&
-           cli_measure(opened, proposal->greedy, proposal->greedy_coverage, error) &&
-           cli_measure(opened, proposal->layout, proposal->coverage, error);
+    const sp_evaluator *evaluator = counted_on(opened, found);
+    return (!found->manual || cli_measure(evaluator, sp_scene_layout(opened->scene), found->manual, error)) &&
+           cli_measure(evaluator, proposal->greedy, proposal->greedy_coverage, error) &&
+           cli_find_borderline(evaluator, proposal->layout, proposal->coverage, error);
 }
 
 /* A nozzle of the scene's own that could not stand where it is drawn: what the proposal is compared with is in doubt.
@@ -125,7 +144,7 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
         how.prove = options->prove;
         found.proposal = sp_place(opened->evaluator, &how, error);
     }
-    bool good = found.proposal && follow_liquid(opened, &found, error) && measure_errors(opened, &found, error);
+    bool good = found.proposal && count_manual_again(opened, &found, error) && follow_liquid(opened, &found, error) && measure_errors(opened, &found, error);
     if (good && !options->quiet)
         warn_of_own(opened, own);
     int status = good ? report(options, opened, &found, clock, error) : cli_fail_in(opened, error);
@@ -136,5 +155,5 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
 
 int cli_place(const cli_options *options)
 {
-    return cli_with_scene(options, place);
+    return cli_with_scene(options, true, place);
 }

@@ -1,7 +1,8 @@
 /* A scene and its evaluator, opened with the command line's overrides. */
 #include "cli.h"
 
-bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *options, cli_clock *clock, sp_error *error)
+bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *options, bool evaluates, cli_clock *clock,
+                    sp_error *error)
 {
     *opened = (cli_scene){0};
     opened->scene = sp_scene_load_with(path, options->overrides, options->override_count, error);
@@ -10,7 +11,7 @@ bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *opti
     cli_clock_stage(clock, "load");
     sp_setup setup = *sp_scene_setup(opened->scene);
     setup.run = cli_run(options);
-    opened->evaluator = sp_evaluator_create(&setup, error);
+    opened->evaluator = sp_evaluator_create_for(&setup, evaluates ? sp_scene_layout(opened->scene) : NULL, error);
     cli_clock_stage(clock, "atlas");
     if (!opened->evaluator) {
         sp_scene_locate(opened->scene, error);
@@ -38,14 +39,19 @@ sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_
     return NULL;
 }
 
-bool cli_measure(const cli_scene *opened, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
+bool cli_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
+                         sp_error *error)
 {
-    const sp_fidelity *fidelity = sp_evaluator_fidelity(opened->evaluator);
+    return sp_evaluator_fidelity(evaluator)->method != SP_METHOD_INVERSE ||
+           sp_find_borderline(evaluator, layout, coverage, NULL, &coverage->borderline, error);
+}
+
+bool cli_measure(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
+{
+    uint64_t seed = sp_evaluator_fidelity(evaluator)->seed;
     return coverage &&
-           sp_measure_error(opened->evaluator, layout, coverage, SP_TRAJECTORY_AUTO, fidelity->seed,
-                            &coverage->measured, error) &&
-           (fidelity->method != SP_METHOD_INVERSE ||
-            sp_find_borderline(opened->evaluator, layout, coverage, NULL, &coverage->borderline, error));
+           sp_measure_error(evaluator, layout, coverage, SP_TRAJECTORY_AUTO, seed, &coverage->measured, error) &&
+           cli_find_borderline(evaluator, layout, coverage, error);
 }
 
 int cli_fail_in(const cli_scene *opened, sp_error *error)
@@ -54,13 +60,13 @@ int cli_fail_in(const cli_scene *opened, sp_error *error)
     return cli_fail(error);
 }
 
-int cli_with_scene(const cli_options *options, cli_work *work)
+int cli_with_scene(const cli_options *options, bool evaluates, cli_work *work)
 {
     sp_error error = {0};
     cli_clock clock;
     cli_scene opened;
     cli_clock_start(&clock);
-    if (!cli_scene_open(&opened, options->inputs[0], options, &clock, &error))
+    if (!cli_scene_open(&opened, options->inputs[0], options, evaluates, &clock, &error))
         return cli_fail(&error);
     int status = work(options, &opened, &clock, &error);
     cli_scene_close(&opened);

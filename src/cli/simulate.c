@@ -12,7 +12,7 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
         return cli_fail(error);
     sp_coverage *coverage = cli_simulated(opened, layout, error);
     cli_clock_stage(clock, "simulate");
-    bool good = cli_measure(opened, layout, coverage, error);
+    bool good = cli_measure(opened->evaluator, layout, coverage, error);
     cli_clock_stage(clock, "measured error");
     sp_design design = {.name = "manual", .evaluator = opened->evaluator, .layout = layout, .coverage = coverage};
     sp_result result = {.command = "simulate",
@@ -28,5 +28,5 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
 
 int cli_simulate(const cli_options *options)
 {
-    return cli_with_scene(options, simulate);
+    return cli_with_scene(options, true, simulate);
 }

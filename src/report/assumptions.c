@@ -9,6 +9,7 @@ static void add_item(sp_text *text, const char *term)
 /* How far the coverage of each layout of an evaluator is off, where that was measured. */
 static void add_errors(const sp_page *page, sp_text *text, const sp_evaluator *evaluator)
 {
+    double accuracy = sp_evaluator_fidelity(evaluator)->accuracy;
     size_t told = 0;
     for (size_t i = 0; i < page->result->design_count; ++i) {
         const sp_figures *figures = &page->figures[i];
@@ -21,6 +22,9 @@ static void add_errors(const sp_page *page, sp_text *text, const sp_evaluator *e
         sp_page_name(page, text, i);
         sp_text_add(text, " \xc2\xb1%.2f&nbsp;points of coverage (%.2f&nbsp;%% of the area misjudged, either way)",
                     ceil(1e4 * figures->error_estimate) / 100, 100 * figures->misjudged);
+        if (figures->error_estimate > accuracy)
+            sp_text_add(text, ", which is <strong>more than the accuracy of %.3g&nbsp;%%</strong> that was asked for",
+                        100 * accuracy);
     }
     if (told)
         sp_text_add(text, "; found at random points of the surface, each judged for itself in closed form</dd>\n");
@@ -57,6 +61,27 @@ static void add_flight(sp_text *text, const sp_evaluator *evaluator)
                 "texels of %.3g&nbsp;mm, %zu patches; each is judged at one point, and at a spray's edge "
                 "by the share of it that lies inside</dd>\n",
                 1e3 * fidelity->texel, sp_evaluator_patches(evaluator)->count);
+}
+
+/* Why settings that were left to auto are as they are. */
+static void add_choice(sp_text *text, const sp_evaluator *evaluator)
+{
+    const sp_choice *choice = sp_evaluator_choice(evaluator);
+    const char *const names[] = {"texels", "jets", "trajectory", "evaluator", "reflections"};
+    const char *const why[] = {choice->texel, choice->jets, choice->trajectory, choice->method, choice->reflections};
+    size_t told = 0;
+    for (int k = 0; k < 5; k++) {
+        if (!why[k][0])
+            continue;
+        if (!told++)
+            add_item(text, "Left to auto");
+        else
+            sp_text_add(text, "; ");
+        sp_text_add(text, "<em>%s</em> ", names[k]);
+        sp_markup_escape(text, why[k]);
+    }
+    if (told)
+        sp_text_add(text, "</dd>\n");
 }
 
 static void add_criterion(sp_text *text, const sp_criterion *criterion)
@@ -146,6 +171,7 @@ void sp_page_assumptions(const sp_page *page, sp_text *text)
         sp_text_add(text, "<dl>\n");
         add_criterion(text, &sp_evaluator_setup(evaluator)->criterion);
         add_flight(text, evaluator);
+        add_choice(text, evaluator);
         add_errors(page, text, evaluator);
         add_scene(text, sp_evaluator_setup(evaluator));
         if (page->result->proposal)

@@ -78,7 +78,18 @@ static void add_doubt(const sp_forward_check *check, sp_text *text)
     sp_text_add(text, "&nbsp;%%.</p>\n");
 }
 
-static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal, sp_text *text)
+/* The proposal's coverage is not confirmed. */
+static void add_error(const sp_figures *proposed, double accuracy, sp_text *text)
+{
+    sp_text_add(text, "<p class=\"warning\" id=\"error\"><strong>The accuracy asked for is not kept.</strong> The "
+                      "proposal&#39;s coverage may be off by ");
+    sp_markup_significant(text, 100 * proposed->error_estimate, 2);
+    sp_text_add(text, "&nbsp;points, more than the ");
+    sp_markup_significant(text, 100 * accuracy, 2);
+    sp_text_add(text, "&nbsp;%% that were asked for.</p>\n");
+}
+
+static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal, double accuracy, sp_text *text)
 {
     if (proposal->interrupted)
         sp_text_add(text,
@@ -86,6 +97,8 @@ static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal
                     "the best layout found until then.</p>\n");
     if (proposal->forward_check.computed && !proposal->forward_check.agrees)
         add_doubt(&proposal->forward_check, text);
+    if (proposed->error_estimate > accuracy)
+        add_error(proposed, accuracy, text);
     if (proposal->reached)
         return;
     if (!(proposal->target_area > 0))
@@ -116,6 +129,7 @@ void sp_page_headline(const sp_page *page, sp_text *text)
     sp_text_add(text, ".</p>\n");
     sp_page_gain(page, text);
     if (page->result->proposal)
-        add_warnings(&page->figures[page->main], page->result->proposal, text);
+        add_warnings(&page->figures[page->main], page->result->proposal,
+                     sp_evaluator_fidelity(page->result->designs[page->main].evaluator)->accuracy, text);
     add_cards(page, text);
 }

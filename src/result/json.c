@@ -86,18 +86,34 @@ static double worst(const sp_figures *figures, size_t count, size_t offset)
     return most;
 }
 
+/* Why settings left to auto are as they are. `evaluator` may be NULL. */
+static bool put_choice(json_t *fidelity, const sp_evaluator *evaluator)
+{
+    static const sp_choice none;
+    const sp_choice *choice = evaluator ? sp_evaluator_choice(evaluator) : &none;
+    json_t *reasons = json_object();
+    bool done = put_text(reasons, "trajectory", choice->trajectory) && put_text(reasons, "evaluator", choice->method) &&
+                put_text(reasons, "reflections", choice->reflections) &&
+                put_text(reasons, "jets_per_nozzle", choice->jets) && put_text(reasons, "texel_m", choice->texel);
+    if (done && json_object_size(reasons) > 0)
+        return put(fidelity, "auto", reasons);
+    json_decref(reasons);
+    return done;
+}
+
 /* What `count` layouts share, and the worst of their errors. */
-static bool put_fidelity(json_t *object, const sp_figures *figures, size_t count)
+static bool put_fidelity(json_t *object, const sp_figures *figures, size_t count, const sp_evaluator *evaluator)
 {
     json_t *fidelity = json_object();
-    bool done = put_text(fidelity, "trajectory", figures->trajectory) &&
-                put_text(fidelity, "evaluator", figures->evaluator) &&
-                put_count(fidelity, "reflections", figures->reflections) &&
-                put_count(fidelity, "jets_per_nozzle", figures->jets) &&
-                put_count(fidelity, "jets_wanted_per_nozzle", figures->jets_wanted) &&
-                put_real(fidelity, "texel_m", figures->texel) &&
-                put_real(fidelity, "error_estimate", worst(figures, count, offsetof(sp_figures, error_estimate))) &&
-                put_real(fidelity, "misjudged", worst(figures, count, offsetof(sp_figures, misjudged)));
+    bool done =
+        put_text(fidelity, "trajectory", figures->trajectory) && put_text(fidelity, "evaluator", figures->evaluator) &&
+        put_count(fidelity, "reflections", figures->reflections) &&
+        put_count(fidelity, "jets_per_nozzle", figures->jets) &&
+        put_count(fidelity, "jets_wanted_per_nozzle", figures->jets_wanted) &&
+        put_real(fidelity, "texel_m", figures->texel) &&
+        put_real(fidelity, "error_estimate", worst(figures, count, offsetof(sp_figures, error_estimate))) &&
+        put_real(fidelity, "misjudged", worst(figures, count, offsetof(sp_figures, misjudged))) &&
+        put_choice(fidelity, evaluator);
     return put(object, "fidelity", fidelity) && done;
 }
 
@@ -144,7 +160,8 @@ static bool put_nozzle(json_t *nozzles, const sp_nozzle_figures *figures)
     return json_array_append_new(nozzles, nozzle) == 0 && done;
 }
 
-static bool put_layout(json_t *layouts, const sp_figures *figures, bool own_geometry, bool own_fidelity)
+static bool put_layout(json_t *layouts, const sp_figures *figures, const sp_evaluator *evaluator, bool own_geometry,
+                       bool own_fidelity)
 {
     json_t *layout = json_object(), *shadows = json_array(), *nozzles = json_array();
     bool done = put_text(layout, "name", figures->name) && put_real(layout, "water_l_min", 6e4 * figures->flow) &&
@@ -163,7 +180,7 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, bool own_geom
     done = put(layout, "shadows", shadows) && done;
     done = put(layout, "nozzles", nozzles) && done;
     done =
-        done && (!own_geometry || put_geometry(layout, figures)) && (!own_fidelity || put_fidelity(layout, figures, 1));
+        done && (!own_geometry || put_geometry(layout, figures)) && (!own_fidelity || put_fidelity(layout, figures, 1, evaluator));
     return json_array_append_new(layouts, layout) == 0 && done;
 }
 
@@ -280,11 +297,12 @@ static bool fill(json_t *root, const sp_result *result, const sp_figures *figure
     bool done = scene && put_text(root, "sprayplan", SP_VERSION) && put_text(root, "command", result->command) &&
                 put_text(root, "scene", scene) &&
                 (!one_geometry || result->design_count == 0 || put_geometry(root, figures)) &&
-                (!one_fidelity || result->design_count == 0 || put_fidelity(root, figures, result->design_count));
+                (!one_fidelity || result->design_count == 0 || put_fidelity(root, figures, result->design_count,
+                                                                            result->designs[0].evaluator));
     free(scene);
     json_t *layouts = json_array(), *stages = json_array();
     for (size_t i = 0; done && i < result->design_count; ++i)
-        done = put_layout(layouts, &figures[i], !one_geometry, !one_fidelity);
+        done = put_layout(layouts, &figures[i], result->designs[i].evaluator, !one_geometry, !one_fidelity);
     done = put(root, "layouts", layouts) && done;
     if (result->proposal)
         done =

@@ -87,12 +87,21 @@ static sp_yaml *nozzles_node(writer *w, const sp_layout *layout, const sp_fluid 
     return list;
 }
 
+/* Lines that auto took stay open: what is simulated again is then measured against parabolas still, and as nothing
+ * else is open, auto takes them again. */
+static const char *trajectory_text(const sp_fidelity *asked, const sp_fidelity *fidelity)
+{
+    if (fidelity->trajectory != SP_TRAJECTORY_LINE)
+        return "parabola";
+    return asked->trajectory == SP_TRAJECTORY_AUTO ? "auto" : "line";
+}
+
 /* `jets` may stay 0 where no jets are traced. */
-static sp_yaml *simulate_node(writer *w, const sp_fidelity *fidelity)
+static sp_yaml *simulate_node(writer *w, const sp_fidelity *asked, const sp_fidelity *fidelity)
 {
     bool inverse = fidelity->method == SP_METHOD_INVERSE;
     sp_yaml *map = put(w, NULL, SP_YAML_MAP, "simulate", NULL);
-    put(w, map, SP_YAML_SCALAR, "trajectory", fidelity->trajectory == SP_TRAJECTORY_LINE ? "line" : "parabola");
+    put(w, map, SP_YAML_SCALAR, "trajectory", trajectory_text(asked, fidelity));
     put(w, map, SP_YAML_SCALAR, "evaluator", inverse ? "inverse" : "forward");
     put_count(w, map, "reflections", (uint64_t)fidelity->reflections);
     if (fidelity->jets > 0)
@@ -146,7 +155,7 @@ static char *write_tree(const sp_scene *scene, sp_yaml *tree, const sp_layout *l
 {
     writer w = {.error = error};
     sp_yaml *nozzles = nozzles_node(&w, layout, &scene->setup.liquid);
-    sp_yaml *simulate = simulate_node(&w, fidelity);
+    sp_yaml *simulate = simulate_node(&w, &scene->setup.fidelity, fidelity);
     if (nozzles)
         sp_yaml_replace(tree, nozzles);
     if (simulate)

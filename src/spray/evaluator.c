@@ -1,22 +1,12 @@
 /* Building an evaluator, choosing what is left to auto, and asking it. */
-#include "density.h"
+#include "choice.h"
+#include "resolution.h"
 #include "spray/wet/wet.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
-#define AUTO_TEXELS 100000 /* on what is cleaned and counted */
 #define AUTO_REFLECTIONS 3
-/* Jets per nozzle and texel of all that is to be cleaned: with a flux criterion what a texel at the threshold then
- * receives from a nozzle that would flood it all at the threshold; without one a texel must merely not be missed. The
- * bound, for the time that tracing takes, binds where the texel is left to auto too. */
-#define AUTO_MOST_JETS 4e6
-#define AUTO_JETS_AT_THRESHOLD 150
-#define AUTO_JETS_TO_TOUCH 20
-#define SPARE 0.1      /* of the accuracy asked for, that may be lost on thin parts which the jets do not follow */
-#define PAGE_EDGE 4096 /* texels */
-#define MOST_PAGE_EDGE 16384 /* texels, for a triangle longer than PAGE_EDGE */
-#define PAGE_MARGIN 4        /* texels that a page needs beyond its chart */
-#define MOST_TEXELS 1e9
 
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error)
 {
@@ -87,7 +77,7 @@ static bool anything_reflects(const sp_setup *setup)
     return false;
 }
 
-static bool resolve_method(const sp_setup *setup, sp_fidelity *fidelity, sp_error *error)
+static bool resolve_method(const sp_setup *setup, sp_fidelity *fidelity, sp_choice *choice, sp_error *error)
 {
     bool reflects = fidelity->reflections != 0 && anything_reflects(setup);
     if (fidelity->method == SP_METHOD_INVERSE && fidelity->reflections > 0)
@@ -100,8 +90,13 @@ static bool resolve_method(const sp_setup *setup, sp_fidelity *fidelity, sp_erro
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "splat: linear found with evaluator inverse, which has no jets to share; expected nearest, or "
                        "evaluator forward");
-    if (fidelity->method == SP_METHOD_AUTO)
+    if (fidelity->method == SP_METHOD_AUTO) {
         fidelity->method = reflects || fidelity->splat == SP_SPLAT_LINEAR ? SP_METHOD_FORWARD : SP_METHOD_INVERSE;
+        snprintf(choice->method, SP_WHY, "%s",
+                 reflects                                ? "forward: walls throw liquid back"
+                 : fidelity->method == SP_METHOD_FORWARD ? "forward: jets alone can be shared among texels"
+                                                         : "inverse: no wall throws liquid back");
+    }
     if (fidelity->method == SP_METHOD_INVERSE)
         fidelity->reflections = 0;
     else if (fidelity->reflections < 0)
@@ -110,92 +105,22 @@ static bool resolve_method(const sp_setup *setup, sp_fidelity *fidelity, sp_erro
 }
 
 /* The plain safe choice for what the setup leaves to auto, but for sizes, which wait for the wet sides. */
-static bool resolve(const sp_setup *setup, sp_fidelity *fidelity, sp_error *error)
+static bool resolve(const sp_setup *setup, sp_evaluator *evaluator, sp_error *error)
 {
-    *fidelity = setup->fidelity;
-    if (fidelity->trajectory == SP_TRAJECTORY_AUTO)
-        fidelity->trajectory = SP_TRAJECTORY_PARABOLA;
-    return resolve_method(setup, fidelity, error);
+    evaluator->fidelity = setup->fidelity;
+    if (setup->fidelity.trajectory == SP_TRAJECTORY_AUTO)
+        evaluator->fidelity.trajectory = SP_TRAJECTORY_PARABOLA;
+    return resolve_method(setup, &evaluator->fidelity, &evaluator->choice, error);
 }
 
-static bool fail_nothing(sp_error *error)
+bool sp_fail_nothing(sp_error *error)
 {
     return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "nothing is to be cleaned: no part with role clean faces the cavity");
 }
 
-/* What is cleaned and counted, m²; what else there is, however large, does not make texels longer. */
-static double counted_area(const sp_evaluator *evaluator)
-{
-    double area = 0;
-    for (uint32_t t = 0; t < evaluator->setup.mesh->triangle_count; t++)
-        area += sp_counted_area(evaluator, t);
-    return area;
-}
-
-static double jets_per_texel(const sp_evaluator *evaluator)
-{
-    return evaluator->setup.criterion.flux > 0 ? AUTO_JETS_AT_THRESHOLD : AUTO_JETS_TO_TOUCH;
-}
-
-static double jets_for(const sp_evaluator *evaluator, double texel)
-{
-    return ceil(jets_per_texel(evaluator) * counted_area(evaluator) / (texel * texel));
-}
-
-/* Shorter texels than the jets can meet each would look dry, and few thin parts are not worth more jets for all. */
-static sp_density_limits density_limits(const sp_evaluator *evaluator)
-{
-    const sp_fidelity *fidelity = &evaluator->fidelity;
-    sp_density_limits limits = {.texel = fidelity->texel, .page = PAGE_EDGE - PAGE_MARGIN};
-    if (fidelity->method == SP_METHOD_INVERSE)
-        return limits;
-    double jets = fidelity->jets > 0 ? (double)fidelity->jets : AUTO_MOST_JETS;
-    limits.least = sqrt(counted_area(evaluator) * jets_per_texel(evaluator) / jets);
-    limits.spare = SPARE * fidelity->accuracy;
-    return limits;
-}
-
-static bool check_number(double texel, double texels, sp_error *error)
-{
-    return texels <= MOST_TEXELS ||
-           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                   "texel: %g m found, too small for a surface of %g m2; expected at least %.3g m", texel,
-                   texels * texel * texel, texel * sqrt(texels / MOST_TEXELS));
-}
-
-/* The atlas on pages of the usual size, or larger ones where a single triangle must have them. */
-static bool build_atlas(sp_evaluator *evaluator, const sp_charts *charts, const sp_density *density, sp_error *error)
-{
-    double texel = evaluator->fidelity.texel;
-    double page = fmin(fmax(ceil(density->longest) + PAGE_MARGIN, PAGE_EDGE), MOST_PAGE_EDGE);
-    sp_atlas_options options = {.texel = texel, .page_edge = (uint32_t)page, .chart_texel = density->texel};
-    if (sp_texel_is_resolved(evaluator, texel, error) && check_number(texel, density->texels, error))
-        evaluator->atlas = sp_atlas_create(evaluator->setup.mesh, charts, &options, error);
-    return evaluator->atlas &&
-           sp_fragments_create(&evaluator->fragments, evaluator->atlas, evaluator->setup.mesh, error) &&
-           sp_patches_create(evaluator, error) && (evaluator->patches.total_area > 0 || fail_nothing(error));
-}
-
-/* Texels of the evaluator's own lengths, or in proportion to those of `fine`. */
-static bool build_texels(sp_evaluator *evaluator, const sp_charts *charts, const sp_evaluator *fine, sp_error *error)
-{
-    sp_density density;
-    sp_fidelity *fidelity = &evaluator->fidelity;
-    sp_density_limits limits = density_limits(evaluator);
-    if (!(fine ? sp_density_like(evaluator, charts, fine, &density, error)
-               : sp_density_create(evaluator, charts, &limits, &density, error)))
-        return false;
-    if (fidelity->jets == 0)
-        fidelity->jets =
-            (uint64_t)fmin(AUTO_MOST_JETS, jets_for(evaluator, fidelity->method == SP_METHOD_INVERSE ? fidelity->texel
-                                                                                                     : density.finest));
-    bool done = build_atlas(evaluator, charts, &density, error);
-    sp_density_free(&density);
-    return done;
-}
-
-static bool build(sp_evaluator *evaluator, sp_error *error)
+/* With a layout that has nozzles, sizes and flights that are left open are chosen for it. */
+static bool build(sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
 {
     const sp_setup *setup = &evaluator->setup;
     if (!sp_evaluator_progress(setup, "accelerator", 0, error))
@@ -206,14 +131,13 @@ static bool build(sp_evaluator *evaluator, sp_error *error)
     evaluator->wet = sp_wet_create(setup, evaluator->tracer, error);
     if (!evaluator->wet || !sp_evaluator_progress(setup, "atlas", 0, error))
         return false;
-    double counted = counted_area(evaluator);
-    if (!(counted > 0))
-        return fail_nothing(error);
+    double plain = sp_texel_of(evaluator, SP_PLAIN_TEXELS);
+    if (!(plain > 0))
+        return sp_fail_nothing(error);
     if (!(evaluator->fidelity.texel > 0))
-        evaluator->fidelity.texel = sqrt(counted / AUTO_TEXELS);
-    double extent = (PAGE_EDGE - PAGE_MARGIN) * evaluator->fidelity.texel;
-    evaluator->charts = sp_charts_create(setup->mesh, extent, error);
-    return evaluator->charts && build_texels(evaluator, evaluator->charts, NULL, error) &&
+        evaluator->fidelity.texel = plain;
+    return (layout && layout->count ? sp_choose(evaluator, layout, error)
+                                    : sp_texels_create(evaluator, NULL, error)) &&
            sp_evaluator_progress(setup, "atlas", 1, error);
 }
 
@@ -222,7 +146,7 @@ sp_vec3 sp_gravity_for(const sp_setup *setup, sp_trajectory trajectory)
     return trajectory == SP_TRAJECTORY_LINE ? sp_v(0, 0, 0) : sp_scale(sp_unit(setup->up), -setup->gravity);
 }
 
-sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error)
+sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *layout, sp_error *error)
 {
     if (!setup || !check_setup(setup, error))
         return NULL;
@@ -230,16 +154,41 @@ sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error)
     if (!evaluator)
         return sp_fail_memory(error);
     evaluator->setup = *setup;
-    if (!resolve(setup, &evaluator->fidelity, error)) {
+    if (!resolve(setup, evaluator, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;
     }
     evaluator->gravity = sp_gravity_for(setup, evaluator->fidelity.trajectory);
     evaluator->farthest = sp_farthest_coordinate(setup->mesh);
-    if (!build(evaluator, error)) {
+    if (!build(evaluator, layout, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;
     }
+    return evaluator;
+}
+
+sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error)
+{
+    return sp_evaluator_create_for(setup, NULL, error);
+}
+
+/* On the geometry of `fine`, texels to come. */
+static sp_evaluator *share(const sp_evaluator *fine, double texel, sp_error *error)
+{
+    const sp_evaluator *origin = fine->origin ? fine->origin : fine;
+    sp_evaluator *evaluator = calloc(1, sizeof *evaluator);
+    if (!evaluator)
+        return sp_fail_memory(error);
+    evaluator->setup = fine->setup;
+    evaluator->fidelity = fine->fidelity;
+    evaluator->fidelity.texel = texel;
+    evaluator->choice = fine->choice;
+    evaluator->gravity = fine->gravity;
+    evaluator->farthest = fine->farthest;
+    evaluator->origin = origin;
+    evaluator->tracer = origin->tracer;
+    evaluator->charts = origin->charts;
+    evaluator->wet = origin->wet;
     return evaluator;
 }
 
@@ -251,27 +200,44 @@ sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_e
         sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: a texel of %g m found, expected more than 0", texel);
         return NULL;
     }
-    const sp_evaluator *origin = fine->origin ? fine->origin : fine;
-    sp_evaluator *evaluator = calloc(1, sizeof *evaluator);
+    sp_evaluator *evaluator = share(fine, texel, error);
     if (!evaluator)
-        return sp_fail_memory(error);
-    evaluator->setup = fine->setup;
-    evaluator->fidelity = fine->fidelity;
+        return NULL;
     evaluator->fidelity.method = SP_METHOD_INVERSE;
     evaluator->fidelity.reflections = 0;
     evaluator->fidelity.splat = SP_SPLAT_NEAREST;
-    evaluator->fidelity.texel = texel;
-    evaluator->gravity = fine->gravity;
-    evaluator->farthest = fine->farthest;
-    evaluator->origin = origin;
-    evaluator->tracer = origin->tracer;
-    evaluator->charts = origin->charts;
-    evaluator->wet = origin->wet;
-    if (!build_texels(evaluator, origin->charts, fine, error)) {
+    if (!sp_texels_create(evaluator, fine, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;
     }
     return evaluator;
+}
+
+bool sp_evaluator_again(const sp_evaluator *evaluator, bool shorter, sp_evaluator **again, sp_error *error)
+{
+    const sp_fidelity *open = &evaluator->setup.fidelity, *now = &evaluator->fidelity;
+    bool lines = open->trajectory == SP_TRAJECTORY_AUTO && now->trajectory == SP_TRAJECTORY_LINE;
+    double texel = now->texel;
+    if (shorter && !(open->texel > 0))
+        texel = fmin(texel, fmax(0.5 * texel, sp_texel_of(evaluator, SP_MOST_TEXELS)));
+    *again = NULL;
+    if (!lines && texel == now->texel)
+        return true;
+    sp_evaluator *finer = share(evaluator, texel, error);
+    if (!finer)
+        return false;
+    finer->fidelity.trajectory = lines ? SP_TRAJECTORY_PARABOLA : now->trajectory;
+    finer->gravity = sp_gravity_for(&finer->setup, finer->fidelity.trajectory);
+    if (lines)
+        snprintf(finer->choice.trajectory, SP_WHY, "parabolas: what was found by lines, counted again");
+    if (texel < now->texel)
+        snprintf(finer->choice.texel, SP_WHY, "counted again: on texels of %.3g m the accuracy was not kept", now->texel);
+    if (!sp_texels_create(finer, NULL, error)) {
+        sp_evaluator_destroy(finer);
+        return false;
+    }
+    *again = finer;
+    return true;
 }
 
 void sp_evaluator_destroy(sp_evaluator *evaluator)
@@ -283,10 +249,7 @@ void sp_evaluator_destroy(sp_evaluator *evaluator)
         sp_charts_destroy(evaluator->charts);
         sp_wet_destroy(evaluator->wet);
     }
-    sp_atlas_destroy(evaluator->atlas);
-    sp_fragments_destroy(&evaluator->fragments);
-    sp_patches_free(&evaluator->patches);
-    free(evaluator->texel_patch);
+    sp_texels_free(evaluator);
     free(evaluator);
 }
 
@@ -300,17 +263,9 @@ const sp_fidelity *sp_evaluator_fidelity(const sp_evaluator *evaluator)
     return &evaluator->fidelity;
 }
 
-double sp_evaluator_jets_wanted(const sp_evaluator *evaluator)
+const sp_choice *sp_evaluator_choice(const sp_evaluator *evaluator)
 {
-    const sp_fidelity *fidelity = &evaluator->fidelity;
-    double wanted = fidelity->method == SP_METHOD_FORWARD ? jets_for(evaluator, fidelity->texel) : 0;
-    return wanted > (double)fidelity->jets ? wanted : 0;
-}
-
-double sp_evaluator_jets_met(const sp_evaluator *evaluator)
-{
-    return jets_per_texel(evaluator) * (double)evaluator->fidelity.jets /
-           jets_for(evaluator, evaluator->fidelity.texel);
+    return &evaluator->choice;
 }
 
 const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator)
@@ -347,6 +302,6 @@ sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout,
 {
     if (!evaluator || !layout)
         return NULL;
-    return evaluator->fidelity.method == SP_METHOD_FORWARD ? sp_evaluate_jets(evaluator, layout, error)
+    return evaluator->fidelity.method == SP_METHOD_FORWARD ? sp_evaluate_jets(evaluator, layout, NULL, error)
                                                            : sp_evaluate_inverse(evaluator, layout, error);
 }

@@ -27,6 +27,9 @@ typedef struct {
     double *counted;     /* [patches], m³/s per m² of the nozzle in hand */
     sp_lit lit;          /* by the nozzle in hand */
     sp_balance *balance; /* of all */
+    sp_work *work;
+    double lowest; /* g · x, m²/s², of the geometry's lowest point */
+    double able;   /* m³/s that flies on in the end and may yet be fast enough to count */
     sp_ray *rays;        /* [BATCH] */
     double *flow;        /* [BATCH], m³/s */
     sp_hit *hits;        /* [BATCH] */
@@ -141,6 +144,15 @@ static void keep_balance(jet_flight *flight, size_t count)
     }
 }
 
+/* Whether liquid that falls all the way down from where it is meets the criterion's speed: it meets no more. */
+static bool may_be_fast(const jet_flight *flight, const sp_ray *ray)
+{
+    const sp_evaluator *evaluator = flight->evaluator;
+    double fall = flight->lowest - sp_dot(ray->origin, evaluator->gravity);
+    double least = evaluator->setup.criterion.impact_speed;
+    return sp_dot(ray->velocity, ray->velocity) + 2 * fmax(fall, 0) >= least * least;
+}
+
 /* Flies `count` jets to their end. */
 static void fly(jet_flight *flight, size_t count)
 {
@@ -148,6 +160,7 @@ static void fly(jet_flight *flight, size_t count)
     for (int bounce = 0; bounce <= flight->reflections && count > 0; bounce++) {
         sp_trace_nearest_many(evaluator->tracer, flight->rays, count, evaluator->gravity, flight->threads,
                               flight->hits);
+        flight->work->rays += count;
 #pragma omp parallel for num_threads(flight->threads)
         for (size_t i = 0; i < count; i++)
             strike(flight, i);
@@ -155,8 +168,10 @@ static void fly(jet_flight *flight, size_t count)
         keep_balance(flight, count);
         count = gather(flight, count);
     }
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         flight->balance->unfollowed += flight->flow[i];
+        flight->able += may_be_fast(flight, &flight->rays[i]) ? flight->flow[i] : 0;
+    }
 }
 
 static uint64_t nozzle_jets(const jet_flight *flight, const sp_nozzle *nozzle)
@@ -228,8 +243,17 @@ static bool fly_layout(jet_flight *flight, const sp_layout *layout, sp_error *er
     return true;
 }
 
+static double lowest_point(const sp_evaluator *evaluator)
+{
+    const sp_mesh *mesh = evaluator->setup.mesh;
+    double lowest = -INFINITY;
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        lowest = fmax(lowest, sp_dot(mesh->vertices[i], evaluator->gravity));
+    return lowest;
+}
+
 static sp_coverage *evaluate(const sp_evaluator *evaluator, const sp_layout *layout, int reflections, double per_jet,
-                             sp_error *error)
+                             double *able, sp_error *error)
 {
     sp_coverage *coverage = sp_evaluator_takes(evaluator, layout, error) ? sp_coverage_create(evaluator, error) : NULL;
     if (!coverage)
@@ -238,12 +262,14 @@ static sp_coverage *evaluate(const sp_evaluator *evaluator, const sp_layout *lay
                          .deposits = &coverage->deposits,
                          .counted = calloc(coverage->deposits.count + 1, sizeof *flight.counted),
                          .balance = &coverage->balance,
+                         .work = &coverage->work,
                          .rays = malloc(BATCH * sizeof *flight.rays),
                          .flow = malloc(BATCH * sizeof *flight.flow),
                          .hits = malloc(BATCH * sizeof *flight.hits),
                          .impacts = malloc(BATCH * sizeof *flight.impacts),
                          .threads = sp_thread_count(evaluator->setup.run.threads),
                          .reflections = reflections,
+                         .lowest = lowest_point(evaluator),
                          .per_jet = per_jet};
     bool done = flight.rays && flight.flow && flight.hits && flight.impacts && flight.counted;
     if (!done)
@@ -257,15 +283,17 @@ static sp_coverage *evaluate(const sp_evaluator *evaluator, const sp_layout *lay
     free(flight.hits);
     free(flight.impacts);
     coverage->balance.known = done;
+    if (able)
+        *able = flight.able;
     if (done)
         return coverage;
     sp_coverage_destroy(coverage);
     return NULL;
 }
 
-sp_coverage *sp_evaluate_jets(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
+sp_coverage *sp_evaluate_jets(const sp_evaluator *evaluator, const sp_layout *layout, double *able, sp_error *error)
 {
-    return evaluate(evaluator, layout, evaluator->fidelity.reflections, 0, error);
+    return evaluate(evaluator, layout, evaluator->fidelity.reflections, 0, able, error);
 }
 
 sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, uint64_t jets, sp_error *error)
@@ -277,5 +305,5 @@ sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout 
         return NULL;
     }
     double flow = sp_layout_flow(layout, &evaluator->setup.liquid);
-    return evaluate(evaluator, layout, 0, flow / (double)jets, error);
+    return evaluate(evaluator, layout, 0, flow / (double)jets, NULL, error);
 }

@@ -28,7 +28,7 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
     sp_count_wetting(emitter->source.evaluator, deposits, first->patch, counted, &wetting);
 }
 
-static bool lay_nozzle(const sp_emitter *emitter, double flow, sp_deposits *deposits, sp_error *error)
+static bool lay_nozzle(const sp_emitter *emitter, double flow, sp_coverage *coverage, sp_error *error)
 {
     sp_aim aim = sp_aim_at(emitter->frame.z, sp_spray_reach(&emitter->spray));
     aim.emitter = emitter;
@@ -38,8 +38,10 @@ static bool lay_nozzle(const sp_emitter *emitter, double flow, sp_deposits *depo
     for (size_t i = 0, end; i < reach->count; i = end) {
         for (end = i + 1; end < reach->count && reach->arrivals[end].patch == reach->arrivals[i].patch;)
             end++;
-        lay_patch(emitter, flow, &reach->arrivals[i], &reach->arrivals[end], deposits);
+        lay_patch(emitter, flow, &reach->arrivals[i], &reach->arrivals[end], &coverage->deposits);
     }
+    coverage->work.places += reach->work.places;
+    coverage->work.rays += reach->work.rays;
     sp_reach_destroy(reach);
     return true;
 }
@@ -55,7 +57,7 @@ sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout 
     for (size_t i = 0; done && i < layout->count; i++) {
         sp_emitter emitter = sp_emitter_of(evaluator, &layout->nozzles[i]);
         double flow = sp_nozzle_flow(&layout->nozzles[i], &evaluator->setup.liquid);
-        done = !(flow > 0) || lay_nozzle(&emitter, flow, &coverage->deposits, error);
+        done = !(flow > 0) || lay_nozzle(&emitter, flow, coverage, error);
     }
     if (!done || !sp_coverage_conclude(evaluator, layout, coverage, error)) {
         sp_coverage_destroy(coverage);

@@ -9,6 +9,8 @@
 #define MOST (FEWEST << 9)
 #define BLOCK 65536      /* points in memory at a time; even */
 #define PRECISION 0.0625 /* of the accuracy or the difference, that twice the standard error may come to */
+#define ROUGH 0.25       /* the same, for choosing */
+#define ROUGH_MOST (FEWEST << 3)
 #define UNSEEN 3         /* points that may differ though none was found to, with 95 % confidence */
 
 /* Sums over the points' differences, each from -1 to 1. */
@@ -44,6 +46,8 @@ typedef struct {
     const sp_coverage *coverage;
     sp_trajectory reference;
     uint64_t seed;
+    double precision; /* of the accuracy or the difference */
+    size_t most;      /* points */
     sp_point *points; /* [BLOCK] */
     bool *covered;    /* [BLOCK] */
 } measuring;
@@ -65,16 +69,34 @@ static bool compare(const sp_evaluator *evaluator, const measuring *m, size_t n,
 static bool measure(const sp_evaluator *evaluator, const measuring *m, sp_measured_error *measured, sp_error *error)
 {
     double accuracy = evaluator->setup.fidelity.accuracy, mean = 0, spread = INFINITY;
-    for (size_t n = FEWEST; n <= MOST && spread > PRECISION * fmax(accuracy, mean); n *= 2) {
+    for (size_t n = FEWEST; n <= m->most && spread > m->precision * fmax(accuracy, mean); n *= 2) {
         tally tally = {0};
         if (!compare(evaluator, m, n, &tally, error))
             return false;
         mean = fabs(tally.sum) / (double)n;
         spread = 2 * sqrt(tally.scatter + UNSEEN) / (double)n;
         *measured = (sp_measured_error){
-            .known = true, .estimate = fmin(1, mean + spread), .misjudged = tally.size / (double)n, .points = n};
+            .known = true, .estimate = fmin(1, mean + spread), .bias = tally.sum / (double)n,
+            .misjudged = tally.size / (double)n, .points = n};
     }
     return true;
+}
+
+static bool measure_on(const sp_evaluator *evaluator, measuring *m, sp_measured_error *measured, sp_error *error)
+{
+    *measured = (sp_measured_error){.known = false};
+    if (evaluator->fidelity.reflections > 0 || !(m->coverage->area > 0))
+        return true;
+    sp_points *surface = sp_points_create(evaluator, error);
+    m->surface = surface;
+    m->points = malloc(BLOCK * sizeof *m->points);
+    m->covered = malloc(BLOCK * sizeof *m->covered);
+    bool done =
+        surface && ((m->points && m->covered) || sp_fail_memory(error)) && measure(evaluator, m, measured, error);
+    free(m->points);
+    free(m->covered);
+    sp_points_destroy(surface);
+    return done;
 }
 
 bool sp_measure_error(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
@@ -82,23 +104,25 @@ bool sp_measure_error(const sp_evaluator *evaluator, const sp_layout *layout, co
 {
     if (!evaluator || !layout || !coverage)
         return false;
-    *measured = (sp_measured_error){.known = false};
-    if (evaluator->fidelity.reflections > 0 || !(coverage->area > 0))
-        return true;
-    sp_points *surface = sp_points_create(evaluator, error);
     if (reference == SP_TRAJECTORY_AUTO)
         reference = evaluator->setup.fidelity.trajectory;
-    measuring m = {surface,
-                   layout,
-                   coverage,
-                   reference,
-                   seed,
-                   malloc(BLOCK * sizeof *m.points),
-                   malloc(BLOCK * sizeof *m.covered)};
-    bool done =
-        surface && ((m.points && m.covered) || sp_fail_memory(error)) && measure(evaluator, &m, measured, error);
-    free(m.points);
-    free(m.covered);
-    sp_points_destroy(surface);
-    return done;
+    measuring m = {.layout = layout,
+                   .coverage = coverage,
+                   .reference = reference,
+                   .seed = seed,
+                   .precision = PRECISION,
+                   .most = MOST};
+    return measure_on(evaluator, &m, measured, error);
+}
+
+bool sp_measure_roughly(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
+                        sp_measured_error *measured, sp_error *error)
+{
+    measuring m = {.layout = layout,
+                   .coverage = coverage,
+                   .reference = evaluator->setup.fidelity.trajectory,
+                   .seed = evaluator->setup.fidelity.seed,
+                   .precision = ROUGH,
+                   .most = ROUGH_MOST};
+    return measure_on(evaluator, &m, measured, error);
 }

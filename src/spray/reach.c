@@ -23,7 +23,8 @@ typedef struct flock {
     size_t ray_count;
     sp_ray *rays; /* of those whose way is not known yet */
     bool *blocked;
-    bool failed; /* for want of memory */
+    size_t places; /* that flights were solved for */
+    bool failed;   /* for want of memory */
 } flock;
 
 static bool make_room(flock *flock, size_t more)
@@ -93,6 +94,7 @@ static void gather_at(void *user, const sp_target *target, double part)
     int count = sp_flights(source->position, target->point, source->speed, source->evaluator->gravity, flights);
     if (!make_room(flock, 2))
         return;
+    flock->places++;
     for (int k = 0; k < count; k++) {
         sp_arrival *arrival = &flock->arrivals[flock->count];
         size_t bit = 2 * (size_t)own->patch + (size_t)k;
@@ -132,13 +134,14 @@ static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, f
 typedef struct harvest {
     size_t count;
     sp_arrival *arrivals;
+    sp_work work;
 } harvest;
 
 /* The arrivals at patches first to end; false where memory ran out. */
 static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uint32_t end, flock *flock,
                  harvest *harvest)
 {
-    flock->count = flock->ray_count = 0;
+    flock->count = flock->ray_count = flock->places = 0;
     if (!make_room(flock, 2 * (size_t)(end - first)))
         return false;
     for (uint32_t patch = first; patch < end; patch++)
@@ -156,7 +159,8 @@ static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uin
         if (!arrival->blocked || aim->blocked)
             flock->arrivals[kept++] = *arrival;
     }
-    *harvest = (struct harvest){kept, kept ? malloc(kept * sizeof *harvest->arrivals) : NULL};
+    *harvest = (struct harvest){kept, kept ? malloc(kept * sizeof *harvest->arrivals) : NULL,
+                                {flock->places, flock->ray_count}};
     if (harvest->arrivals)
         memcpy(harvest->arrivals, flock->arrivals, kept * sizeof *harvest->arrivals);
     return harvest->arrivals || !kept;
@@ -199,8 +203,11 @@ sp_reach *sp_reach_create(const sp_source *source, const sp_aim *aim, sp_error *
     harvest *harvests = calloc(extent.chunks + 1, sizeof *harvests);
     sp_reach *reach = calloc(1, sizeof *reach);
     bool done = harvests && reach && reap_all(source, aim, extent, harvests);
-    for (size_t i = 0; done && i < extent.chunks; i++)
+    for (size_t i = 0; done && i < extent.chunks; i++) {
         reach->count += harvests[i].count;
+        reach->work.places += harvests[i].work.places;
+        reach->work.rays += harvests[i].work.rays;
+    }
     if (done)
         reach->arrivals = malloc((reach->count ? reach->count : 1) * sizeof *reach->arrivals);
     done = done && reach->arrivals;

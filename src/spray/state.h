@@ -9,11 +9,13 @@
 struct sp_evaluator {
     sp_setup setup;
     sp_fidelity fidelity;       /* resolved: nothing left to auto */
+    sp_choice choice;           /* why */
     sp_vec3 gravity;            /* zero for lines */
     double farthest;            /* m, the geometry's farthest coordinate */
     const sp_evaluator *origin; /* of a resampled evaluator: owns tracer, charts and wet; else NULL */
     sp_tracer *tracer;
     sp_charts *charts;
+    double extent; /* m: longer charts were cut */
     struct sp_wet *wet; /* wet.h */
     sp_atlas *atlas;
     sp_fragments fragments; /* of the atlas */
@@ -30,6 +32,8 @@ static inline int sp_thread_count(int threads)
 sp_vec3 sp_gravity_for(const sp_setup *setup, sp_trajectory trajectory);
 /* Reports progress; false, with the error set, where the caller is to stop. */
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error);
+/* False, with the error that nothing is to be cleaned. */
+bool sp_fail_nothing(sp_error *error);
 
 /* m off a wall that liquid starts from: what double precision tells surely. */
 static inline double sp_stand_off(const sp_evaluator *evaluator)
@@ -66,8 +70,14 @@ void sp_counted_parts(const sp_evaluator *evaluator, uint32_t triangle, unsigned
  * where that side is dry or an obstacle. */
 uint32_t sp_patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back);
 
-/* forward.c: with as many reflections and jets as the setup asks for. */
-sp_coverage *sp_evaluate_jets(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
+/* measured.c: sp_measure_error as far as a choice needs it, until twice the standard error is no more than a quarter of
+ * the accuracy, or 80,000 points were judged. */
+bool sp_measure_roughly(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
+                        sp_measured_error *measured, sp_error *error);
+
+/* forward.c: with the evaluator's reflections and jets. *able, where it is not NULL, is the liquid (m³/s) that flies on
+ * in the end and may yet, for all that it can fall, be fast enough to count. */
+sp_coverage *sp_evaluate_jets(const sp_evaluator *evaluator, const sp_layout *layout, double *able, sp_error *error);
 
 /* balance.c: what a jet does to the balance where it arrives, or does not; `onward` (m³/s) of what arrives is thrown
  * back. */

@@ -1,0 +1,33 @@
+/* What is left to auto, chosen for a layout by measuring. */
+#ifndef SPRAY_CHOICE_H
+#define SPRAY_CHOICE_H
+
+#include "state.h"
+
+/* The coarsest and the finest texels that are tried, as how many there are of what is cleaned and counted. Longer ones
+ * save little of a run and cost the search of a layout and the pictures their detail; shorter ones take gigabytes. */
+#define SP_FEWEST_TEXELS 30000
+#define SP_MOST_TEXELS 1600000
+
+/* Sets the evaluator's fidelity and choice and makes its texels: sp_evaluator_create_for says how. Its tracer and wet
+ * sides are there, and its texel is the setup's or the plain one. */
+bool sp_choose(sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
+
+/* What a choice is made by: the layout, what it does by the settings in hand, and how far that is off. */
+typedef struct {
+    sp_evaluator *evaluator;
+    const sp_layout *layout;
+    sp_coverage *coverage;
+    sp_measured_error measured;
+} sp_trial;
+/* Evaluates and measures by the evaluator's settings, on the texels that it has. */
+bool sp_trial_run(sp_trial *trial, sp_error *error);
+/* The same on texels of this length (m). */
+bool sp_trial_at(sp_trial *trial, double texel, sp_error *error);
+/* Half the accuracy is for what the settings do, the other half for other layouts like this one. */
+bool sp_trial_keeps(const sp_trial *trial);
+
+/* choice_forward.c: jets, texels and reflections of the forward evaluator. */
+bool sp_choose_forward(sp_trial *trial, sp_error *error);
+
+#endif

@@ -1,0 +1,159 @@
+#include "resolution.h"
+
+#include "density.h"
+
+#include <stdlib.h>
+
+/* Jets per nozzle and texel of all that is to be cleaned: with a flux criterion what a texel at the threshold then
+ * receives from a nozzle that would flood it all at the threshold; without one a texel must merely not be missed. The
+ * bound, for the time that tracing takes, binds where the texel is left to auto too. */
+#define AUTO_MOST_JETS 4e6
+#define AUTO_JETS_AT_THRESHOLD 150
+#define AUTO_JETS_TO_TOUCH 20
+#define SPARE 0.1      /* of the accuracy asked for, that may be lost on thin parts which the jets do not follow */
+#define PAGE_EDGE 4096 /* texels */
+#define MOST_PAGE_EDGE 16384 /* texels, for a triangle longer than PAGE_EDGE */
+#define PAGE_MARGIN 4        /* texels that a page needs beyond its chart */
+#define MOST_TEXELS 1e9
+#define WELL_WITHIN 0.5 /* of the longest chart that fits a page: shorter ones are as they would be on any page */
+
+static double counted_area(const sp_evaluator *evaluator)
+{
+    double area = 0;
+    for (uint32_t t = 0; t < evaluator->setup.mesh->triangle_count; t++)
+        area += sp_counted_area(evaluator, t);
+    return area;
+}
+
+double sp_texel_of(const sp_evaluator *evaluator, double texels)
+{
+    return sqrt(counted_area(evaluator) / texels);
+}
+
+static double jets_per_texel(const sp_evaluator *evaluator)
+{
+    return evaluator->setup.criterion.flux > 0 ? AUTO_JETS_AT_THRESHOLD : AUTO_JETS_TO_TOUCH;
+}
+
+/* That texels of this length want. */
+static double jets_wanted(const sp_evaluator *evaluator, double texel)
+{
+    return ceil(jets_per_texel(evaluator) * counted_area(evaluator) / (texel * texel));
+}
+
+uint64_t sp_jets_for(const sp_evaluator *evaluator, double texel)
+{
+    return (uint64_t)fmin(AUTO_MOST_JETS, jets_wanted(evaluator, texel));
+}
+
+double sp_evaluator_jets_wanted(const sp_evaluator *evaluator)
+{
+    const sp_fidelity *fidelity = &evaluator->fidelity;
+    double wanted = fidelity->method == SP_METHOD_FORWARD ? jets_wanted(evaluator, fidelity->texel) : 0;
+    return wanted > (double)fidelity->jets ? wanted : 0;
+}
+
+double sp_evaluator_jets_met(const sp_evaluator *evaluator)
+{
+    return jets_per_texel(evaluator) * (double)evaluator->fidelity.jets /
+           jets_wanted(evaluator, evaluator->fidelity.texel);
+}
+
+/* Shorter texels than the jets can meet each would look dry, and few thin parts are not worth more jets for all. */
+static sp_density_limits density_limits(const sp_evaluator *evaluator)
+{
+    const sp_fidelity *fidelity = &evaluator->fidelity;
+    sp_density_limits limits = {.texel = fidelity->texel, .page = PAGE_EDGE - PAGE_MARGIN};
+    if (fidelity->method == SP_METHOD_INVERSE)
+        return limits;
+    double jets = fidelity->jets > 0 ? (double)fidelity->jets : AUTO_MOST_JETS;
+    limits.least = sqrt(counted_area(evaluator) * jets_per_texel(evaluator) / jets);
+    limits.spare = SPARE * fidelity->accuracy;
+    return limits;
+}
+
+static bool check_number(double texel, double texels, sp_error *error)
+{
+    return texels <= MOST_TEXELS ||
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "texel: %g m found, too small for a surface of %g m2; expected at least %.3g m", texel,
+                   texels * texel * texel, texel * sqrt(texels / MOST_TEXELS));
+}
+
+/* The atlas on pages of the usual size, or larger ones where a single triangle must have them. */
+static bool build_atlas(sp_evaluator *evaluator, const sp_charts *charts, const sp_density *density, sp_error *error)
+{
+    double texel = evaluator->fidelity.texel;
+    double page = fmin(fmax(ceil(density->longest) + PAGE_MARGIN, PAGE_EDGE), MOST_PAGE_EDGE);
+    sp_atlas_options options = {.texel = texel, .page_edge = (uint32_t)page, .chart_texel = density->texel};
+    if (sp_texel_is_resolved(evaluator, texel, error) && check_number(texel, density->texels, error))
+        evaluator->atlas = sp_atlas_create(evaluator->setup.mesh, charts, &options, error);
+    return evaluator->atlas &&
+           sp_fragments_create(&evaluator->fragments, evaluator->atlas, evaluator->setup.mesh, error) &&
+           sp_patches_create(evaluator, error) && (evaluator->patches.total_area > 0 || sp_fail_nothing(error));
+}
+
+/* True where charts made for pages of one length (m) are those of the other too: none comes near either. */
+static bool serve_both(const sp_charts *charts, double one, double other)
+{
+    double most = WELL_WITHIN * fmin(one, other);
+    double(*box)[4] = malloc((charts->chart_count + 1) * sizeof *box);
+    bool serve = box != NULL;
+    for (size_t c = 0; serve && c < charts->chart_count; c++)
+        for (int k = 0; k < 2; k++) {
+            box[c][k] = INFINITY;
+            box[c][2 + k] = -INFINITY;
+        }
+    for (uint32_t t = 0; serve && t < charts->triangle_count; t++)
+        for (int i = 0; i < 6; i++) {
+            double *b = box[charts->chart[t]], at = charts->flat[t][i / 2][i % 2];
+            b[i % 2] = fmin(b[i % 2], at);
+            b[2 + i % 2] = fmax(b[2 + i % 2], at);
+        }
+    for (size_t c = 0; serve && c < charts->chart_count; c++)
+        serve = !(hypot(box[c][2] - box[c][0], box[c][3] - box[c][1]) > most);
+    free(box);
+    return serve;
+}
+
+/* Charts that fit on pages of the usual size. */
+static bool make_charts(sp_evaluator *evaluator, sp_error *error)
+{
+    double extent = (PAGE_EDGE - PAGE_MARGIN) * evaluator->fidelity.texel;
+    if (evaluator->charts &&
+        (evaluator->extent == extent || serve_both(evaluator->charts, evaluator->extent, extent)))
+        return true;
+    sp_charts_destroy(evaluator->charts);
+    evaluator->extent = extent;
+    evaluator->charts = sp_charts_create(evaluator->setup.mesh, extent, error);
+    return evaluator->charts != NULL;
+}
+
+bool sp_texels_create(sp_evaluator *evaluator, const sp_evaluator *fine, sp_error *error)
+{
+    sp_density density;
+    sp_fidelity *fidelity = &evaluator->fidelity;
+    sp_density_limits limits = density_limits(evaluator);
+    sp_texels_free(evaluator);
+    if (!evaluator->origin && !make_charts(evaluator, error))
+        return false;
+    if (!(fine ? sp_density_like(evaluator, evaluator->charts, fine, &density, error)
+               : sp_density_create(evaluator, evaluator->charts, &limits, &density, error)))
+        return false;
+    if (fidelity->jets == 0)
+        fidelity->jets =
+            sp_jets_for(evaluator, fidelity->method == SP_METHOD_INVERSE ? fidelity->texel : density.finest);
+    bool done = build_atlas(evaluator, evaluator->charts, &density, error);
+    sp_density_free(&density);
+    return done;
+}
+
+void sp_texels_free(sp_evaluator *evaluator)
+{
+    sp_atlas_destroy(evaluator->atlas);
+    sp_fragments_destroy(&evaluator->fragments);
+    sp_patches_free(&evaluator->patches);
+    free(evaluator->texel_patch);
+    evaluator->atlas = NULL;
+    evaluator->texel_patch = NULL;
+}
