@@ -131,11 +131,21 @@ static bool choose_trajectory(sp_trial *trial, sp_error *error)
     return true;
 }
 
+static void tell_method(sp_evaluator *evaluator)
+{
+    const char *why = evaluator->fidelity.method == SP_METHOD_INVERSE  ? "inverse: no wall throws liquid back"
+                      : evaluator->fidelity.splat == SP_SPLAT_LINEAR ? "forward: jets alone are shared among texels"
+                                                                       : "forward: walls throw liquid back";
+    snprintf(evaluator->choice.method, SP_WHY, "%s", why);
+}
+
 bool sp_choose(sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
 {
     const sp_fidelity *open = &evaluator->setup.fidelity;
     sp_trial trial = {.evaluator = evaluator, .layout = layout};
     bool done;
+    if (open->method == SP_METHOD_AUTO)
+        tell_method(evaluator);
     if (evaluator->fidelity.method == SP_METHOD_FORWARD)
         done = sp_choose_forward(&trial, error);
     else if (!(open->texel > 0))

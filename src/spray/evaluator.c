@@ -77,7 +77,7 @@ static bool anything_reflects(const sp_setup *setup)
     return false;
 }
 
-static bool resolve_method(const sp_setup *setup, sp_fidelity *fidelity, sp_choice *choice, sp_error *error)
+static bool resolve_method(const sp_setup *setup, sp_fidelity *fidelity, sp_error *error)
 {
     bool reflects = fidelity->reflections != 0 && anything_reflects(setup);
     if (fidelity->method == SP_METHOD_INVERSE && fidelity->reflections > 0)
@@ -90,13 +90,8 @@ static bool resolve_method(const sp_setup *setup, sp_fidelity *fidelity, sp_choi
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "splat: linear found with evaluator inverse, which has no jets to share; expected nearest, or "
                        "evaluator forward");
-    if (fidelity->method == SP_METHOD_AUTO) {
+    if (fidelity->method == SP_METHOD_AUTO)
         fidelity->method = reflects || fidelity->splat == SP_SPLAT_LINEAR ? SP_METHOD_FORWARD : SP_METHOD_INVERSE;
-        snprintf(choice->method, SP_WHY, "%s",
-                 reflects                                ? "forward: walls throw liquid back"
-                 : fidelity->method == SP_METHOD_FORWARD ? "forward: jets alone can be shared among texels"
-                                                         : "inverse: no wall throws liquid back");
-    }
     if (fidelity->method == SP_METHOD_INVERSE)
         fidelity->reflections = 0;
     else if (fidelity->reflections < 0)
@@ -105,12 +100,12 @@ static bool resolve_method(const sp_setup *setup, sp_fidelity *fidelity, sp_choi
 }
 
 /* The plain safe choice for what the setup leaves to auto, but for sizes, which wait for the wet sides. */
-static bool resolve(const sp_setup *setup, sp_evaluator *evaluator, sp_error *error)
+static bool resolve(const sp_setup *setup, sp_fidelity *fidelity, sp_error *error)
 {
-    evaluator->fidelity = setup->fidelity;
-    if (setup->fidelity.trajectory == SP_TRAJECTORY_AUTO)
-        evaluator->fidelity.trajectory = SP_TRAJECTORY_PARABOLA;
-    return resolve_method(setup, &evaluator->fidelity, &evaluator->choice, error);
+    *fidelity = setup->fidelity;
+    if (fidelity->trajectory == SP_TRAJECTORY_AUTO)
+        fidelity->trajectory = SP_TRAJECTORY_PARABOLA;
+    return resolve_method(setup, fidelity, error);
 }
 
 bool sp_fail_nothing(sp_error *error)
@@ -154,7 +149,7 @@ sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *la
     if (!evaluator)
         return sp_fail_memory(error);
     evaluator->setup = *setup;
-    if (!resolve(setup, evaluator, error)) {
+    if (!resolve(setup, &evaluator->fidelity, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;
     }
