@@ -5,8 +5,8 @@
  * What the flights to a patch have in common is bounded from its middle, at r, and a radius about it that holds all of
  * it. Ways differ from r by at most asin(radius/d). Parabolas differ from ways as sp_line_deviation says where they
  * start, and by asin(g T sin ζ / 2w) where they end: there they fly along r + g T²/2, of length w T, with
- * w² = v² + 2 r·g no less than v² (1 - 2ε). Speeds, and b and D (see flight.c), follow from d and the height alone, and
- * T²√D = 2 d² / (1 + b/√D) falls with g d/b.
+ * w² = v² + 2 r·g no less than v² (1 - 2ε). Speeds, and b and D (see flight.c), follow from d and the height
+ * alone, and T²√D = 2 d² / (1 + b/√D), for one d, falls as g d/b grows.
  *
  * High arcs leave within asin(h/(v T)) of the vertical, h being the level part of r, and arrive within asin(h/(w T)) of
  * it; T is no less than √(2b)/g. They have to leave outside of the pattern, to come too slantingly for the criterion,
