@@ -23,6 +23,7 @@
 #include <sprayplan/run.h>
 #include <sprayplan/scene.h>
 #include <sprayplan/setup.h>
+#include <sprayplan/study.h>
 #include <sprayplan/trace.h>
 #include <sprayplan/vector.h>
 

@@ -83,6 +83,7 @@ int cli_compare(const cli_options *options);
 int cli_trace(const cli_options *options);
 int cli_atlas(const cli_options *options);
 int cli_bench(const cli_options *options);
+int cli_study(const cli_options *options);
 
 /* scene.c: what simulate, place and check begin with. */
 typedef struct {
@@ -120,6 +121,9 @@ int cli_fail_in(const cli_scene *opened, sp_error *error);
 /* output.c: whether files can be written where -o says, asked before the work that they are to hold. `scene` NULL: no
  * layout.yaml. True without -o. */
 bool cli_output_ready(const cli_options *options, const sp_scene *scene, sp_error *error);
+
+/* The folder that -o says, in which no file that was read can be replaced; `scene` may be NULL. */
+sp_output *cli_output_open(const cli_options *options, const sp_scene *scene, sp_error *error);
 
 /* output.c: what simulate, place and compare end with. `layout` NULL: no layout.yaml. */
 bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *scene, const sp_layout *layout,

@@ -11,6 +11,8 @@ static const cli_command commands[] = {
      OPTION_SET | OPTION_OUTPUT | OPTION_TIME_LIMIT | OPTION_MEMORY | OPTION_PROVE, cli_place, 1, 1},
     {"compare", "A B... [-o DIR]", "scenes or results side by side, one report", OPTION_SET | OPTION_OUTPUT,
      cli_compare, 2, 64},
+    {"study", "SCENE [-o DIR]", "measure speed against accuracy for this scene",
+     OPTION_SET | OPTION_OUTPUT | OPTION_TIME_LIMIT, cli_study, 1, 1},
     {"atlas", "MESH -o OUT.obj [--texel L]", "texture atlas only: mesh with UVs, chart pictures beside it, figures",
      OPTION_OUTPUT | OPTION_ATLAS, cli_atlas, 1, 1},
     {"trace", "MESH --rays FILE", "nearest hits of given lines or parabolas, as CSV", OPTION_RAYS, cli_trace, 1, 1},
@@ -18,8 +20,6 @@ static const cli_command commands[] = {
      1},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
-
-static const char *const later[] = {"study"};
 
 int cli_fail(const sp_error *error)
 {
@@ -49,7 +49,7 @@ static void print_usage(FILE *to)
             "  --threads N       how many threads to use (default: one per core); the answer does not depend on it\n"
             "  --quiet           no progress and no summary\n"
             "  --set KEY=VALUE   override a setting, as --set simulate.jets=20000 or --set place.refine=none\n"
-            "  --time-limit S    place returns its best so far after S seconds\n"
+            "  --time-limit S    place returns its best so far after S seconds, study what it has measured\n"
             "  --memory SIZE     what place may take for all that its candidates can reach, as \"2 GB\"; less takes\n"
             "                    longer, the answer does not depend on it\n"
             "  --prove           place spends the time limit on closing the gap between proposal and bound\n"
@@ -67,7 +67,7 @@ static void print_command_usage(FILE *to, const cli_command *command)
     if (command->options & OPTION_SET)
         fprintf(to, "  --set KEY=VALUE            override a setting of simulate: or place:\n");
     if (command->options & OPTION_TIME_LIMIT)
-        fprintf(to, "  --time-limit S             return the best so far after S seconds\n");
+        fprintf(to, "  --time-limit S             return the best so far, or what there is, after S seconds\n");
     if (command->options & OPTION_MEMORY)
         fprintf(to, "  --memory SIZE              what all that candidates can reach may take, as \"2 GB\" (default 1 "
                     "GB); less\n"
@@ -100,11 +100,6 @@ static const cli_command *find_command(const char *name)
 
 static int wrong_command(const char *name)
 {
-    for (size_t i = 0; i < sizeof later / sizeof *later; i++)
-        if (!strcmp(later[i], name)) {
-            fprintf(stderr, "sprayplan: the command %s is not built yet\n", name);
-            return EXIT_USAGE;
-        }
     fprintf(stderr, "sprayplan: unknown command \"%s\"; see sprayplan --help\n", name);
     return EXIT_USAGE;
 }

@@ -19,13 +19,21 @@ static bool protect_inputs(const cli_options *options, const sp_scene *scene, sp
     return good;
 }
 
+sp_output *cli_output_open(const cli_options *options, const sp_scene *scene, sp_error *error)
+{
+    sp_output *output = sp_output_open(options->output, error);
+    if (output && protect_inputs(options, scene, output, error))
+        return output;
+    sp_output_discard(output);
+    return NULL;
+}
+
 bool cli_output_ready(const cli_options *options, const sp_scene *scene, sp_error *error)
 {
     if (!options->output)
         return true;
-    sp_output *output = sp_output_open(options->output, error);
-    bool good = output && protect_inputs(options, scene, output, error) &&
-                sp_output_path(output, "result.json", error) &&
+    sp_output *output = cli_output_open(options, scene, error);
+    bool good = output && sp_output_path(output, "result.json", error) &&
                 (!scene || sp_output_path(output, "layout.yaml", error));
     sp_output_discard(output);
     return good;
@@ -36,8 +44,8 @@ bool cli_write(const cli_options *options, const sp_result *result, const sp_sce
 {
     if (!options->output)
         return true;
-    sp_output *output = sp_output_open(options->output, error);
-    bool good = output && protect_inputs(options, scene, output, error) && sp_report_write(result, output, error);
+    sp_output *output = cli_output_open(options, scene, error);
+    bool good = output && sp_report_write(result, output, error);
     if (good && layout) {
         const sp_fidelity *fidelity = sp_evaluator_fidelity(result->designs[0].evaluator);
         char *text = sp_scene_text(scene, layout, fidelity, options->output, error);
@@ -54,10 +62,8 @@ bool cli_write_wet(const cli_options *options, const cli_scene *opened, sp_error
 {
     if (!options->output)
         return true;
-    sp_output *output = sp_output_open(options->output, error);
-    const char *path = output && protect_inputs(options, opened->scene, output, error)
-                           ? sp_output_path(output, "wet.png", error)
-                           : NULL;
+    sp_output *output = cli_output_open(options, opened->scene, error);
+    const char *path = output ? sp_output_path(output, "wet.png", error) : NULL;
     if (path && sp_report_wet_png(opened->evaluator, path, error))
         return sp_output_commit(output, error);
     sp_output_discard(output);

@@ -96,13 +96,14 @@ static void find_roles(sp_page *page)
     }
 }
 
-static void add_head(sp_text *text, const char *scene)
+void sp_page_head(sp_text *text, const char *title, const char *scene)
 {
     sp_text_add(
         text,
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\">\n<meta name=\"generator\" content=\"sprayplan " SP_VERSION
-        "\">\n<title>Spray nozzle layout: ");
+        "\">\n<title>%s: ",
+        title);
     sp_markup_escape(text, scene);
     sp_text_add(text, "</title>\n");
     for (size_t i = 0; i < sizeof style / sizeof *style; ++i)
@@ -127,7 +128,7 @@ static void add_title(const sp_page *page, sp_text *text, const char *scene)
 
 static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *error)
 {
-    add_head(text, scene);
+    sp_page_head(text, "Spray nozzle layout", scene);
     add_title(page, text, scene);
     sp_page_out_of_reach(page, text);
     sp_page_headline(page, text);

@@ -16,6 +16,8 @@ typedef struct {
     sp_flux_scale scale;
 } sp_page;
 
+/* html.c: all before the page's first heading: title (ours, not escaped), style, the beginning of <main>. */
+void sp_page_head(sp_text *text, const char *title, const char *scene);
 /* A design's name for readers, escaped. */
 void sp_page_name(const sp_page *page, sp_text *text, size_t design);
 /* Colour of a design in charts, "#rrggbb". */

@@ -12,7 +12,8 @@ static void help_goes_to_standard_output(void **state)
 {
     (void)state;
     static const char *const calls[] = {"--help",         "check --help", "simulate --help", "place --help",
-                                        "compare --help", "trace --help", "atlas --help",    "bench --help"};
+                                        "compare --help", "trace --help", "atlas --help",    "bench --help",
+                                        "study --help"};
     for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {
         outcome result = run_program(calls[i]);
         assert_int_equal(result.status, 0);
@@ -30,7 +31,10 @@ static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
     } calls[] = {
         {"", "usage: sprayplan"},
         {"paint room.yaml", "unknown command \"paint\""},
-        {"study room.yaml", "study is not built yet"},
+        {"study", "found 0 file names, expected one"},
+        {"study room.yaml room.yaml", "found 2 file names, expected one"},
+        {"study room.yaml --prove", "study does not take --prove"},
+        {"study room.yaml --texel 3mm", "study does not take --texel"},
         {"check", "found 0 file names, expected one"},
         {"check room.yaml room.yaml", "found 2 file names, expected one"},
         {"compare room.yaml", "found 1 file names, expected two or more"},
@@ -95,6 +99,9 @@ static void bad_input_ends_with_3_and_says_where(void **state)
         {"check room.yaml --set simulate.colour=red", "", "colour"},
         {"simulate bare.yaml", "bare.yaml", "nozzles"},
         {"place bare.yaml", "bare.yaml", "place"},
+        {"study bare.yaml", "bare.yaml", "nozzles"},
+        {"study nowhere.yaml", "nowhere.yaml", ""},
+        {"study room.yaml --set simulate.texel=none", "", "simulate.texel"},
         {"trace broken.obj --rays room.yaml", "broken.obj:4", ""},
         {"atlas nowhere.obj", "nowhere.obj", ""},
         {"bench nowhere.obj", "nowhere.obj", ""},

@@ -1,0 +1,85 @@
+/* The study as plain tables for a terminal. */
+#include "words.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Words of a row, padded. */
+static void add_name(sp_text *text, sp_text *words, int width)
+{
+    char *name = sp_text_finish(words, NULL);
+    if (name)
+        sp_text_add(text, "%-*s", width, name);
+    else
+        text->failed = true;
+    free(name);
+}
+
+static void add_runs(sp_text *text, const sp_study *study)
+{
+    enum { WIDTH = 64 };
+    sp_text_add(text, "%-*s %10s %17s %11s %9s %10s %9s\n", WIDTH, "settings", "coverage %", "error, points",
+                "misjudged %", "prepare s", "evaluate s", "memory MB");
+    for (size_t i = 0; i < study->run_count; i++) {
+        const sp_study_run *run = &study->runs[i];
+        sp_text words = {0};
+        if (run->chosen)
+            sp_text_add(&words, "the scene's own: ");
+        sp_words_run(&words, &run->fidelity, true, true);
+        add_name(text, &words, WIDTH);
+        sp_text_add(text, " %10.2f %+8.3f \xc2\xb1 %6.3f %11.2f %9.3g %10.3g %9.0f%s\n", 100 * run->coverage,
+                    100 * run->error, 100 * run->spread, 100 * run->misjudged, run->speed.prepare, run->speed.evaluate,
+                    1e-6 * (double)run->speed.memory, run->speed.front_misjudged ? " *" : "");
+    }
+    sp_text_add(text, "* nothing that misjudges as little is quicker\n");
+}
+
+static void add_orders(sp_text *text, const sp_study *study)
+{
+    enum { WIDTH = 64 };
+    if (study->order_count)
+        sp_text_add(text, "\n%-*s %8s %10s %11s\n", WIDTH, "orders of convergence", "along", "error", "misjudged");
+    for (size_t i = 0; i < study->order_count; i++) {
+        const sp_study_order *order = &study->orders[i];
+        bool along_texel = !(order->fidelity.texel > 0);
+        sp_text words = {0};
+        sp_words_run(&words, &order->fidelity, !along_texel, along_texel);
+        add_name(text, &words, WIDTH);
+        sp_text_add(text, " %8s ", along_texel ? "texel" : "jets");
+        if (isfinite(order->error))
+            sp_text_add(text, "%10.2f", order->error);
+        else
+            sp_text_add(text, "%10s", "-");
+        sp_text_add(text, " %11.2f\n", order->misjudged);
+    }
+}
+
+static void add_places(sp_text *text, const sp_study *study)
+{
+    enum { WIDTH = 44 };
+    if (study->place_count)
+        sp_text_add(text, "\n%-*s %11s %10s %11s %9s %9s %9s\n", WIDTH, "placements", "water L/min", "coverage %",
+                    "confirmed %", "seconds", "CPU s", "cut short");
+    for (size_t i = 0; i < study->place_count; i++) {
+        const sp_study_place *place = &study->places[i];
+        sp_text words = {0};
+        sp_words_place(&words, place);
+        add_name(text, &words, WIDTH);
+        sp_text_add(text, " %11.1f %10.2f %11.2f %9.2f %9.2f %9s\n", 6e4 * place->water, 100 * place->coverage,
+                    100 * place->confirmed, place->seconds, place->cpu,
+                    place->limited       ? "its limit"
+                    : place->ended_early ? "yes"
+                                         : "");
+    }
+}
+
+char *sp_study_text(const sp_study *study, sp_error *error)
+{
+    sp_text text = {0};
+    if (study->run_count) {
+        add_runs(&text, study);
+        add_orders(&text, study);
+    }
+    add_places(&text, study);
+    return sp_text_finish(&text, error);
+}
