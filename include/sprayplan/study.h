@@ -1,5 +1,6 @@
 /* A study: what speed costs in accuracy on one scene. Its layout is evaluated by every combination of settings that the
- * scene leaves open, each is compared with the same points of the surface, and placements are run by several of them. */
+ * scene leaves open, each is compared with the same points of the surface, and placements are run by several of them.
+ */
 #ifndef SPRAYPLAN_STUDY_H
 #define SPRAYPLAN_STUDY_H
 
@@ -42,17 +43,17 @@ typedef struct {
 
 /* One placement. Its certificate is not part of it. */
 typedef struct {
-    sp_fidelity fidelity;  /* the evaluator's */
-    bool refine;           /* false: candidates alone */
-    int shift;             /* -1, 0, 1: its texel is 3 % finer than its group's, the group's, 3 % coarser */
-    double limit;          /* s of wall time that it was given */
-    bool limited;          /* the limit is what its group is about, and what it found depends on the machine */
-    bool ended_early;      /* the limit cut it short: what it found depends on the machine */
-    bool reached;          /* it covers what was asked for, by its own count */
+    sp_fidelity fidelity; /* the evaluator's */
+    bool refine;          /* false: candidates alone */
+    int shift;            /* -1, 0, 1: its texel is 3 % finer than its group's, the group's, 3 % coarser */
+    double limit;         /* s of wall time that it was given */
+    bool limited;         /* the limit is what its group is about, and what it found depends on the machine */
+    bool ended_early;     /* the limit cut it short: what it found depends on the machine */
+    bool reached;         /* it covers what was asked for, by its own count */
     size_t nozzles;
-    double water;    /* m³/s */
-    double coverage; /* by its own evaluator, fraction */
-    double confirmed; /* covered share of the points, each judged for itself at the first impact */
+    double water;            /* m³/s */
+    double coverage;         /* by its own evaluator, fraction */
+    double confirmed;        /* covered share of the points, each judged for itself at the first impact */
     double confirmed_spread; /* twice its standard error */
     double seconds, cpu;     /* until the layout was there, as in sp_study_speed; preparing left out */
     size_t memory;
@@ -60,15 +61,15 @@ typedef struct {
 
 /* Owned by the caller. */
 typedef struct {
-    sp_fidelity reference;       /* texel and jets 0: points judged in closed form; else a run to compare with */
-    double reference_coverage;   /* fraction */
-    double reference_spread;     /* twice the standard error from the points being a sample */
-    double reference_check;      /* of a run as reference: its error with reflections left out, measured against points
-                                  * judged in closed form; else NAN */
-    size_t points;               /* as many were compared */
-    double area;                 /* m², clean and wet */
-    size_t run_count;            /* 0: the scene has no nozzles */
-    sp_study_run *runs;          /* in the order of the grid; the scene's own settings last */
+    sp_fidelity reference;     /* texel and jets 0: points judged in closed form; else a run to compare with */
+    double reference_coverage; /* fraction */
+    double reference_spread;   /* twice the standard error from the points being a sample */
+    double reference_check;    /* of a run as reference: its error with reflections left out, measured against points
+                                * judged in closed form; else NAN */
+    size_t points;             /* as many were compared */
+    double area;               /* m², clean and wet */
+    size_t run_count;          /* 0: the scene has no nozzles */
+    sp_study_run *runs;        /* in the order of the grid; the scene's own settings last */
     size_t order_count;
     sp_study_order *orders;
     size_t place_count;
@@ -86,16 +87,16 @@ typedef struct {
 /* Runs the grid: trajectory (line, parabola), evaluator, texel (4, 2, 1 and ½ times the edge at which all that counts
  * has 100,000 texels, rounded to one digit; forward not the finest), jets and, where something reflects, reflections.
  * What the setup sets is not varied: a texel that is set is the only one. Each is compared at 100 / accuracy² points (a
- * million at 1 %) with what holds at the point, by the dearest physics that the setup leaves open: closed form, or where
- * walls throw liquid back by ten million jets a nozzle and up to eight reflections on the middle texel.
+ * million at 1 %) with what holds at the point, by the dearest physics that the setup leaves open: closed form, or
+ * where walls throw liquid back by ten million jets a nozzle and up to eight reflections on the middle texel.
  *
- * With `place` it then runs placements: by texel (4, 2, 1 times), by line, without refinement and with little time, each
- * three times on texels 3 % apart, which tells the luck of the search from what the settings do. They share what is left
- * of the time limit, or seven minutes.
+ * With `place` it then runs placements: by texel (4, 2, 1 times), by line, without refinement and with little time,
+ * each three times on texels 3 % apart, which tells the luck of the search from what the settings do. They share what
+ * is left of the time limit, or seven minutes.
  *
- * `layout` may have no nozzles where there is `place`. NULL with an error; cancelled before the first run has ended, with
- * SP_ERROR_INTERRUPTED. The same for every number of threads but for sp_study_speed, seconds, memory and what a limit
- * cut. */
+ * `layout` may have no nozzles where there is `place`. NULL with an error; cancelled before the first run has ended,
+ * with SP_ERROR_INTERRUPTED. The same for every number of threads but for sp_study_speed, seconds, memory and what a
+ * limit cut. */
 sp_study *sp_study_create(const sp_setup *setup, const sp_layout *layout, const sp_place_options *place,
                           const sp_study_options *options, sp_error *error);
 /* Accepts NULL. */
@@ -108,8 +109,8 @@ double sp_study_slope(const double *x, const double *y, size_t count);
  * NAN is not on it. */
 void sp_study_front(const double *cost, const double *loss, size_t count, bool *on);
 
-/* study.json: everything; what varies between runs stands in objects named "speed", and in "place_limited". Each text is
- * malloc'd, the caller frees. `scene` is the path as given. */
+/* study.json: everything; what varies between runs stands in objects named "speed", and in "place_limited". Each text
+ * is malloc'd, the caller frees. `scene` is the path as given. */
 char *sp_study_json(const sp_study *study, const char *scene, sp_error *error);
 /* study.csv: one row a run; place.csv: one row a placement. The columns that vary between runs are the last, from
  * prepare_s and from seconds on. */

@@ -4,10 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define USUAL_TEXELS 100000    /* on all that counts, by the edge in the middle */
-#define MOST_JETS 10000000     /* of a nozzle */
-#define MOST_JETS_IN_ALL 4e7   /* of all nozzles */
-#define JETS_WITH_BOUNCES 10   /* times fewer where each is followed through several walls */
+#define USUAL_TEXELS 100000  /* on all that counts, by the edge in the middle */
+#define MOST_JETS 10000000   /* of a nozzle */
+#define MOST_JETS_IN_ALL 4e7 /* of all nozzles */
+#define JETS_WITH_BOUNCES 10 /* times fewer where each is followed through several walls */
 enum { TEXELS = 4, FORWARD_TEXELS = 3, JET_STEPS = 3, BOUNCES = 4 };
 static const double texel_steps[TEXELS] = {4, 2, 1, 0.5};
 static const int bounce_steps[BOUNCES] = {0, 1, 2, 4};

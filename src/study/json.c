@@ -47,8 +47,7 @@ static json_t *reference_object(const sp_study *study)
     bool good = put(object, "judged_by", json_string(points ? "points" : "jets")) &&
                 (points ? put(object, "trajectory", json_string(sp_word_trajectory(reference)))
                         : put_fidelity(object, reference)) &&
-                put_count(object, "points", study->points) &&
-                put_real(object, "coverage", study->reference_coverage) &&
+                put_count(object, "points", study->points) && put_real(object, "coverage", study->reference_coverage) &&
                 put_real(object, "two_standard_errors", study->reference_spread) &&
                 put_real(object, "error_without_reflections", study->reference_check);
     if (good)
@@ -59,10 +58,10 @@ static json_t *reference_object(const sp_study *study)
 
 static json_t *speed_object(const sp_study_speed *speed)
 {
-    json_t *object = json_pack("{s:f, s:f, s:f, s:f, s:b, s:b}", "prepare_s", speed->prepare, "evaluate_s",
-                               speed->evaluate, "prepare_cpu_s", speed->prepare_cpu, "evaluate_cpu_s",
-                               speed->evaluate_cpu, "on_front", speed->front, "on_front_misjudged",
-                               speed->front_misjudged);
+    json_t *object =
+        json_pack("{s:f, s:f, s:f, s:f, s:b, s:b}", "prepare_s", speed->prepare, "evaluate_s", speed->evaluate,
+                  "prepare_cpu_s", speed->prepare_cpu, "evaluate_cpu_s", speed->evaluate_cpu, "on_front", speed->front,
+                  "on_front_misjudged", speed->front_misjudged);
     if (speed->memory > 0)
         json_object_set_new(object, "memory_bytes", json_integer((json_int_t)speed->memory));
     return object;
@@ -143,8 +142,8 @@ char *sp_study_json(const sp_study *study, const char *scene, sp_error *error)
                 put(object, "command", json_string("study")) && put(object, "scene", json_string(name)) &&
                 put_real(object, "clean_area_m2", study->area) && put_flag(object, "interrupted", study->interrupted) &&
                 (study->run_count == 0 || put_grid(object, study)) &&
-                (study->place_count == 0 || (put_places(object, "place", study, false) &&
-                                             put_places(object, "place_limited", study, true)));
+                (study->place_count == 0 ||
+                 (put_places(object, "place", study, false) && put_places(object, "place_limited", study, true)));
     char *dumped = good ? json_dumps(object, JSON_INDENT(1)) : NULL;
     json_decref(object);
     free(name);

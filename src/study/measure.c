@@ -119,7 +119,8 @@ bool sp_study_measure(sp_studying *studying, const sp_fidelity *fidelity, const 
     sp_evaluator *evaluator = prepare(&setup, run, error);
     sp_coverage *coverage = evaluator ? evaluate(evaluator, layout, run, error) : NULL;
     run->speed.memory = options->meter_peak ? options->meter_peak() : 0;
-    bool good = coverage && sp_sample_difference(studying, evaluator, coverage, studying->truth, studying->values, error);
+    bool good =
+        coverage && sp_sample_difference(studying, evaluator, coverage, studying->truth, studying->values, error);
     if (good) {
         sp_sample sample = sp_sample_of(studying->values, studying->points);
         run->fidelity = *sp_evaluator_fidelity(evaluator);

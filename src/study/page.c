@@ -85,8 +85,9 @@ static void add_reference(sp_text *text, const sp_study *study)
     sp_text_add(text, "<dt>Compared with</dt><dd>");
     sp_words_count(text, study->points);
     if (reference->texel > 0) {
-        sp_text_add(text, " points of the surface, on which what is true was told by a run of its own, since walls throw "
-                          "liquid back: ");
+        sp_text_add(text,
+                    " points of the surface, on which what is true was told by a run of its own, since walls throw "
+                    "liquid back: ");
         sp_words_run(text, reference, true, true);
         sp_text_add(text, ". Its own error, where reflections are left out and points can tell: ");
         sp_markup_signed(text, 100 * study->reference_check, 2);
@@ -106,14 +107,15 @@ static void add_notes(sp_text *text, const sp_study *study)
     sp_text_add(text, "<section id=\"measured\"><h2>How it was measured</h2>\n<dl>");
     if (study->run_count)
         add_reference(text, study);
-    sp_text_add(text, "<dt>Seconds</dt><dd>Of wall time; beside them the processor time of all threads together. Of one "
-                      "run the median of as many repetitions as fit into a third of a second, five at most. Preparing "
-                      "is tree, wet sides and atlas, evaluating is one layout.</dd>\n"
-                      "<dt>Memory</dt><dd>The most that the program and its library held at a time, beyond the "
-                      "geometry; what libraries beneath it take for themselves is not counted.</dd>\n"
-                      "<dt>Left out</dt><dd>Air drag and film on walls, which this version does not model.</dd>\n"
-                      "<dt>What varies</dt><dd>What the scene sets is not varied: a texel that it sets is the only "
-                      "one.</dd></dl></section>\n");
+    sp_text_add(text,
+                "<dt>Seconds</dt><dd>Of wall time; beside them the processor time of all threads together. Of one "
+                "run the median of as many repetitions as fit into a third of a second, five at most. Preparing "
+                "is tree, wet sides and atlas, evaluating is one layout.</dd>\n"
+                "<dt>Memory</dt><dd>The most that the program and its library held at a time, beyond the "
+                "geometry; what libraries beneath it take for themselves is not counted.</dd>\n"
+                "<dt>Left out</dt><dd>Air drag and film on walls, which this version does not model.</dd>\n"
+                "<dt>What varies</dt><dd>What the scene sets is not varied: a texel that it sets is the only "
+                "one.</dd></dl></section>\n");
 }
 
 char *sp_study_html(const sp_study *study, const char *scene, sp_error *error)
@@ -126,6 +128,7 @@ char *sp_study_html(const sp_study *study, const char *scene, sp_error *error)
     free(name);
     if (study->run_count) {
         add_headline(&text, study);
+        sp_study_findings(&text, study);
         sp_study_run_plots(&text, study);
     }
     sp_study_place_page(&text, study);

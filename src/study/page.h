@@ -4,6 +4,8 @@
 
 #include "words.h"
 
+/* findings.c: what lines, texels, jets and reflections come to, in sentences. */
+void sp_study_findings(sp_text *text, const sp_study *study);
 /* run_plots.c: error and misjudged area against seconds, texel and jets. */
 void sp_study_run_plots(sp_text *text, const sp_study *study);
 /* run_tables.c: every run, and the orders. */

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 
 enum { IN_GROUP = 3, MOST_GROUPS = 8 };
-static const char *const colours[] = {"#6b7a87", "#b5542e", "#3b5b92", "#0b6670", "#7a4b8f", "#8a6d1d", "#c42636",
-                                      "#10202a"};
+static const char *const colours[] = {"#6b7a87", "#b5542e", "#3b5b92", "#0b6670",
+                                      "#7a4b8f", "#8a6d1d", "#c42636", "#10202a"};
 
 static size_t group_size(const sp_study *study, size_t first)
 {
@@ -133,17 +133,21 @@ void sp_study_place_page(sp_text *text, const sp_study *study)
     draw(text, study, true);
     sp_text_add(text, "<h3>Coverage that points confirm</h3>\n");
     draw(text, study, false);
-    sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\"><thead><tr><th scope=\"col\">Search</th><th "
-                      "scope=\"col\">Water, L/min: texel 3&nbsp;%% finer</th><th scope=\"col\">as said</th><th "
-                      "scope=\"col\">3&nbsp;%% coarser</th><th scope=\"col\">Coverage, %%</th><th scope=\"col\">Confirmed, "
-                      "%%</th><th scope=\"col\">Seconds</th><th scope=\"col\">CPU seconds</th><th scope=\"col\">Cut "
-                      "short</th></tr></thead>\n<tbody>\n");
+    sp_text_add(
+        text,
+        "<h3>Every search</h3>\n<div class=\"wide\"><table class=\"numbers small\"><thead><tr><th "
+        "rowspan=\"2\">Search</th><th colspan=\"3\" scope=\"colgroup\">Water, L/min, on a texel</th><th "
+        "rowspan=\"2\">Coverage, %%</th><th rowspan=\"2\">Confirmed, %%</th><th "
+        "rowspan=\"2\">Seconds</th><th rowspan=\"2\">CPU seconds</th><th rowspan=\"2\">Cut "
+        "short</th></tr>\n<tr><th scope=\"col\" style=\"text-align:right\">3&nbsp;%% finer</th><th scope=\"col\">as "
+        "said</th><th scope=\"col\">3&nbsp;%% coarser</th></tr></thead>\n<tbody>\n");
     for (size_t first = 0; first < study->place_count; first += IN_GROUP)
         add_group(text, study, first);
-    sp_text_add(text, "</tbody></table></div>\n<p class=\"note\">Three placements each, on texels 3&nbsp;%% apart: what "
-                      "they differ by is the luck of the search, and settings whose waters lie within it are not told "
-                      "apart. Coverage is by the search's own settings; confirmed is the share of the points, each "
-                      "judged for itself at the first impact (bars: twice its standard error). Seconds end when the "
-                      "layout is there: forward check and certificate come after and are left out. What was cut short "
-                      "reached the limit of the study, not the end of its search.</p></section>\n");
+    sp_text_add(text,
+                "</tbody></table></div>\n<p class=\"note\">Three placements each, on texels 3&nbsp;%% apart: what "
+                "they differ by is the luck of the search, and settings whose waters lie within it are not told "
+                "apart. Coverage is by the search's own settings; confirmed is the share of the points, each "
+                "judged for itself at the first impact (bars: twice its standard error). Seconds end when the "
+                "layout is there: forward check and certificate come after and are left out. What was cut short "
+                "reached the limit of the study, not the end of its search.</p></section>\n");
 }

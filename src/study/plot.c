@@ -62,7 +62,7 @@ static void add_tick(axis *a, double value, bool named)
 
 static void mark_linear(axis *a)
 {
-    double range = a->high > a->low ? a->high - a->low : fmax(fabs(a->high), 1e-6), step = nice_step(1.1 * range);
+    double range = a->high > a->low ? a->high - a->low : fmax(0.1 * fabs(a->high), 1e-6), step = nice_step(1.1 * range);
     double middle = 0.5 * (a->high + a->low);
     double first = floor((middle - 0.55 * range) / step), last = ceil((middle + 0.55 * range) / step);
     a->low = first * step;
@@ -71,10 +71,10 @@ static void mark_linear(axis *a)
         add_tick(a, i * step, true);
 }
 
-/* Ticks at 1, 2 and 5, or at powers of ten alone where there are many of these. */
+/* Ticks at 1, 2 and 5, or at powers of ten alone where there are many of these; at even steps where these are few. */
 static void mark_log(axis *a)
 {
-    double range = fmax(a->high - a->low, 0.1);
+    double range = fmax(a->high - a->low, 0.05);
     a->low -= 0.06 * range;
     a->high += 0.06 * range;
     static const double parts[] = {1, 2, 5};
@@ -84,6 +84,12 @@ static void mark_log(axis *a)
             if (log10(value) >= a->low && log10(value) <= a->high && (i == 0 || range < 5))
                 add_tick(a, value, i == 0 || range < 3);
         }
+    if (a->count >= 3)
+        return;
+    a->count = 0;
+    double low = pow(10, a->low), high = pow(10, a->high), step = nice_step(high - low);
+    for (double i = ceil(low / step); i * step <= high; i++)
+        add_tick(a, i * step, true);
 }
 
 static void stretch(axis *a, double value)
@@ -174,8 +180,9 @@ static void add_marker(sp_text *text, double x, double y, const sp_plot_series *
         sp_text_add(text, "<path d=\"M%.1f %.1fl5.5 9h-11z\"", x, y - 5.5);
         break;
     case 4:
-        sp_text_add(text, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"7.5\" fill=\"none\" stroke=\"%s\" stroke-width=\"1.5\"/>\n",
-                    x, y, series->colour);
+        sp_text_add(text,
+                    "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"7.5\" fill=\"none\" stroke=\"%s\" stroke-width=\"1.5\"/>\n", x,
+                    y, series->colour);
         return;
     case 5:
         sp_text_add(text, "<path d=\"M%.1f %.1fl9 9l-9 9l-9 -9z\"", x, y - 9);
@@ -214,10 +221,9 @@ static void add_series(sp_text *text, const axis *x, const axis *y, const sp_plo
         if (!visible(x, y, point))
             continue;
         if (shown(y, point->low) && shown(y, point->high))
-            sp_text_add(text,
-                        "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"1.5\"/>\n",
-                        x_of(x, point->x), x_of(x, point->x), y_of(y, point->low), y_of(y, point->high),
-                        series->colour);
+            sp_text_add(
+                text, "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"1.5\"/>\n",
+                x_of(x, point->x), x_of(x, point->x), y_of(y, point->low), y_of(y, point->high), series->colour);
         add_marker(text, x_of(x, point->x), y_of(y, point->y), series);
     }
 }

@@ -21,7 +21,7 @@ typedef struct {
 } sp_plot_series;
 
 typedef struct {
-    const char *label;            /* for who cannot see it */
+    const char *label; /* for who cannot see it */
     const char *x_title, *y_title;
     bool log_x, log_y;
     size_t count;

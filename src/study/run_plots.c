@@ -156,12 +156,10 @@ static void against_seconds(sp_text *text, const sp_study *study, place *at, bel
         series->colour = "#10202a";
         series->shape = 5;
     }
-    finish(text, &d,
-           (sp_plot){.label = label,
-                     .x_title = "Seconds of one evaluation",
-                     .y_title = y_title,
-                     .log_x = true,
-                     .log_y = true});
+    finish(
+        text, &d,
+        (sp_plot){
+            .label = label, .x_title = "Seconds of one evaluation", .y_title = y_title, .log_x = true, .log_y = true});
 }
 
 static void along(sp_text *text, const sp_study *study, bool texel, const char *label, const char *x_title)
@@ -201,13 +199,15 @@ void sp_study_run_plots(sp_text *text, const sp_study *study)
     against_seconds(text, study, error_by_seconds, on_front,
                     "Chart: error of the coverage in points against seconds of one evaluation",
                     "Error of the coverage, points");
-    sp_text_add(text, "<p class=\"note\">The size of the mean difference and twice its standard error. Too much here and "
-                      "too little there cancel in it: a low point may be luck, which the next chart does not know.</p>\n");
+    sp_text_add(text,
+                "<p class=\"note\">The size of the mean difference and twice its standard error. Too much here and "
+                "too little there cancel in it: a low point may be luck, which the next chart does not know.</p>\n");
     against_seconds(text, study, misjudged_by_seconds, on_front_misjudged,
                     "Chart: misjudged area in per cent against seconds of one evaluation",
                     "Misjudged, % of the surface");
-    sp_text_add(text, "<p class=\"note\">Misjudged is what is wrong either way: dry that counts as covered, and covered "
-                      "that counts as dry.</p></section>\n");
+    sp_text_add(text,
+                "<p class=\"note\">Misjudged is what is wrong either way: dry that counts as covered, and covered "
+                "that counts as dry.</p></section>\n");
     if (varies(study, true)) {
         sp_text_add(text, "<section id=\"texels\"><h2>What a finer texel buys</h2>\n");
         along(text, study, true, "Chart: misjudged area against texel", "Texel, mm");

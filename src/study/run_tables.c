@@ -27,11 +27,11 @@ static void add_memory(sp_text *text, size_t bytes)
 
 static void add_row(sp_text *text, const sp_study_run *run)
 {
-    sp_text_add(text, "<tr><th scope=\"row\">");
+    sp_text_add(text, "<tr><th scope=\"row\" style=\"white-space:nowrap\">");
     if (run->chosen)
-        sp_text_add(text, "<b>The scene's own: ");
+        sp_text_add(text, "<b>The scene's own:</b><br>");
     sp_words_run(text, &run->fidelity, true, true);
-    sp_text_add(text, "%s</th><td>", run->chosen ? "</b>" : "");
+    sp_text_add(text, "</th><td>");
     sp_words_count(text, run->texels);
     sp_text_add(text, "</td>");
     add_share(text, run->coverage, 2);
@@ -74,21 +74,22 @@ static void add_orders(sp_text *text, const sp_study *study)
                 "<tbody>\n");
     for (size_t i = 0; i < study->order_count; i++)
         add_order(text, &study->orders[i]);
-    sp_text_add(text, "</tbody></table></div>\n<p class=\"note\">The power of the texel, or of one over the jets, that "
-                      "fits best: with order 1 half the texel misjudges half the area. Below 0: it gets worse. The mean "
-                      "error changes its sign on the way, and where fewer than three runs know it better than by twice "
-                      "their standard error it has no order.</p></section>\n");
+    sp_text_add(text,
+                "</tbody></table></div>\n<p class=\"note\">The power of the texel, or of one over the jets, that "
+                "fits best: with order 1 half the texel misjudges half the area. Below 0: it gets worse. The mean "
+                "error changes its sign on the way, and where fewer than three runs know it better than by twice "
+                "their standard error it has no order.</p></section>\n");
 }
 
 void sp_study_run_tables(sp_text *text, const sp_study *study)
 {
-    sp_text_add(text,
-                "<section id=\"runs\"><h2>Every run</h2>\n<div class=\"wide\"><table class=\"numbers small\"><thead><tr>"
-                "<th scope=\"col\">Settings</th><th scope=\"col\">Patches</th><th scope=\"col\">Coverage, %%</th><th "
-                "scope=\"col\">Error, points</th><th scope=\"col\">Misjudged, %%</th><th scope=\"col\">Prepare, s</th>"
-                "<th scope=\"col\">Evaluate, s</th><th scope=\"col\">Prepare, CPU s</th><th scope=\"col\">Evaluate, CPU "
-                "s</th><th scope=\"col\">Memory, MB</th><th scope=\"col\" class=\"text\">On the front of</th></tr>"
-                "</thead>\n<tbody>\n");
+    sp_text_add(
+        text, "<section id=\"runs\"><h2>Every run</h2>\n<div class=\"wide\"><table class=\"numbers small\"><thead><tr>"
+              "<th scope=\"col\">Settings</th><th scope=\"col\">Patches</th><th scope=\"col\">Coverage, %%</th><th "
+              "scope=\"col\">Error, points</th><th scope=\"col\">Misjudged, %%</th><th scope=\"col\">Prepare, s</th>"
+              "<th scope=\"col\">Evaluate, s</th><th scope=\"col\">Prepare, CPU s</th><th scope=\"col\">Evaluate, CPU "
+              "s</th><th scope=\"col\">Memory, MB</th><th scope=\"col\" class=\"text\">On the front of</th></tr>"
+              "</thead>\n<tbody>\n");
     for (size_t i = 0; i < study->run_count; i++)
         add_row(text, &study->runs[i]);
     sp_text_add(text, "</tbody></table></div></section>\n");

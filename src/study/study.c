@@ -63,7 +63,8 @@ bool sp_study_next(sp_studying *studying, const char *stage, size_t index, size_
     studying->step = 1 / (double)count;
     studying->expected = expected;
     studying->since = sp_moment_now();
-    return progress(studying, stage, 0) || sp_fail(error, SP_ERROR_INTERRUPTED, NULL, 0, 0, "interrupted");
+    return progress(studying, stage, 0) ||
+           sp_fail(error, SP_ERROR_INTERRUPTED, NULL, 0, 0, "interrupted, or out of time");
 }
 
 void sp_study_placing(sp_studying *studying, double limit)
@@ -81,7 +82,8 @@ sp_moment sp_study_placed(sp_studying *studying, bool *ended_early)
     return studying->laid ? studying->taken : sp_moment_since(studying->began);
 }
 
-/* So many that twice the standard error of one misjudged point in a hundred is a sixty-fourth of the accuracy, about. */
+/* So many that twice the standard error of one misjudged point in a hundred is a sixty-fourth of the accuracy, about.
+ */
 static size_t points_for(double accuracy)
 {
     double points = accuracy > 0 ? 100 / (accuracy * accuracy) : MOST_POINTS;

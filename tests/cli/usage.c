@@ -11,9 +11,9 @@ static void says_its_version(void **state)
 static void help_goes_to_standard_output(void **state)
 {
     (void)state;
-    static const char *const calls[] = {"--help",         "check --help", "simulate --help", "place --help",
-                                        "compare --help", "trace --help", "atlas --help",    "bench --help",
-                                        "study --help"};
+    static const char *const calls[] = {"--help",       "check --help",   "simulate --help",
+                                        "place --help", "compare --help", "trace --help",
+                                        "atlas --help", "bench --help",   "study --help"};
     for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {
         outcome result = run_program(calls[i]);
         assert_int_equal(result.status, 0);
