@@ -86,8 +86,8 @@ typedef struct {
 
 /* Runs the grid: trajectory (line, parabola), evaluator, texel (4, 2, 1 and ½ times the edge at which all that counts
  * has 100,000 texels, rounded to one digit; forward not the finest), jets and, where something reflects, reflections.
- * What the setup sets is not varied: a texel that is set is the only one. Each is compared at 100 / accuracy² points (a
- * million at 1 %) with what holds at the point, by the dearest physics that the setup leaves open: closed form, or
+ * What the setup sets is not varied: a texel that is set is the only one. Each is compared at 100 / accuracy² points
+ * (a million at 1 %) with what holds at the point, by the dearest physics that the setup leaves open: closed form, or
  * where walls throw liquid back by ten million jets a nozzle and up to eight reflections on the middle texel.
  *
  * With `place` it then runs placements: by texel (4, 2, 1 times), by line, without refinement and with little time,

@@ -27,7 +27,7 @@ static void add_memory(sp_text *text, size_t bytes)
 
 static void add_row(sp_text *text, const sp_study_run *run)
 {
-    sp_text_add(text, "<tr><th scope=\"row\" style=\"white-space:nowrap\">");
+    sp_text_add(text, "<tr><th scope=\"row\" style=\"min-width:190px\">");
     if (run->chosen)
         sp_text_add(text, "<b>The scene's own:</b><br>");
     sp_words_run(text, &run->fidelity, true, true);
