@@ -1,11 +1,10 @@
 /* What can be reckoned with in double precision, and errors for what cannot. */
+#include "spray/wet/cuts.h"
 #include "state.h"
 
-#define MOST_SPEED 1e30  /* m/s: far beyond, fourth powers that flights are reckoned from overflow */
-#define MOST_LENGTH 1e50 /* m, and its inverse: far beyond, so do fourth powers of lengths */
-/* Times the geometry's diagonal, that it may lie off the origin: surfaces nearer to each other than 1e-6 of it touch,
- * and coordinates must tell so much apart. */
-#define FARTHEST 1e9
+#define MOST_SPEED 1e30        /* m/s: far beyond, fourth powers that flights are reckoned from overflow */
+#define MOST_LENGTH 1e50       /* m, and its inverse: far beyond, so do fourth powers of lengths */
+#define COARSEST 0x1p-12       /* of the geometry's diagonal, that coordinates tell */
 #define FINEST_TEXEL 0x1p-40   /* of the farthest coordinate */
 #define SLOWEST_SQUARE 0x1p-58 /* of g times the diagonal, that v² is told beside */
 
@@ -23,11 +22,14 @@ bool sp_geometry_is_resolved(const sp_setup *setup, sp_error *error)
     if (!(diagonal >= 1 / MOST_LENGTH && diagonal <= MOST_LENGTH))
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "geometry: %g m across found, expected %g m to %g m",
                        diagonal, 1 / MOST_LENGTH, MOST_LENGTH);
-    if (farthest > FARTHEST * diagonal)
+    /* wet sides are told by contacts */
+    double most = diagonal * (setup->cavity == SP_CAVITY_NONE ? COARSEST : SP_CONTACT);
+    double step = nextafter(farthest, INFINITY) - farthest;
+    if (step > most)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "geometry: coordinates up to %g m found for what is %g m across; there they tell no less than "
-                       "%.2g m apart; expected it within %.2g m of the origin",
-                       farthest, diagonal, nextafter(farthest, INFINITY) - farthest, FARTHEST * diagonal);
+                       "%.2g m apart; expected it nearer to the origin, where they tell %.2g m",
+                       farthest, diagonal, step, most);
     double speed = sqrt(2 * setup->gravity) * sqrt(diagonal);
     return setup->fidelity.trajectory == SP_TRAJECTORY_LINE || speed <= MOST_SPEED ||
            sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
