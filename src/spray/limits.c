@@ -5,7 +5,7 @@
 #define MOST_SPEED 1e30        /* m/s: far beyond, fourth powers that flights are reckoned from overflow */
 #define MOST_LENGTH 1e50       /* m, and its inverse: far beyond, so do fourth powers of lengths */
 #define COARSEST 0x1p-12       /* of the geometry's diagonal, that coordinates tell */
-#define FINEST_TEXEL 0x1p-40   /* of the farthest coordinate */
+#define FINEST_TEXEL 0x1p-46   /* of the farthest coordinate */
 #define SLOWEST_SQUARE 0x1p-58 /* of g times the diagonal, that v² is told beside */
 
 double sp_farthest_coordinate(const sp_mesh *mesh)

@@ -124,7 +124,7 @@ static void geometry_that_cannot_be_told(void **state)
         {1, 4e9, 9.81, 0.03, NULL},
         {1, 1e13, 9.81, 0.03, "geometry: coordinates up to 1e+13 m found"},
         {1, 1e14, 9.81, 0.03, "geometry: coordinates up to 1e+14 m found"},
-        {1, 1e8, 9.81, 1e-5, "texel: 1e-05 m found, too small for coordinates up to 1e+08 m"},
+        {1, 1e8, 9.81, 1e-6, "texel: 1e-06 m found, too small for coordinates up to 1e+08 m"},
         {1, 0, 9.81, 1e-300, "texel: 1e-300 m found, too small for coordinates"},
         {1e-51, 0, 9.81, 0, "geometry: 1.41421e-51 m across found"},
         {1e-40, 0, 9.81, 0, NULL},
