@@ -10,14 +10,14 @@ enum { RAYS = 200000 };
 
 enum { BATCH = 4096, COMPARED = 16 };
 
-/* From just above a triangle, at the angle to it: both 10^-1 to 10^-16, of the mesh's size and in rad. */
+/* From 10^-14 to 10^-1 of the size above a triangle, at 10^-16 to 10^-1 rad to it: nearer, round-off tells the sides. */
 static sp_ray graze(random_source *source, const sp_mesh *mesh, double size)
 {
     uint32_t t = (uint32_t)draw(source, 0, (double)mesh->triangle_count);
     double u = draw(source, 0, 1), v = draw(source, 0, 1 - u);
     sp_vec3 normal = sp_triangle_normal(mesh, t), other = draw_point(source, 1);
     sp_vec3 along = sp_unit(sp_along(other, -sp_dot(other, normal), normal));
-    double height = size * pow(10, draw(source, -16, -1)), angle = pow(10, draw(source, -16, -1));
+    double height = size * pow(10, draw(source, -14, -1)), angle = pow(10, draw(source, -16, -1));
     if (draw(source, 0, 1) < 0.1)
         angle = 0;
     return make_ray(sp_along(sp_triangle_point(mesh, t, u, v), -height, normal),
@@ -27,7 +27,7 @@ static sp_ray graze(random_source *source, const sp_mesh *mesh, double size)
 /* A ray that starts within round-off of its wall may begin outside of it: then, and only then, it may meet nothing. */
 static bool starts_inside(const sp_tracer *tracer, const sp_ray *ray, random_source *source)
 {
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < 64; i++) {
         sp_ray other = make_ray(ray->origin, draw_point(source, 1));
         if (sp_trace_nearest(tracer, &other, sp_v(0, 0, 0)).triangle == SP_NONE)
             return false;
