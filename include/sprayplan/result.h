@@ -107,9 +107,9 @@ sp_figures *sp_result_figures(const sp_result *result, sp_error *error);
 /* result.json as DESIGN §6; `geometry` and `fidelity` stand in each layout where the designs differ in them. Malloc'd
  * text, newline at the end, the caller frees. */
 char *sp_result_json(const sp_result *result, sp_error *error);
-/* nozzles.csv: one row a nozzle of `layout`:
+/* nozzles.csv: one row a nozzle of `layout`, a layout of the setup:
  * name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar, flow_l_min,speed_m_s. Malloc'd. */
-char *sp_nozzles_csv(const sp_layout *layout, const sp_fluid *liquid, sp_error *error);
+char *sp_nozzles_csv(const sp_layout *layout, const sp_setup *setup, sp_error *error);
 
 /* A set of files that is written whole or not at all: each goes to a temporary name in `directory` (created where
  * missing, with its parents), and commit renames them all; discard removes them. An existing file is replaced only by

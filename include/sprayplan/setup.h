@@ -62,10 +62,13 @@ typedef struct {
 } sp_fidelity;
 
 typedef struct {
-    const sp_mesh *mesh;        /* borrowed: all geometry, in world coordinates */
+    const sp_mesh *mesh;        /* borrowed: all geometry, in the setup's coordinates, as every point of a layout too */
     const sp_surface *surfaces; /* borrowed: [mesh->part_count] */
     sp_cavity_kind cavity;
     sp_vec3 cavity_point; /* m; for SP_CAVITY_POINT */
+    /* m: where the setup's (0, 0, 0) lies in the coordinates that are read and written; (0, 0, 0) but for a scene that
+     * lies far from theirs. */
+    sp_vec3 origin;
     const sp_cap *caps;   /* borrowed: [cap_count]; NULL for none */
     size_t cap_count;
     sp_fluid liquid; /* default water: 1000 kg/m³, 1 mPa s */
@@ -79,6 +82,12 @@ typedef struct {
 
 /* DESIGN §3's defaults, with no mesh. */
 sp_setup sp_setup_default(void);
+
+/* A point of the setup (m) in the coordinates that are read and written. */
+sp_vec3 sp_setup_outside(const sp_setup *setup, sp_vec3 point);
+/* The nearest point of the setup (m) that those coordinates tell from others: a layout of such points covers the same
+ * when it has been written and read again. */
+sp_vec3 sp_setup_told(const sp_setup *setup, sp_vec3 point);
 
 #ifdef __cplusplus
 }

@@ -107,16 +107,17 @@ static bool on_mount(const sp_mesh *mesh, const sp_mount *mount, uint32_t triang
     return mesh->parts[part].geometry == mount->geometry && (mount->part == SP_NONE || mount->part == part);
 }
 
-static sp_site stood_off(const sp_mesh *mesh, const sp_mount *mount, uint32_t index, uint32_t triangle, sp_vec3 point,
+static sp_site stood_off(const sp_setup *setup, const sp_mount *mount, uint32_t index, uint32_t triangle, sp_vec3 point,
                          bool back)
 {
-    sp_vec3 normal = sp_triangle_normal(mesh, triangle);
+    sp_vec3 normal = sp_triangle_normal(setup->mesh, triangle);
     if (back)
         normal = sp_scale(normal, -1);
-    return (sp_site){.position = sp_along(point, fmax(mount->standoff, STANDOFF_LEAST * mount->spacing), normal),
+    double standoff = fmax(mount->standoff, STANDOFF_LEAST * mount->spacing);
+    return (sp_site){.position = sp_setup_told(setup, sp_along(point, standoff, normal)),
                      .axis = normal,
                      .mount = index,
-                     .own = mesh->part[triangle]};
+                     .own = setup->mesh->part[triangle]};
 }
 
 /* van der Corput's sequence in the given base */
@@ -132,7 +133,8 @@ static double radical_inverse(size_t i, size_t base)
 static bool surface_samples(const sp_evaluator *evaluator, const sp_mount *mount, uint32_t index, sp_sites *samples,
                             sp_error *error)
 {
-    const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
+    const sp_setup *setup = sp_evaluator_setup(evaluator);
+    const sp_mesh *mesh = setup->mesh;
     double total = 0;
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
         if (on_mount(mesh, mount, t))
@@ -160,7 +162,7 @@ static bool surface_samples(const sp_evaluator *evaluator, const sp_mount *mount
             sp_vec3 point = sp_triangle_point(mesh, t, u, v);
             unsigned wet = sp_evaluator_wet_at(evaluator, t, u, v);
             for (unsigned side = 0; side < 2; side++) {
-                sp_site site = stood_off(mesh, mount, index, t, point, side == 1);
+                sp_site site = stood_off(setup, mount, index, t, point, side == 1);
                 if ((wet >> side & 1) && !append(samples, &site, error))
                     return false;
             }
@@ -230,7 +232,8 @@ bool sp_site_allowed(const sp_evaluator *evaluator, const sp_place_options *opti
 
 bool sp_site_project(const sp_evaluator *evaluator, const sp_place_options *options, sp_site *site, sp_vec3 point)
 {
-    const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
+    const sp_setup *setup = sp_evaluator_setup(evaluator);
+    const sp_mesh *mesh = setup->mesh;
     const sp_mount *mount = &options->mounts[site->mount];
     uint32_t triangle = sp_nearest_triangle(mesh, site->own, point);
     if (triangle == SP_NONE)
@@ -238,7 +241,7 @@ bool sp_site_project(const sp_evaluator *evaluator, const sp_place_options *opti
     bool back = sp_dot(sp_triangle_normal(mesh, triangle), site->axis) < 0;
     if (!(sp_evaluator_wet(evaluator, triangle) >> back & 1))
         return false;
-    *site = stood_off(mesh, mount, site->mount, triangle, sp_triangle_nearest(mesh, triangle, point), back);
+    *site = stood_off(setup, mount, site->mount, triangle, sp_triangle_nearest(mesh, triangle, point), back);
     return true;
 }
 
@@ -287,6 +290,8 @@ bool sp_sites_create(const sp_evaluator *evaluator, const sp_place_options *opti
     bool done = true;
     for (size_t m = 0; done && m < options->mount_count; m++)
         done = mount_sites(evaluator, &options->mounts[m], (uint32_t)m, sites, error);
+    for (size_t i = 0; done && i < sites->count; i++)
+        sites->items[i].position = sp_setup_told(sp_evaluator_setup(evaluator), sites->items[i].position);
     if (!done || !sift(evaluator, options, sites, error)) {
         sp_sites_free(sites);
         return false;

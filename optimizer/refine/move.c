@@ -6,7 +6,7 @@ static bool moved_site(const sp_search *search, const sp_placed *placed, sp_vec3
     const sp_place_options *options = search->options;
     const sp_mount *mount = &options->mounts[placed->site.mount];
     *site = placed->site;
-    site->position = position;
+    site->position = sp_setup_told(sp_evaluator_setup(search->coarse), position);
     if (mount->kind == SP_MOUNT_SURFACE) {
         double limit = options->refine.position < 0 ? 0.5 * mount->spacing : options->refine.position;
         *site = placed->site;

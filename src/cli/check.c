@@ -54,6 +54,24 @@ static bool measure_parts(findings *found, sp_error *error)
     return true;
 }
 
+/* Boxes in the coordinates of the scene's file. */
+static void tell_boxes(findings *found)
+{
+    const sp_setup *setup = setup_of(found);
+    found->mesh.minimum = sp_setup_outside(setup, found->mesh.minimum);
+    found->mesh.maximum = sp_setup_outside(setup, found->mesh.maximum);
+    for (size_t i = 0; i < setup->mesh->part_count; i++) {
+        found->part_box[i].minimum = sp_setup_outside(setup, found->part_box[i].minimum);
+        found->part_box[i].maximum = sp_setup_outside(setup, found->part_box[i].maximum);
+    }
+}
+
+/* A point of the evaluator's in those coordinates. */
+static sp_vec3 told(const findings *found, sp_vec3 point)
+{
+    return sp_setup_outside(setup_of(found), point);
+}
+
 static void warn_of_mesh(findings *found)
 {
     const sp_mesh_diagnosis *mesh = &found->mesh;
@@ -91,7 +109,7 @@ static void warn_of_size(findings *found)
 static void warn_of_cavity(findings *found)
 {
     const sp_setup *setup = setup_of(found);
-    sp_vec3 p = setup->cavity_point, low = found->mesh.minimum, high = found->mesh.maximum;
+    sp_vec3 p = told(found, setup->cavity_point), low = found->mesh.minimum, high = found->mesh.maximum;
     if (setup->cavity == SP_CAVITY_POINT &&
         (p.x < low.x || p.y < low.y || p.z < low.z || p.x > high.x || p.y > high.y || p.z > high.z))
         warn(found, "cavity: the point lies outside the geometry's box: what is counted is what faces it from there");
@@ -121,13 +139,14 @@ static void warn_of_openings(findings *found)
         "cavity: %.4g m2 of surface under the sky are seen through openings, and left out; see openings, and shut with "
         "a lid or `caps:` what is shut in use",
         outdoors);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
+        sp_vec3 p = told(found, openings[i].place);
         warn(
             found,
             "cavity: an opening at [%.4g m, %.4g m, %.4g m], about %.2g m wide; a cap for it: {point: [%.4g m, %.4g m, "
             "%.4g m], normal: .., radius: ..}",
-            openings[i].place.x, openings[i].place.y, openings[i].place.z, openings[i].width, openings[i].place.x,
-            openings[i].place.y, openings[i].place.z);
+            p.x, p.y, p.z, openings[i].width, p.x, p.y, p.z);
+    }
 }
 
 static void warn_of_nozzles(findings *found)
@@ -146,9 +165,10 @@ static void print_cavity(const sp_setup *setup)
         printf("cavity      none: every triangle counts once and takes liquid from either side\n");
     else if (setup->cavity == SP_CAVITY_OUTSIDE)
         printf("cavity      outside: sides that face the space around the geometry\n");
-    else
-        printf("cavity      sides that face the space of [%.6g m, %.6g m, %.6g m]\n", setup->cavity_point.x,
-               setup->cavity_point.y, setup->cavity_point.z);
+    else {
+        sp_vec3 p = sp_setup_outside(setup, setup->cavity_point);
+        printf("cavity      sides that face the space of [%.6g m, %.6g m, %.6g m]\n", p.x, p.y, p.z);
+    }
 }
 
 static void print_boxes(const findings *found)
@@ -185,9 +205,10 @@ static void print_openings(const findings *found)
     const sp_opening *openings = sp_evaluator_openings(found->opened->evaluator, &count);
     if (count)
         printf("\n%-36s %12s %26s\n", "opening at m", "width m", "share of lines of sight");
-    for (size_t i = 0; i < count; i++)
-        printf("[%10.4f, %10.4f, %10.4f] %12.4g %26.2g\n", openings[i].place.x, openings[i].place.y,
-               openings[i].place.z, openings[i].width, openings[i].share);
+    for (size_t i = 0; i < count; i++) {
+        sp_vec3 p = told(found, openings[i].place);
+        printf("[%10.4f, %10.4f, %10.4f] %12.4g %26.2g\n", p.x, p.y, p.z, openings[i].width, openings[i].share);
+    }
 }
 
 static void print_table(const findings *found, const char *output)
@@ -268,18 +289,20 @@ static json_t *openings_json(const findings *found)
     size_t count;
     const sp_opening *openings = sp_evaluator_openings(found->opened->evaluator, &count);
     json_t *list = json_array();
-    for (size_t i = 0; i < count; i++)
-        json_array_append_new(list,
-                              json_pack("{s:[fff], s:f, s:f}", "place_m", openings[i].place.x, openings[i].place.y,
-                                        openings[i].place.z, "width_m", openings[i].width, "share", openings[i].share));
+    for (size_t i = 0; i < count; i++) {
+        sp_vec3 p = told(found, openings[i].place);
+        json_array_append_new(list, json_pack("{s:[fff], s:f, s:f}", "place_m", p.x, p.y, p.z, "width_m",
+                                              openings[i].width, "share", openings[i].share));
+    }
     return list;
 }
 
 /* A point, "outside" or, where none is named, null. */
 static json_t *cavity_json(const sp_setup *setup)
 {
+    sp_vec3 p = sp_setup_outside(setup, setup->cavity_point);
     if (setup->cavity == SP_CAVITY_POINT)
-        return json_pack("[fff]", setup->cavity_point.x, setup->cavity_point.y, setup->cavity_point.z);
+        return json_pack("[fff]", p.x, p.y, p.z);
     return setup->cavity == SP_CAVITY_OUTSIDE ? json_string("outside") : json_null();
 }
 
@@ -307,6 +330,7 @@ static bool examine(const cli_options *options, findings *found, sp_error *error
 {
     if (!measure_parts(found, error) || !sp_mesh_diagnose(setup_of(found)->mesh, &found->mesh, error))
         return false;
+    tell_boxes(found);
     warn_of_mesh(found);
     warn_of_size(found);
     warn_of_cavity(found);

@@ -114,7 +114,9 @@ sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_result *resul
     sp_vec3 low, high;
     shown_box(evaluator, result, &low, &high);
     camera.centre = sp_scale(sp_add(low, high), 0.5);
-    camera.size = fmax(sp_distance(low, high), 1e-9);
+    camera.size = sp_distance(low, high);
+    if (!(camera.size > 0))
+        camera.size = 1;
     camera.cut = setup->cavity == SP_CAVITY_NONE && encloses(evaluator, camera.centre);
     set_axes(&camera, view, setup->up);
     frame_all(&camera, evaluator, result, pixels);

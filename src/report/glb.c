@@ -189,8 +189,13 @@ static bool add_all(model *m)
 /* Takes the lists over. glTF is y up; a model with z up is turned by -90 degrees about x. */
 static char *document(model *m, const char *name)
 {
-    bool z_up = sp_evaluator_setup(m->layers->evaluator)->up.z > 0.5;
+    const sp_setup *setup = sp_evaluator_setup(m->layers->evaluator);
+    bool z_up = setup->up.z > 0.5;
+    sp_vec3 o = setup->origin, there = z_up ? sp_v(o.x, o.z, -o.y) : o;
     json_t *node = json_pack("{s:i}", "mesh", 0);
+    /* floats do not tell a part from the next far from (0, 0, 0) */
+    if (sp_length(o) > 0)
+        json_object_set_new(node, "translation", json_pack("[f,f,f]", there.x, there.y, there.z));
     if (z_up)
         json_object_set_new(node, "rotation", json_pack("[f,f,f,f]", -sqrt(0.5), 0.0, 0.0, sqrt(0.5)));
     json_t *root =

@@ -64,8 +64,8 @@ static bool write_designs(const sp_result *result, const sp_design *main, sp_out
     }
     if (!main || !main->evaluator)
         return true;
-    const sp_fluid *liquid = &sp_evaluator_setup(main->evaluator)->liquid;
-    return write_text(output, "nozzles.csv", sp_nozzles_csv(main->layout, liquid, error), error);
+    const sp_setup *setup = sp_evaluator_setup(main->evaluator);
+    return write_text(output, "nozzles.csv", sp_nozzles_csv(main->layout, setup, error), error);
 }
 
 bool sp_report_write(const sp_result *result, sp_output *output, sp_error *error)

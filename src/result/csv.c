@@ -17,16 +17,18 @@ static void add_field(sp_text *text, const char *value)
     sp_text_append(text, "\"", 1);
 }
 
-char *sp_nozzles_csv(const sp_layout *layout, const sp_fluid *liquid, sp_error *error)
+char *sp_nozzles_csv(const sp_layout *layout, const sp_setup *setup, sp_error *error)
 {
+    const sp_fluid *liquid = &setup->liquid;
     sp_text text = {0};
     sp_text_add(&text,
                 "name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s\n");
     for (size_t i = 0; i < layout->count; ++i) {
         const sp_nozzle *nozzle = &layout->nozzles[i];
-        const double values[] = {nozzle->position.x,
-                                 nozzle->position.y,
-                                 nozzle->position.z,
+        const sp_vec3 position = sp_setup_outside(setup, nozzle->position);
+        const double values[] = {position.x,
+                                 position.y,
+                                 position.z,
                                  nozzle->axis.x,
                                  nozzle->axis.y,
                                  nozzle->axis.z,

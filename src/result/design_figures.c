@@ -43,14 +43,15 @@ static void set_coverage(sp_figures *figures, const sp_coverage *coverage)
     figures->flux_max = coverage->flux_max;
 }
 
-static bool set_nozzles(sp_figures *figures, const sp_layout *layout, const sp_fluid *liquid)
+static bool set_nozzles(sp_figures *figures, const sp_layout *layout, const sp_setup *setup)
 {
+    const sp_fluid *liquid = &setup->liquid;
     bool copied = true;
     for (size_t i = 0; i < figures->nozzle_count; ++i) {
         const sp_nozzle *nozzle = &layout->nozzles[i];
         figures->nozzles[i] = (sp_nozzle_figures){.name = sp_text_utf8(nozzle->name),
                                                   .type = sp_text_utf8(nozzle->type->name),
-                                                  .position = nozzle->position,
+                                                  .position = sp_setup_outside(setup, nozzle->position),
                                                   .axis = nozzle->axis,
                                                   .roll = nozzle->roll,
                                                   .angle = sp_nozzle_angle(nozzle),
@@ -62,15 +63,15 @@ static bool set_nozzles(sp_figures *figures, const sp_layout *layout, const sp_f
     return copied;
 }
 
-static bool set_shadows(sp_figures *figures, const sp_shadow *shadows, const sp_mesh *mesh)
+static bool set_shadows(sp_figures *figures, const sp_shadow *shadows, const sp_setup *setup)
 {
     bool copied = true;
     for (size_t i = 0; i < figures->shadow_count; ++i) {
         const sp_shadow *shadow = &shadows[i];
         figures->shadows[i] = (sp_shadow_figures){
             .area = shadow->area,
-            .centroid = shadow->centroid,
-            .part = sp_text_utf8(mesh->parts[shadow->part].name),
+            .centroid = sp_setup_outside(setup, shadow->centroid),
+            .part = sp_text_utf8(setup->mesh->parts[shadow->part].name),
             .reachable = shadow->reachable_area < 0 ? -1 : shadow->reachable_area >= 0.5 * shadow->area,
             .reason = shadow->reason};
         copied &= figures->shadows[i].part != NULL;
@@ -139,7 +140,7 @@ static bool describe(sp_figures *figures, const sp_design *design, const sp_reas
     bool done = set_missing_parts(figures, design->evaluator, reasons) &&
                 sp_figures_make_rows(figures, shadow_count < SP_SHADOWS_KEPT ? shadow_count : SP_SHADOWS_KEPT,
                                      design->layout->count) &&
-                set_nozzles(figures, design->layout, &setup->liquid) && set_shadows(figures, shadows, setup->mesh);
+                set_nozzles(figures, design->layout, setup) && set_shadows(figures, shadows, setup);
     free(shadows);
     return done || sp_fail_memory(error);
 }

@@ -8,6 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#define LARGEST 1e100 /* in any unit: beyond it products of figures overflow, whatever the size of the machine */
+
 #define LARGEST_FILE (256L << 20) /* bytes */
 #define MOST_LAYOUTS 1000
 
@@ -157,7 +159,7 @@ static bool read_missing(const reader *in, const json_t *geometry, sp_figures *f
     for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
         const char *key = sp_reason_key(reason);
         figures->missing_area[reason] = NAN;
-        if (key && !get_real(&inner, missing, key, 0, 1e12, 1, &figures->missing_area[reason]))
+        if (key && !get_real(&inner, missing, key, 0, LARGEST, 1, &figures->missing_area[reason]))
             return false;
     }
     return true;
@@ -165,11 +167,11 @@ static bool read_missing(const reader *in, const json_t *geometry, sp_figures *f
 
 static bool read_missing_part(const reader *in, const json_t *entry, sp_missing_figures *missing)
 {
-    if (!get_text(in, entry, "part", &missing->part) || !get_real(in, entry, "area_m2", 0, 1e12, 1, &missing->area))
+    if (!get_text(in, entry, "part", &missing->part) || !get_real(in, entry, "area_m2", 0, LARGEST, 1, &missing->area))
         return false;
     for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
         const char *key = sp_reason_key(reason);
-        if (key && !get_real(in, entry, key, 0, 1e12, 1, &missing->areas[reason]))
+        if (key && !get_real(in, entry, key, 0, LARGEST, 1, &missing->areas[reason]))
             return false;
     }
     return true;
@@ -193,9 +195,9 @@ static bool read_missing_parts(const reader *in, const json_t *geometry, sp_figu
 static bool read_geometry(const reader *in, const json_t *geometry, sp_figures *figures)
 {
     return get_count(in, geometry, "triangles", &figures->triangles) &&
-           get_real(in, geometry, "area_m2", 0, 1e12, 1, &figures->area) &&
-           get_real(in, geometry, "clean_area_m2", 0, 1e12, 1, &figures->clean_area) &&
-           get_real(in, geometry, "attainable_area_m2", 0, 1e12, 1, &figures->attainable_area) &&
+           get_real(in, geometry, "area_m2", 0, LARGEST, 1, &figures->area) &&
+           get_real(in, geometry, "clean_area_m2", 0, LARGEST, 1, &figures->clean_area) &&
+           get_real(in, geometry, "attainable_area_m2", 0, LARGEST, 1, &figures->attainable_area) &&
            read_missing(in, geometry, figures) && read_missing_parts(in, geometry, figures);
 }
 
@@ -206,7 +208,7 @@ static bool read_fidelity(const reader *in, const json_t *fidelity, sp_figures *
            get_count(in, fidelity, "reflections", &figures->reflections) &&
            get_count(in, fidelity, "jets_per_nozzle", &figures->jets) &&
            get_count(in, fidelity, "jets_wanted_per_nozzle", &figures->jets_wanted) &&
-           get_real(in, fidelity, "texel_m", 0, 1e6, 1, &figures->texel) &&
+           get_real(in, fidelity, "texel_m", 0, LARGEST, 1, &figures->texel) &&
            get_real(in, fidelity, "error_estimate", 0, 1, 1, &figures->error_estimate) &&
            get_real(in, fidelity, "misjudged", 0, 1, 1, &figures->misjudged);
 }
@@ -227,12 +229,12 @@ static bool read_coverage(const reader *in, const json_t *layout, sp_figures *fi
 {
     const double l_min = 1 / 6e4;
     const json_t *flux;
-    if (!get_real(in, layout, "water_l_min", 0, 1e9, l_min, &figures->flow) ||
-        !get_real(in, layout, "covered_area_m2", 0, 1e12, 1, &figures->covered_area) ||
+    if (!get_real(in, layout, "water_l_min", 0, LARGEST, l_min, &figures->flow) ||
+        !get_real(in, layout, "covered_area_m2", 0, LARGEST, 1, &figures->covered_area) ||
         !get_real(in, layout, "coverage", 0, 1 + 1e-9, 1, &figures->coverage) ||
-        !get_real(in, layout, "borderline_m2", 0, 1e12, 1, &figures->borderline) ||
+        !get_real(in, layout, "borderline_m2", 0, LARGEST, 1, &figures->borderline) ||
         !get_real(in, layout, "coverage_of_attainable", 0, 1 + 1e-9, 1, &figures->of_attainable) ||
-        !get_real(in, layout, "area_per_water", 0, 1e12, 6e4, &figures->area_per_water) ||
+        !get_real(in, layout, "area_per_water", 0, LARGEST, 6e4, &figures->area_per_water) ||
         !get_part(in, layout, "flux_l_min_m2", JSON_OBJECT, false, &flux))
         return false;
     if (isnan(figures->flow))
@@ -241,10 +243,10 @@ static bool read_coverage(const reader *in, const json_t *layout, sp_figures *fi
         return wrong(in, "coverage", NULL, "a number from 0 to 1");
     reader inner = *in;
     snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "flux_l_min_m2.");
-    return get_real(&inner, flux, "min", 0, 1e12, l_min, &figures->flux_min) &&
-           get_real(&inner, flux, "mean", 0, 1e12, l_min, &figures->flux_mean) &&
-           get_real(&inner, flux, "p05", 0, 1e12, l_min, &figures->flux_p05) &&
-           get_real(&inner, flux, "max", 0, 1e12, l_min, &figures->flux_max);
+    return get_real(&inner, flux, "min", 0, LARGEST, l_min, &figures->flux_min) &&
+           get_real(&inner, flux, "mean", 0, LARGEST, l_min, &figures->flux_mean) &&
+           get_real(&inner, flux, "p05", 0, LARGEST, l_min, &figures->flux_p05) &&
+           get_real(&inner, flux, "max", 0, LARGEST, l_min, &figures->flux_max);
 }
 
 static bool read_liquid(const reader *in, const json_t *layout, sp_figures *figures)
@@ -255,10 +257,10 @@ static bool read_liquid(const reader *in, const json_t *layout, sp_figures *figu
         return false;
     reader inner = *in;
     snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "liquid_l_min.");
-    return get_real(&inner, liquid, "on_clean_surface", 0, 1e9, l_min, &figures->landed_clean) &&
-           get_real(&inner, liquid, "on_other_surface", 0, 1e9, l_min, &figures->landed_other) &&
-           get_real(&inner, liquid, "left", 0, 1e9, l_min, &figures->left) &&
-           get_real(&inner, liquid, "not_followed", 0, 1e9, l_min, &figures->unfollowed);
+    return get_real(&inner, liquid, "on_clean_surface", 0, LARGEST, l_min, &figures->landed_clean) &&
+           get_real(&inner, liquid, "on_other_surface", 0, LARGEST, l_min, &figures->landed_other) &&
+           get_real(&inner, liquid, "left", 0, LARGEST, l_min, &figures->left) &&
+           get_real(&inner, liquid, "not_followed", 0, LARGEST, l_min, &figures->unfollowed);
 }
 
 static bool read_reason(const reader *in, const json_t *entry, sp_reason *reason)
@@ -281,7 +283,7 @@ static bool read_shadow(const reader *in, const json_t *entry, sp_shadow_figures
     if (reachable && !json_is_boolean(reachable))
         return wrong(in, "reachable", reachable, "true or false");
     shadow->reachable = reachable ? json_is_true(reachable) : -1;
-    return read_reason(in, entry, &shadow->reason) && get_real(in, entry, "area_m2", 0, 1e12, 1, &shadow->area) &&
+    return read_reason(in, entry, &shadow->reason) && get_real(in, entry, "area_m2", 0, LARGEST, 1, &shadow->area) &&
            get_vector(in, entry, "centroid_m", &shadow->centroid) && get_text(in, entry, "part", &shadow->part);
 }
 
@@ -291,9 +293,9 @@ static bool read_nozzle(const reader *in, const json_t *entry, sp_nozzle_figures
            get_vector(in, entry, "position_m", &nozzle->position) && get_vector(in, entry, "axis", &nozzle->axis) &&
            get_real(in, entry, "roll_rad", -1e6, 1e6, 1, &nozzle->roll) &&
            get_real(in, entry, "angle_rad", 0, 7, 1, &nozzle->angle) &&
-           get_real(in, entry, "pressure_pa", 0, 1e12, 1, &nozzle->pressure) &&
-           get_real(in, entry, "flow_l_min", 0, 1e9, 1 / 6e4, &nozzle->flow) &&
-           get_real(in, entry, "speed_m_s", 0, 1e6, 1, &nozzle->speed);
+           get_real(in, entry, "pressure_pa", 0, LARGEST, 1, &nozzle->pressure) &&
+           get_real(in, entry, "flow_l_min", 0, LARGEST, 1 / 6e4, &nozzle->flow) &&
+           get_real(in, entry, "speed_m_s", 0, LARGEST, 1, &nozzle->speed);
 }
 
 static bool read_rows(const reader *in, const json_t *layout, sp_figures *figures)

@@ -7,6 +7,8 @@
 #include <string.h>
 #include <strings.h>
 
+#define FAR 4.0 /* diagonals, from which geometry is moved to a local origin */
+
 typedef struct {
     double unit;
     sp_transform transform;
@@ -130,6 +132,47 @@ static bool set_surfaces(sp_scene *scene, const sp_reader *reader, const sp_yaml
     return true;
 }
 
+/* One axis of the local origin: the box's middle to the nearest multiple of a power of two no less than its diagonal,
+ * which subtracts from the box's coordinates without rounding. Near by nothing is gained. */
+static double origin_along(double low, double high, double diagonal)
+{
+    int power;
+    double middle = 0.5 * (low + high), part = frexp(diagonal, &power);
+    double unit = ldexp(part > 0.5 ? 1 : 0.5, power);
+    return diagonal > 0 && fabs(middle) >= FAR * diagonal ? unit * nearbyint(middle / unit) : 0;
+}
+
+/* What was read before the geometry, about the local origin. */
+static void move_points(sp_scene *scene, sp_vec3 origin)
+{
+    scene->setup.origin = origin;
+    scene->setup.cavity_point = sp_sub(scene->setup.cavity_point, origin);
+    for (size_t i = 0; i < scene->setup.cap_count; i++)
+        scene->caps[i].point = sp_sub(scene->caps[i].point, origin);
+    for (size_t i = 0; i < scene->layout->count; i++)
+        scene->layout->nozzles[i].position = sp_sub(scene->layout->nozzles[i].position, origin);
+}
+
+/* Far from (0, 0, 0) the meshes are moved to a local origin, before their coordinates are rounded there. */
+static sp_mesh *join_near(sp_scene *scene, const sp_mesh *const *meshes, sp_transform *transforms, size_t count,
+                          sp_error *error)
+{
+    sp_vec3 low, high;
+    sp_mesh *mesh = sp_mesh_join(meshes, transforms, count, error);
+    double diagonal = mesh ? sp_mesh_box(mesh, &low, &high) : 0;
+    if (!(diagonal > 0))
+        return mesh;
+    sp_vec3 origin = sp_v(origin_along(low.x, high.x, diagonal), origin_along(low.y, high.y, diagonal),
+                          origin_along(low.z, high.z, diagonal));
+    if (!(sp_length(origin) > 0))
+        return mesh;
+    sp_mesh_destroy(mesh);
+    move_points(scene, origin);
+    for (size_t i = 0; i < count; i++)
+        transforms[i].translate = sp_sub(transforms[i].translate, origin);
+    return sp_mesh_join(meshes, transforms, count, error);
+}
+
 static bool join_pieces(sp_scene *scene, const sp_reader *reader, const sp_mesh *const *meshes, const piece *pieces,
                         size_t count)
 {
@@ -138,7 +181,7 @@ static bool join_pieces(sp_scene *scene, const sp_reader *reader, const sp_mesh 
         return sp_fail_memory(reader->error);
     for (size_t i = 0; i < count; i++)
         transforms[i] = pieces[i].transform;
-    scene->mesh = sp_mesh_join(meshes, transforms, count, reader->error);
+    scene->mesh = join_near(scene, meshes, transforms, count, reader->error);
     free(transforms);
     if (!scene->mesh)
         return false;

@@ -149,7 +149,11 @@ static bool read_mount(sp_scene *scene, const sp_reader *reader, const sp_yaml *
     while (strcmp(keys[kind].name, node->first->key) != 0)
         kind++;
     *mount = (sp_mount){.kind = (sp_mount_kind)kind, .axis = sp_scale(scene->setup.up, -1)};
-    return readers[kind](scene, reader, node->first, mount);
+    bool good = readers[kind](scene, reader, node->first, mount);
+    mount->position = sp_sub(mount->position, scene->setup.origin);
+    mount->from = sp_sub(mount->from, scene->setup.origin);
+    mount->to = sp_sub(mount->to, scene->setup.origin);
+    return good;
 }
 
 static bool read_mounts(sp_scene *scene, const sp_reader *reader, const sp_yaml *list)

@@ -56,13 +56,14 @@ static bool says_more(double value, double own, double low, double high)
     return value > 0 && (low < high || fabs(value - own) > 1e-9 * own);
 }
 
-static void put_nozzle(writer *w, sp_yaml *list, const sp_nozzle *nozzle, const sp_fluid *liquid)
+static void put_nozzle(writer *w, sp_yaml *list, const sp_nozzle *nozzle, const sp_setup *setup)
 {
     const sp_nozzle_type *type = nozzle->type;
+    const sp_fluid *liquid = &setup->liquid;
     sp_yaml *map = put(w, list, SP_YAML_MAP, NULL, NULL);
     put(w, map, SP_YAML_SCALAR, "name", nozzle->name);
     put(w, map, SP_YAML_SCALAR, "type", type->name);
-    put_vector(w, map, "position", nozzle->position, "m");
+    put_vector(w, map, "position", sp_setup_outside(setup, nozzle->position), "m");
     put_vector(w, map, "axis", nozzle->axis, "");
     put_number(w, map, "roll", nozzle->roll, "rad");
     put_number(w, map, "pressure", nozzle->pressure, "Pa");
@@ -79,11 +80,11 @@ static void put_nozzle(writer *w, sp_yaml *list, const sp_nozzle *nozzle, const 
         put(w, map, SP_YAML_SCALAR, "keep", "true");
 }
 
-static sp_yaml *nozzles_node(writer *w, const sp_layout *layout, const sp_fluid *liquid)
+static sp_yaml *nozzles_node(writer *w, const sp_layout *layout, const sp_setup *setup)
 {
     sp_yaml *list = put(w, NULL, SP_YAML_LIST, "nozzles", NULL);
     for (size_t i = 0; i < layout->count && !w->failed; i++)
-        put_nozzle(w, list, &layout->nozzles[i], liquid);
+        put_nozzle(w, list, &layout->nozzles[i], setup);
     return list;
 }
 
@@ -154,7 +155,7 @@ static char *write_tree(const sp_scene *scene, sp_yaml *tree, const sp_layout *l
                         const char *directory, sp_error *error)
 {
     writer w = {.error = error};
-    sp_yaml *nozzles = nozzles_node(&w, layout, &scene->setup.liquid);
+    sp_yaml *nozzles = nozzles_node(&w, layout, &scene->setup);
     sp_yaml *simulate = simulate_node(&w, &scene->setup.fidelity, fidelity);
     if (nozzles)
         sp_yaml_replace(tree, nozzles);

@@ -19,3 +19,13 @@ sp_setup sp_setup_default(void)
                      .seed = 1},
     };
 }
+
+sp_vec3 sp_setup_outside(const sp_setup *setup, sp_vec3 point)
+{
+    return sp_add(point, setup->origin);
+}
+
+sp_vec3 sp_setup_told(const sp_setup *setup, sp_vec3 point)
+{
+    return sp_sub(sp_setup_outside(setup, point), setup->origin);
+}

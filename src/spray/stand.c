@@ -17,7 +17,7 @@ static bool sees_cavity(const sp_evaluator *evaluator, sp_vec3 point)
 bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle, sp_error *error)
 {
     const sp_mesh *mesh = evaluator->setup.mesh;
-    sp_vec3 p = nozzle->position;
+    sp_vec3 p = nozzle->position, told = sp_setup_outside(&evaluator->setup, p);
     sp_vec3 low, high;
     double touch = TOUCH * sp_mesh_box(mesh, &low, &high);
     if (!sp_is_clear(mesh, p, touch, SP_NONE)) {
@@ -25,12 +25,12 @@ bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle,
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "nozzles: %s at [%.6g m, %.6g m, %.6g m] is in a wall, part \"%s\"; expected a place clear of "
                        "all surfaces",
-                       nozzle->name, p.x, p.y, p.z, mesh->parts[mesh->part[triangle]].name);
+                       nozzle->name, told.x, told.y, told.z, mesh->parts[mesh->part[triangle]].name);
     }
     if (sp_evaluator_inside(evaluator, p) || sees_cavity(evaluator, p))
         return true;
     return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "nozzles: %s at [%.6g m, %.6g m, %.6g m] is not inside the cavity; expected a place in the space "
                    "where the liquid flies",
-                   nozzle->name, p.x, p.y, p.z);
+                   nozzle->name, told.x, told.y, told.z);
 }

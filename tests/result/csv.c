@@ -30,10 +30,10 @@ static void rows_read_back(void **state)
                               .axis = {0, 0, -1},
                               .roll = M_PI / 6,
                               .pressure = 2e5};
-    const sp_fluid water = {1000, 1e-3};
+    const sp_setup setup = sp_setup_default();
     sp_error error = {0};
     sp_layout *layout = sp_layout_create(&nozzle, 1, &error);
-    char *csv = sp_nozzles_csv(layout, &water, &error);
+    char *csv = sp_nozzles_csv(layout, &setup, &error);
     assert_non_null(csv);
     const char *start =
         "name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s\n"
