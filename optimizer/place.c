@@ -235,8 +235,8 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
                 sp_visibility_sound(&placement.visibility, error) &&
                 write_down(&placement, &proposal->layout, &proposal->coverage, error) &&
                 sp_watch_stage(&placement.watch, "refine", error) && confirm(&placement, proposal, error) &&
-                check_forward(&placement, proposal, error) &&
-                certify(&placement, proposal, error) && sp_visibility_sound(&placement.visibility, error) &&
+                check_forward(&placement, proposal, error) && certify(&placement, proposal, error) &&
+                sp_visibility_sound(&placement.visibility, error) &&
                 sp_watch_stage(&placement.watch, "certificate", error) && conclude(&placement, proposal, error);
     placement_free(&placement);
     if (done)

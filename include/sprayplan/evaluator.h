@@ -37,12 +37,12 @@ typedef struct sp_evaluator sp_evaluator;
  * and counted, jets for them, and jets at all, with three reflections, only where walls throw liquid back. Given NULL
  * it returns NULL and keeps the error. */
 sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error);
-/* The same for a layout (borrowed for the call; NULL or without nozzles: as above), with the cheapest settings that keep
- * the setup's accuracy as measured on it (see sp_measure_error), so that they hold for it and layouts like it:
+/* The same for a layout (borrowed for the call; NULL or without nozzles: as above), with the cheapest settings that
+ * keep the setup's accuracy as measured on it (see sp_measure_error), so that they hold for it and layouts like it:
  *  - the texel, inverse: the longest, between that of 30,000 texels and of 1,600,000, on which no more area is
  *    misjudged than the accuracy and the error estimated is at most half of it
- *  - the trajectory, inverse: lines where the error against parabolas is at most half the accuracy and a tenth of the work, as
- *    counted, is saved
+ *  - the trajectory, inverse: lines where against parabolas no more is misjudged than the accuracy, the error is at
+ * most half of it and a tenth of the work, as counted, is saved
  *  - forward: shorter texels where the first impact of few jets on long texels is found to cover too much, more jets
  *    where too little, until its error estimated is at most half the accuracy; in the end the best that was tried
  *  - reflections: as many as it takes until the liquid that still flies can change the coverage by no more than a

@@ -129,8 +129,8 @@ typedef struct {
                             * keep the accuracy on the proposal (sp_evaluator_again) */
     sp_layout *greedy;     /* the best found on the candidates, before refinement */
     sp_coverage *greedy_coverage;
-    bool *attainable;       /* [patches], of `again` where there is one, by the allowed nozzles or either layout above */
-    sp_reason *reasons;     /* [patches]: why not */
+    bool *attainable;   /* [patches], of `again` where there is one, by the allowed nozzles or either layout above */
+    sp_reason *reasons; /* [patches]: why not */
     double attainable_area; /* m² */
     double asked_area;      /* m²: options' coverage of the surface to be cleaned */
     double target_area;     /* m² aimed at: asked_area, or where the allowed nozzles attain less that share of it */
@@ -150,9 +150,9 @@ typedef struct {
 
 /* Greedy next-best-view placement by the inverse evaluator, then refinement with Ceres accepted only where the
  * re-traced objective improves. The error of the proposal's coverage is measured; where it is above the accuracy, and
- * auto chose the settings, everything found is counted again by dearer ones. Deterministic. Returns NULL on error, never for a target that cannot be reached. Fails
- * with SP_ERROR_INPUT where no mount, type or pressure is given, no mounting point is inside and clear or a kept nozzle
- * is in a wall or outside. */
+ * auto chose the settings, everything found is counted again by dearer ones. Deterministic. Returns NULL on error,
+ * never for a target that cannot be reached. Fails with SP_ERROR_INPUT where no mount, type or pressure is given, no
+ * mounting point is inside and clear or a kept nozzle is in a wall or outside. */
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error);
 void sp_proposal_destroy(sp_proposal *proposal);
 

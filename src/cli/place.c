@@ -144,7 +144,8 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
         how.prove = options->prove;
         found.proposal = sp_place(opened->evaluator, &how, error);
     }
-    bool good = found.proposal && count_manual_again(opened, &found, error) && follow_liquid(opened, &found, error) && measure_errors(opened, &found, error);
+    bool good = found.proposal && count_manual_again(opened, &found, error) && follow_liquid(opened, &found, error) &&
+                measure_errors(opened, &found, error);
     if (good && !options->quiet)
         warn_of_own(opened, own);
     int status = good ? report(options, opened, &found, clock, error) : cli_fail_in(opened, error);

@@ -179,8 +179,8 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, const sp_eval
         done = put_nozzle(nozzles, &figures->nozzles[i]);
     done = put(layout, "shadows", shadows) && done;
     done = put(layout, "nozzles", nozzles) && done;
-    done =
-        done && (!own_geometry || put_geometry(layout, figures)) && (!own_fidelity || put_fidelity(layout, figures, 1, evaluator));
+    done = done && (!own_geometry || put_geometry(layout, figures)) &&
+           (!own_fidelity || put_fidelity(layout, figures, 1, evaluator));
     return json_array_append_new(layouts, layout) == 0 && done;
 }
 
@@ -297,8 +297,8 @@ static bool fill(json_t *root, const sp_result *result, const sp_figures *figure
     bool done = scene && put_text(root, "sprayplan", SP_VERSION) && put_text(root, "command", result->command) &&
                 put_text(root, "scene", scene) &&
                 (!one_geometry || result->design_count == 0 || put_geometry(root, figures)) &&
-                (!one_fidelity || result->design_count == 0 || put_fidelity(root, figures, result->design_count,
-                                                                            result->designs[0].evaluator));
+                (!one_fidelity || result->design_count == 0 ||
+                 put_fidelity(root, figures, result->design_count, result->designs[0].evaluator));
     free(scene);
     json_t *layouts = json_array(), *stages = json_array();
     for (size_t i = 0; done && i < result->design_count; ++i)

@@ -12,11 +12,11 @@
 #define SOLVE_LINE 0.08
 #define RAY 0.27 /* traced as a parabola */
 #define RAY_LINE 0.25
-#define JUDGE 0.26       /* a point under one nozzle, by parabolas */
-#define POINTS 150000    /* that are judged in the end */
-#define TRIANGLE 20      /* accelerator, charts and wet sides */
-#define TRIANGLE_OPEN 5  /* the same where no cavity is named */
-#define PATCH 1.4        /* cut out of the atlas */
+#define JUDGE 0.26      /* a point under one nozzle, by parabolas */
+#define POINTS 150000   /* that are judged in the end */
+#define TRIANGLE 20     /* accelerator, charts and wet sides */
+#define TRIANGLE_OPEN 5 /* the same where no cavity is named */
+#define PATCH 1.4       /* cut out of the atlas */
 
 bool sp_trial_run(sp_trial *trial, sp_error *error)
 {
@@ -106,7 +106,8 @@ static bool try_lines(sp_trial *trial, double *saved, sp_error *error)
         return false;
     double before = evaluating(&parabolas, false);
     *saved = (before - evaluating(&trial->coverage->work, true)) / (before + besides(trial));
-    if (*saved < SAVES || !sp_trial_keeps(trial))
+    if (*saved < SAVES || !sp_trial_keeps(trial) ||
+        trial->measured.misjudged > trial->evaluator->setup.fidelity.accuracy)
         fly(trial->evaluator, SP_TRAJECTORY_PARABOLA);
     return true;
 }
@@ -125,7 +126,8 @@ static bool choose_trajectory(sp_trial *trial, sp_error *error)
                  "lines: error against parabolas within %.2f points of coverage, %.0f %% of the work saved", points,
                  100 * saved);
     else if (saved >= SAVES)
-        snprintf(why, SP_WHY, "parabolas: by lines coverage errs by up to %.2f points", points);
+        snprintf(why, SP_WHY, "parabolas: by lines coverage errs by up to %.2f points, %.2f %% misjudged", points,
+                 100 * trial->measured.misjudged);
     else
         snprintf(why, SP_WHY, "parabolas: lines save less than a tenth of the work");
     return true;
@@ -133,9 +135,9 @@ static bool choose_trajectory(sp_trial *trial, sp_error *error)
 
 static void tell_method(sp_evaluator *evaluator)
 {
-    const char *why = evaluator->fidelity.method == SP_METHOD_INVERSE  ? "inverse: no wall throws liquid back"
-                      : evaluator->fidelity.splat == SP_SPLAT_LINEAR ? "forward: jets alone are shared among texels"
-                                                                       : "forward: walls throw liquid back";
+    const char *why = evaluator->fidelity.method == SP_METHOD_INVERSE ? "inverse: no wall throws liquid back"
+                      : evaluator->fidelity.splat == SP_SPLAT_LINEAR  ? "forward: jets alone are shared among texels"
+                                                                      : "forward: walls throw liquid back";
     snprintf(evaluator->choice.method, SP_WHY, "%s", why);
 }
 

@@ -131,8 +131,7 @@ static bool build(sp_evaluator *evaluator, const sp_layout *layout, sp_error *er
         return sp_fail_nothing(error);
     if (!(evaluator->fidelity.texel > 0))
         evaluator->fidelity.texel = plain;
-    return (layout && layout->count ? sp_choose(evaluator, layout, error)
-                                    : sp_texels_create(evaluator, NULL, error)) &&
+    return (layout && layout->count ? sp_choose(evaluator, layout, error) : sp_texels_create(evaluator, NULL, error)) &&
            sp_evaluator_progress(setup, "atlas", 1, error);
 }
 
@@ -226,7 +225,8 @@ bool sp_evaluator_again(const sp_evaluator *evaluator, bool shorter, sp_evaluato
     if (lines)
         snprintf(finer->choice.trajectory, SP_WHY, "parabolas: what was found by lines, counted again");
     if (texel < now->texel)
-        snprintf(finer->choice.texel, SP_WHY, "counted again: on texels of %.3g m the accuracy was not kept", now->texel);
+        snprintf(finer->choice.texel, SP_WHY, "counted again: on texels of %.3g m the accuracy was not kept",
+                 now->texel);
     if (!sp_texels_create(finer, NULL, error)) {
         sp_evaluator_destroy(finer);
         return false;

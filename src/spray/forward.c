@@ -28,8 +28,8 @@ typedef struct {
     sp_lit lit;          /* by the nozzle in hand */
     sp_balance *balance; /* of all */
     sp_work *work;
-    double lowest; /* g · x, m²/s², of the geometry's lowest point */
-    double able;   /* m³/s that flies on in the end and may yet be fast enough to count */
+    double lowest;       /* g · x, m²/s², of the geometry's lowest point */
+    double able;         /* m³/s that flies on in the end and may yet be fast enough to count */
     sp_ray *rays;        /* [BATCH] */
     double *flow;        /* [BATCH], m³/s */
     sp_hit *hits;        /* [BATCH] */

@@ -11,7 +11,7 @@
 #define PRECISION 0.0625 /* of the accuracy or the difference, that twice the standard error may come to */
 #define ROUGH 0.25       /* the same, for choosing */
 #define ROUGH_MOST (FEWEST << 3)
-#define UNSEEN 3         /* points that may differ though none was found to, with 95 % confidence */
+#define UNSEEN 3 /* points that may differ though none was found to, with 95 % confidence */
 
 /* Sums over the points' differences, each from -1 to 1. */
 typedef struct {
@@ -75,9 +75,11 @@ static bool measure(const sp_evaluator *evaluator, const measuring *m, sp_measur
             return false;
         mean = fabs(tally.sum) / (double)n;
         spread = 2 * sqrt(tally.scatter + UNSEEN) / (double)n;
-        *measured = (sp_measured_error){
-            .known = true, .estimate = fmin(1, mean + spread), .bias = tally.sum / (double)n,
-            .misjudged = tally.size / (double)n, .points = n};
+        *measured = (sp_measured_error){.known = true,
+                                        .estimate = fmin(1, mean + spread),
+                                        .bias = tally.sum / (double)n,
+                                        .misjudged = tally.size / (double)n,
+                                        .points = n};
     }
     return true;
 }

@@ -120,8 +120,7 @@ static bool serve_both(const sp_charts *charts, double one, double other)
 static bool make_charts(sp_evaluator *evaluator, sp_error *error)
 {
     double extent = (PAGE_EDGE - PAGE_MARGIN) * evaluator->fidelity.texel;
-    if (evaluator->charts &&
-        (evaluator->extent == extent || serve_both(evaluator->charts, evaluator->extent, extent)))
+    if (evaluator->charts && (evaluator->extent == extent || serve_both(evaluator->charts, evaluator->extent, extent)))
         return true;
     sp_charts_destroy(evaluator->charts);
     evaluator->extent = extent;

@@ -15,7 +15,7 @@ struct sp_evaluator {
     const sp_evaluator *origin; /* of a resampled evaluator: owns tracer, charts and wet; else NULL */
     sp_tracer *tracer;
     sp_charts *charts;
-    double extent; /* m: longer charts were cut */
+    double extent;      /* m: longer charts were cut */
     struct sp_wet *wet; /* wet.h */
     sp_atlas *atlas;
     sp_fragments fragments; /* of the atlas */

@@ -43,10 +43,10 @@ static double true_error(const sp_evaluator *evaluator, const sp_layout *layout)
     double off = fabs(coverage->fraction - (double)count / JUDGED);
     const sp_fidelity *fidelity = sp_evaluator_fidelity(evaluator);
     const sp_choice *choice = sp_evaluator_choice(evaluator);
-    print_message("texel %.3g mm, %llu jets, %d reflections, coverage %.3f %%, off by %.3f points\n  %s\n  %s\n  %s\n  %s\n",
-                  1e3 * fidelity->texel, (unsigned long long)fidelity->jets, fidelity->reflections,
-                  100 * coverage->fraction, 100 * off, choice->texel, choice->jets, choice->trajectory,
-                  choice->reflections);
+    print_message(
+        "texel %.3g mm, %llu jets, %d reflections, coverage %.3f %%, off by %.3f points\n  %s\n  %s\n  %s\n  %s\n",
+        1e3 * fidelity->texel, (unsigned long long)fidelity->jets, fidelity->reflections, 100 * coverage->fraction,
+        100 * off, choice->texel, choice->jets, choice->trajectory, choice->reflections);
     sp_coverage_destroy(coverage);
     free(covered);
     free(drawn);
@@ -131,8 +131,7 @@ static void lines_where_they_keep_the_accuracy_and_save_work(void **state)
         sp_layout *layout = sp_layout_create(nozzles, NOZZLES, &error);
         sp_evaluator *evaluator = chosen_for(&st.s, layout);
         print_message("%s\n", sp_evaluator_choice(evaluator)->trajectory);
-        assert_int_equal(sp_evaluator_fidelity(evaluator)->trajectory,
-                         k ? SP_TRAJECTORY_LINE : SP_TRAJECTORY_PARABOLA);
+        assert_int_equal(sp_evaluator_fidelity(evaluator)->trajectory, k ? SP_TRAJECTORY_LINE : SP_TRAJECTORY_PARABOLA);
         assert_true((sp_length(sp_evaluator_gravity(evaluator)) > 0) == !k);
         sp_evaluator *again;
         assert_true(sp_evaluator_again(evaluator, true, &again, &error));
