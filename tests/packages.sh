@@ -25,7 +25,7 @@ require_packages() {
     fi
     echo "Installing ${missing[*]}" >&2
     "${root[@]}" apt-get update -q >&2 &&
-        "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}" >&2 || {
+        "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 install -q -y --no-install-recommends "${missing[@]}" >&2 || {
         echo "Could not install ${missing[*]}" >&2
         return 1
     }

@@ -8,6 +8,7 @@
 #define PLACE_LEAST 0.1 /* of half the range: each move of a place is traced */
 #define SWEEPS_MOST 4   /* at one size of step */
 #define GAIN_LEAST 1e-6 /* of the area, for a step to count */
+#define HOPELESS 3e-3   /* of the gain: what a new place loses by what was seen from the old one, not to be traced */
 
 /* The nozzle in hand, and the draft without it. */
 typedef struct {
@@ -20,6 +21,18 @@ typedef struct {
     float *trial; /* [patch_count] */
     sp_error *error;
 } sp_needle;
+
+/* Whether a new place, were all that the old one sees in sight, and no more, is worth tracing. Of 5,500 places on the
+ * example vessel 38 % are not, of those that prove better 9 %. */
+static bool is_promising(sp_needle *needle, const sp_placed *trial, bool *promising)
+{
+    const sp_sight *sight = sp_sights_look(needle->sights, &needle->placed, needle->error);
+    if (!sight)
+        return false;
+    sp_sight_field(needle->search, sight, trial, needle->trial);
+    *promising = sp_field_gain(needle->search, needle->draft, needle->trial) >= needle->gain * (1 - HOPELESS);
+    return true;
+}
 
 /* Tries one value of one unknown and keeps it where more is covered. */
 static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
@@ -36,7 +49,10 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
     if (needle->draft->flow + trial.flow > needle->budget * (1 + 1e-12))
         return true;
     bool elsewhere = sp_distance(trial.nozzle.position, needle->placed.nozzle.position) > 0;
-    if (freedom.kind[k] == SP_UNKNOWN_PLACE && !elsewhere)
+    bool promising = elsewhere || freedom.kind[k] != SP_UNKNOWN_PLACE;
+    if (elsewhere && !is_promising(needle, &trial, &promising))
+        return false;
+    if (!promising)
         return true;
     if (!sp_sights_field(needle->sights, &trial, needle->trial, needle->error))
         return false;

@@ -290,8 +290,8 @@ static bool save_flow(sp_refining *refining)
     return done;
 }
 
-/* Polishes a draft, then what walks from it find, until the front has one that takes less water than `before` and
- * reaches the target, or it is given up. */
+/* Anneals a draft and walks from it once, on two cores, then polishes what more walks from it find, until the front has
+ * one that takes less water than `before` and reaches the target, or it is given up. */
 static bool insist(sp_refining *refining, sp_draft *draft, double budget, const sp_front_point *before)
 {
     sp_front *front = refining->front;
@@ -301,8 +301,8 @@ static bool insist(sp_refining *refining, sp_draft *draft, double budget, const 
         if (missing > MISSING_MOST * front->target || !sp_watch_goes_on(refining->watch, "refine", 0))
             break;
         sp_trials trials = {0};
-        for (size_t i = 0; done && i < (batch ? BATCH : 1); i++)
-            done = try_also(refining, &trials, draft, budget, batch ? SP_TRIAL_WALK : SP_TRIAL_ANNEAL);
+        for (size_t i = 0; done && i < (batch ? BATCH : 2); i++)
+            done = try_also(refining, &trials, draft, budget, batch || i ? SP_TRIAL_WALK : SP_TRIAL_ANNEAL);
         done = done && carry_out(refining, &trials, draft);
         trials_free(&trials);
     }

@@ -91,17 +91,19 @@ void sp_search_free(sp_search *search)
     *search = (sp_search){0};
 }
 
-void sp_draft_refresh(const sp_search *search, sp_draft *draft)
+/* Adds item i to what is wet and dry. */
+static void pour_item(const sp_search *search, sp_draft *draft, size_t i)
 {
-    memcpy(draft->wet, search->kept_wet, search->patch_count * sizeof *draft->wet);
-    memcpy(draft->dry, search->kept_dry, search->patch_count * sizeof *draft->dry);
-    draft->flow = search->kept_flow;
-    for (size_t i = 0; i < draft->count; i++) {
-        const float *field = draft->items[i].field;
-        draft->flow += draft->items[i].flow;
-        for (size_t p = 0; p < search->patch_count; p++)
-            sp_pour(search, field[p], &draft->wet[p], &draft->dry[p]);
-    }
+    const float *field = draft->items[i].field;
+    float *restrict wet = draft->wet, *restrict dry = draft->dry;
+    draft->flow += draft->items[i].flow;
+    for (size_t p = 0; p < search->patch_count; p++)
+        sp_pour(search, field[p], &wet[p], &dry[p]);
+}
+
+/* Draws covered and value from what is wet and dry. */
+static void count_up(const sp_search *search, sp_draft *draft)
+{
     draft->covered = draft->value = 0;
     for (size_t p = 0; p < search->patch_count; p++) {
         draft->value += (double)(search->area[p] * sp_worth(search, draft->wet[p], draft->dry[p]));
@@ -111,15 +113,32 @@ void sp_draft_refresh(const sp_search *search, sp_draft *draft)
     draft->covered *= search->all;
 }
 
-bool sp_draft_create(const sp_search *search, sp_draft *draft, sp_error *error)
+void sp_draft_refresh(const sp_search *search, sp_draft *draft)
+{
+    memcpy(draft->wet, search->kept_wet, search->patch_count * sizeof *draft->wet);
+    memcpy(draft->dry, search->kept_dry, search->patch_count * sizeof *draft->dry);
+    draft->flow = search->kept_flow;
+    for (size_t i = 0; i < draft->count; i++)
+        pour_item(search, draft, i);
+    count_up(search, draft);
+}
+
+/* Room for what is wet and dry. */
+static bool reserve(const sp_search *search, sp_draft *draft, sp_error *error)
 {
     *draft = (sp_draft){0};
     draft->wet = malloc(search->patch_count * sizeof *draft->wet);
     draft->dry = malloc(search->patch_count * sizeof *draft->dry);
-    if (!draft->wet || !draft->dry) {
-        sp_draft_free(draft);
-        return sp_fail_memory(error);
-    }
+    if (draft->wet && draft->dry)
+        return true;
+    sp_draft_free(draft);
+    return sp_fail_memory(error);
+}
+
+bool sp_draft_create(const sp_search *search, sp_draft *draft, sp_error *error)
+{
+    if (!reserve(search, draft, error))
+        return false;
     sp_draft_refresh(search, draft);
     return true;
 }
@@ -146,7 +165,7 @@ static bool append(sp_draft *draft, sp_placed placed, sp_error *error)
 
 bool sp_draft_copy(const sp_search *search, const sp_draft *from, sp_draft *to, sp_error *error)
 {
-    if (!sp_draft_create(search, to, error))
+    if (!reserve(search, to, error))
         return false;
     for (size_t i = 0; i < from->count; i++) {
         sp_placed placed = from->items[i];
@@ -168,7 +187,8 @@ bool sp_draft_add(const sp_search *search, sp_draft *draft, sp_placed placed, sp
 {
     if (!append(draft, placed, error))
         return false;
-    sp_draft_refresh(search, draft);
+    pour_item(search, draft, draft->count - 1);
+    count_up(search, draft);
     return true;
 }
 

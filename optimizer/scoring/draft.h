@@ -86,13 +86,13 @@ bool sp_draft_add_pose(const sp_search *search, sp_draft *draft, sp_pose pose, s
 void sp_draft_remove(const sp_search *search, sp_draft *draft, size_t i);
 /* Removes item i and hands it over. */
 sp_placed sp_draft_take(const sp_search *search, sp_draft *draft, size_t i);
-/* Adds a nozzle's field value to what is wet and dry of a patch. */
+/* Adds a nozzle's field value to what is wet and dry of a patch; without a branch, so that loops over patches can take
+ * several at a time. */
 static inline void sp_pour(const sp_search *search, float field, float *wet, float *dry)
 {
-    if (field < 0)
-        *dry *= 1 + field;
-    else
-        *wet = search->single ? fmaxf(*wet, field) : *wet + field;
+    float more = field > 0 ? field : 0, edge = field < 0 ? 1 + field : 1, sum = *wet + more;
+    *dry *= edge;
+    *wet = !search->single ? sum : more > *wet ? more : *wet;
 }
 /* The share of a patch that is covered. */
 static inline float sp_covered(float wet, float dry)

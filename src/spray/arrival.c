@@ -45,14 +45,14 @@ sp_ray sp_flight_ray(const sp_source *source, const sp_target *target, const sp_
 bool sp_flight_pierces(const sp_source *source, const sp_target *target, const sp_flight *flight)
 {
     const sp_evaluator *evaluator = source->evaluator;
-    const sp_mesh *mesh = evaluator->setup.mesh;
-    sp_vec3 normal = sp_triangle_normal(mesh, target->triangle), velocity = sp_scale(flight->direction, source->speed);
-    double fall = sp_dot(evaluator->gravity, normal), t = -2 * sp_dot(velocity, normal) / fall - flight->time;
+    sp_vec3 velocity = sp_scale(flight->direction, source->speed);
+    double fall = sp_dot(evaluator->gravity, target->normal);
+    double t = -2 * sp_dot(velocity, target->normal) / fall - flight->time;
     if (fall == 0 || !(t > ends * flight->time && t < (1 - ends) * flight->time))
         return false;
     sp_ray ray = {.origin = source->position, .velocity = velocity};
     double u, v;
-    return sp_triangle_weights(mesh, target->triangle, sp_ray_point(&ray, evaluator->gravity, t), &u, &v);
+    return sp_triangle_weights(evaluator->setup.mesh, target->triangle, sp_ray_point(&ray, evaluator->gravity, t), &u, &v);
 }
 
 bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, double speed, const sp_flight *flight,

@@ -8,17 +8,24 @@
 #define FINEST_TEXEL 0x1p-46   /* of the farthest coordinate */
 #define SLOWEST_SQUARE 0x1p-58 /* of g times the diagonal, that v² is told beside */
 
+static double farthest_of(sp_vec3 low, sp_vec3 high)
+{
+    return fmax(fmax(fmax(-low.x, high.x), fmax(-low.y, high.y)), fmax(-low.z, high.z));
+}
+
 double sp_farthest_coordinate(const sp_mesh *mesh)
 {
     sp_vec3 low, high;
     sp_mesh_box(mesh, &low, &high);
-    return fmax(fmax(fmax(-low.x, high.x), fmax(-low.y, high.y)), fmax(-low.z, high.z));
+    return farthest_of(low, high);
 }
 
 bool sp_geometry_is_resolved(const sp_setup *setup, sp_error *error)
 {
     sp_vec3 low, high;
-    double diagonal = sp_mesh_box(setup->mesh, &low, &high), farthest = sp_farthest_coordinate(setup->mesh);
+    double diagonal = sp_mesh_box(setup->mesh, &low, &high);
+    /* as they were read: about an origin of the setup's own they are no better told */
+    double farthest = farthest_of(sp_setup_outside(setup, low), sp_setup_outside(setup, high));
     if (!(diagonal >= 1 / MOST_LENGTH && diagonal <= MOST_LENGTH))
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "geometry: %g m across found, expected %g m to %g m",
                        diagonal, 1 / MOST_LENGTH, MOST_LENGTH);

@@ -245,7 +245,9 @@ static bool is_aside(const cutting *cut, sp_vec3 point, double radius)
 
 static void visit_cell(cutting *cut, cell *cell)
 {
-    for (size_t i = cell->first; i < cell->end; i++)
+    cell->middle.point = sp_middle_centroid(&cell->middle); /* within a piece that is alone */
+    cell->middle.triangle = cut->pieces[cell->first].triangle;
+    for (size_t i = cell->first; i < cell->end && cell->end - cell->first > 1; i++)
         sp_middle_look(&cell->middle, cut->pieces[i].corner, cut->pieces[i].corners, cut->pieces[i].triangle);
     sp_vec3 normal = sp_triangle_normal(cut->source->evaluator->setup.mesh, cell->middle.triangle);
     sp_target target = {.point = cell->middle.point,
