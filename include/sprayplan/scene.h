@@ -11,9 +11,9 @@ extern "C" {
 /* Loading, writing and sp_quantity_parse are for one thread at a time: the parser of udunits2 is not reentrant. */
 typedef struct sp_scene sp_scene;
 
-/* Reads a scene, its catalogue and its geometry. What lies four diagonals of the geometry or more from (0, 0, 0) is moved
- * to a local origin (see sp_setup): setup, layout and mounts are all in the setup's coordinates. Every error names file, line, column and key, what was found and what
- * was expected. */
+/* Reads a scene, its catalogue and its geometry. What lies four diagonals of the geometry or more from (0, 0, 0) is
+ * moved to a local origin (see sp_setup): setup, layout and mounts are all in the setup's coordinates. Every error
+ * names file, line, column and key, what was found and what was expected. */
 sp_scene *sp_scene_load(const char *path, sp_error *error);
 /* The same with settings of `simulate:` and `place:` overridden, each "simulate.jets=20000" or "place.refine=none"; the
  * value is YAML as it would stand in the file. Errors in an override name it in place of the file. */

@@ -83,8 +83,8 @@ extern const size_t sp_sweep_set_count;
 /* The widest that this processor has. */
 const sp_sweep_set *sp_sweep_best(void);
 
-/* `strength`: flux over threshold per transfer of a view. `slack`: how far beyond (rad, and as a share of the transfer) an
- * edge may lie, for sums that must not be too small. */
+/* `strength`: flux over threshold per transfer of a view. `slack`: how far beyond (rad, and as a share of the
+ * transfer) an edge may lie, for sums that must not be too small. */
 sp_region sp_region_create(const sp_spray *spray, const sp_frame *frame, double strength, double slack);
 /* Brings the region into another frame. */
 void sp_region_turn(sp_region *region, const sp_frame *frame);

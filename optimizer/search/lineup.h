@@ -26,8 +26,8 @@ void sp_lineup_remove(sp_lineup *lineup, size_t i);
 /* What a row would add to what is covered, and the credit for what is on the way; 0 where it does not fit within the
  * budget, the number or its port. */
 double sp_lineup_gain(const sp_lineup *lineup, uint32_t row, double budget);
-/* The row of most gain per water^power, the first of equals, that fits within the budget, an uncovered patch being worth `credit` per share
- * of what it needs; *gain in m², 0 for none. */
+/* The row of most gain per water^power, the first of equals, that fits within the budget, an uncovered patch being
+ * worth `credit` per share of what it needs; *gain in m², 0 for none. */
 uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double budget, double *gain);
 
 /* Puts one row, of no more water than the two together, in the place of two: the one that gains most there. False, and

@@ -118,8 +118,8 @@ static void a_far_scene_is_the_same_scene(void **state)
     assert_true(sp_distance(sp_setup_outside(sp_scene_setup(far.scene), sp_scene_setup(far.scene)->cavity_point),
                             sp_add(there, sp_v(0.5, 0.5, 0.5))) == 0);
     sp_vec3 given = {there.x + 0.3, there.y + 0.4, there.z + 0.7};
-    assert_true(sp_distance(sp_setup_outside(sp_scene_setup(far.scene), sp_scene_layout(far.scene)->nozzles[0].position),
-                            given) == 0);
+    const sp_nozzle *own = sp_scene_layout(far.scene)->nozzles;
+    assert_true(sp_distance(sp_setup_outside(sp_scene_setup(far.scene), own->position), given) == 0);
     sp_proposal *home = place(&near), *away = place(&far);
     assert_true(home->coverage->covered_area > home->greedy_coverage->covered_area);
     assert_true(away->greedy_coverage->fraction == home->greedy_coverage->fraction);
