@@ -118,6 +118,12 @@ typedef struct {
     double area; /* m², of patches whole */
 } sp_borderline;
 
+/* What is proved of how far lines may be from parabolas (see sp_bound_lines). */
+typedef struct {
+    bool known;   /* false: nothing below means anything */
+    double share; /* of the area */
+} sp_line_error;
+
 /* Counted, so that it is the same on every machine. */
 typedef struct {
     size_t places; /* patches and cells to which flights were solved for */
@@ -134,6 +140,7 @@ typedef struct {
     sp_balance balance;         /* known from the forward evaluator; else sp_evaluate_balance works it out */
     sp_measured_error measured; /* not known until sp_measure_error is asked for it */
     sp_borderline borderline;   /* not known until sp_find_borderline is asked for it */
+    sp_line_error line_error;   /* not known until sp_bound_lines is asked for it */
     sp_work work;               /* of evaluating */
     sp_deposits deposits;
 } sp_coverage;

@@ -70,7 +70,7 @@ typedef struct {
 } sp_choice;
 const sp_choice *sp_evaluator_choice(const sp_evaluator *evaluator);
 /* Jets per nozzle that so short a texel wants, where the forward evaluator flies fewer (whether they were asked for or
- * are the most that it chooses itself); else 0. */
+ * are the most that it chooses itself) and they were not measured to be enough; else 0. */
 double sp_evaluator_jets_wanted(const sp_evaluator *evaluator);
 /* By how many of a nozzle's jets a texel that is just covered is met; its flux is off by about one in their root. */
 double sp_evaluator_jets_met(const sp_evaluator *evaluator);

@@ -48,6 +48,7 @@ typedef struct {
     size_t jets_wanted;                                  /* per nozzle, where they are fewer; else unknown */
     double texel;                                        /* m */
     double error_estimate, misjudged;                    /* of this layout, as sp_measured_error */
+    double error_bound;                                  /* of flying along lines, as sp_line_error */
     double borderline;                                   /* m², as sp_borderline */
     double flow, covered_area;                           /* m³/s, m² */
     double coverage, of_attainable;                      /* fractions */

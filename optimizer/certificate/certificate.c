@@ -283,8 +283,10 @@ static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
 static void conclude(const certifying *c, sp_front *front, sp_certificate *certificate)
 {
     double whole = 0, counted = sp_draft_counted(c->problem.search, &front->best);
+    /* added up as what is counted is: all of it is no more than the whole, to the last bit */
     for (size_t p = 0; p < c->problem.search->patch_count; p++)
-        whole += (double)c->problem.search->area[p] * c->problem.search->all;
+        whole += (double)c->problem.search->area[p];
+    whole *= c->problem.search->all;
     for (size_t i = 0; i < front->by_water.count; i++) {
         sp_front_point *point = &front->by_water.entries[i].point;
         point->counted = sp_draft_counted(c->problem.search, &front->by_water.entries[i].draft);

@@ -22,6 +22,9 @@ static void add_errors(const sp_page *page, sp_text *text, const sp_evaluator *e
         sp_page_name(page, text, i);
         sp_text_add(text, " \xc2\xb1%.2f&nbsp;points of coverage (%.2f&nbsp;%% of the area misjudged, either way)",
                     ceil(1e4 * figures->error_estimate) / 100, 100 * figures->misjudged);
+        if (isfinite(figures->error_bound))
+            sp_text_add(text, ", lines in place of parabolas are proved to change it by no more than %.1f&nbsp;points",
+                        ceil(1e3 * figures->error_bound) / 10);
         if (figures->error_estimate > accuracy)
             sp_text_add(text, ", which is <strong>more than the accuracy of %.3g&nbsp;%%</strong> that was asked for",
                         100 * accuracy);

@@ -32,6 +32,7 @@ static void set_coverage(sp_figures *figures, const sp_coverage *coverage)
     const sp_balance *balance = &coverage->balance;
     figures->error_estimate = coverage->measured.known ? coverage->measured.estimate : NAN;
     figures->misjudged = coverage->measured.known ? coverage->measured.misjudged : NAN;
+    figures->error_bound = coverage->line_error.known ? coverage->line_error.share : NAN;
     figures->borderline = coverage->borderline.known ? coverage->borderline.area : NAN;
     figures->landed_clean = balance->known ? balance->clean : NAN;
     figures->landed_other = balance->known ? balance->other : NAN;

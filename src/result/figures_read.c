@@ -210,18 +210,21 @@ static bool read_fidelity(const reader *in, const json_t *fidelity, sp_figures *
            get_count(in, fidelity, "jets_wanted_per_nozzle", &figures->jets_wanted) &&
            get_real(in, fidelity, "texel_m", 0, LARGEST, 1, &figures->texel) &&
            get_real(in, fidelity, "error_estimate", 0, 1, 1, &figures->error_estimate) &&
-           get_real(in, fidelity, "misjudged", 0, 1, 1, &figures->misjudged);
+           get_real(in, fidelity, "misjudged", 0, 1, 1, &figures->misjudged) &&
+           get_real(in, fidelity, "error_bound", 0, 1, 1, &figures->error_bound);
 }
 
 /* The layout's own errors; where it tells none, what its fidelity says stays. */
 static bool read_errors(const reader *in, const json_t *layout, sp_figures *figures)
 {
-    double estimate, misjudged;
+    double estimate, misjudged, bound;
     if (!get_real(in, layout, "error_estimate", 0, 1, 1, &estimate) ||
-        !get_real(in, layout, "misjudged", 0, 1, 1, &misjudged))
+        !get_real(in, layout, "misjudged", 0, 1, 1, &misjudged) ||
+        !get_real(in, layout, "error_bound", 0, 1, 1, &bound))
         return false;
     figures->error_estimate = isnan(estimate) ? figures->error_estimate : estimate;
     figures->misjudged = isnan(misjudged) ? figures->misjudged : misjudged;
+    figures->error_bound = isnan(bound) ? figures->error_bound : bound;
     return true;
 }
 

@@ -113,6 +113,7 @@ static bool put_fidelity(json_t *object, const sp_figures *figures, size_t count
         put_real(fidelity, "texel_m", figures->texel) &&
         put_real(fidelity, "error_estimate", worst(figures, count, offsetof(sp_figures, error_estimate))) &&
         put_real(fidelity, "misjudged", worst(figures, count, offsetof(sp_figures, misjudged))) &&
+        put_real(fidelity, "error_bound", worst(figures, count, offsetof(sp_figures, error_bound))) &&
         put_choice(fidelity, evaluator);
     return put(object, "fidelity", fidelity) && done;
 }
@@ -169,6 +170,7 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, const sp_eval
                 put_real(layout, "coverage", figures->coverage) &&
                 put_real(layout, "error_estimate", figures->error_estimate) &&
                 put_real(layout, "misjudged", figures->misjudged) &&
+                put_real(layout, "error_bound", figures->error_bound) &&
                 put_real(layout, "borderline_m2", figures->borderline) &&
                 put_real(layout, "coverage_of_attainable", figures->of_attainable) &&
                 put_real(layout, "area_per_water", figures->area_per_water / 6e4) && put_flux(layout, figures) &&

@@ -49,7 +49,10 @@ uint64_t sp_jets_for(const sp_evaluator *evaluator, double texel)
 double sp_evaluator_jets_wanted(const sp_evaluator *evaluator)
 {
     const sp_fidelity *fidelity = &evaluator->fidelity;
-    double wanted = fidelity->method == SP_METHOD_FORWARD ? jets_wanted(evaluator, fidelity->texel) : 0;
+    bool enough = evaluator->choice.jets[0] && !evaluator->choice.missed; /* as measured */
+    if (fidelity->method != SP_METHOD_FORWARD || enough)
+        return 0;
+    double wanted = jets_wanted(evaluator, fidelity->texel);
     return wanted > (double)fidelity->jets ? wanted : 0;
 }
 

@@ -98,6 +98,31 @@ static void check_reports_the_cavity(void **state)
     json_decref(object);
 }
 
+/* Parabolas lie within what is proved of lines, which is told of lines alone. */
+static void lines_are_bounded(void **state)
+{
+    (void)state;
+    static const char *const trajectories[] = {"line", "parabola"};
+    double coverage[2];
+    for (size_t i = 0; i < 2; i++) {
+        char command[200];
+        snprintf(command, sizeof command, "simulate room.yaml --json --set simulate.texel=30mm --set simulate.trajectory=%s",
+                 trajectories[i]);
+        json_t *object = expect_json(command, 0), *manual = layout_named(object, "manual");
+        coverage[i] = number(manual, "coverage");
+        if (i == 0) {
+            double bound = number(manual, "error_bound");
+            assert_true(bound > 0 && bound < 0.5);
+            assert_true(bound == number(json_object_get(object, "fidelity"), "error_bound"));
+            coverage[0] -= bound;
+        } else {
+            assert_null(json_object_get(manual, "error_bound"));
+        }
+        json_decref(object);
+    }
+    assert_true(coverage[1] >= coverage[0]);
+}
+
 /* The cone of 120 deg, 0.4 m under the ceiling's height above a floor of 1 m²: 12 L/min over pi sr. On the floor the
  * flux is Q cos^3(a) / (pi h²), above 1 L/min/m² all over it. */
 static void simulate_gives_the_figures(void **state)
@@ -329,6 +354,7 @@ static void the_written_layout_gives_the_same_figures(void **state)
     assert_true(json_equal(json_object_get(proposed, "flux_l_min_m2"), json_object_get(manual, "flux_l_min_m2")));
     assert_true(json_equal(json_object_get(proposed, "nozzles"), json_object_get(manual, "nozzles")));
     json_t *fidelity[2] = {json_object_get(placed, "fidelity"), json_object_get(again, "fidelity")};
+    assert_int_equal(json_object_del(fidelity[0], "auto"), 0); /* of which the layout leaves nothing */
     for (int i = 0; i < 2; i++) { /* these are of the worst of all layouts reported */
         assert_true(number(fidelity[i], "error_estimate") >= number(proposed, "error_estimate"));
         assert_int_equal(json_object_del(fidelity[i], "error_estimate"), 0);
@@ -680,6 +706,7 @@ int main(void)
         cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),
         cmocka_unit_test(check_reports_the_cavity),
         cmocka_unit_test(simulate_gives_the_figures),
+        cmocka_unit_test(lines_are_bounded),
         cmocka_unit_test(without_output_nothing_is_written),
         cmocka_unit_test(simulate_writes_its_files),
         cmocka_unit_test(no_input_is_overwritten),
