@@ -69,7 +69,7 @@ typedef struct {
     /* m: where the setup's (0, 0, 0) lies in the coordinates that are read and written; (0, 0, 0) but for a scene that
      * lies far from theirs. */
     sp_vec3 origin;
-    const sp_cap *caps;   /* borrowed: [cap_count]; NULL for none */
+    const sp_cap *caps; /* borrowed: [cap_count]; NULL for none */
     size_t cap_count;
     sp_fluid liquid; /* default water: 1000 kg/m³, 1 mPa s */
     sp_fluid air;    /* 1.2 kg/m³, 18 µPa s */

@@ -333,7 +333,8 @@ bool sp_certify(const sp_search *search, sp_watch *watch, sp_front *front, sp_ce
     bool possible;
     *certificate = (sp_certificate){0};
     for (size_t i = 0; i < front->by_water.count; i++)
-        front->by_water.entries[i].point.counted = front->by_water.entries[i].point.bound = front->by_water.entries[i].point.every_aim_bound = NAN;
+        front->by_water.entries[i].point.counted = front->by_water.entries[i].point.bound =
+            front->by_water.entries[i].point.every_aim_bound = NAN;
     if (watch->cancelled || !front->found)
         return true;
     bool done = sp_problem_create(search, front, &c.problem, &possible, error) &&

@@ -167,9 +167,8 @@ static bool begin(const sp_polishing *polishing, const sp_trial *trial, sp_draft
     const sp_draft *from = trial->kind == SP_TRIAL_OTHER ? &trial->other : &trial->draft;
     if (!sp_draft_copy(polishing->search, from, start, error))
         return false;
-    if (trial->kind == SP_TRIAL_WALK &&
-        !sp_walk(&tuned->search, trial->budget * (1 + SP_ROUNDING), WALK, trial->seed, polishing->watch, start,
-                 error)) {
+    if (trial->kind == SP_TRIAL_WALK && !sp_walk(&tuned->search, trial->budget * (1 + SP_ROUNDING), WALK, trial->seed,
+                                                 polishing->watch, start, error)) {
         sp_draft_free(start);
         return false;
     }

@@ -123,7 +123,8 @@ double sp_lineup_gain(const sp_lineup *lineup, uint32_t row, double budget)
     return fits ? gain_of(lineup, row, lineup->table->search->credit) : 0;
 }
 
-/* What every row gains, as a share of all. Patch by patch: most patches are wet already when the last rows are chosen. */
+/* What every row gains, as a share of all. Patch by patch: most patches are wet already when the last rows are chosen.
+ */
 static void set_gains(sp_lineup *lineup, float credit)
 {
     const sp_table *table = lineup->table;

@@ -103,7 +103,8 @@ sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_
 /* How much of it round-off could turn, into coverage->borderline, where the inverse evaluator counted it. */
 bool cli_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
                          sp_error *error);
-/* That, how far it is off, into coverage->measured, and of lines what is proved of that, into coverage->line_error. False, and the error kept, given NULL. */
+/* That, how far it is off, into coverage->measured, and of lines what is proved of that, into coverage->line_error.
+ * False, and the error kept, given NULL. */
 bool cli_measure(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, sp_error *error);
 
 /* boxes.c: how far something reaches along the axes, m. */

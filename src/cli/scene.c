@@ -39,8 +39,7 @@ sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_
     return NULL;
 }
 
-bool cli_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
-                         sp_error *error)
+bool cli_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
 {
     return sp_evaluator_fidelity(evaluator)->method != SP_METHOD_INVERSE ||
            sp_find_borderline(evaluator, layout, coverage, NULL, &coverage->borderline, error);

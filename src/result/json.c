@@ -105,16 +105,16 @@ static bool put_choice(json_t *fidelity, const sp_evaluator *evaluator)
 static bool put_fidelity(json_t *object, const sp_figures *figures, size_t count, const sp_evaluator *evaluator)
 {
     json_t *fidelity = json_object();
-    bool done =
-        put_text(fidelity, "trajectory", figures->trajectory) && put_text(fidelity, "evaluator", figures->evaluator) &&
-        put_count(fidelity, "reflections", figures->reflections) &&
-        put_count(fidelity, "jets_per_nozzle", figures->jets) &&
-        put_count(fidelity, "jets_wanted_per_nozzle", figures->jets_wanted) &&
-        put_real(fidelity, "texel_m", figures->texel) &&
-        put_real(fidelity, "error_estimate", worst(figures, count, offsetof(sp_figures, error_estimate))) &&
-        put_real(fidelity, "misjudged", worst(figures, count, offsetof(sp_figures, misjudged))) &&
-        put_real(fidelity, "error_bound", worst(figures, count, offsetof(sp_figures, error_bound))) &&
-        put_choice(fidelity, evaluator);
+    bool done = put_text(fidelity, "trajectory", figures->trajectory) &&
+                put_text(fidelity, "evaluator", figures->evaluator) &&
+                put_count(fidelity, "reflections", figures->reflections) &&
+                put_count(fidelity, "jets_per_nozzle", figures->jets) &&
+                put_count(fidelity, "jets_wanted_per_nozzle", figures->jets_wanted) &&
+                put_real(fidelity, "texel_m", figures->texel) &&
+                put_real(fidelity, "error_estimate", worst(figures, count, offsetof(sp_figures, error_estimate))) &&
+                put_real(fidelity, "misjudged", worst(figures, count, offsetof(sp_figures, misjudged))) &&
+                put_real(fidelity, "error_bound", worst(figures, count, offsetof(sp_figures, error_bound))) &&
+                put_choice(fidelity, evaluator);
     return put(object, "fidelity", fidelity) && done;
 }
 
@@ -165,16 +165,15 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, const sp_eval
                        bool own_fidelity)
 {
     json_t *layout = json_object(), *shadows = json_array(), *nozzles = json_array();
-    bool done = put_text(layout, "name", figures->name) && put_real(layout, "water_l_min", 6e4 * figures->flow) &&
-                put_real(layout, "covered_area_m2", figures->covered_area) &&
-                put_real(layout, "coverage", figures->coverage) &&
-                put_real(layout, "error_estimate", figures->error_estimate) &&
-                put_real(layout, "misjudged", figures->misjudged) &&
-                put_real(layout, "error_bound", figures->error_bound) &&
-                put_real(layout, "borderline_m2", figures->borderline) &&
-                put_real(layout, "coverage_of_attainable", figures->of_attainable) &&
-                put_real(layout, "area_per_water", figures->area_per_water / 6e4) && put_flux(layout, figures) &&
-                put_liquid(layout, figures);
+    bool done =
+        put_text(layout, "name", figures->name) && put_real(layout, "water_l_min", 6e4 * figures->flow) &&
+        put_real(layout, "covered_area_m2", figures->covered_area) && put_real(layout, "coverage", figures->coverage) &&
+        put_real(layout, "error_estimate", figures->error_estimate) &&
+        put_real(layout, "misjudged", figures->misjudged) && put_real(layout, "error_bound", figures->error_bound) &&
+        put_real(layout, "borderline_m2", figures->borderline) &&
+        put_real(layout, "coverage_of_attainable", figures->of_attainable) &&
+        put_real(layout, "area_per_water", figures->area_per_water / 6e4) && put_flux(layout, figures) &&
+        put_liquid(layout, figures);
     for (size_t i = 0; done && i < figures->shadow_count; ++i)
         done = put_shadow(shadows, &figures->shadows[i]);
     for (size_t i = 0; done && i < figures->nozzle_count; ++i)

@@ -52,7 +52,8 @@ bool sp_flight_pierces(const sp_source *source, const sp_target *target, const s
         return false;
     sp_ray ray = {.origin = source->position, .velocity = velocity};
     double u, v;
-    return sp_triangle_weights(evaluator->setup.mesh, target->triangle, sp_ray_point(&ray, evaluator->gravity, t), &u, &v);
+    return sp_triangle_weights(evaluator->setup.mesh, target->triangle, sp_ray_point(&ray, evaluator->gravity, t), &u,
+                               &v);
 }
 
 bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, double speed, const sp_flight *flight,

@@ -20,7 +20,8 @@ typedef struct {
 } sp_target;
 
 sp_target sp_patch_target(const sp_evaluator *evaluator, uint32_t patch);
-/* Fills everything but `patch`, `arc`, `part`, `breadth` and `blocked`; false where the flight comes to the dry side. */
+/* Fills everything but `patch`, `arc`, `part`, `breadth` and `blocked`; false where the flight comes to the dry side.
+ */
 bool sp_arrive(const sp_source *source, const sp_target *target, const sp_flight *flight, sp_arrival *arrival);
 /* The flight as a ray that ends at the target and skips the target's own triangle. */
 sp_ray sp_flight_ray(const sp_source *source, const sp_target *target, const sp_flight *flight);

@@ -159,8 +159,8 @@ static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uin
         if (!arrival->blocked || aim->blocked)
             flock->arrivals[kept++] = *arrival;
     }
-    *harvest = (struct harvest){kept, kept ? malloc(kept * sizeof *harvest->arrivals) : NULL,
-                                {flock->places, flock->ray_count}};
+    *harvest = (struct harvest){
+        kept, kept ? malloc(kept * sizeof *harvest->arrivals) : NULL, {flock->places, flock->ray_count}};
     if (harvest->arrivals)
         memcpy(harvest->arrivals, flock->arrivals, kept * sizeof *harvest->arrivals);
     return harvest->arrivals || !kept;

@@ -106,8 +106,8 @@ static void lines_are_bounded(void **state)
     double coverage[2];
     for (size_t i = 0; i < 2; i++) {
         char command[200];
-        snprintf(command, sizeof command, "simulate room.yaml --json --set simulate.texel=30mm --set simulate.trajectory=%s",
-                 trajectories[i]);
+        snprintf(command, sizeof command,
+                 "simulate room.yaml --json --set simulate.texel=30mm --set simulate.trajectory=%s", trajectories[i]);
         json_t *object = expect_json(command, 0), *manual = layout_named(object, "manual");
         coverage[i] = number(manual, "coverage");
         if (i == 0) {
@@ -355,7 +355,7 @@ static void the_written_layout_gives_the_same_figures(void **state)
     assert_true(json_equal(json_object_get(proposed, "nozzles"), json_object_get(manual, "nozzles")));
     json_t *fidelity[2] = {json_object_get(placed, "fidelity"), json_object_get(again, "fidelity")};
     assert_int_equal(json_object_del(fidelity[0], "auto"), 0); /* of which the layout leaves nothing */
-    for (int i = 0; i < 2; i++) { /* these are of the worst of all layouts reported */
+    for (int i = 0; i < 2; i++) {                              /* these are of the worst of all layouts reported */
         assert_true(number(fidelity[i], "error_estimate") >= number(proposed, "error_estimate"));
         assert_int_equal(json_object_del(fidelity[i], "error_estimate"), 0);
         assert_int_equal(json_object_del(fidelity[i], "misjudged"), 0);

@@ -33,13 +33,13 @@ static void drop_speed(json_t *study)
 static void same_but_for_seconds(void **state)
 {
     (void)state;
-    json_t *one = expect_json("study room.yaml " SMALL " --json --threads 1", 0);
-    json_t *two = expect_json("study room.yaml " SMALL " --json --threads 2", 0);
+    json_t *one = expect_json("study room.yaml " SMALL " --set place.refine=none --json --threads 1", 0);
+    json_t *two = expect_json("study room.yaml " SMALL " --set place.refine=none --json --threads 2", 0);
     drop_speed(one);
     drop_speed(two);
     assert_true(json_equal(one, two));
     assert_int_equal(json_array_size(json_object_get(one, "runs")), 5);
-    assert_int_equal(json_array_size(json_object_get(one, "place")), 9);
+    assert_int_equal(json_array_size(json_object_get(one, "place")), 6);
     json_decref(one);
     json_decref(two);
 }
@@ -135,6 +135,7 @@ static void what_is_set_stays(void **state)
     json_decref(study);
 }
 
+#ifndef SPRAYPLAN_SANITIZE
 /* The example vessel's table, on the texels of a study: 40, 20, 10 and 5 mm. Half the texel misjudges half the area. */
 static void misjudged_area_halves_with_the_texel(void **state)
 {
@@ -168,6 +169,7 @@ static void misjudged_area_halves_with_the_texel(void **state)
     assert_true(fitted > 0.75 && fitted < 1.15);
     json_decref(study);
 }
+#endif
 
 int main(void)
 {
@@ -176,7 +178,9 @@ int main(void)
         cmocka_unit_test(files_without_a_place),
         cmocka_unit_test(a_scene_without_nozzles),
         cmocka_unit_test(what_is_set_stays),
+#ifndef SPRAYPLAN_SANITIZE /* ten times slower: the texels are the same */
         cmocka_unit_test(misjudged_area_halves_with_the_texel),
+#endif
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }

@@ -323,7 +323,8 @@ static void scores_are_what_fields_add(void **state)
             double gain = sp_field_gain(&s.search, &draft, field), room = 0;
             for (size_t p = 0; p < patches; p++)
                 room += field[p] != 0 && draft.wet[p] < 1
-                            ? s.search.all * (double)s.search.area[p] * fmin(1, fabs((double)fminf(field[p], 0)) + (field[p] > 0)) *
+                            ? s.search.all * (double)s.search.area[p] *
+                                  fmin(1, fabs((double)fminf(field[p], 0)) + (field[p] > 0)) *
                                   (1 - (double)sp_worth(&s.search, draft.wet[p], draft.dry[p]))
                             : 0;
             /* single precision may see two points on the pattern's very edge otherwise */

@@ -35,7 +35,8 @@ static void reads_what_design_says(void **state)
         "{\"sprayplan\": \"0.1.0\", \"geometry\": {\"triangles\": 12, \"area_m2\": 6, \"clean_area_m2\": 5},"
         " \"fidelity\": {\"trajectory\": \"line\", \"evaluator\": \"forward\", \"reflections\": 2, "
         "\"jets_per_nozzle\": 99,"
-        " \"texel_m\": 0.01, \"error_estimate\": 0.02, \"misjudged\": 0.03, \"error_bound\": 0.06}, \"unknown\": [1, 2], \"layouts\": ["
+        " \"texel_m\": 0.01, \"error_estimate\": 0.02, \"misjudged\": 0.03, \"error_bound\": 0.06}, \"unknown\": [1, "
+        "2], \"layouts\": ["
         "{" LAYOUT
         "}, {\"name\": \"b\\u00e4d\\u0007\", \"water_l_min\": 30, \"coverage\": 0.9, \"covered_area_m2\": 4.5,"
         " \"error_estimate\": 0.01, \"borderline_m2\": 0.04,"

@@ -217,8 +217,7 @@ static void pose_stage(posed *p, sp_trajectory trajectory, double scale)
     p->coverage = sound_cover(p->evaluator, p->st.nozzles, 2, true);
     sp_layout *layout = sp_layout_create(p->st.nozzles, 2, &error);
     p->found = calloc(p->coverage->deposits.count, sizeof *p->found);
-    assert_true(
-        sp_find_borderline(p->evaluator, layout, p->coverage, p->found, &p->coverage->borderline, &error));
+    assert_true(sp_find_borderline(p->evaluator, layout, p->coverage, p->found, &p->coverage->borderline, &error));
     assert_no_error(&error);
     sp_layout_destroy(layout);
 }

@@ -12,7 +12,7 @@ enum { COPIES = 1000, AT_A_CORNER = 10000, IN_A_LOOP = 100000 };
  * every coordinate up or down by a last bit, or as it is. */
 static sp_mesh *boxes(size_t copies, bool bits)
 {
-    static const sp_vec3 corner[8] = {{-1, -0.8, 0},  {1, -0.8, 0},  {1, 0.8, 0},  {-1, 0.8, 0},
+    static const sp_vec3 corner[8] = {{-1, -0.8, 0},   {1, -0.8, 0},   {1, 0.8, 0},   {-1, 0.8, 0},
                                       {-1, -0.8, 1.5}, {1, -0.8, 1.5}, {1, 0.8, 1.5}, {-1, 0.8, 1.5}};
     static const uint32_t inwards[12][3] = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}, {0, 5, 1}, {0, 4, 5},
                                             {1, 6, 2}, {1, 5, 6}, {2, 7, 3}, {2, 6, 7}, {3, 4, 0}, {3, 7, 4}};
@@ -24,13 +24,12 @@ static sp_mesh *boxes(size_t copies, bool bits)
         double *of[3] = {&points[i].x, &points[i].y, &points[i].z};
         for (int k = 0; k < 3 && bits; k++) {
             random = random * 6364136223846793005u + 1442695040888963407u; /* Knuth, TAOCP 3.3.4 */
-            *of[k] = random >> 62 == 0   ? nextafter(*of[k], 9)
-                     : random >> 62 == 1 ? nextafter(*of[k], -9)
-                                         : *of[k];
+            *of[k] = random >> 62 == 0 ? nextafter(*of[k], 9) : random >> 62 == 1 ? nextafter(*of[k], -9) : *of[k];
         }
         triangles[i / 3][i % 3] = (uint32_t)i;
     }
-    sp_mesh *mesh = sp_mesh_create(points, 36 * copies, (const uint32_t(*)[3])triangles, 12 * copies, NULL, NULL, 0, NULL);
+    sp_mesh *mesh =
+        sp_mesh_create(points, 36 * copies, (const uint32_t(*)[3])triangles, 12 * copies, NULL, NULL, 0, NULL);
     free(points);
     free(triangles);
     return mesh;
@@ -84,8 +83,8 @@ static double worst_edge(const sp_mesh *mesh, const sp_charts *charts)
     for (size_t t = 0; t < mesh->triangle_count; t++)
         for (int i = 0; i < 3; i++) {
             const double *p = charts->flat[t][i], *q = charts->flat[t][(i + 1) % 3];
-            double length = sp_distance(mesh->vertices[mesh->triangles[t][i]],
-                                        mesh->vertices[mesh->triangles[t][(i + 1) % 3]]);
+            double length =
+                sp_distance(mesh->vertices[mesh->triangles[t][i]], mesh->vertices[mesh->triangles[t][(i + 1) % 3]]);
             worst = fmax(worst, fabs(hypot(q[0] - p[0], q[1] - p[1]) / length - 1));
         }
     return worst;

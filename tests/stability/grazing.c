@@ -10,7 +10,8 @@ enum { RAYS = 200000 };
 
 enum { BATCH = 4096, COMPARED = 16 };
 
-/* From 10^-14 to 10^-1 of the size above a triangle, at 10^-16 to 10^-1 rad to it: nearer, round-off tells the sides. */
+/* From 10^-14 to 10^-1 of the size above a triangle, at 10^-16 to 10^-1 rad to it: nearer, round-off tells the sides.
+ */
 static sp_ray graze(random_source *source, const sp_mesh *mesh, double size)
 {
     uint32_t t = (uint32_t)draw(source, 0, (double)mesh->triangle_count);

@@ -99,8 +99,8 @@ static bool collect(sp_texel_links *links, const sp_atlas *atlas, pairs *p, sp_e
     if (!links->start || !links->items)
         return sp_fail_memory(error);
     if (unique >= SP_NONE)
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "a texel of %g m has more than 2^32 neighbours on the surface",
-                       atlas->texel);
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "a texel of %g m has more than 2^32 neighbours on the surface", atlas->texel);
     for (size_t i = 0; i < unique; i++) {
         links->start[(p->items[i] >> 32) + 1]++;
         links->items[i] = (uint32_t)p->items[i];
