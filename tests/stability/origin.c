@@ -138,15 +138,12 @@ static void a_far_scene_is_the_same_scene(void **state)
     close_scene(&far);
 }
 
+#ifndef SPRAYPLAN_SANITIZE /* the same again, which takes minutes there */
 /* Moved by anything: what is rounded there is 1e-10 of the room. */
 static void a_scene_moved_by_anything(void **state)
 {
     (void)state;
-#ifdef SPRAYPLAN_SANITIZE
-    static const double far[] = {98765.4321};
-#else
     static const double far[] = {3.3, 98765.4321, 1e6 / 3};
-#endif
     write_scene("near.yaml", sp_v(0, 0, 0));
     opened near = open_scene("near.yaml", sp_v(0, 0, 0));
     sp_proposal *home = place(&near);
@@ -167,12 +164,15 @@ static void a_scene_moved_by_anything(void **state)
     sp_proposal_destroy(home);
     close_scene(&near);
 }
+#endif
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_far_scene_is_the_same_scene),
+#ifndef SPRAYPLAN_SANITIZE
         cmocka_unit_test(a_scene_moved_by_anything),
+#endif
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }
