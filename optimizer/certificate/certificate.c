@@ -278,7 +278,6 @@ static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
            lower_front(c, WORK_LEAST + WORK_EACH * (double)c->problem.line.count, error);
 }
 
-/* Poses that were priced: those of mounting points that were traced, not in ports that kept nozzles take. */
 /* Notes the bounds of the candidates. */
 static void conclude(const certifying *c, sp_front *front, sp_certificate *certificate)
 {
