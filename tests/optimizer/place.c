@@ -16,6 +16,7 @@ static void two_nozzles_are_the_best_two(void **state)
     room_close(&j.room);
 }
 
+#ifndef SPRAYPLAN_SANITIZE
 /* As much as where no more may be placed: also where less water in more nozzles covers more. */
 static void few_nozzles_cover_most_whatever_their_water(void **state)
 {
@@ -39,6 +40,7 @@ static void few_nozzles_cover_most_whatever_their_water(void **state)
     sp_proposal_destroy(many);
     room_close(&j.room);
 }
+#endif
 
 static void least_water_for_a_target(void **state)
 {
@@ -307,8 +309,12 @@ static void attainable_is_what_one_could_cover(void **state)
 static void the_target_is_of_the_whole_surface(void **state)
 {
     (void)state;
+#ifdef SPRAYPLAN_SANITIZE
+    static const sp_objective objectives[] = {SP_OBJECTIVE_MIN_WATER};
+#else
     static const sp_objective objectives[] = {SP_OBJECTIVE_AREA_PER_WATER, SP_OBJECTIVE_MIN_WATER,
                                               SP_OBJECTIVE_MAX_COVERAGE};
+#endif
     job j;
     job_open(&j);
     j.mounts[0].from = j.mounts[0].to = sp_v(0, 0, 1);
@@ -316,7 +322,7 @@ static void the_target_is_of_the_whole_surface(void **state)
     j.options.type_count = 1;
     j.options.max_nozzles = 1;
     double whole = sp_evaluator_patches(j.room.evaluator)->total_area;
-    for (size_t i = 0; i < 3; i++) {
+    for (size_t i = 0; i < sizeof objectives / sizeof *objectives; i++) {
         j.options.objective = objectives[i];
         j.options.coverage = 0.99;
         sp_proposal *proposal = job_place(&j);
@@ -453,7 +459,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_nozzles_are_the_best_two),
+#ifndef SPRAYPLAN_SANITIZE /* the search again, and a minute */
         cmocka_unit_test(few_nozzles_cover_most_whatever_their_water),
+#endif
         cmocka_unit_test(least_water_for_a_target),
         cmocka_unit_test(nothing_exceeds_the_certificate),
         cmocka_unit_test(water_allowed_may_be_used_up),

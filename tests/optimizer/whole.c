@@ -1,6 +1,8 @@
 /* Placements that must come out whole: stopped before they end, or where one nozzle alone must cover. */
 #include "small_room.h"
 
+#define ACCURACY 1e-5 /* points tell so much, 100,000 texels do not */
+
 /* Where one nozzle alone must cover, what a proposal covers is what its nozzles cover one by one where liquid adds up,
  * and no two others do better. */
 static void one_nozzle_alone_covers(void **state)
@@ -94,7 +96,7 @@ static void wherever_it_stops_the_best_so_far_is_valid(void **state)
     static const char *const stages[] = {"visibility", "attainable", "greedy",     "exchange",
                                          "front",      "refine",     "certificate"};
 #ifdef SPRAYPLAN_SANITIZE
-    static const size_t calls[] = {0, 40};
+    static const size_t calls[] = {2};
 #else
     static const size_t calls[] = {0, 1, 20};
 #endif
@@ -125,12 +127,17 @@ static void wherever_it_stops_the_best_so_far_is_valid(void **state)
     assert_true(stopped > 3 * sizeof calls / sizeof *calls);
 }
 
+#ifdef SPRAYPLAN_SANITIZE
+#define MANY_TEXEL 0.2
+#else
+#define MANY_TEXEL 0.1
+#endif
 /* The least flow and the most water let in more nozzles than are counted one by one. */
 static void many_nozzles_have_a_certificate(void **state)
 {
     (void)state;
     job j;
-    job_open_coarse(&j, 0.1);
+    job_open_coarse(&j, MANY_TEXEL);
     j.types[1] = room_cone("drip", 60 * DEGREE, 0.05);
     j.options.max_water = 32 * LITRES_PER_MINUTE;
     sp_proposal *proposal = job_place(&j);
@@ -141,6 +148,45 @@ static void many_nozzles_have_a_certificate(void **state)
     /* two wide ones are all that the water lets in that bring anything */
     assert_true(proposal->certificate.area_bound >= proposal->certificate.counted);
     assert_true(proposal->certificate.area_bound < 0.99 * proposal->certificate.whole);
+    sp_proposal_destroy(proposal);
+    room_close(&j.room);
+}
+
+/* Where points of the surface do not confirm the coverage, all is counted again on shorter texels until they do. */
+static void the_accuracy_holds_on_the_proposal(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    sp_evaluator_destroy(j.room.evaluator);
+    sp_error error = {0};
+    j.room.setup.fidelity.texel = 0;
+    j.room.setup.fidelity.accuracy = ACCURACY;
+    j.room.evaluator = sp_evaluator_create(&j.room.setup, &error);
+    assert_non_null(j.room.evaluator);
+    j.types[1] = room_cone("narrow", 20 * DEGREE, 6);
+    j.options.types = &j.type_list[1];
+    j.options.type_count = 1;
+    j.options.max_nozzles = 1;
+    j.options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    sp_proposal *proposal = job_place(&j);
+    const sp_fidelity *first = sp_evaluator_fidelity(j.room.evaluator);
+    assert_non_null(proposal->again);
+    const sp_fidelity *last = sp_evaluator_fidelity(proposal->again);
+    assert_true(last->texel <= 0.5 * first->texel);
+    assert_true(proposal->coverage->measured.known);
+    assert_true(proposal->coverage->measured.estimate <= ACCURACY);
+    /* all that is said is of the new texels */
+    size_t patches = sp_evaluator_patches(proposal->again)->count;
+    assert_true(patches > 2 * sp_evaluator_patches(j.room.evaluator)->count);
+    assert_int_equal(proposal->coverage->deposits.count, patches);
+    assert_int_equal(proposal->greedy_coverage->deposits.count, patches);
+    assert_true(proposal->asked_area == j.options.coverage * sp_evaluator_patches(proposal->again)->total_area);
+    sp_coverage *counted = sp_evaluate(proposal->again, proposal->layout, &error);
+    assert_non_null(counted);
+    assert_true(counted->covered_area == proposal->coverage->covered_area);
+    assert_true(proposal->front[proposal->front_count - 1].area == counted->covered_area);
+    sp_coverage_destroy(counted);
     sp_proposal_destroy(proposal);
     room_close(&j.room);
 }
@@ -167,6 +213,7 @@ int main(void)
         cmocka_unit_test(cancelling_gives_the_best_so_far),
         cmocka_unit_test(wherever_it_stops_the_best_so_far_is_valid),
         cmocka_unit_test(many_nozzles_have_a_certificate),
+        cmocka_unit_test(the_accuracy_holds_on_the_proposal),
         cmocka_unit_test(out_of_time_there_is_one_nozzle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
