@@ -255,8 +255,8 @@ static inline void proved(recount_scene *s, double texel)
     scene_type(s, SP_PATTERN_FULL_CONE, 30, 0, 3);
     scene_type(s, SP_PATTERN_FLAT_FAN, 50, 3, 2.2);
     s->mounts[0].tilt = 0;
-    s->mounts[0].spacing = 0.35;
-    s->options.max_nozzles = 2;
+    s->mounts[0].spacing = 0.2;
+    s->options.max_nozzles = 4;
     s->options.prove = true;
     s->room.setup.criterion.flux = 5 * LITRES_PER_MINUTE;
     scene_open(s, &b, texel);
@@ -316,8 +316,8 @@ static const recount_case recount_cases[] = {
     {"parts, both arcs", false, true, true, parts_and_parabolas},
     {"weak flux", false, true, false, weak_flux},
     {"any liquid", false, false, false, any_liquid},
-    {"proved", false, false, true, proved},
-    {"off the wall", false, false, false, off_the_wall},
+    {"proved", false, false, false, proved},
+    {"off the wall", false, false, true, off_the_wall},
     {"off the wall, refined", false, true, false, off_the_wall},
     {"feeble, off the wall", false, false, false, feeble_off_the_wall},
 };

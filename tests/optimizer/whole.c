@@ -1,7 +1,5 @@
-/* Placements that must come out whole: stopped before they end, or where one nozzle alone must cover. */
+/* Placements that must come out whole: stopped before they end, where one nozzle alone must cover, or counted again. */
 #include "small_room.h"
-
-#define ACCURACY 1e-5 /* points tell so much, 100,000 texels do not */
 
 /* Where one nozzle alone must cover, what a proposal covers is what its nozzles cover one by one where liquid adds up,
  * and no two others do better. */
@@ -151,6 +149,8 @@ static void many_nozzles_have_a_certificate(void **state)
     sp_proposal_destroy(proposal);
     room_close(&j.room);
 }
+
+#define ACCURACY 1e-5 /* points tell so much, 100,000 texels do not */
 
 /* Where points of the surface do not confirm the coverage, all is counted again on shorter texels until they do. */
 static void the_accuracy_holds_on_the_proposal(void **state)
