@@ -1,6 +1,6 @@
 #include "refine/soft.h"
 
-#include "refine/ceres_adaptor.h"
+#include "refine/least_squares.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -359,7 +359,7 @@ static bool solve(sp_soft *soft, double (*values)[SP_UNKNOWNS], sp_error *error)
                                 .user = soft,
                                 .iterations = ITERATIONS,
                                 .tolerance = TOLERANCE};
-    bool done = sp_ceres_solve(&problem, x, NULL, error);
+    bool done = sp_least_squares_solve(&problem, x, NULL, error);
     for (size_t i = 0; done && i < soft->nozzle_count; i++)
         values_at(&soft->nozzles[i], x, values[i]);
     free(x);

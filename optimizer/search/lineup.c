@@ -6,6 +6,7 @@
 #define GAIN_LEAST 1e-5 /* of the area: less is no reason for an exchange */
 #define SWEEPS_MOST 8
 #define ROUNDS_MOST 4
+#define WORTHS 64 /* fields that are gone through at a time */
 
 bool sp_lineup_create(const sp_table *table, sp_lineup *lineup, sp_error *error)
 {
@@ -96,11 +97,12 @@ static bool has_number(const sp_lineup *lineup)
     return lineup->count < SP_LINEUP_MOST && (!limit || lineup->table->search->kept_count + lineup->count < limit);
 }
 
-/* What a field's value adds to a patch that is not wet yet, per m². */
-static float more_worth(bool single, float credit, float had, float dry, float more)
+/* What a field's value adds to a patch that is not wet yet, per m²; without a branch, for many at a time. */
+static inline float more_worth(bool single, float credit, float had, float dry, float more)
 {
-    float lack = 1 - credit * had, has = single ? fmaxf(had, more) : had + more;
-    return dry * (more < 0 ? -more * lack : has >= SP_ENOUGH ? lack : credit * (has - had));
+    float lack = 1 - credit * had, sum = had + more, most = more > had ? more : had, has = single ? most : sum;
+    float plenty = has >= SP_ENOUGH ? lack : credit * (has - had);
+    return dry * (more < 0 ? -more * lack : plenty);
 }
 
 static double gain_of(const sp_lineup *lineup, size_t row, float credit)
@@ -129,14 +131,18 @@ static void set_gains(sp_lineup *lineup, float credit)
 {
     const sp_table *table = lineup->table;
     bool single = table->search->single;
+    float worth[WORTHS];
     memset(lineup->gain, 0, table->row_count * sizeof *lineup->gain);
     for (size_t p = 0; p < table->patch_count; p++) {
         float had = lineup->wet[p], dry = lineup->dry[p], area = table->area[p];
-        if (had >= SP_ENOUGH)
-            continue;
-        for (size_t i = table->column_start[p]; i < table->column_start[p + 1]; i++) {
-            float more = more_worth(single, credit, had, dry, table->column_field[i]);
-            lineup->gain[table->column_row[i]] += (double)(area * more);
+        size_t end = table->column_start[p + 1];
+        for (size_t i = table->column_start[p]; had < SP_ENOUGH && i < end; i += WORTHS) {
+            size_t count = end - i < WORTHS ? end - i : WORTHS;
+            const uint32_t *row = &table->column_row[i];
+            for (size_t k = 0; k < count; k++)
+                worth[k] = area * more_worth(single, credit, had, dry, table->column_field[i + k]);
+            for (size_t k = 0; k < count; k++)
+                lineup->gain[row[k]] += (double)worth[k];
         }
     }
 }

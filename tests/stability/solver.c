@@ -3,7 +3,7 @@
  * many equal candidates instead. */
 #include "../optimizer/floor.h"
 
-#include "refine/ceres_adaptor.h"
+#include "refine/least_squares.h"
 #include "refine/freedom.h"
 
 #include <stdio.h>
@@ -42,7 +42,7 @@ static bool solve(asking *own, double x[2], double *cost, sp_error *error)
     sp_least_squares problem = {
         .unknowns = 2, .residuals = 2, .function = kinked, .user = own, .iterations = 100, .tolerance = 1e-14};
     *error = (sp_error){0};
-    return sp_ceres_solve(&problem, x, cost, error);
+    return sp_least_squares_solve(&problem, x, cost, error);
 }
 
 static void started_at_a_kink_and_at_the_optimum(void **state)

@@ -1,5 +1,5 @@
 // Image files through OpenImageIO 2.4; nothing else in the house includes it.
-#include <sprayplan/image.h>
+#include "image/oiio/writer.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -15,7 +15,7 @@ namespace
 {
 
 // Without a name, to memory.
-bool write_png(const char *path, OIIO::Filesystem::IOProxy *proxy, const uint8_t *pixels, int width, int height,
+bool encode(const char *path, OIIO::Filesystem::IOProxy *proxy, const uint8_t *pixels, int width, int height,
                int channels, sp_error *error)
 {
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
@@ -28,15 +28,6 @@ bool write_png(const char *path, OIIO::Filesystem::IOProxy *proxy, const uint8_t
         !output->close())
         return sp_fail(error, SP_ERROR_FILE, path, 0, 0, "%s", output->geterror().c_str());
     return true;
-}
-
-bool png_possible(const char *path, int width, int height, int channels, sp_error *error)
-{
-    if (width > 0 && height > 0 && (channels == 3 || channels == 4))
-        return true;
-    return sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0,
-                   "a picture of %d x %d pixels and %d channels, expected at least 1 x 1 and 3 or 4 channels", width,
-                   height, channels);
 }
 
 std::vector<OIIO::ImageSpec> exr_specs(const sp_exr_part *parts, size_t count, const char *const *channel_names,
@@ -55,8 +46,8 @@ std::vector<OIIO::ImageSpec> exr_specs(const sp_exr_part *parts, size_t count, c
     return specs;
 }
 
-bool write_exr(const char *path, const sp_exr_part *parts, size_t count, const char *const *channel_names, int channels,
-               sp_error *error)
+bool write_parts(const char *path, const sp_exr_part *parts, size_t count, const char *const *channel_names,
+                 int channels, sp_error *error)
 {
     std::vector<OIIO::ImageSpec> specs = exr_specs(parts, count, channel_names, channels);
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("openexr");
@@ -71,24 +62,18 @@ bool write_exr(const char *path, const sp_exr_part *parts, size_t count, const c
     return true;
 }
 
-} // namespace
-
-extern "C" bool sp_image_write_png(const char *path, const uint8_t *pixels, int width, int height, int channels,
-                                   sp_error *error)
+bool write_png(const char *path, const uint8_t *pixels, int width, int height, int channels, sp_error *error)
 try {
-    return png_possible(path, width, height, channels, error) &&
-           write_png(path, nullptr, pixels, width, height, channels, error);
+    return encode(path, nullptr, pixels, width, height, channels, error);
 } catch (const std::exception &exception) {
     return sp_fail(error, SP_ERROR_MEMORY, path, 0, 0, "%s", exception.what());
 }
 
-extern "C" uint8_t *sp_image_encode_png(const uint8_t *pixels, int width, int height, int channels, size_t *size,
-                                        sp_error *error)
+uint8_t *encode_png(const uint8_t *pixels, int width, int height, int channels, size_t *size, sp_error *error)
 try {
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput proxy(bytes);
-    if (!png_possible(nullptr, width, height, channels, error) ||
-        !write_png(nullptr, &proxy, pixels, width, height, channels, error))
+    if (!encode(nullptr, &proxy, pixels, width, height, channels, error))
         return nullptr;
     uint8_t *copy = static_cast<uint8_t *>(std::malloc(bytes.size() + 1));
     if (!copy)
@@ -101,18 +86,18 @@ try {
     return nullptr;
 }
 
-extern "C" bool sp_image_write_exr(const char *path, const sp_exr_part *parts, size_t count,
-                                   const char *const *channel_names, int channels, sp_error *error)
+bool write_exr(const char *path, const sp_exr_part *parts, size_t count, const char *const *channel_names, int channels,
+               sp_error *error)
 try {
-    if (count < 1 || channels < 1)
-        return sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0, "an EXR file needs at least one part and one channel");
-    for (size_t i = 0; i < count; ++i)
-        if (parts[i].width < 1 || parts[i].height < 1 || parts[i].width != parts[0].width ||
-            parts[i].height != parts[0].height)
-            return sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0,
-                           "part %s is %d x %d pixels, expected all parts to be of one size and not empty",
-                           parts[i].name, parts[i].width, parts[i].height);
-    return write_exr(path, parts, count, channel_names, channels, error);
+    return write_parts(path, parts, count, channel_names, channels, error);
 } catch (const std::exception &exception) {
     return sp_fail(error, SP_ERROR_MEMORY, path, 0, 0, "%s", exception.what());
+}
+
+} // namespace
+
+extern "C" __attribute__((visibility("default"))) const sp_image_writer *sp_image_module_open(void)
+{
+    static const sp_image_writer writer = {write_png, encode_png, write_exr};
+    return &writer;
 }

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "refine/ceres_adaptor.h"
+#include "refine/least_squares.h"
 
 #define OBSERVATIONS 14
 
@@ -45,7 +45,7 @@ static void certified_values(void **state)
                                     .tolerance = 1e-15};
         double b[2] = {starts[s][0], starts[s][1]}, cost = 0;
         sp_error error = {0};
-        assert_true(sp_ceres_solve(&problem, b, &cost, &error));
+        assert_true(sp_least_squares_solve(&problem, b, &cost, &error));
         assert_true(calls > 0);
         /* certified to 11 digits; 8 are asked for */
         assert_true(fabs(b[0] / 2.3894212918e+02 - 1) < 1e-8);
@@ -68,12 +68,12 @@ static void failure_is_an_error(void **state)
     sp_least_squares problem = {.unknowns = 1, .residuals = 1, .function = refuses, .iterations = 5, .tolerance = 1e-9};
     double x = 3;
     sp_error error = {0};
-    assert_false(sp_ceres_solve(&problem, &x, NULL, &error));
+    assert_false(sp_least_squares_solve(&problem, &x, NULL, &error));
     assert_int_equal(error.kind, SP_ERROR_ARGUMENT);
     assert_true(x == 3);
     problem.unknowns = 0;
     error = (sp_error){0};
-    assert_false(sp_ceres_solve(&problem, &x, NULL, &error));
+    assert_false(sp_least_squares_solve(&problem, &x, NULL, &error));
 }
 
 int main(void)

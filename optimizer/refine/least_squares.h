@@ -1,6 +1,6 @@
-/* Ceres Solver's nonlinear least squares behind a C interface. */
-#ifndef OPTIMIZER_CERES_ADAPTOR_H
-#define OPTIMIZER_CERES_ADAPTOR_H
+/* Nonlinear least squares, by Ceres Solver. */
+#ifndef OPTIMIZER_LEAST_SQUARES_H
+#define OPTIMIZER_LEAST_SQUARES_H
 
 #include <sprayplan/error.h>
 
@@ -25,7 +25,7 @@ typedef struct {
 /* Minimises half the sum of squared residuals from x, which it improves in place (x never gets worse).
  * Levenberg-Marquardt, one thread, no logging. Fails where the function ever fails or memory runs out; x is then as it
  * was. */
-bool sp_ceres_solve(const sp_least_squares *problem, double *x, double *cost, sp_error *error);
+bool sp_least_squares_solve(const sp_least_squares *problem, double *x, double *cost, sp_error *error);
 
 #ifdef __cplusplus
 }

@@ -1,11 +1,11 @@
-#include "refine/ceres_adaptor.h"
+// The module that calls Ceres Solver 2.1; nothing else in the house includes it.
+#include "refine/ceres/solve.h"
 
 #include <ceres/ceres.h>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <vector>
 
 namespace
@@ -46,12 +46,9 @@ class Function : public ceres::CostFunction
 
 } // namespace
 
-bool sp_ceres_solve(const sp_least_squares *problem, double *x, double *cost, sp_error *error)
+extern "C" __attribute__((visibility("default"))) bool sp_ceres_module_solve(const sp_least_squares *problem, double *x,
+                                                                             double *cost, sp_error *error)
 {
-    const size_t limit = static_cast<size_t>(std::numeric_limits<int>::max());
-    if (!problem->unknowns || !problem->residuals || problem->unknowns > limit || problem->residuals > limit)
-        return sp_fail(error, SP_ERROR_ARGUMENT, nullptr, 0, 0,
-                       "a least squares problem of %zu unknowns, %zu residuals", problem->unknowns, problem->residuals);
     try {
         bool broken = false;
         std::vector<double> found(x, x + problem->unknowns);

@@ -1,0 +1,48 @@
+/* Image files: arguments are checked here, the module of OpenImageIO writes. */
+#include <sprayplan/image.h>
+
+#include "image/oiio/writer.h"
+#include "module/module.h"
+
+static const sp_image_writer *writer(sp_error *error)
+{
+    static sp_module module = {.file = "sprayplan-images.so", .name = "sp_image_module_open"};
+    __typeof__(sp_image_module_open) *open = (__typeof__(open))sp_module_open(&module, error);
+    return open ? open() : NULL;
+}
+
+static bool png_possible(const char *path, int width, int height, int channels, sp_error *error)
+{
+    if (width > 0 && height > 0 && (channels == 3 || channels == 4))
+        return true;
+    return sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0,
+                   "a picture of %d x %d pixels and %d channels, expected at least 1 x 1 and 3 or 4 channels", width,
+                   height, channels);
+}
+
+bool sp_image_write_png(const char *path, const uint8_t *pixels, int width, int height, int channels, sp_error *error)
+{
+    const sp_image_writer *images = png_possible(path, width, height, channels, error) ? writer(error) : NULL;
+    return images && images->write_png(path, pixels, width, height, channels, error);
+}
+
+uint8_t *sp_image_encode_png(const uint8_t *pixels, int width, int height, int channels, size_t *size, sp_error *error)
+{
+    const sp_image_writer *images = png_possible(NULL, width, height, channels, error) ? writer(error) : NULL;
+    return images ? images->encode_png(pixels, width, height, channels, size, error) : NULL;
+}
+
+bool sp_image_write_exr(const char *path, const sp_exr_part *parts, size_t count, const char *const *channel_names,
+                        int channels, sp_error *error)
+{
+    if (count < 1 || channels < 1)
+        return sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0, "an EXR file needs at least one part and one channel");
+    for (size_t i = 0; i < count; ++i)
+        if (parts[i].width < 1 || parts[i].height < 1 || parts[i].width != parts[0].width ||
+            parts[i].height != parts[0].height)
+            return sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0,
+                           "part %s is %d x %d pixels, expected all parts to be of one size and not empty",
+                           parts[i].name, parts[i].width, parts[i].height);
+    const sp_image_writer *images = writer(error);
+    return images && images->write_exr(path, parts, count, channel_names, channels, error);
+}
