@@ -94,6 +94,7 @@ typedef struct {
     double half_width, half_thickness; /* fans: longitude and latitude, rad */
     double solid_angle;                /* sr; this and what follows come from the angles, see sp_spray_settle */
     double inner_chord2, outer_chord2; /* cones: squared chords from the axis to these angles; 4: no edge */
+    double inner_sine, outer_sine;     /* of these angles, from the chords */
     double height, rise;               /* fans: sine and cosine of half_thickness */
     double end_sine, end_cosine;       /* of half_width */
 } sp_spray;

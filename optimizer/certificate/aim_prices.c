@@ -213,7 +213,7 @@ static double reach_price(const sp_aim_prices *prices, scratch *own, const sp_ai
     const sp_bins *bins = &search->visibility->bins;
     const sp_weight weight = {own->worth, own->total};
     double price;
-    search->sweeps->sum(bins, cull_of(own, bins, &spray, count), &region, own->view, &weight, 1, &price);
+    search->sweeps->sum(bins, cull_of(own, bins, &spray, count), &region, own->view, &weight, 1, 0, &price);
     return price * UPWARDS;
 }
 

@@ -14,6 +14,7 @@
 #define HARDLY (1 - 1e-5f) /* the same, up to which it does not cover */
 #define PART_MORE 5e-5f    /* more than single precision puts a share at an edge wrong */
 #define ROWS_AT_A_TIME 300
+#define TOLD_LEAST 0.5     /* of what a pose must be worth to matter: below this trees need no more than an upper bound */
 #define STRIDE 7 /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
 
 /* The pose of highest price of a site and make. */
@@ -153,9 +154,9 @@ static sp_region prepare_worth(const sp_pose_prices *prices, scratch *own, const
     return sp_region_create(&make->spray, frame, strength, SLACK);
 }
 
-/* The pose's price, rounded upwards. */
+/* The pose's price, rounded upwards, by more where it is less than `least`. */
 static double price_of(const sp_pose_prices *prices, const scratch *own, const sp_view *view, sp_pose pose,
-                       sp_region *region)
+                       sp_region *region, double least)
 {
     const sp_search *search = prices->search;
     sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
@@ -164,7 +165,8 @@ static double price_of(const sp_pose_prices *prices, const scratch *own, const s
     const sp_weight weight = {own->worth, own->total};
     double price;
     sp_region_turn(region, &frame);
-    search->sweeps->sum(&search->visibility->bins, &own->cull, region, view, &weight, 1, &price);
+    search->sweeps->sum(&search->visibility->bins, &own->cull, region, view, &weight, 1, least / UPWARDS,
+                        &price);
     return price * UPWARDS;
 }
 
@@ -177,8 +179,42 @@ static double least_of(const sp_pose_prices *prices, size_t port, size_t tier, c
     return prices->cover->weight[tier] > prices->cover->water ? INFINITY : fmin(offered, needed[tier]);
 }
 
-/* The best pose of every make at a site, of those that matter, and of these of every `stride`th, another one at the
- * next site. */
+/* What no pose of a make at a site can be worth more than. */
+static double all_bins(const scratch *own)
+{
+    double sum = 0;
+    for (size_t b = 0; b < SP_BINS; b++)
+        sum += (double)own->total[b];
+    return sum * UPWARDS;
+}
+
+/* Prices all poses of a make at a site, or every `stride`th, another one at the next site. The highest price, where one
+ * is more than `least`. */
+static best price_make(sp_pose_prices *prices, scratch *own, const sp_view *view, uint32_t site, uint32_t k,
+                       sp_region *region, size_t stride, double least)
+{
+    const sp_candidates *candidates = prices->search->candidates;
+    const sp_make *make = &candidates->makes[k];
+    size_t axes = sp_candidates_axes(candidates, prices->search->sites->items[site].mount, k)->count;
+    best found = {.price = 0};
+    double all = all_bins(own);
+    bool none = all < (stride == 1 ? TOLD_LEAST * least : least);
+    for (uint32_t a = 0; a < axes; a++)
+        for (uint32_t r = 0; r < make->roll_count; r++) {
+            sp_pose pose = {site, k, a, r};
+            if ((site + a * make->roll_count + r) % stride)
+                continue;
+            double matters = stride == 1 ? TOLD_LEAST * least : fmax(found.price, least);
+            double price = none ? all : price_of(prices, own, view, pose, region, matters);
+            if (stride == 1)
+                prices->last[sp_pose_order_position(prices->order, pose)] = nextafterf((float)price, INFINITY);
+            if (price > fmax(found.price, least))
+                found = (best){pose, price};
+        }
+    return found;
+}
+
+/* The best pose of every make at a site, of those that matter. */
 static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, const sp_prices *u, const double *needed,
                        size_t stride, const sp_offers *offers)
 {
@@ -189,26 +225,15 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
     for (uint32_t k = 0; k < candidates->make_count; k++) {
         const sp_make *make = &candidates->makes[k];
         best *found = &prices->bests[site * candidates->make_count + k];
-        size_t axes = sp_candidates_axes(candidates, mount, k)->count;
         double least = least_of(prices, prices->ports[mount], prices->tier_of[k], needed, offers);
         *found = (best){.price = 0};
-        if (!axes || !isfinite(least) || prices->search->port_taken[mount])
+        if (!sp_candidates_axes(candidates, mount, k)->count || !isfinite(least) || prices->search->port_taken[mount])
             continue;
         const sp_view *view = sp_visibility_look(prices->search->visibility, site, make->speed_class, &own->desk);
         if (!view->start)
             continue;
         sp_region region = prepare_worth(prices, own, view, make, &frame, u);
-        for (uint32_t a = 0; a < axes; a++)
-            for (uint32_t r = 0; r < make->roll_count; r++) {
-                sp_pose pose = {site, k, a, r};
-                if ((site + a * make->roll_count + r) % stride)
-                    continue;
-                double price = price_of(prices, own, view, pose, &region);
-                if (stride == 1)
-                    prices->last[sp_pose_order_position(prices->order, pose)] = nextafterf((float)price, INFINITY);
-                if (price > fmax(found->price, least))
-                    *found = (best){pose, price};
-            }
+        *found = price_make(prices, own, view, site, k, &region, stride, least);
     }
 }
 
@@ -320,7 +345,7 @@ static void price_block(sp_pose_prices *prices, scratch *own, size_t block, cons
     for (size_t i = poses->start; i < end; i++)
         if (alive[i])
             price[i] = nextafterf(
-                (float)price_of(prices, own, view, sp_pose_order_at(prices->order, block, i), &region), INFINITY);
+                (float)price_of(prices, own, view, sp_pose_order_at(prices->order, block, i), &region, 0), INFINITY);
 }
 
 static bool price_line(void *user, const sp_prices *u, const uint8_t *alive, float *price, sp_error *error)

@@ -45,7 +45,7 @@ void sp_turn_down(const sp_search *search, sp_draft *draft, double budget)
 bool sp_draft_look(sp_sights *sights, sp_draft *draft, sp_error *error)
 {
     for (size_t i = 0; i < draft->count; i++)
-        if (!sp_sights_field(sights, &draft->items[i], draft->items[i].field, error))
+        if (!sp_sights_field(sights, &draft->items[i], NULL, draft->items[i].field, error))
             return false;
     sp_draft_refresh(sights->search, draft);
     return true;

@@ -29,7 +29,7 @@ static bool is_promising(sp_needle *needle, const sp_placed *trial, bool *promis
     const sp_sight *sight = sp_sights_look(needle->sights, &needle->placed, needle->error);
     if (!sight)
         return false;
-    sp_sight_field(needle->search, sight, trial, needle->trial);
+    sp_sight_field(needle->search, sight, trial, needle->draft, needle->trial);
     *promising = sp_field_gain(needle->search, needle->draft, needle->trial) >= needle->gain * (1 - HOPELESS);
     return true;
 }
@@ -54,11 +54,13 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
         return false;
     if (!promising)
         return true;
-    if (!sp_sights_field(needle->sights, &trial, needle->trial, needle->error))
+    if (!sp_sights_field(needle->sights, &trial, needle->draft, needle->trial, needle->error))
         return false;
     double gain = sp_field_gain(needle->search, needle->draft, needle->trial);
     if (gain <= needle->gain + needle->least)
         return true;
+    if (!sp_sights_field(needle->sights, &trial, NULL, needle->trial, needle->error))
+        return false;
     trial.field = needle->trial;
     needle->trial = needle->placed.field;
     needle->placed = trial;

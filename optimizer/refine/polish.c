@@ -83,7 +83,7 @@ static bool transfer(sp_sights *sights, const sp_draft *from, sp_draft *to, sp_e
         placed.field = malloc(sights->search->patch_count * sizeof *placed.field);
         if (!placed.field)
             done = sp_fail_memory(error);
-        else if (sp_sights_field(sights, &placed, placed.field, error))
+        else if (sp_sights_field(sights, &placed, NULL, placed.field, error))
             done = sp_draft_add(sights->search, to, placed, error);
         else {
             free(placed.field);

@@ -139,7 +139,8 @@ bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen 
     return *transfer > 0;
 }
 
-void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_placed *placed, float *field)
+void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_placed *placed, const sp_draft *draft,
+                    float *field)
 {
     const sp_patches *patches = sp_evaluator_patches(search->coarse);
     const sp_nozzle *nozzle = &placed->nozzle;
@@ -148,6 +149,8 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
     memset(field, 0, search->patch_count * sizeof *field);
     for (size_t i = 0; i < sight->count; i++) {
         const sp_seen *seen = &sight->seen[i];
+        if (draft && draft->wet[seen->patch] >= SP_ENOUGH)
+            continue;
         sp_flight flight = {.direction = seen->direction};
         double transfer = seen->transfer, breadth = seen->breadth;
         if (moved) {
@@ -161,10 +164,10 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
     }
 }
 
-bool sp_sights_field(sp_sights *sights, const sp_placed *placed, float *field, sp_error *error)
+bool sp_sights_field(sp_sights *sights, const sp_placed *placed, const sp_draft *draft, float *field, sp_error *error)
 {
     const sp_sight *sight = sp_sights_look(sights, placed, error);
     if (sight)
-        sp_sight_field(sights->search, sight, placed, field);
+        sp_sight_field(sights->search, sight, placed, draft, field);
     return sight;
 }

@@ -112,7 +112,7 @@ sp_region sp_sweeper_region(const sp_sweeper *sweeper, uint32_t axis, uint32_t r
     return region;
 }
 
-sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll)
+sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll, double least)
 {
     const sp_search *search = sweeper->search;
     if (!sweeper->view->start)
@@ -120,15 +120,16 @@ sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t rol
     sp_region region = sp_sweeper_region(sweeper, axis, roll);
     const sp_weight weights[] = {{sweeper->gain, sweeper->gain_total}, {sweeper->room, sweeper->room_total}};
     double sums[2];
-    search->sweeps->sum(&search->visibility->bins, &sweeper->cull, &region, sweeper->view, weights, 2, sums);
+    search->sweeps->sum(&search->visibility->bins, &sweeper->cull, &region, sweeper->view, weights, 2,
+                        least / search->all, sums);
     return (sp_score){sums[0] * search->all, sums[1] * search->all};
 }
 
-sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose)
+sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose, double least)
 {
     sp_sweeper_look(sweeper, search, draft, pose.site, search->candidates->makes[pose.make].speed_class);
     sp_sweeper_take(sweeper, pose.make);
-    return sp_sweeper_score(sweeper, pose.axis, pose.roll);
+    return sp_sweeper_score(sweeper, pose.axis, pose.roll, least);
 }
 
 sp_posed_spray sp_posed_spray_of(const sp_search *search, const sp_nozzle *nozzle)

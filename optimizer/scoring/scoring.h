@@ -46,10 +46,10 @@ void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draf
 /* Then to a make of that speed class. Both do nothing where the sweeper has not turned elsewhere since, nor forgotten.
  */
 void sp_sweeper_take(sp_sweeper *sweeper, size_t make);
-/* Then to its poses. */
-sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll);
+/* Then to its poses; where the gain is less than `least`, m², either may come out higher, the gain still below that. */
+sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll, double least);
 /* All three at once. */
-sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose);
+sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose, double least);
 
 /* The region of a pose at the site that the sweeper looks at, of the make that it took. */
 sp_region sp_sweeper_region(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll);

@@ -65,9 +65,10 @@ typedef struct {
     const char *name;
     bool (*available)(void);
     /* sums[k] = Σ weights[k].item times its patch's share in the region, or where an arrival does not meet the
-     * criterion alone, over those whose direction the region holds (see sp_wetting). weight_count is 1 or 2. */
+     * criterion alone, over those whose direction the region holds (see sp_wetting). weight_count is 1 or 2. Weights
+     * are not negative; where bins alone tell that sums[0] is less than `least`, sums are no less than these. */
     void (*sum)(const sp_bins *bins, const sp_cull *cull, const sp_region *region, const sp_view *view,
-                const sp_weight *weights, size_t weight_count, double *sums);
+                const sp_weight *weights, size_t weight_count, double least, double *sums);
     /* totals[bin] = Σ items */
     void (*total)(const sp_view *view, const float *items, float *totals);
     /* gain[i] = what an arrival adds per DESIGN's worth to a patch of `area` that has `had`; room[i] = what it could

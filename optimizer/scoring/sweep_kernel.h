@@ -20,6 +20,7 @@
 #define WIDTH 4
 #endif
 #define PARTS (SP_LANES / WIDTH)
+#define OPEN_MORE (1 + 1e-4) /* more than single precision puts a sum of totals wrong */
 #define FLUSH 64 /* vectors of lanes after which single precision goes into double */
 
 typedef float floats __attribute__((vector_size(4 * WIDTH)));
@@ -360,13 +361,16 @@ INLINE void sum_run(const sp_region *region, bool fan, sp_count count, const sp_
         flush(tally, weight_count);
 }
 
-/* Bins wholly inside give their totals; runs of bins that the pattern's edge crosses are gone through. */
-INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *region, bool fan, sp_count count,
-                     const sp_view *view, const sp_weight *weights, size_t weight_count, double *sums)
+/* What the bins have that a pattern may hold. */
+typedef struct {
+    unsigned cut[SP_BINS / SP_LANES]; /* bit i of each: bin i of these lanes, which the pattern's edge crosses */
+    lanes whole[SP_WEIGHTS];          /* of the bins that are wholly inside */
+    lanes open[SP_WEIGHTS];           /* of those that are cut */
+} binned;
+
+INLINE void look_at_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *region, bool fan,
+                         const sp_weight *weights, size_t weight_count, binned *found)
 {
-    tally tally = {0};
-    lanes whole[SP_WEIGHTS] = {{{{0}}}};
-    size_t first = 0, end = 0; /* the run in the making */
     for (size_t b = 0; b < SP_BINS; b += SP_LANES) {
         lanes x = load(&bins->x[b]), y = load(&bins->y[b]), z = load(&bins->z[b]), along = dot(x, y, z, region->z);
         mask cut = both(at_least(along, load(&cull->outside[b])), at_least(load(&cull->inner_outside[b]), along));
@@ -376,10 +380,29 @@ INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *
         } else {
             mask inside = both(at_least(along, load(&cull->inside[b])), at_least(load(&cull->inner_inside[b]), along));
             for (size_t k = 0; k < weight_count; k++)
-                whole[k] = add(whole[k], keep(load(&weights[k].total[b]), inside));
+                found->whole[k] = add(found->whole[k], keep(load(&weights[k].total[b]), inside));
             cut = but(cut, inside);
         }
-        for (unsigned bits = bits_of(cut); bits; bits &= bits - 1) {
+        for (size_t k = 0; k < weight_count; k++)
+            found->open[k] = add(found->open[k], keep(load(&weights[k].total[b]), cut));
+        found->cut[b / SP_LANES] = bits_of(cut);
+    }
+}
+
+/* Bins wholly inside give their totals; runs of bins that the pattern's edge crosses are gone through. */
+INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *region, bool fan, sp_count count,
+                     const sp_view *view, const sp_weight *weights, size_t weight_count, double least, double *sums)
+{
+    tally tally = {0};
+    binned found = {.cut = {0}};
+    size_t first = 0, end = 0; /* the run in the making */
+    look_at_bins(bins, cull, region, fan, weights, weight_count, &found);
+    for (size_t k = 0; k < weight_count; k++)
+        sums[k] = OPEN_MORE * sum_of(add_narrow(add_narrow((wide_lanes){0}, found.whole[k]), found.open[k]));
+    if (sums[0] < least)
+        return;
+    for (size_t b = 0; b < SP_BINS; b += SP_LANES)
+        for (unsigned bits = found.cut[b / SP_LANES]; bits; bits &= bits - 1) {
             size_t bin = b + (size_t)__builtin_ctz(bits);
             if (view->start[bin] != end) {
                 if (first < end)
@@ -388,35 +411,35 @@ INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *
             }
             end = view->start[bin + 1];
         }
-    }
     if (first < end)
         sum_run(region, fan, count, view, weights, weight_count, first, end, &tally);
     flush(&tally, weight_count);
     for (size_t k = 0; k < weight_count; k++)
-        sums[k] = sum_of(add_narrow(tally.flushed[k], whole[k]));
+        sums[k] = sum_of(add_narrow(tally.flushed[k], found.whole[k]));
 }
 
 /* One loop for every kind of pattern, of counting and number of weights. */
 INLINE void sum_counted(const sp_bins *bins, const sp_cull *cull, const sp_region *region, sp_count count,
-                        const sp_view *view, const sp_weight *weights, size_t weight_count, double *sums)
+                        const sp_view *view, const sp_weight *weights, size_t weight_count, double least,
+                        double *sums)
 {
     if (region->fan && weight_count == 2)
-        sum_bins(bins, cull, region, true, count, view, weights, 2, sums);
+        sum_bins(bins, cull, region, true, count, view, weights, 2, least, sums);
     else if (region->fan)
-        sum_bins(bins, cull, region, true, count, view, weights, 1, sums);
+        sum_bins(bins, cull, region, true, count, view, weights, 1, least, sums);
     else if (weight_count == 2)
-        sum_bins(bins, cull, region, false, count, view, weights, 2, sums);
+        sum_bins(bins, cull, region, false, count, view, weights, 2, least, sums);
     else
-        sum_bins(bins, cull, region, false, count, view, weights, 1, sums);
+        sum_bins(bins, cull, region, false, count, view, weights, 1, least, sums);
 }
 
 static void kernel_sum(const sp_bins *bins, const sp_cull *cull, const sp_region *region, const sp_view *view,
-                       const sp_weight *weights, size_t weight_count, double *sums)
+                       const sp_weight *weights, size_t weight_count, double least, double *sums)
 {
     if (region->count == SP_COUNT_SHARE)
-        sum_counted(bins, cull, region, SP_COUNT_SHARE, view, weights, weight_count, sums);
+        sum_counted(bins, cull, region, SP_COUNT_SHARE, view, weights, weight_count, least, sums);
     else
-        sum_counted(bins, cull, region, SP_COUNT_GENEROUS, view, weights, weight_count, sums);
+        sum_counted(bins, cull, region, SP_COUNT_GENEROUS, view, weights, weight_count, least, sums);
 }
 
 static void kernel_total(const sp_view *view, const float *items, float *totals)

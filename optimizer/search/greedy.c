@@ -109,10 +109,16 @@ typedef struct {
     } step[16];
 } sp_rise;
 
+/* What a pose must gain more than to be noted. */
+static double rise_least(const sp_rise *rise)
+{
+    return rise->count ? rise->step[rise->count - 1].gain : 0;
+}
+
 static void rise_note(sp_rise *rise, sp_pose pose, double gain, double tie)
 {
     size_t kept = 0;
-    if (!(gain > 0) || (rise->count && gain <= rise->step[rise->count - 1].gain))
+    if (gain <= rise_least(rise))
         return;
     for (size_t i = 0; i < rise->count; i++)
         if (rise->step[i].gain + tie >= gain)
@@ -142,7 +148,7 @@ static void scan_make(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t make, siz
             if (!taken)
                 sp_sweeper_take(sweeper, make);
             taken = true;
-            sp_score score = sp_sweeper_score(sweeper, a, r);
+            sp_score score = sp_sweeper_score(sweeper, a, r, rise_least(&rise));
             rounds->room[number] = (float)score.room;
             rise_note(&rise, (sp_pose){sweeper->site, make, a, r}, score.gain, rounds->tie);
         }
@@ -187,7 +193,7 @@ static double round_floor(sp_rounds *rounds, const sp_draft *draft)
             !sp_draft_has_place(search, draft, search->sites->items[best->pose.site].mount))
             continue;
         sp_sweeper *sweeper = &rounds->sweepers[omp_get_thread_num()];
-        double gain = sp_score_pose(sweeper, search, draft, best->pose).gain;
+        double gain = sp_score_pose(sweeper, search, draft, best->pose, 0).gain;
         least = fmax(least, gain / pow(make->flow, rounds->power));
     }
     return least;
@@ -292,20 +298,35 @@ static double price_of(const sp_search *search, const sp_pose *pose, double powe
     return pow(search->candidates->makes[pose->make].flow, power);
 }
 
-double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
-                    sp_bench *bench, sp_pose *best)
+/* Scores all of the pool, exactly where they may be the best or equal to it; `least` as sp_pool_best's. */
+static void score_pool(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
+                       double least, sp_bench *bench)
 {
-    double *scores = bench->scores;
-#pragma omp parallel for num_threads(bench->threads) schedule(dynamic, 32)
-    for (size_t i = 0; i < pool->count; i++) {
-        sp_pose pose = pool->items[i];
-        bool allowed = draft->flow + search->candidates->makes[pose.make].flow <= budget &&
-                       sp_draft_has_place(search, draft, search->sites->items[pose.site].mount);
+    double tie = SP_SCORE_TIE * search->all;
+#pragma omp parallel num_threads(bench->threads)
+    {
         sp_sweeper *sweeper = &bench->sweepers[omp_get_thread_num()];
-        scores[i] = allowed ? sp_score_pose(sweeper, search, draft, pose).gain : 0;
+        double merit = 0; /* the best of this thread's */
+#pragma omp for schedule(dynamic, 32)
+        for (size_t i = 0; i < pool->count; i++) {
+            sp_pose pose = pool->items[i];
+            double price = price_of(search, &pose, power), enough = fmax(least, merit * price) - tie;
+            bool allowed = draft->flow + search->candidates->makes[pose.make].flow <= budget &&
+                           sp_draft_has_place(search, draft, search->sites->items[pose.site].mount);
+            double gain = allowed ? sp_score_pose(sweeper, search, draft, pose, enough).gain : 0;
+            bench->scores[i] = gain >= enough ? gain : 0;
+            merit = fmax(merit, bench->scores[i] / price);
+        }
     }
     sp_sweepers_forget(bench->sweepers, bench->threads);
+}
+
+double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
+                    double least, sp_bench *bench, sp_pose *best)
+{
+    const double *scores = bench->scores;
     double merit = 0, tie = SP_SCORE_TIE * search->all;
+    score_pool(search, pool, draft, power, budget, least, bench);
     for (size_t i = 0; i < pool->count; i++)
         merit = fmax(merit, scores[i] / price_of(search, &pool->items[i], power));
     for (size_t i = 0; merit > 0 && i < pool->count; i++)
@@ -323,7 +344,7 @@ bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, 
     bool done = true;
     while (done && draft->covered < target) {
         sp_pose pose;
-        if (sp_pool_best(search, pool, draft, power, budget, bench, &pose) < least)
+        if (sp_pool_best(search, pool, draft, power, budget, 0, bench, &pose) < least)
             break;
         done = sp_draft_add_pose(search, draft, pose, error);
     }

@@ -54,7 +54,8 @@ static void look(sp_walker *walker, uint32_t site, uint32_t make, double power, 
     for (size_t i = 0; i < POSES && i < poses; i++) {
         size_t at = poses > POSES ? draw(walker, poses) : i;
         sp_pose pose = {site, make, (uint32_t)(at / own->roll_count), (uint32_t)(at % own->roll_count)};
-        double gain = sp_score_pose(walker->sweeper, walker->search, walker->draft, pose).gain;
+        double least = fmax(GAIN_LEAST * walker->area, best->merit * price);
+        double gain = sp_score_pose(walker->sweeper, walker->search, walker->draft, pose, least).gain;
         if (gain > GAIN_LEAST * walker->area && (gain - SP_SCORE_TIE * walker->area) / price > best->merit)
             *best = (sp_walk_choice){pose, gain / price};
     }

@@ -33,6 +33,8 @@ void sp_spray_settle(sp_spray *spray)
     spray->end_cosine = cos(spray->half_width);
     spray->outer_chord2 = squared_chord(spray->outer);
     spray->inner_chord2 = squared_chord(spray->inner);
+    spray->outer_sine = sqrt(spray->outer_chord2 * (1 - spray->outer_chord2 / 4));
+    spray->inner_sine = sqrt(spray->inner_chord2 * (1 - spray->inner_chord2 / 4));
     bool fan = spray->kind == SP_PATTERN_FLAT_FAN;
     spray->solid_angle =
         fan ? 4 * spray->half_width * spray->height : 2 * M_PI * (versine(spray->outer) - versine(spray->inner));

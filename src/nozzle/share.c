@@ -20,8 +20,8 @@ static double spot_share(double edge2, double chord2, double blur2)
     return edge2 / blur2 * smooth_step(1 - chord2 / (2 * blur2));
 }
 
-/* The share within the polar angle whose chord's square is edge2 (4: all directions). */
-static double disc_share(double edge2, double chord2, double breadth)
+/* The share within the polar angle of this sine whose chord's square is edge2 (4: all directions). */
+static double disc_share(double edge2, double sine, double chord2, double breadth)
 {
     double blur = SP_SPRAY_BLUR * breadth, blur2 = blur * blur;
     if (edge2 <= 0 || edge2 >= 4)
@@ -31,14 +31,15 @@ static double disc_share(double edge2, double chord2, double breadth)
     if (4 - edge2 < blur2)
         return 1 - spot_share(4 - edge2, 4 - chord2, blur2);
     /* a step across the edge changes the squared chord by twice the edge's sine */
-    return smooth_step(0.5 + (edge2 - chord2) / (2 * blur * sqrt(edge2 * (1 - edge2 / 4))));
+    double apart = edge2 - chord2, across = 2 * blur * sine;
+    return apart >= 0.5 * across ? 1 : apart <= -0.5 * across ? 0 : smooth_step(0.5 + apart / across);
 }
 
 static double cone_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)
 {
     sp_vec3 to_axis = sp_sub(frame->z, direction);
-    double chord2 = sp_dot(to_axis, to_axis), outer = disc_share(spray->outer_chord2, chord2, breadth);
-    return spray->inner > 0 ? outer - disc_share(spray->inner_chord2, chord2, breadth) : outer;
+    double chord2 = sp_dot(to_axis, to_axis), outer = disc_share(spray->outer_chord2, spray->outer_sine, chord2, breadth);
+    return spray->inner > 0 ? outer - disc_share(spray->inner_chord2, spray->inner_sine, chord2, breadth) : outer;
 }
 
 static double fan_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)

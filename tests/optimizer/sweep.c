@@ -278,10 +278,10 @@ static void every_instruction_set_gives_the_same_bits(void **state)
             const sp_weight weights[2] = {{items[0], totals[0]}, {items[1], totals[1]}};
             for (int k = 0; k < 2; k++)
                 sweeps->total(view, items[k], totals[k]);
-            sweeps->sum(&s.visibility.bins, &cull, &region, view, weights, 2, sums);
+            sweeps->sum(&s.visibility.bins, &cull, &region, view, weights, 2, 0, sums);
             for (int k = 0; k < 2; k++) {
                 double alone;
-                sweeps->sum(&s.visibility.bins, &cull, &region, view, &weights[k], 1, &alone);
+                sweeps->sum(&s.visibility.bins, &cull, &region, view, &weights[k], 1, 0, &alone);
                 assert_true(alone == sums[k]);
                 assert_true(fabs(sums[k] - naive[k]) <= 1e-4 * naive[k] + 1e-3);
                 if (sweeps == sp_sweep_best())
@@ -318,7 +318,7 @@ static void scores_are_what_fields_add(void **state)
         }
         for (size_t number = 0; number < poses; number += 1 + poses / 500) {
             sp_pose pose = pose_of(&s, number);
-            sp_score score = sp_score_pose(sweeper, &s.search, &draft, pose);
+            sp_score score = sp_score_pose(sweeper, &s.search, &draft, pose, 0);
             sp_field_pose(&s.search, pose, field);
             double gain = sp_field_gain(&s.search, &draft, field), room = 0;
             for (size_t p = 0; p < patches; p++)
@@ -335,12 +335,12 @@ static void scores_are_what_fields_add(void **state)
         assert_true(total > 0);
         /* what is wet by now counts only once the sweeper has been told */
         sp_pose pose = pose_of(&s, poses - 1);
-        double before = sp_score_pose(sweeper, &s.search, &draft, pose).gain;
+        double before = sp_score_pose(sweeper, &s.search, &draft, pose, 0).gain;
         for (size_t p = 0; p < patches; p++)
             draft.wet[p] = 2;
-        assert_true(before > 0 && sp_score_pose(sweeper, &s.search, &draft, pose).gain == before);
+        assert_true(before > 0 && sp_score_pose(sweeper, &s.search, &draft, pose, 0).gain == before);
         sp_sweepers_forget(sweeper, 1);
-        assert_true(sp_score_pose(sweeper, &s.search, &draft, pose).gain == 0);
+        assert_true(sp_score_pose(sweeper, &s.search, &draft, pose, 0).gain == 0);
         sp_sweepers_destroy(sweeper, 1);
         free(field);
         sp_draft_free(&draft);
