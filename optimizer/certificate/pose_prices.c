@@ -14,8 +14,8 @@
 #define HARDLY (1 - 1e-5f) /* the same, up to which it does not cover */
 #define PART_MORE 5e-5f    /* more than single precision puts a share at an edge wrong */
 #define ROWS_AT_A_TIME 300
-#define TOLD_LEAST 0.5     /* of what a pose must be worth to matter: below this trees need no more than an upper bound */
-#define STRIDE 7 /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
+#define TOLD_LEAST 0.5 /* of what a pose must be worth to matter: below this trees need no more than an upper bound */
+#define STRIDE 7       /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
 
 /* The pose of highest price of a site and make. */
 typedef struct {
@@ -165,8 +165,7 @@ static double price_of(const sp_pose_prices *prices, const scratch *own, const s
     const sp_weight weight = {own->worth, own->total};
     double price;
     sp_region_turn(region, &frame);
-    search->sweeps->sum(&search->visibility->bins, &own->cull, region, view, &weight, 1, least / UPWARDS,
-                        &price);
+    search->sweeps->sum(&search->visibility->bins, &own->cull, region, view, &weight, 1, least / UPWARDS, &price);
     return price * UPWARDS;
 }
 
@@ -189,23 +188,23 @@ static double all_bins(const scratch *own)
 }
 
 /* Prices all poses of a make at a site, or every `stride`th, another one at the next site. The highest price, where one
- * is more than `least`. */
+ * is more than `least`; `needed`: to raise the bound. */
 static best price_make(sp_pose_prices *prices, scratch *own, const sp_view *view, uint32_t site, uint32_t k,
-                       sp_region *region, size_t stride, double least)
+                       sp_region *region, size_t stride, double least, double needed)
 {
     const sp_candidates *candidates = prices->search->candidates;
     const sp_make *make = &candidates->makes[k];
     size_t axes = sp_candidates_axes(candidates, prices->search->sites->items[site].mount, k)->count;
     best found = {.price = 0};
     double all = all_bins(own);
-    bool none = all < (stride == 1 ? TOLD_LEAST * least : least);
+    double told = stride == 1 ? TOLD_LEAST * needed : INFINITY; /* below it no price need be exact to be told */
     for (uint32_t a = 0; a < axes; a++)
         for (uint32_t r = 0; r < make->roll_count; r++) {
             sp_pose pose = {site, k, a, r};
             if ((site + a * make->roll_count + r) % stride)
                 continue;
-            double matters = stride == 1 ? TOLD_LEAST * least : fmax(found.price, least);
-            double price = none ? all : price_of(prices, own, view, pose, region, matters);
+            double matters = fmin(told, fmax(found.price, least));
+            double price = all < matters ? all : price_of(prices, own, view, pose, region, matters);
             if (stride == 1)
                 prices->last[sp_pose_order_position(prices->order, pose)] = nextafterf((float)price, INFINITY);
             if (price > fmax(found.price, least))
@@ -233,7 +232,7 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
         if (!view->start)
             continue;
         sp_region region = prepare_worth(prices, own, view, make, &frame, u);
-        *found = price_make(prices, own, view, site, k, &region, stride, least);
+        *found = price_make(prices, own, view, site, k, &region, stride, least, needed[prices->tier_of[k]]);
     }
 }
 

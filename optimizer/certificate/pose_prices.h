@@ -28,7 +28,8 @@ void sp_pose_prices_destroy(sp_pose_prices *prices);
  * the keys of rows are positions. */
 bool sp_pose_line(sp_pose_prices *prices, const sp_pose_order *order, sp_line *line, sp_error *error);
 sp_pricer sp_pose_pricer(sp_pose_prices *prices);
-/* What the pricer found everything to be worth when it last priced all, by position of the line, rounded upwards. */
+/* What the pricer found everything to be worth when it last priced all, by position of the line, rounded upwards: a
+ * little, or by more where it is far from what it must be to raise the bound. */
 const float *sp_pose_prices_last(const sp_pose_prices *prices);
 /* What each arrival of a view brings to a nozzle of a strength, flux over threshold per transfer, from `least` to
  * `most`, rounded upwards (worth, [view->count]); and each bin in all (total, [SP_BINS]). */

@@ -21,7 +21,7 @@
 #endif
 #define PARTS (SP_LANES / WIDTH)
 #define OPEN_MORE (1 + 1e-4) /* more than single precision puts a sum of totals wrong */
-#define FLUSH 64 /* vectors of lanes after which single precision goes into double */
+#define FLUSH 64             /* vectors of lanes after which single precision goes into double */
 
 typedef float floats __attribute__((vector_size(4 * WIDTH)));
 typedef int32_t integers __attribute__((vector_size(4 * WIDTH)));
@@ -420,8 +420,7 @@ INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *
 
 /* One loop for every kind of pattern, of counting and number of weights. */
 INLINE void sum_counted(const sp_bins *bins, const sp_cull *cull, const sp_region *region, sp_count count,
-                        const sp_view *view, const sp_weight *weights, size_t weight_count, double least,
-                        double *sums)
+                        const sp_view *view, const sp_weight *weights, size_t weight_count, double least, double *sums)
 {
     if (region->fan && weight_count == 2)
         sum_bins(bins, cull, region, true, count, view, weights, 2, least, sums);

@@ -40,13 +40,17 @@ static inline double outside(double a, double b, double c, double p)
     return p < low ? low - p : p > high ? p - high : 0;
 }
 
-/* A lower bound: the distance to the triangle's box, squared. */
-static inline double box_distance2(const sp_mesh *mesh, uint32_t triangle, sp_vec3 p)
+/* Whether the triangle's box, and so perhaps the triangle, comes nearer than a distance squared. Most that do not,
+ * along one axis do not. */
+static inline bool may_be_nearer(const sp_mesh *mesh, uint32_t triangle, sp_vec3 p, double distance2)
 {
     const uint32_t *corner = mesh->triangles[triangle];
     sp_vec3 a = mesh->vertices[corner[0]], b = mesh->vertices[corner[1]], c = mesh->vertices[corner[2]];
-    double x = outside(a.x, b.x, c.x, p.x), y = outside(a.y, b.y, c.y, p.y), z = outside(a.z, b.z, c.z, p.z);
-    return x * x + y * y + z * z;
+    double x = outside(a.x, b.x, c.x, p.x);
+    if (x * x >= distance2)
+        return false;
+    double y = outside(a.y, b.y, c.y, p.y), z = outside(a.z, b.z, c.z, p.z);
+    return x * x + y * y + z * z < distance2;
 }
 
 uint32_t sp_nearest_triangle(const sp_mesh *mesh, uint32_t part, sp_vec3 point)
@@ -54,7 +58,7 @@ uint32_t sp_nearest_triangle(const sp_mesh *mesh, uint32_t part, sp_vec3 point)
     uint32_t nearest = SP_NONE;
     double best = INFINITY;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        if ((part != SP_NONE && mesh->part[t] != part) || box_distance2(mesh, t, point) >= best)
+        if ((part != SP_NONE && mesh->part[t] != part) || !may_be_nearer(mesh, t, point, best))
             continue;
         sp_vec3 away = sp_sub(sp_triangle_nearest(mesh, t, point), point);
         double distance = sp_dot(away, away);
@@ -73,7 +77,7 @@ bool sp_is_clear(const sp_mesh *mesh, sp_vec3 point, double clearance, uint32_t 
     if (limit <= 0)
         return true;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        if (mesh->part[t] == own || box_distance2(mesh, t, point) >= limit)
+        if (mesh->part[t] == own || !may_be_nearer(mesh, t, point, limit))
             continue;
         sp_vec3 away = sp_sub(sp_triangle_nearest(mesh, t, point), point);
         if (sp_dot(away, away) < limit)

@@ -38,7 +38,8 @@ static double disc_share(double edge2, double sine, double chord2, double breadt
 static double cone_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)
 {
     sp_vec3 to_axis = sp_sub(frame->z, direction);
-    double chord2 = sp_dot(to_axis, to_axis), outer = disc_share(spray->outer_chord2, spray->outer_sine, chord2, breadth);
+    double chord2 = sp_dot(to_axis, to_axis),
+           outer = disc_share(spray->outer_chord2, spray->outer_sine, chord2, breadth);
     return spray->inner > 0 ? outer - disc_share(spray->inner_chord2, spray->inner_sine, chord2, breadth) : outer;
 }
 

@@ -2,6 +2,7 @@
 #include "room.h"
 
 #include "refine/level.h"
+#include "scoring/scoring.h"
 
 #define PRESSURE 2e5
 
@@ -146,10 +147,34 @@ static void slopes_are_differences(void **state)
     }
 }
 
+/* Where only what a draft leaves dry is looked at, a nozzle adds the same to it. */
+static void dry_patches_say_what_is_added(void **state)
+{
+    (void)state;
+    bench b;
+    sp_error error = {0};
+    bench_open(&b, SP_PATTERN_FULL_CONE, SP_TRAJECTORY_PARABOLA, 2 * LITRES_PER_MINUTE, SP_COMBINE_SUM);
+    size_t patches = b.search.patch_count, left_out = 0;
+    float *whole = malloc(patches * sizeof *whole), *part = malloc(patches * sizeof *part);
+    sp_placed placed = b.draft.items[0];
+    placed.nozzle.position.x += 0.05;
+    assert_true(whole && part);
+    assert_true(sp_sights_field(&b.sights, &placed, NULL, whole, &error));
+    assert_true(sp_sights_field(&b.sights, &placed, &b.draft, part, &error));
+    assert_true(sp_field_gain(&b.search, &b.draft, whole) == sp_field_gain(&b.search, &b.draft, part));
+    for (size_t p = 0; p < patches; p++)
+        left_out += whole[p] != 0 && part[p] == 0;
+    assert_true(left_out > 0);
+    free(whole);
+    free(part);
+    bench_close(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slopes_are_differences),
+        cmocka_unit_test(dry_patches_say_what_is_added),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

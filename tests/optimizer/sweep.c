@@ -252,6 +252,7 @@ static void every_instruction_set_gives_the_same_bits(void **state)
     stage_open(&s, criterion_of_all, SP_TRAJECTORY_PARABOLA);
     uint64_t random = 7;
     size_t room = s.visibility.largest + 2 * SP_LANES, poses = s.candidates.pose_start[s.sites.count];
+    size_t told_early = 0; /* by the bins alone */
     float *items[2] = {malloc(room * sizeof(float)), malloc(room * sizeof(float))}, totals[2][SP_BINS];
     for (size_t number = 0; number < poses; number += poses / 300) {
         sp_pose pose = pose_of(&s, number);
@@ -288,8 +289,16 @@ static void every_instruction_set_gives_the_same_bits(void **state)
                     first[k] = sums[k];
                 assert_true(sums[k] == first[k]);
             }
+            for (double share = 0.5; share < 20; share *= 2) {
+                double least = share * sums[0], early[2];
+                sweeps->sum(&s.visibility.bins, &cull, &region, view, weights, 2, least, early);
+                bool exact = early[0] == sums[0] && early[1] == sums[1];
+                assert_true(exact || (early[0] >= sums[0] && early[1] >= sums[1] && early[0] < least));
+                told_early += !exact;
+            }
         }
     }
+    assert_true(told_early > 0);
     free(items[0]);
     free(items[1]);
     stage_close(&s);

@@ -16,7 +16,7 @@ namespace
 
 // Without a name, to memory.
 bool encode(const char *path, OIIO::Filesystem::IOProxy *proxy, const uint8_t *pixels, int width, int height,
-               int channels, sp_error *error)
+            int channels, sp_error *error)
 {
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
     if (!output)
