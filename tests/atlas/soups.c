@@ -343,11 +343,14 @@ static void expect_patches(const sp_mesh *mesh, double width, double texel)
     setup.fidelity.texel = texel;
     setup.run.threads = 1;
     sp_evaluator *evaluator = sp_evaluator_create(&setup, &error);
-    if (!evaluator)
-        fail_msg("%s", error.message);
     double area = sp_mesh_area(mesh), reach = 0;
     for (size_t v = 0; v < mesh->vertex_count; v++)
         reach = fmax(reach, sp_length(mesh->vertices[v]));
+    /* What is a few thousand roundings of its coordinates across is refused, and nothing else. */
+    if (!evaluator && !(error.kind == SP_ERROR_INPUT && width < 0x1p-39 * reach))
+        fail_msg("%s", error.message);
+    if (!evaluator)
+        return;
     /* Strips that are thinner than the rounding of their coordinates may go missing. */
     double off = fabs(sp_evaluator_patches(evaluator)->total_area - area);
     assert_true(off <= 1e-9 * area + 1e-14 * reach * width);
