@@ -25,6 +25,7 @@ static void criteria_that_nothing_or_everything_meets(void **state)
                                               {1e-12, 1e-3, M_PI / 2, SP_COMBINE_SUM}};
     sp_nozzle_type ball = spray_type(SP_PATTERN_FULL_CONE, 360);
     sp_nozzle nozzle = nozzle_at(&ball, sp_v(0.11, 0.03, 0.71), sp_v(0, 0, 1), 20);
+    double off[2] = {0};
     for (int t = SP_TRAJECTORY_LINE; t <= SP_TRAJECTORY_PARABOLA; t++)
         for (int c = 0; c < 7; c++) {
             scene s;
@@ -35,6 +36,7 @@ static void criteria_that_nothing_or_everything_meets(void **state)
             for (int inverse = 0; inverse < 2; inverse++) {
                 sp_coverage *coverage = sound_cover(evaluator, &nozzle, 1, inverse);
                 double expected = c < 4 ? 0 : 1;
+                off[inverse] = fmax(off[inverse], fabs(coverage->fraction - expected));
                 if (fabs(coverage->fraction - expected) > (inverse || c < 4 ? 1e-9 : 1e-3)) /* jets miss cells */
                     fail_msg("criterion %d, trajectory %d, inverse %d: coverage %.12f", c, t, inverse,
                              coverage->fraction);
@@ -43,6 +45,7 @@ static void criteria_that_nothing_or_everything_meets(void **state)
             sp_evaluator_destroy(evaluator);
             scene_close(&s);
         }
+    print_message("coverage off by at most %.2g by jets, %.2g by flights\n", off[0], off[1]);
 }
 
 /* A catalogue's flow is above 0; a program's may not be. */
