@@ -269,7 +269,8 @@ bool sp_sharpen(sp_polishing *polishing, double budget, sp_draft *draft, sp_erro
     sp_sights *sights = &polishing->sights[0];
     sp_sights_forget(sights);
     return sp_anneal(sights, SHARP_START, SP_WIDTHS, budget, polishing->watch, draft, error) &&
-           sp_compass(sights, STEP_SHARP, STEP_LEAST, budget, polishing->watch, draft, error);
+           sp_compass(sights, STEP_SHARP, STEP_LEAST, budget, polishing->watch, draft, error) &&
+           look_again(polishing->search, draft, error);
 }
 
 bool sp_look_anew(sp_polishing *polishing, sp_draft *draft, sp_error *error)

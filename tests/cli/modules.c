@@ -1,0 +1,45 @@
+/* The program without its modules, and where it is installed. */
+#include "workplace.h"
+
+static void run(const char *command)
+{
+    char line[2048];
+    snprintf(line, sizeof line, "cd '%s' && %s", workplace, command);
+    assert_int_equal(system(line), 0);
+}
+
+/* What needs no module works; what does says which part is missing, and ends in an error. */
+static void a_part_that_is_missing_is_named(void **state)
+{
+    (void)state;
+    if (access(INSTALLED_MODULES, F_OK) == 0) {
+        print_message("there is a sprayplan in %s, whose modules would be found\n", INSTALLED_MODULES);
+        skip();
+    }
+    run("cp '" BINARY_DIR "/sprayplan' alone");
+    run("./alone --version >.out && ./alone check room.yaml >.out && ./alone simulate room.yaml >.out");
+    run("{ ./alone simulate room.yaml -o pictures >.out 2>.err; test $? -eq 1; }");
+    char *told = read_file(".err", NULL);
+    if (!strstr(told, "a part of sprayplan is not installed") || !strstr(told, "sprayplan-images.so"))
+        fail_msg("%s", told);
+    free(told);
+}
+
+/* Installed anywhere, it finds its modules there, and links none of what they are for. */
+static void an_installed_program_finds_its_modules(void **state)
+{
+    (void)state;
+    run("cmake --install '" BINARY_DIR "' --prefix \"$PWD/usr\" >.out");
+    run("usr/bin/sprayplan simulate room.yaml -o pictures >.out && test -s pictures/coverage.png");
+    run("usr/bin/sprayplan place room.yaml >.out");
+    run("! ldd usr/bin/sprayplan | grep -E 'OpenImageIO|ceres|glog'");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_part_that_is_missing_is_named, open_workplace, close_workplace),
+        cmocka_unit_test_setup_teardown(an_installed_program_finds_its_modules, open_workplace, close_workplace),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
