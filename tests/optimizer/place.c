@@ -94,7 +94,12 @@ static double least_for(const job *j, double area)
 static void nothing_exceeds_the_certificate(void **state)
 {
     (void)state;
-    for (int single = 0; single < 2; single++) {
+#ifdef SPRAYPLAN_SANITIZE
+    const int last = 0;
+#else
+    const int last = 1;
+#endif
+    for (int single = 0; single <= last; single++) {
         job j;
         job_open(&j);
         j.room.setup.criterion.combine = single ? SP_COMBINE_SINGLE : SP_COMBINE_SUM;
@@ -105,12 +110,13 @@ static void nothing_exceeds_the_certificate(void **state)
         j.options.objective = SP_OBJECTIVE_MAX_COVERAGE;
         sp_proposal *proposal = job_place(&j);
         const sp_certificate *certificate = &proposal->certificate;
+        double best = best_of_two(&j);
         assert_true(certificate->computed);
         assert_int_equal(certificate->candidates, 10);
         assert_int_equal(certificate->texels, sp_evaluator_patches(j.room.evaluator)->count);
         assert_true(fabs(certificate->counted - proposal->coverage->covered_area) < 1e-5);
-        assert_true(certificate->area_bound + 1e-5 >= best_of_two(&j));
-        assert_true(certificate->area_bound < 1.25 * best_of_two(&j));
+        assert_true(certificate->area_bound + 1e-5 >= best);
+        assert_true(certificate->area_bound < 1.25 * best);
         for (size_t i = 0; i < proposal->front_count; i++)
             assert_true(proposal->front[i].bound >= proposal->front[i].counted);
         /* with branch and bound to its end it still holds, and is no longer above the best there is */
@@ -118,8 +124,8 @@ static void nothing_exceeds_the_certificate(void **state)
         sp_proposal *proved = job_place(&j);
         assert_true(proved->certificate.area_bound <= certificate->area_bound);
         assert_true(proved->certificate.water_bound >= certificate->water_bound);
-        assert_true(proved->certificate.area_bound + 1e-5 >= best_of_two(&j));
-        assert_true(proved->certificate.area_bound <= best_of_two(&j) * 1.01);
+        assert_true(proved->certificate.area_bound + 1e-5 >= best);
+        assert_true(proved->certificate.area_bound <= best * 1.01);
         double least = least_for(&j, proved->certificate.counted - 1e-5);
         assert_true(proved->certificate.water_bound <= least * (1 + 1e-9));
         assert_true(proved->certificate.water_bound >= 0.5 * least);
