@@ -89,9 +89,9 @@ static void developable_surfaces_are_one_chart(void **state)
     for (size_t i = 0; i < sizeof developable / sizeof *developable; i++) {
         sp_mesh *mesh = net(developable[i].columns, developable[i].rows, developable[i].at, 1);
         sp_mesh *askew = posed(mesh, 1, 1.234, sp_v(0.3, -0.2, 0.1)), *poor = in_single(askew);
-        expect_one_chart(developable[i].name, mesh, 0, 1e-10);
-        expect_one_chart(" askew", askew, 0, 1e-10);
-        expect_one_chart(" in single precision", poor, 1, 1e-6);
+        expect_one_chart(developable[i].name, mesh, 0, 1e-11);
+        expect_one_chart(" askew", askew, 0, 1e-11);
+        expect_one_chart(" in single precision", poor, 1, 1e-7);
         sp_mesh_destroy(mesh);
         sp_mesh_destroy(askew);
         sp_mesh_destroy(poor);
