@@ -171,9 +171,10 @@ typedef struct {
  * The caller destroys. Uses the setup's threads; inside a parallel region it runs on one. */
 sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                              double half_angle, sp_error *error);
-/* The same, of arrivals that pass the criterion's speed and incidence alone: less is traced. */
+/* The same, of arrivals that pass the criterion's speed and incidence alone, at the patches that `among` [patches]
+ * holds, all where it is NULL: less is traced. */
 sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
-                                     double half_angle, sp_error *error);
+                                     double half_angle, const bool *among, sp_error *error);
 /* The same of the patches first to end alone, for callers with little memory: it takes no more than SP_REACH_WORK bytes
  * for each of these patches and for each arrival of a cell, the answer included. `known` is NULL, or holds the answer
  * of an earlier call, bit 2 patch + arc (least bits first) set for every arrival: then the same is told again, and

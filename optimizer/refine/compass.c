@@ -22,8 +22,9 @@ typedef struct {
     sp_error *error;
 } sp_needle;
 
-/* Whether a new place, were all that the old one sees in sight, and no more, is worth tracing. Of 5,500 places on the
- * example vessel 38 % are not, of those that prove better 9 %. */
+/* Whether a new place is worth all that can be seen from it: first as though what the old one sees were in sight, and
+ * no more, then by what else the draft has left dry. Of 5,500 places on the example vessel 38 % fail the first, of those
+ * that prove better 9 %. */
 static bool is_promising(sp_needle *needle, const sp_placed *trial, bool *promising)
 {
     const sp_sight *sight = sp_sights_look(needle->sights, &needle->placed, needle->error);
@@ -31,6 +32,11 @@ static bool is_promising(sp_needle *needle, const sp_placed *trial, bool *promis
         return false;
     sp_sight_field(needle->search, sight, trial, needle->draft, needle->trial);
     *promising = sp_field_gain(needle->search, needle->draft, needle->trial) >= needle->gain * (1 - HOPELESS);
+    if (!*promising)
+        return true;
+    if (!sp_field_nozzle(needle->search, &trial->nozzle, needle->draft, needle->trial, needle->error))
+        return false;
+    *promising = sp_field_gain(needle->search, needle->draft, needle->trial) > needle->gain + needle->least;
     return true;
 }
 

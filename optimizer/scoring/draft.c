@@ -25,7 +25,7 @@ static bool kept_create(sp_search *search, sp_error *error)
             continue;
         search->kept[search->kept_count++] = layout->nozzles[i];
         search->kept_flow += sp_nozzle_flow(&layout->nozzles[i], &sp_evaluator_setup(search->coarse)->liquid);
-        done = sp_field_nozzle(search, &layout->nozzles[i], field, error);
+        done = sp_field_nozzle(search, &layout->nozzles[i], NULL, field, error);
         for (size_t p = 0; done && p < search->patch_count; p++)
             sp_pour(search, field[p], &search->kept_wet[p], &search->kept_dry[p]);
     }

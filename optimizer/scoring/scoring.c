@@ -210,12 +210,19 @@ static void field_reach(const sp_search *search, const sp_nozzle *nozzle, const 
     }
 }
 
-bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, float *field, sp_error *error)
+bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, const sp_draft *draft, float *field,
+                     sp_error *error)
 {
     sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
     double speed = sp_nozzle_speed(nozzle, &sp_evaluator_setup(search->coarse)->liquid);
+    bool *dry = draft ? malloc(search->patch_count * sizeof *dry) : NULL;
+    if (draft && !dry)
+        return sp_fail_memory(error);
+    for (size_t p = 0; dry && p < search->patch_count; p++)
+        dry[p] = draft->wet[p] < SP_ENOUGH;
     sp_reach *reach = sp_evaluator_reach_passing(search->coarse, nozzle->position, speed, nozzle->axis,
-                                                 fmin(M_PI, sp_spray_reach(&spray) + 1e-6), error);
+                                                 fmin(M_PI, sp_spray_reach(&spray) + 1e-6), dry, error);
+    free(dry);
     if (!reach)
         return false;
     field_reach(search, nozzle, reach, field);

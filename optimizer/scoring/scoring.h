@@ -68,9 +68,11 @@ float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 direction, doubl
  * transfer, as the view has it. */
 void sp_field_view(const sp_search *search, const sp_view *view, const sp_spray *spray, const sp_frame *frame,
                    double strength, float *field);
-/* The same of a candidate pose; of any nozzle, traced anew. */
+/* The same of a candidate pose; of any nozzle, traced anew, where a draft is given only on the patches that it leaves
+ * dry: what the nozzle adds to it is the same. */
 void sp_field_pose(const sp_search *search, sp_pose pose, float *field);
-bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, float *field, sp_error *error);
+bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, const sp_draft *draft, float *field,
+                     sp_error *error);
 /* What a field adds to a draft. */
 double sp_field_gain(const sp_search *search, const sp_draft *draft, const float *field);
 

@@ -119,10 +119,10 @@ static void gather_at(void *user, const sp_target *target, double part)
 
 static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, flock *flock)
 {
-    gathering own = {source, aim, patch, flock};
-    sp_target target = sp_patch_target(source->evaluator, patch);
     if ((aim->known && !(aim->known[patch / 4] >> 2 * (patch % 4) & 3)) || (aim->among && !aim->among[patch]))
         return;
+    gathering own = {source, aim, patch, flock};
+    sp_target target = sp_patch_target(source->evaluator, patch);
     if (!sp_target_is_near(source, &target))
         gather_at(&own, &target, 1);
     else if (!sp_patch_cut(source, patch, aim->axis, aim->half_angle + sp_spray_fringe(SP_BREADTH_MOST), gather_at,
@@ -233,11 +233,12 @@ sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, do
 }
 
 sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
-                                     double half_angle, sp_error *error)
+                                     double half_angle, const bool *among, sp_error *error)
 {
     sp_source source = {evaluator, position, speed};
     sp_aim aim = sp_aim_at(axis, half_angle);
     aim.passing = true;
+    aim.among = among;
     return evaluator ? sp_reach_create(&source, &aim, error) : NULL;
 }
 

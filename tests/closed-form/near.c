@@ -230,7 +230,7 @@ static void told_again_in_parts(void **state)
         size_t patches = sp_evaluator_patches(evaluator)->count, at = 0, cells = 0;
         uint8_t *known = calloc(patches / 4 + 1, 1);
         sp_vec3 position = sp_v(0.001, 0.013, 0.017), axis = sp_v(0, 0, -1);
-        sp_reach *whole = sp_evaluator_reach_passing(evaluator, position, 2, axis, M_PI, &error);
+        sp_reach *whole = sp_evaluator_reach_passing(evaluator, position, 2, axis, M_PI, NULL, &error);
         assert_non_null(whole);
         for (size_t i = 0; i < whole->count; i++) {
             size_t bit = 2 * (size_t)whole->arrivals[i].patch + whole->arrivals[i].arc;
