@@ -27,7 +27,8 @@ typedef struct {
     double *impact_max;
     double *even;  /* of the counted flux, what falls on all of the patch, m³/s per m² (see sp_wetting) */
     double *dry;   /* share of the patch that no nozzle's edge covers */
-    double *share; /* of the patch, that is covered: all where `even` meets the criterion, else 1 - dry */
+    double *film;  /* what runs down the patch, m²/s: flow per width; 0 where the criterion does not ask */
+    double *share; /* of the patch, that is covered: all where `even` or `film` meets the criterion, else 1 - dry */
     bool *covered; /* at least half of it */
 } sp_deposits;
 
@@ -103,6 +104,18 @@ typedef struct {
     double unfollowed; /* is thrown back from a wall and not followed any further */
 } sp_balance;
 
+/* What has hit a wall and runs down it, m³/s, and what that does. */
+typedef struct {
+    bool known;         /* false: the criterion does not ask for film, and nothing below means anything */
+    double arriving;    /* on wet surface, cleaned or not, at the first impact */
+    double left;        /* of it, runs or drips out of the geometry */
+    double astray;      /* drips on surface that is not wet */
+    double held;        /* stands where it cannot drain */
+    double area;        /* m² that impact does not cover and film does */
+    double per_outline; /* m²/s: all liquid over the length of the wet walls' outline at middle height, the measure of
+                         * rules of thumb; not what the criterion asks for */
+} sp_film_balance;
+
 /* How far a coverage is off, measured at points (see sp_measure_error); shares of the area. */
 typedef struct {
     bool known;       /* false: nothing below means anything */
@@ -138,6 +151,7 @@ typedef struct {
     double area_per_water;                          /* covered area over flow, m² per m³/s; 0 without flow */
     double flux_min, flux_mean, flux_p05, flux_max; /* m³/s per m² over the clean area, by area; p05: 5th percentile */
     sp_balance balance;         /* known from the forward evaluator; else sp_evaluate_balance works it out */
+    sp_film_balance film;
     sp_measured_error measured; /* not known until sp_measure_error is asked for it */
     sp_borderline borderline;   /* not known until sp_find_borderline is asked for it */
     sp_line_error line_error;   /* not known until sp_bound_lines is asked for it */

@@ -41,6 +41,8 @@ typedef struct {
     double flux;         /* m³/s per m², 0: none */
     double impact_speed; /* m/s, 0: none */
     double incidence;    /* rad, π/2: none */
+    double film;         /* m²/s, 0: none; else as much running down a patch, per width, covers it whatever the others
+                          * say. Needs a cavity and gravity */
     sp_combine combine;
 } sp_criterion;
 

@@ -55,8 +55,8 @@ static bool read_caps(sp_scene *scene, const sp_reader *reader)
 
 static bool read_criterion(const sp_scene *scene, const sp_reader *reader, sp_criterion *criterion)
 {
-    static const sp_key keys[] = {
-        {"flux", false}, {"impact_speed", false}, {"incidence", false}, {"combine", false}, {NULL, false}};
+    static const sp_key keys[] = {{"flux", false},    {"impact_speed", false}, {"incidence", false},
+                                  {"combine", false}, {"film", false},         {NULL, false}};
     static const char *const combines[] = {"sum", "single", NULL};
     const sp_yaml *node = sp_yaml_get(scene->tree, "criterion");
     int combine = criterion->combine;
@@ -67,6 +67,7 @@ static bool read_criterion(const sp_scene *scene, const sp_reader *reader, sp_cr
         !sp_read_quantity(reader, node, "impact_speed", &sp_speed_unit, sp_from(0), &criterion->impact_speed) ||
         !sp_read_quantity(reader, node, "incidence", &sp_angle_unit, sp_above_to(0, acos(-1) / 2),
                           &criterion->incidence) ||
+        !sp_read_quantity(reader, node, "film", &sp_width_flow_unit, sp_above(0), &criterion->film) ||
         !sp_read_choice(reader, node, "combine", combines, &combine))
         return false;
     criterion->combine = combine == 1 ? SP_COMBINE_SINGLE : SP_COMBINE_SUM;

@@ -6,7 +6,7 @@
 bool sp_side_is_counted(const sp_evaluator *evaluator, uint32_t triangle, unsigned side)
 {
     const sp_setup *setup = &evaluator->setup;
-    if (!setup->surfaces[setup->mesh->part[triangle]].clean)
+    if (!evaluator->everything && !setup->surfaces[setup->mesh->part[triangle]].clean)
         return false;
     return setup->cavity == SP_CAVITY_NONE ? side == 0 : (evaluator->wet->sides[triangle] >> side) & 1;
 }

@@ -1,5 +1,5 @@
 /* Deposits and the figures drawn from them. */
-#include "state.h"
+#include "rundown.h"
 
 #include <stdlib.h>
 
@@ -12,7 +12,8 @@ sp_coverage *sp_coverage_create(const sp_evaluator *evaluator, sp_error *error)
     sp_deposits *deposits = &coverage->deposits;
     double **columns[] = {&deposits->flux,       &deposits->counted,   &deposits->jets,          &deposits->speed,
                           &deposits->speed_max,  &deposits->incidence, &deposits->incidence_min, &deposits->impact,
-                          &deposits->impact_max, &deposits->even,      &deposits->dry,           &deposits->share};
+                          &deposits->impact_max, &deposits->even,      &deposits->dry,           &deposits->film,
+                          &deposits->share};
     bool done = true;
     for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
         *columns[i] = calloc(room, sizeof(double));
@@ -45,6 +46,7 @@ void sp_coverage_destroy(sp_coverage *coverage)
     free(deposits->impact_max);
     free(deposits->even);
     free(deposits->dry);
+    free(deposits->film);
     free(deposits->share);
     free(deposits->covered);
     free(coverage);
@@ -123,6 +125,8 @@ bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_layout *layout
     sp_deposits *deposits = &coverage->deposits;
     double threshold = evaluator->setup.criterion.flux;
     coverage->area = patches->total_area;
+    if (evaluator->rundown && !sp_rundown_find(evaluator->rundown, layout, coverage, error))
+        return false;
     for (size_t i = 0; i < patches->count; i++) {
         if (deposits->flux[i] > 0) {
             deposits->speed[i] /= deposits->flux[i];
@@ -130,6 +134,10 @@ bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_layout *layout
             deposits->impact[i] /= deposits->flux[i];
         }
         deposits->share[i] = sp_wetting_share(&(sp_wetting){deposits->even[i], deposits->dry[i], 0}, threshold);
+        if (evaluator->rundown && deposits->film[i] >= evaluator->setup.criterion.film) {
+            coverage->film.area += (1 - deposits->share[i]) * patches->area[i];
+            deposits->share[i] = 1;
+        }
         deposits->covered[i] = deposits->share[i] >= 0.5;
         coverage->covered_area += deposits->share[i] * patches->area[i];
     }

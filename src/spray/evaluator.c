@@ -1,6 +1,7 @@
 /* Building an evaluator, choosing what is left to auto, and asking it. */
 #include "choice.h"
 #include "resolution.h"
+#include "rundown.h"
 #include "spray/wet/wet.h"
 
 #include <stdio.h>
@@ -62,10 +63,17 @@ static bool check_setup(const sp_setup *setup, sp_error *error)
         wrong = "a criterion with flux and impact speed of 0 or more and incidence of 0 to 90 deg";
     else if (!in_range(fidelity->texel, 0, 1e300) || fidelity->reflections < -1)
         wrong = "a texel of 0 (auto) or more and reflections of -1 (auto) or more";
+    else if (!in_range(criterion->film, 0, 1e300))
+        wrong = "a criterion with a film of 0 or more";
     else if (setup->cavity == SP_CAVITY_POINT && !isfinite(sp_length(setup->cavity_point)))
         wrong = "a finite point of the cavity";
     if (wrong)
         return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: expected %s", wrong);
+    if (criterion->film > 0 && (setup->cavity == SP_CAVITY_NONE || !(setup->gravity > 0)))
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "criterion.film: found without %s; expected a cavity, which says on which side of a wall it "
+                       "runs down, and gravity",
+                       setup->gravity > 0 ? "a cavity" : "gravity");
     return check_caps(setup, error) && check_surfaces(setup, error) && sp_geometry_is_resolved(setup, error);
 }
 
@@ -154,7 +162,7 @@ sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *la
     }
     evaluator->gravity = sp_gravity_for(setup, evaluator->fidelity.trajectory);
     evaluator->farthest = sp_farthest_coordinate(setup->mesh);
-    if (!build(evaluator, layout, error)) {
+    if (!build(evaluator, layout, error) || !sp_rundown_create(evaluator, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;
     }
@@ -166,8 +174,7 @@ sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error)
     return sp_evaluator_create_for(setup, NULL, error);
 }
 
-/* On the geometry of `fine`, texels to come. */
-static sp_evaluator *share(const sp_evaluator *fine, double texel, sp_error *error)
+sp_evaluator *sp_evaluator_share(const sp_evaluator *fine, double texel, sp_error *error)
 {
     const sp_evaluator *origin = fine->origin ? fine->origin : fine;
     sp_evaluator *evaluator = calloc(1, sizeof *evaluator);
@@ -194,7 +201,7 @@ sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_e
         sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: a texel of %g m found, expected more than 0", texel);
         return NULL;
     }
-    sp_evaluator *evaluator = share(fine, texel, error);
+    sp_evaluator *evaluator = sp_evaluator_share(fine, texel, error);
     if (!evaluator)
         return NULL;
     evaluator->fidelity.method = SP_METHOD_INVERSE;
@@ -217,7 +224,7 @@ bool sp_evaluator_again(const sp_evaluator *evaluator, bool shorter, sp_evaluato
     *again = NULL;
     if (!lines && texel == now->texel)
         return true;
-    sp_evaluator *finer = share(evaluator, texel, error);
+    sp_evaluator *finer = sp_evaluator_share(evaluator, texel, error);
     if (!finer)
         return false;
     finer->fidelity.trajectory = lines ? SP_TRAJECTORY_PARABOLA : now->trajectory;
@@ -227,7 +234,7 @@ bool sp_evaluator_again(const sp_evaluator *evaluator, bool shorter, sp_evaluato
     if (texel < now->texel)
         snprintf(finer->choice.texel, SP_WHY, "counted again: on texels of %.3g m the accuracy was not kept",
                  now->texel);
-    if (!sp_texels_create(finer, NULL, error)) {
+    if (!sp_texels_create(finer, NULL, error) || !sp_rundown_create(finer, error)) {
         sp_evaluator_destroy(finer);
         return false;
     }
@@ -245,6 +252,7 @@ void sp_evaluator_destroy(sp_evaluator *evaluator)
         sp_wet_destroy(evaluator->wet);
     }
     sp_texels_free(evaluator);
+    sp_rundown_destroy(evaluator->rundown);
     free(evaluator);
 }
 

@@ -12,6 +12,7 @@ struct sp_evaluator {
     sp_choice choice;           /* why */
     sp_vec3 gravity;            /* zero for lines */
     double farthest;            /* m, the geometry's farthest coordinate */
+    bool everything;            /* counts every wet side, whatever is to be cleaned: film runs over it all */
     const sp_evaluator *origin; /* of a resampled evaluator: owns tracer, charts and wet; else NULL */
     sp_tracer *tracer;
     sp_charts *charts;
@@ -21,6 +22,7 @@ struct sp_evaluator {
     sp_fragments fragments; /* of the atlas */
     sp_patches patches;
     uint32_t (*texel_patch)[2]; /* [texel_count], patch on the front (or both sides) and on the back, or SP_NONE */
+    struct sp_rundown *rundown; /* rundown.h; NULL where the criterion does not ask for film */
 };
 
 /* Threads to use for sp_run's `threads`. */
@@ -48,6 +50,9 @@ double sp_farthest_coordinate(const sp_mesh *mesh);
 bool sp_geometry_is_resolved(const sp_setup *setup, sp_error *error);
 bool sp_texel_is_resolved(const sp_evaluator *evaluator, double texel, sp_error *error);
 bool sp_evaluator_takes(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
+
+/* evaluator.c: another on the geometry of `fine`, texels to come. */
+sp_evaluator *sp_evaluator_share(const sp_evaluator *fine, double texel, sp_error *error);
 
 /* patches.c: from atlas, wet sides and roles. */
 bool sp_patches_create(sp_evaluator *evaluator, sp_error *error);

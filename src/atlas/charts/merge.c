@@ -3,7 +3,7 @@
 #include "atlas/charts/merge.h"
 
 #include "atlas/charts/cut.h"
-#include "atlas/charts/heap.h"
+#include "mesh/heap.h"
 #include "atlas/charts/join.h"
 #include "atlas/charts/orient.h"
 #include "atlas/charts/settle.h"

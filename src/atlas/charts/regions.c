@@ -4,7 +4,7 @@
  * is turned or scaled, and are taken in the order of their numbers. */
 #include "atlas/charts/regions.h"
 
-#include "atlas/charts/heap.h"
+#include "mesh/heap.h"
 
 #include <math.h>
 #include <stdlib.h>

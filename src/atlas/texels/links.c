@@ -28,33 +28,12 @@ static bool add_pair(pairs *p, uint32_t a, uint32_t b)
     return true;
 }
 
-/* A row of the triangle's pixels: where it begins among its pieces. */
-typedef struct {
-    uint32_t x, y, count;
-    size_t first;
-} row;
-
-/* Pairs the triangle's own texels that share a side: a triangle is convex, so it passes through that side. */
-static bool pair_inside(pairs *p, sp_pieces *pieces, const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle)
+static bool pair_sides(void *user, uint32_t a, uint32_t b, uint32_t x, uint32_t y, bool above)
 {
-    if (!sp_pieces_of(pieces, atlas, mesh, triangle) ||
-        !sp_atlas_cover(atlas, triangle, SP_COVER_PIXELS, &pieces->cover))
-        return false;
-    const sp_cover *cover = &pieces->cover;
-    const sp_piece *items = pieces->items;
-    row below = {0};
-    for (size_t first = 0; sp_cover_next(&pieces->cover); first += cover->count) {
-        for (size_t i = first + 1; i < first + cover->count; i++)
-            if (!add_pair(p, items[i - 1].texel, items[i].texel))
-                return false;
-        uint32_t from = cover->x > below.x ? cover->x : below.x, end = cover->x + cover->count;
-        end = end < below.x + below.count ? end : below.x + below.count;
-        for (uint32_t x = from; below.y + 1 == cover->y && x < end; x++)
-            if (!add_pair(p, items[below.first + (x - below.x)].texel, items[first + (x - cover->x)].texel))
-                return false;
-        below = (row){cover->x, cover->y, cover->count, first};
-    }
-    return true;
+    (void)x;
+    (void)y;
+    (void)above;
+    return add_pair(user, a, b);
 }
 
 /* Where two sides of an edge that is not cut meet a corner of the pixels, round-off may name two texels across it. */
@@ -119,7 +98,7 @@ bool sp_texel_links_create(sp_texel_links *links, const sp_atlas *atlas, const s
     sp_pieces pieces = {0};
     bool done = true;
     for (uint32_t t = 0; t < mesh->triangle_count && done; t++)
-        done = pair_inside(&p, &pieces, atlas, mesh, t);
+        done = sp_pieces_sides(&pieces, atlas, mesh, t, pair_sides, &p);
     done = done && pair_edges(&p, atlas, mesh, error) && collect(links, atlas, &p, error);
     free(p.items);
     sp_pieces_free(&pieces);

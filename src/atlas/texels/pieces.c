@@ -45,6 +45,36 @@ bool sp_pieces_of(sp_pieces *pieces, const sp_atlas *atlas, const sp_mesh *mesh,
     return true;
 }
 
+/* A row of the triangle's pixels: where it begins among its pieces. */
+typedef struct {
+    uint32_t x, y, count;
+    size_t first;
+} piece_row;
+
+bool sp_pieces_sides(sp_pieces *pieces, const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle,
+                     sp_pieces_visitor *visit, void *user)
+{
+    if (!sp_pieces_of(pieces, atlas, mesh, triangle) ||
+        !sp_atlas_cover(atlas, triangle, SP_COVER_PIXELS, &pieces->cover))
+        return false;
+    const sp_cover *cover = &pieces->cover;
+    const sp_piece *items = pieces->items;
+    piece_row below = {0};
+    for (size_t first = 0; sp_cover_next(&pieces->cover); first += cover->count) {
+        for (uint32_t i = 1; i < cover->count; i++)
+            if (!visit(user, items[first + i - 1].texel, items[first + i].texel, cover->x + i - 1, cover->y, false))
+                return false;
+        uint32_t from = cover->x > below.x ? cover->x : below.x, end = cover->x + cover->count;
+        end = end < below.x + below.count ? end : below.x + below.count;
+        for (uint32_t x = from; below.y + 1 == cover->y && x < end; x++)
+            if (!visit(user, items[below.first + (x - below.x)].texel, items[first + (x - cover->x)].texel, x, below.y,
+                       true))
+                return false;
+        below = (piece_row){cover->x, cover->y, cover->count, first};
+    }
+    return true;
+}
+
 void sp_pieces_free(sp_pieces *pieces)
 {
     free(pieces->items);

@@ -1,6 +1,6 @@
 /* A binary heap of 64-bit keys, the least on top. */
-#ifndef ATLAS_HEAP_H
-#define ATLAS_HEAP_H
+#ifndef SPRAYPLAN_MESH_HEAP_H
+#define SPRAYPLAN_MESH_HEAP_H
 
 #include <stdbool.h>
 #include <stddef.h>

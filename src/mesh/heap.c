@@ -1,4 +1,4 @@
-#include "atlas/charts/heap.h"
+#include "mesh/heap.h"
 
 #include <stdlib.h>
 

@@ -1,0 +1,176 @@
+#include "atlas/texels/borders.h"
+#include "atlas/least.h"
+#include "atlas/texels/texels.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct {
+    const sp_atlas *atlas;
+    const sp_mesh *mesh;
+    sp_border_visitor *visit;
+    void *user;
+} walk;
+
+static bool visit_sides(const walk *w, sp_border border)
+{
+    for (uint8_t side = 0; side < 2; side++) {
+        border.side = border.other_side = side;
+        if (!w->visit(w->user, &border))
+            return false;
+    }
+    return true;
+}
+
+/* One triangle on its page, and how far one goes on the surface for a pixel along x and along y. */
+typedef struct {
+    const walk *walk;
+    uint32_t triangle;
+    const double (*uv)[2];
+    sp_vec3 along[2], normal;
+} sheet;
+
+/* The part, within [low, low + 1], of the line on which coordinate `k` is `at` that lies in the triangle; 0 for none.
+ */
+static double length_inside(const double (*uv)[2], int k, double at, double low)
+{
+    double from = INFINITY, to = -INFINITY;
+    for (int i = 0; i < 3; i++) {
+        const double *p = uv[i], *q = uv[(i + 1) % 3];
+        if ((p[k] < at) == (q[k] < at))
+            continue;
+        double cut = p[1 - k] + (at - p[k]) / (q[k] - p[k]) * (q[1 - k] - p[1 - k]);
+        from = sp_least(from, cut);
+        to = sp_most(to, cut);
+    }
+    return sp_most(0, sp_least(to, low + 1) - sp_most(from, low));
+}
+
+/* The border between pixel x, y and the next one along x or, `above`, along y. */
+static bool visit_between(void *user, uint32_t a, uint32_t b, uint32_t x, uint32_t y, bool above)
+{
+    const sheet *s = user;
+    double length = above ? length_inside(s->uv, 1, y + 1.0, x) : length_inside(s->uv, 0, x + 1.0, y);
+    if (a == b || !(length > 0))
+        return true;
+    sp_vec3 step = sp_scale(s->along[above ? 0 : 1], length);
+    sp_vec3 outward = above ? sp_cross(s->normal, step) : sp_cross(step, s->normal);
+    return visit_sides(s->walk, (sp_border){a, s->triangle, b, 0, 0, outward}) &&
+           visit_sides(s->walk, (sp_border){b, s->triangle, a, 0, 0, sp_scale(outward, -1)});
+}
+
+static bool visit_inside(const walk *w, uint32_t triangle, sp_pieces *pieces)
+{
+    const double(*uv)[2] = (const double(*)[2])w->atlas->uv[triangle];
+    double u[2] = {uv[1][0] - uv[0][0], uv[1][1] - uv[0][1]}, v[2] = {uv[2][0] - uv[0][0], uv[2][1] - uv[0][1]};
+    double twice = u[0] * v[1] - u[1] * v[0];
+    if (!(twice > 0))
+        return true;
+    const sp_vec3 *at = w->mesh->vertices;
+    const uint32_t *corner = w->mesh->triangles[triangle];
+    sp_vec3 first = sp_sub(at[corner[1]], at[corner[0]]), second = sp_sub(at[corner[2]], at[corner[0]]);
+    sheet s = {w, triangle, uv, .normal = sp_triangle_normal(w->mesh, triangle)};
+    s.along[0] = sp_along(sp_scale(first, v[1] / twice), -u[1] / twice, second);
+    s.along[1] = sp_along(sp_scale(first, -v[0] / twice), u[0] / twice, second);
+    return sp_pieces_sides(pieces, w->atlas, w->mesh, triangle, visit_between, &s);
+}
+
+/* One triangle at an edge, as it is met on the way about it. */
+typedef struct {
+    uint32_t half_edge;
+    double angle;
+    bool ahead; /* its front faces what comes next */
+} leaf;
+
+static int by_angle(const void *left, const void *right)
+{
+    const leaf *a = left, *b = right;
+    if (a->angle != b->angle)
+        return a->angle < b->angle ? -1 : 1;
+    return (a->half_edge > b->half_edge) - (a->half_edge < b->half_edge);
+}
+
+static sp_vec3 step_of(const sp_mesh *mesh, uint32_t half_edge)
+{
+    return sp_sub(mesh->vertices[sp_half_edge_to(mesh, half_edge)], mesh->vertices[sp_half_edge_from(mesh, half_edge)]);
+}
+
+/* Sorts the triangles of an edge about the first of them. */
+static void sort_leaves(const sp_mesh *mesh, const uint32_t *half_edges, size_t count, leaf *leaves)
+{
+    sp_vec3 edge = sp_unit(step_of(mesh, half_edges[0])), x = {0}, y = {0};
+    for (size_t i = 0; i < count; i++) {
+        sp_vec3 normal = sp_triangle_normal(mesh, half_edges[i] / 3);
+        sp_vec3 into = sp_unit(sp_cross(normal, step_of(mesh, half_edges[i])));
+        if (i == 0) {
+            x = into;
+            y = sp_cross(edge, into);
+        }
+        double angle = i == 0 ? 0 : atan2(sp_dot(into, y), sp_dot(into, x));
+        leaves[i] =
+            (leaf){half_edges[i], angle < 0 ? angle + 2 * M_PI : angle, sp_dot(normal, sp_cross(edge, into)) > 0};
+    }
+    qsort(leaves, count, sizeof *leaves, by_angle);
+}
+
+/* All along an edge, out of one triangle over one of its sides. `b` is `a` where the surface ends. */
+static bool visit_edge(const walk *w, sp_edge_walk *edge, uint32_t a, uint32_t b, sp_border border)
+{
+    sp_vec3 outward = sp_cross(step_of(w->mesh, a), sp_triangle_normal(w->mesh, a / 3));
+    if (!sp_edge_walk_begin(edge, w->atlas, w->mesh, a, b))
+        return false;
+    border.triangle = a / 3;
+    while (sp_edge_walk_next(edge, w->atlas)) {
+        border.texel = edge->texel_a;
+        border.other = a == b ? SP_NONE : edge->texel_b;
+        border.outward = sp_scale(outward, edge->to - edge->from);
+        if (border.texel != border.other && !w->visit(w->user, &border))
+            return false;
+    }
+    return true;
+}
+
+/* Over either side of the triangle at `i` of an edge. */
+static bool visit_leaf(const walk *w, sp_edge_walk *edge, const leaf *leaves, size_t count, size_t i)
+{
+    const leaf *own = &leaves[i];
+    for (uint8_t side = 0; side < 2; side++) {
+        bool ahead = own->ahead == (side == 0);
+        const leaf *next = &leaves[ahead ? (i + 1) % count : (i + count - 1) % count];
+        sp_border border = {.side = side, .other_side = next->ahead == ahead ? 1 : 0};
+        if (!visit_edge(w, edge, own->half_edge, next->half_edge, border))
+            return false;
+    }
+    return true;
+}
+
+static bool visit_edges(const walk *w, sp_error *error)
+{
+    sp_half_edges edges = {0};
+    sp_edge_walk edge = {0};
+    leaf *leaves = malloc((3 * w->mesh->triangle_count + 1) * sizeof *leaves);
+    bool done = leaves && sp_half_edges_create(w->mesh, &edges, error);
+    for (size_t i = 0, of_edge; done && i < 3 * w->mesh->triangle_count; i += of_edge) {
+        of_edge = sp_half_edges_of_edge(w->mesh, &edges, i);
+        sort_leaves(w->mesh, &edges.order[i], of_edge, leaves);
+        for (size_t k = 0; done && k < of_edge; k++)
+            done = visit_leaf(w, &edge, leaves, of_edge, k);
+    }
+    sp_edge_walk_free(&edge);
+    sp_half_edges_destroy(&edges);
+    free(leaves);
+    return done;
+}
+
+bool sp_atlas_visit_borders(const sp_atlas *atlas, const sp_mesh *mesh, sp_border_visitor *visit, void *user,
+                            sp_error *error)
+{
+    walk w = {atlas, mesh, visit, user};
+    sp_pieces pieces = {0};
+    bool done = true;
+    for (uint32_t t = 0; done && t < mesh->triangle_count; t++)
+        done = visit_inside(&w, t, &pieces);
+    done = done && visit_edges(&w, error);
+    sp_pieces_free(&pieces);
+    return done || sp_fail_memory(error);
+}

@@ -1,0 +1,202 @@
+#include "film/flood.h"
+
+#include "atlas/order.h"
+#include "mesh/disjoint_sets.h"
+#include "mesh/heap.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LEVEL 1e-9 /* of the height of all: cells nearer to each other than this are level */
+#define DEEP 0.05  /* the same: deeper hollows are not filled */
+
+typedef struct {
+    const sp_film_surface *surface;
+    const sp_film_links *links;
+    const uint32_t *ends;
+    uint32_t *rising;  /* [cells], by height */
+    uint32_t *height;  /* [cells], rank among all heights; level cells have the same */
+    double *metres;    /* [cells], by that rank */
+    uint32_t *level;   /* [cells], the same rank, that liquid has to rise to */
+    uint32_t *fed;     /* [cells], one of the cells that end there, SP_NONE for none */
+    uint32_t *fed_too; /* [cells], the next one that ends where this one does */
+    uint32_t *hollow;  /* [cells], disjoint sets */
+    bool *reached;
+    sp_heap heap; /* level, whether sunk, cell */
+    sp_film_order *order;
+} flood;
+
+static double height_of(const sp_film_surface *surface, uint32_t cell)
+{
+    return -sp_dot(surface->cells->point[cell], surface->down);
+}
+
+/* Heights as numbers, rounded so that what differs by round-off is level. */
+static bool rank_heights(flood *own)
+{
+    size_t count = own->links->count;
+    double low = INFINITY, high = -INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+        low = fmin(low, height_of(own->surface, i));
+        high = fmax(high, height_of(own->surface, i));
+    }
+    double step = LEVEL * (high - low);
+    uint64_t *keys = malloc((count + 1) * sizeof *keys);
+    for (uint32_t i = 0; keys && i < count; i++)
+        keys[i] = step > 0 ? (uint64_t)llround((height_of(own->surface, i) - low) / step) : 0;
+    bool done = keys && (count == 0 || sp_order_by_key(keys, count, own->rising));
+    for (uint32_t i = 0, rank = 0; done && i < count; i++) {
+        uint32_t cell = own->rising[i];
+        rank += i > 0 && keys[cell] != keys[own->rising[i - 1]];
+        own->height[cell] = rank;
+        own->metres[rank] = height_of(own->surface, cell);
+    }
+    free(keys);
+    return done;
+}
+
+/* Turns the ends round: which cells end at each. */
+static void list_fed(flood *own)
+{
+    for (size_t i = 0; i < own->links->count; i++)
+        own->fed[i] = own->fed_too[i] = SP_NONE;
+    for (uint32_t i = (uint32_t)own->links->count; i-- > 0;)
+        if (sp_film_is_cell(own->ends[i])) {
+            own->fed_too[i] = own->fed[own->ends[i]];
+            own->fed[own->ends[i]] = i;
+        }
+}
+
+static bool reach(flood *own, uint32_t cell, uint32_t from, uint32_t level)
+{
+    if (own->reached[cell])
+        return true;
+    own->reached[cell] = true;
+    own->order->parent[cell] = from;
+    bool sunk = own->order->sunk[cell] = level > own->height[cell];
+    own->level[cell] = sunk ? level : own->height[cell];
+    return sp_heap_push(&own->heap, (uint64_t)own->level[cell] << 33 | (uint64_t)sunk << 32 | cell);
+}
+
+/* Empties the heap. */
+static bool spread(flood *own, uint32_t *rank)
+{
+    const sp_film_links *links = own->links;
+    while (own->heap.count) {
+        uint64_t key = sp_heap_pop(&own->heap);
+        uint32_t cell = (uint32_t)key, level = (uint32_t)(key >> 33);
+        own->order->rank[cell] = (*rank)++;
+        for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++)
+            if (!sp_film_drips(own->surface, links->to[k]) && !reach(own, links->to[k], cell, level))
+                return false;
+        for (uint32_t fed = own->fed[cell]; fed != SP_NONE; fed = own->fed_too[fed])
+            if (!reach(own, fed, cell, level))
+                return false;
+    }
+    return true;
+}
+
+/* From all ends and from where liquid stands, then from the lowest of what none of these drains. */
+static bool fill(flood *own)
+{
+    size_t count = own->links->count;
+    uint32_t rank = 0;
+    bool *held = own->order->held;
+    memset(own->reached, 0, count);
+    for (uint32_t i = 0; i < count; i++)
+        if ((held[i] || own->ends[i] == SP_FILM_LEFT || own->ends[i] == SP_FILM_ASTRAY) &&
+            !reach(own, i, SP_NONE, own->height[i]))
+            return false;
+    if (!spread(own, &rank))
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t lowest = own->rising[i];
+        if (own->reached[lowest])
+            continue;
+        held[lowest] = true;
+        if (!reach(own, lowest, SP_NONE, own->height[lowest]) || !spread(own, &rank))
+            return false;
+    }
+    return true;
+}
+
+/* Marks the lowest cell of every hollow that is too deep to be filled; false where there is none. */
+static bool drain_deep(flood *own)
+{
+    const sp_film_links *links = own->links;
+    const bool *sunk = own->order->sunk;
+    double most = DEEP * (own->metres[own->height[own->rising[links->count - 1]]] - own->metres[0]);
+    bool any = false, *drained = own->reached; /* by set; what was reached is not asked for any more */
+    memset(drained, 0, links->count);
+    for (uint32_t i = 0; i < links->count; i++)
+        own->hollow[i] = i;
+    for (uint32_t i = 0; i < links->count; i++)
+        for (size_t k = links->start[i]; sunk[i] && k < links->start[i + 1]; k++)
+            if (sunk[links->to[k]])
+                sp_set_join(own->hollow, i, links->to[k]);
+    for (size_t i = 0; i < links->count; i++) {
+        uint32_t cell = own->rising[i], hollow = sp_set_root(own->hollow, cell);
+        if (!sunk[cell] || drained[hollow] || own->metres[own->level[cell]] - own->metres[own->height[cell]] <= most)
+            continue;
+        own->order->held[cell] = drained[hollow] = any = true;
+    }
+    return any;
+}
+
+static bool allocate(flood *own, sp_film_order *order, size_t room)
+{
+    *order = (sp_film_order){.rank = malloc(room * sizeof *order->rank),
+                             .parent = malloc(room * sizeof *order->parent),
+                             .sunk = calloc(room, sizeof *order->sunk),
+                             .held = calloc(room, sizeof *order->held)};
+    own->height = malloc(room * sizeof *own->height);
+    own->rising = malloc(room * sizeof *own->rising);
+    own->metres = malloc(room * sizeof *own->metres);
+    own->level = malloc(room * sizeof *own->level);
+    own->fed = malloc(room * sizeof *own->fed);
+    own->fed_too = malloc(room * sizeof *own->fed_too);
+    own->hollow = malloc(room * sizeof *own->hollow);
+    own->reached = malloc(room * sizeof *own->reached);
+    return order->rank && order->parent && order->sunk && order->held && own->height && own->rising && own->metres &&
+           own->level && own->fed && own->fed_too && own->hollow && own->reached;
+}
+
+static void flood_free(flood *own)
+{
+    free(own->height);
+    free(own->rising);
+    free(own->metres);
+    free(own->level);
+    free(own->fed);
+    free(own->fed_too);
+    free(own->hollow);
+    free(own->reached);
+    free(own->heap.keys);
+}
+
+bool sp_film_order_create(const sp_film_surface *surface, const sp_film_links *links, const uint32_t *ends,
+                          sp_film_order *order, sp_error *error)
+{
+    flood own = {.surface = surface, .links = links, .ends = ends, .order = order};
+    bool done = allocate(&own, order, links->count + 1) && rank_heights(&own);
+    if (done)
+        list_fed(&own);
+    done = done && fill(&own);
+    while (done && links->count && drain_deep(&own)) /* each turn holds what the one before found nested in it */
+        done = fill(&own);
+    flood_free(&own);
+    if (done)
+        return true;
+    sp_film_order_free(order);
+    return sp_fail_memory(error);
+}
+
+void sp_film_order_free(sp_film_order *order)
+{
+    free(order->rank);
+    free(order->parent);
+    free(order->sunk);
+    free(order->held);
+    *order = (sp_film_order){0};
+}

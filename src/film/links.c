@@ -1,0 +1,134 @@
+#include "film/links.h"
+
+#include "atlas/order.h"
+#include "atlas/texels/borders.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* A piece of a border between two cells. */
+typedef struct {
+    uint32_t from, to;
+    double across, length;
+} piece;
+
+typedef struct {
+    const sp_film_surface *surface;
+    sp_film_links *links;
+    size_t count, capacity;
+    piece *pieces;
+} gathering;
+
+sp_vec3 sp_film_tangent(sp_vec3 normal, sp_vec3 down)
+{
+    sp_vec3 along = sp_along(down, -sp_dot(down, normal), normal);
+    return sp_length(along) < SP_FILM_FLAT ? sp_v(0, 0, 0) : sp_unit(along);
+}
+
+static bool add_piece(gathering *own, piece added)
+{
+    if (own->count == own->capacity) {
+        size_t capacity = own->capacity ? own->capacity + own->capacity / 2 : 4096;
+        piece *pieces = realloc(own->pieces, capacity * sizeof *pieces);
+        if (!pieces)
+            return false;
+        own->pieces = pieces;
+        own->capacity = capacity;
+    }
+    own->pieces[own->count++] = added;
+    return true;
+}
+
+static bool take_border(void *user, const sp_border *border)
+{
+    gathering *own = user;
+    const sp_film_surface *surface = own->surface;
+    uint32_t from = surface->cell_of[border->texel][border->side];
+    uint32_t to = border->other == SP_NONE ? SP_NONE : surface->cell_of[border->other][border->other_side];
+    if (from == SP_NONE || from == to)
+        return true;
+    sp_vec3 tangent = sp_film_tangent(sp_triangle_normal(surface->mesh, border->triangle), surface->down);
+    double across = sp_dot(tangent, border->outward);
+    if (to != SP_NONE)
+        return add_piece(own, (piece){from, to, across, sp_length(border->outward)});
+    own->links->end_across[from] += across;
+    own->links->end[from] = sp_add(own->links->end[from], border->outward);
+    return true;
+}
+
+/* The pieces in the order of the cells that they are between; NULL where memory ran out. */
+static uint32_t *order_of(const gathering *own)
+{
+    uint64_t *keys = malloc((own->count + 1) * sizeof *keys);
+    uint32_t *order = malloc((own->count + 1) * sizeof *order);
+    bool done = keys && order;
+    for (size_t i = 0; done && i < own->count; i++)
+        keys[i] = (uint64_t)own->pieces[i].from << 32 | own->pieces[i].to;
+    done = done && sp_order_by_key(keys, own->count, order);
+    free(keys);
+    if (done)
+        return order;
+    free(order);
+    return NULL;
+}
+
+/* One link for all pieces of a border. */
+static bool join(const gathering *own)
+{
+    sp_film_links *links = own->links;
+    uint32_t *order = order_of(own);
+    links->to = malloc((own->count + 1) * sizeof *links->to);
+    links->across = malloc((own->count + 1) * sizeof *links->across);
+    links->length = malloc((own->count + 1) * sizeof *links->length);
+    bool done = order && links->to && links->across && links->length;
+    size_t count = 0;
+    for (size_t i = 0; done && i < own->count; i++) {
+        const piece *next = &own->pieces[order[i]], *last = i ? &own->pieces[order[i - 1]] : NULL;
+        if (!last || last->from != next->from || last->to != next->to) {
+            links->to[count] = next->to;
+            links->across[count] = links->length[count] = 0;
+            links->start[next->from + 1] = ++count;
+        }
+        links->across[count - 1] += next->across;
+        links->length[count - 1] += next->length;
+    }
+    for (size_t i = 0; done && i < links->count; i++)
+        if (links->start[i + 1] < links->start[i])
+            links->start[i + 1] = links->start[i];
+    free(order);
+    return done;
+}
+
+bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, sp_error *error)
+{
+    size_t count = surface->cells->count;
+    *links = (sp_film_links){.count = count,
+                             .start = calloc(count + 1, sizeof *links->start),
+                             .end_across = calloc(count + 1, sizeof *links->end_across),
+                             .end = calloc(count + 1, sizeof *links->end)};
+    gathering own = {.surface = surface, .links = links};
+    bool done = links->start && links->end_across && links->end &&
+                sp_atlas_visit_borders(surface->atlas, surface->mesh, take_border, &own, error);
+    if (done && own.count >= SP_NONE) {
+        sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "film: %zu borders of texels found, too many: take a coarser texel",
+                own.count);
+        done = false;
+    }
+    done = done && join(&own);
+    free(own.pieces);
+    if (done)
+        return true;
+    sp_film_links_free(links);
+    return sp_fail_memory(error);
+}
+
+void sp_film_links_free(sp_film_links *links)
+{
+    free(links->start);
+    free(links->to);
+    free(links->across);
+    free(links->length);
+    free(links->end_across);
+    free(links->end);
+    *links = (sp_film_links){0};
+}

@@ -1,0 +1,25 @@
+/* Which cells share a border, and how much of what runs on one crosses it. */
+#ifndef FILM_LINKS_H
+#define FILM_LINKS_H
+
+#include "film/film.h"
+
+#define SP_FILM_FLAT 1e-3 /* sine of the slope: less is level, as geometry in single precision tells it */
+
+typedef struct {
+    size_t count;  /* of cells */
+    size_t *start; /* [count + 1], links of cell i are start[i] up to start[i + 1], ascending by `to` */
+    uint32_t *to;
+    double *across;     /* m, Σ t·b: what runs over the border out of the cell, above 0, or may run in from beyond */
+    double *length;     /* m */
+    double *end_across; /* [count], m, as `across`, of borders where the surface ends or goes on dry */
+    sp_vec3 *end;       /* [count], m, Σ b of these */
+} sp_film_links;
+
+bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, sp_error *error);
+void sp_film_links_free(sp_film_links *links);
+
+/* Unit vector in the plane with that normal (unit) along which gravity pulls; 0 where the plane is level. */
+sp_vec3 sp_film_tangent(sp_vec3 normal, sp_vec3 down);
+
+#endif
