@@ -30,6 +30,7 @@ typedef struct {
     double *film;  /* what runs down the patch, m²/s: flow per width; 0 where the criterion does not ask */
     double *share; /* of the patch, that is covered: all where `even` or `film` meets the criterion, else 1 - dry */
     bool *covered; /* at least half of it */
+    bool *by_film; /* covered, and less than half of it by impact */
 } sp_deposits;
 
 /* What one nozzle's passing arrivals bring to a patch that may lie across the edge of its spray. An arrival that meets
@@ -150,7 +151,7 @@ typedef struct {
     double flow;                                    /* m³/s */
     double area_per_water;                          /* covered area over flow, m² per m³/s; 0 without flow */
     double flux_min, flux_mean, flux_p05, flux_max; /* m³/s per m² over the clean area, by area; p05: 5th percentile */
-    sp_balance balance;         /* known from the forward evaluator; else sp_evaluate_balance works it out */
+    sp_balance balance; /* known from the forward evaluator; else sp_evaluate_balance works it out */
     sp_film_balance film;
     sp_measured_error measured; /* not known until sp_measure_error is asked for it */
     sp_borderline borderline;   /* not known until sp_find_borderline is asked for it */

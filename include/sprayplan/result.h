@@ -55,6 +55,7 @@ typedef struct {
     double area_per_water;                               /* m² per m³/s */
     double flux_min, flux_mean, flux_p05, flux_max;      /* m³/s per m² */
     double landed_clean, landed_other, left, unfollowed; /* m³/s, as sp_balance */
+    sp_film_balance film;                                /* as sp_coverage */
     size_t shadow_count;                                 /* at most SP_SHADOWS_KEPT, largest first */
     sp_shadow_figures *shadows;                          /* owned */
     size_t nozzle_count;

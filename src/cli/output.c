@@ -170,6 +170,23 @@ static void print_liquid(const sp_result *result, const sp_figures *figures, int
     }
 }
 
+/* What runs down the walls, and what of it stays: a hollow that cannot drain is a fault of the vessel. */
+static void print_film(const sp_result *result, const sp_figures *figures, int width)
+{
+    bool told = false;
+    for (size_t i = 0; i < result->design_count; i++) {
+        const sp_film_balance *film = &figures[i].film;
+        if (!film->known)
+            continue;
+        if (!told)
+            printf("\n%-*s %12s %16s %16s %16s %22s\n", width, "film", "alone m2", "drains L/min", "stands L/min",
+                   "astray L/min", "per outline L/min/m");
+        told = true;
+        printf("%-*s %12.3f %16.1f %16.1f %16.1f %22.1f\n", width, result->designs[i].name, film->area,
+               6e4 * film->left, 6e4 * film->held, 6e4 * film->astray, 6e4 * film->per_outline);
+    }
+}
+
 /* What is proved, in the report's own words; rounded so that it stays true. */
 static void print_forward_check(const sp_forward_check *check)
 {
@@ -265,6 +282,7 @@ static bool print_summary(const sp_result *result, sp_error *error)
     print_choice(result, figures);
     print_noise(result);
     print_liquid(result, figures, width);
+    print_film(result, figures, width);
     if (result->proposal) {
         print_forward_check(&result->proposal->forward_check);
         print_certificate(result->proposal);

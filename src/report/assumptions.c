@@ -109,6 +109,13 @@ static void add_criterion(sp_text *text, const sp_criterion *criterion)
     else
         sp_text_add(text, criterion->combine == SP_COMBINE_SINGLE ? "; one nozzle alone must do it"
                                                                   : "; the flux of all nozzles adds up");
+    if (criterion->film > 0)
+        sp_text_add(
+            text,
+            "; or at least %.4g&nbsp;L/min runs down per metre of width: rinsed by film, whatever hits it. All "
+            "that hits a wall runs down from there at once, also what it would throw back; rivulets of less are "
+            "not counted",
+            6e4 * criterion->film);
     sp_text_add(text, "</dd>\n");
 }
 

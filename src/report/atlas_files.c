@@ -58,10 +58,10 @@ bool sp_report_coverage_png(const sp_design *design, const char *path, sp_error 
     return sp_coverage_png(design, sp_flux_scale_of(design, 1), path, error);
 }
 
-#define CHANNELS 11
+#define CHANNELS 12
 static const char *const channel_names[CHANNELS] = {"flux",      "jets",          "speed",  "speed_max",
                                                     "incidence", "incidence_min", "impact", "impact_max",
-                                                    "covered",   "area",          "chart"};
+                                                    "covered",   "area",          "film",   "chart"};
 
 static void fill_part(const sp_layers *layers, const sp_deposits *deposits, size_t page, int layer, float *pixels)
 {
@@ -82,7 +82,7 @@ static void fill_part(const sp_layers *layers, const sp_deposits *deposits, size
             deposits->flux[patch],      deposits->jets[patch],       deposits->speed[patch],
             deposits->speed_max[patch], deposits->incidence[patch],  deposits->incidence_min[patch],
             deposits->impact[patch],    deposits->impact_max[patch], deposits->share[patch],
-            patches->area[patch]};
+            patches->area[patch],       deposits->film[patch]};
         for (int k = 0; k < CHANNELS - 1; ++k)
             pixel[k] = (float)values[k];
     }

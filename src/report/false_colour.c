@@ -6,6 +6,7 @@
 
 const uint8_t sp_colour_hatch[2][3] = {{250, 248, 245}, {196, 38, 54}};
 const uint8_t sp_colour_obstacle[3] = {172, 178, 184};
+const uint8_t sp_colour_film[3] = {152, 203, 243};
 
 #define BINS 1000
 #define BINS_A_DECADE 50.0
@@ -49,7 +50,7 @@ sp_flux_scale sp_flux_scale_of(const sp_design *designs, size_t count)
         const sp_deposits *deposits = &designs[i].coverage->deposits;
         criterion = fmax(criterion, sp_evaluator_setup(designs[i].evaluator)->criterion.flux);
         for (size_t k = 0; k < patches->count; ++k) {
-            if (!deposits->covered[k] || !(deposits->flux[k] > 0))
+            if (!deposits->covered[k] || deposits->by_film[k] || !(deposits->flux[k] > 0))
                 continue;
             double bin = fmin(fmax((log10(deposits->flux[k]) - LOWEST) * BINS_A_DECADE, 0), BINS - 1);
             bins[(int)bin] += patches->area[k];
@@ -76,7 +77,9 @@ double sp_flux_scale_place(sp_flux_scale scale, double flux)
 
 void sp_false_colour(sp_flux_scale scale, const sp_deposits *deposits, uint32_t patch, int stripe, uint8_t rgb[3])
 {
-    if (deposits->covered[patch])
+    if (deposits->by_film[patch])
+        memcpy(rgb, sp_colour_film, 3);
+    else if (deposits->covered[patch])
         sp_viridis(sp_flux_scale_place(scale, deposits->flux[patch]), rgb);
     else
         memcpy(rgb, sp_colour_hatch[stripe], 3);

@@ -18,6 +18,7 @@ double sp_flux_scale_place(sp_flux_scale scale, double flux);
 /* Uncovered patches are hatched white and red: told from viridis by any eye, and in black and white. */
 extern const uint8_t sp_colour_hatch[2][3];
 extern const uint8_t sp_colour_obstacle[3];
+extern const uint8_t sp_colour_film[3]; /* covered by film and not by impact */
 
 /* `stripe` picks the hatch's colour, 0 or 1. */
 void sp_false_colour(sp_flux_scale scale, const sp_deposits *deposits, uint32_t patch, int stripe, uint8_t rgb[3]);

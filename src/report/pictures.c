@@ -48,6 +48,14 @@ static void add_ticks(sp_text *text, sp_flux_scale scale)
         }
 }
 
+static bool shows_film(const sp_page *page)
+{
+    for (size_t i = 0; i < page->result->design_count; ++i)
+        if (page->result->designs[i].evaluator && page->figures[i].film.known)
+            return true;
+    return false;
+}
+
 static void add_colour_bar(const sp_page *page, sp_text *text)
 {
     sp_text_add(
@@ -64,8 +72,14 @@ static void add_colour_bar(const sp_page *page, sp_text *text)
         text,
         "<rect class=\"swatch\" x=\"450\" y=\"20\" width=\"36\" height=\"18\" fill=\"url(#hatch)\"/><text x=\"494\" "
         "y=\"34\">not covered</text><rect class=\"swatch\" x=\"600\" y=\"20\" width=\"36\" height=\"18\" "
-        "fill=\"#%02x%02x%02x\"/><text x=\"644\" y=\"34\">no cleaning asked</text>\n</svg>\n",
+        "fill=\"#%02x%02x%02x\"/><text x=\"644\" y=\"34\">no cleaning asked</text>\n",
         sp_colour_obstacle[0], sp_colour_obstacle[1], sp_colour_obstacle[2]);
+    if (shows_film(page))
+        sp_text_add(text,
+                    "<rect class=\"swatch\" x=\"450\" y=\"44\" width=\"36\" height=\"18\" "
+                    "fill=\"#%02x%02x%02x\"/><text x=\"494\" y=\"58\">covered by film alone</text>\n",
+                    sp_colour_film[0], sp_colour_film[1], sp_colour_film[2]);
+    sp_text_add(text, "</svg>\n");
 }
 
 #define LOOK_GREY (SP_LOOK_NOTHING - 1)

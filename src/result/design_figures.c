@@ -38,6 +38,7 @@ static void set_coverage(sp_figures *figures, const sp_coverage *coverage)
     figures->landed_other = balance->known ? balance->other : NAN;
     figures->left = balance->known ? balance->left : NAN;
     figures->unfollowed = balance->known ? balance->unfollowed : NAN;
+    figures->film = coverage->film;
     figures->flux_min = coverage->flux_min;
     figures->flux_mean = coverage->flux_mean;
     figures->flux_p05 = coverage->flux_p05;

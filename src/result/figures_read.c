@@ -266,6 +266,25 @@ static bool read_liquid(const reader *in, const json_t *layout, sp_figures *figu
            get_real(&inner, liquid, "not_followed", 0, LARGEST, l_min, &figures->unfollowed);
 }
 
+static bool read_film(const reader *in, const json_t *layout, sp_film_balance *balance)
+{
+    const double l_min = 1 / 6e4;
+    const json_t *film;
+    if (!get_part(in, layout, "film", JSON_OBJECT, false, &film))
+        return false;
+    if (!film)
+        return true;
+    reader inner = *in;
+    snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "film.");
+    balance->known = true;
+    return get_real(&inner, film, "covered_area_m2", 0, LARGEST, 1, &balance->area) &&
+           get_real(&inner, film, "arriving_l_min", 0, LARGEST, l_min, &balance->arriving) &&
+           get_real(&inner, film, "left_l_min", 0, LARGEST, l_min, &balance->left) &&
+           get_real(&inner, film, "astray_l_min", 0, LARGEST, l_min, &balance->astray) &&
+           get_real(&inner, film, "held_l_min", 0, LARGEST, l_min, &balance->held) &&
+           get_real(&inner, film, "per_outline_l_min_m", 0, LARGEST, l_min, &balance->per_outline);
+}
+
 static bool read_reason(const reader *in, const json_t *entry, sp_reason *reason)
 {
     const json_t *found = json_object_get(entry, "reason");
@@ -345,7 +364,7 @@ static bool read_layout(const reader *in, const json_t *root, const json_t *layo
     if (!figures->name[0])
         return wrong(in, "name", json_object_get(layout, "name"), "a text that is not empty");
     return read_errors(in, layout, figures) && read_coverage(in, layout, figures) && read_liquid(in, layout, figures) &&
-           read_rows(in, layout, figures);
+           read_film(in, layout, &figures->film) && read_rows(in, layout, figures);
 }
 
 static json_t *parse(const char *path, sp_error *error)

@@ -139,6 +139,20 @@ static bool put_liquid(json_t *object, const sp_figures *figures)
     return put(object, "liquid_l_min", liquid) && done;
 }
 
+/* What runs down the walls, where the criterion asks for it. */
+static bool put_film(json_t *object, const sp_film_balance *balance)
+{
+    if (!balance->known)
+        return true;
+    json_t *film = json_object();
+    bool done =
+        put_real(film, "covered_area_m2", balance->area) && put_real(film, "arriving_l_min", 6e4 * balance->arriving) &&
+        put_real(film, "left_l_min", 6e4 * balance->left) && put_real(film, "astray_l_min", 6e4 * balance->astray) &&
+        put_real(film, "held_l_min", 6e4 * balance->held) &&
+        put_real(film, "per_outline_l_min_m", 6e4 * balance->per_outline);
+    return put(object, "film", film) && done;
+}
+
 static bool put_shadow(json_t *shadows, const sp_shadow_figures *figures)
 {
     json_t *shadow = json_object();
@@ -173,7 +187,7 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, const sp_eval
         put_real(layout, "borderline_m2", figures->borderline) &&
         put_real(layout, "coverage_of_attainable", figures->of_attainable) &&
         put_real(layout, "area_per_water", figures->area_per_water / 6e4) && put_flux(layout, figures) &&
-        put_liquid(layout, figures);
+        put_liquid(layout, figures) && put_film(layout, &figures->film);
     for (size_t i = 0; done && i < figures->shadow_count; ++i)
         done = put_shadow(shadows, &figures->shadows[i]);
     for (size_t i = 0; done && i < figures->nozzle_count; ++i)

@@ -20,10 +20,11 @@ sp_coverage *sp_coverage_create(const sp_evaluator *evaluator, sp_error *error)
         done = done && *columns[i];
     }
     deposits->covered = calloc(room, sizeof *deposits->covered);
+    deposits->by_film = calloc(room, sizeof *deposits->by_film);
     deposits->count = count;
     for (size_t i = 0; deposits->dry && i < count; i++)
         deposits->dry[i] = 1;
-    if (!done || !deposits->covered) {
+    if (!done || !deposits->covered || !deposits->by_film) {
         sp_coverage_destroy(coverage);
         return sp_fail_memory(error);
     }
@@ -49,6 +50,7 @@ void sp_coverage_destroy(sp_coverage *coverage)
     free(deposits->film);
     free(deposits->share);
     free(deposits->covered);
+    free(deposits->by_film);
     free(coverage);
 }
 
@@ -136,6 +138,7 @@ bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_layout *layout
         deposits->share[i] = sp_wetting_share(&(sp_wetting){deposits->even[i], deposits->dry[i], 0}, threshold);
         if (evaluator->rundown && deposits->film[i] >= evaluator->setup.criterion.film) {
             coverage->film.area += (1 - deposits->share[i]) * patches->area[i];
+            deposits->by_film[i] = deposits->share[i] < 0.5;
             deposits->share[i] = 1;
         }
         deposits->covered[i] = deposits->share[i] >= 0.5;

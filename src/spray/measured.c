@@ -19,20 +19,25 @@ typedef struct {
     double scatter; /* of the squared differences within pairs */
 } tally;
 
-/* What a point is off by. Where round-off left it no patch, nothing was said of it that could be wrong. */
-static double difference(const sp_coverage *coverage, const sp_point *point, bool covered)
+/* What a point is off by. Where round-off left it no patch, nothing was said of it that could be wrong; where film
+ * covers its patch, points have nothing to say. */
+static double difference(const sp_evaluator *evaluator, const sp_coverage *coverage, const sp_point *point,
+                         bool covered)
 {
-    return point->patch == SP_NONE ? 0 : coverage->deposits.share[point->patch] - covered;
+    double film = evaluator->setup.criterion.film;
+    if (point->patch == SP_NONE || (film > 0 && coverage->deposits.film[point->patch] >= film))
+        return 0;
+    return coverage->deposits.share[point->patch] - covered;
 }
 
 /* Neighbours have neighbouring parts of the surface to themselves, and are drawn independently: the square of what they
  * are apart is on average the sum of their variances, and more where the means of their parts differ. */
-static void add_block(const sp_coverage *coverage, const sp_point *points, const bool *covered, size_t count,
-                      tally *tally)
+static void add_block(const sp_evaluator *evaluator, const sp_coverage *coverage, const sp_point *points,
+                      const bool *covered, size_t count, tally *tally)
 {
     for (size_t i = 0; i < count; i += 2) {
-        double one = difference(coverage, &points[i], covered[i]);
-        double other = difference(coverage, &points[i + 1], covered[i + 1]);
+        double one = difference(evaluator, coverage, &points[i], covered[i]);
+        double other = difference(evaluator, coverage, &points[i + 1], covered[i + 1]);
         tally->sum += one + other;
         tally->size += fabs(one) + fabs(other);
         tally->scatter += (one - other) * (one - other);
@@ -61,7 +66,7 @@ static bool compare(const sp_evaluator *evaluator, const measuring *m, size_t n,
             m->points[i] = sp_points_draw(m->surface, first + i, n, m->seed);
         if (!sp_points_judge(evaluator, m->layout, m->reference, m->points, count, m->covered, error))
             return false;
-        add_block(m->coverage, m->points, m->covered, count, tally);
+        add_block(evaluator, m->coverage, m->points, m->covered, count, tally);
     }
     return true;
 }

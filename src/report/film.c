@@ -1,0 +1,62 @@
+/* What runs down the walls. */
+#include "page.h"
+
+typedef double film_figure(const sp_figures *figures);
+
+static double covered(const sp_figures *f)
+{
+    return f->film.area;
+}
+static double drained(const sp_figures *f)
+{
+    return 6e4 * f->film.left;
+}
+static double held(const sp_figures *f)
+{
+    return 6e4 * f->film.held;
+}
+static double astray(const sp_figures *f)
+{
+    return 6e4 * f->film.astray;
+}
+static double per_outline(const sp_figures *f)
+{
+    return 6e4 * f->film.per_outline;
+}
+
+static void add_row(const sp_page *page, sp_text *text, const char *title, const char *unit, int decimals,
+                    film_figure *value)
+{
+    sp_text_add(text, "<tr><th scope=\"row\">%s <span class=\"unit\">(%s)</span></th>", title, unit);
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        sp_text_add(text, "<td>");
+        if (page->figures[i].film.known)
+            sp_markup_decimals(text, value(&page->figures[i]), decimals);
+        sp_text_add(text, "</td>");
+    }
+    sp_text_add(text, "</tr>\n");
+}
+
+void sp_page_film(const sp_page *page, sp_text *text)
+{
+    bool known = false;
+    for (size_t i = 0; i < page->result->design_count; ++i)
+        known |= page->figures[i].film.known;
+    if (!known)
+        return;
+    sp_text_add(text, "<section id=\"film\"><h2>What runs down the walls</h2>\n<div class=\"wide\"><table "
+                      "class=\"numbers\"><thead><tr><th scope=\"col\">Film</th>");
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        sp_text_add(text, "<th scope=\"col\">");
+        sp_page_name(page, text, i);
+        sp_text_add(text, "</th>");
+    }
+    sp_text_add(text, "</tr></thead>\n<tbody>\n");
+    add_row(page, text, "Covered by film alone", "m\xc2\xb2", 3, covered);
+    add_row(page, text, "Drains from the geometry", "L/min", 1, drained);
+    add_row(page, text, "Stands where it cannot drain", "L/min", 1, held);
+    add_row(page, text, "Drips on dry surface", "L/min", 1, astray);
+    add_row(page, text, "Supply per metre of the walls&#39; outline at middle height", "L/min per m", 1, per_outline);
+    sp_text_add(text, "</tbody></table></div>\n<p>The last row is the measure of rules of thumb, a mean over the "
+                      "outline; what the criterion asks for is what runs down at each place.</p>\n</section>\n");
+}
