@@ -7,9 +7,10 @@
 #include <omp.h>
 #include <stdlib.h>
 
-#define ROUGH_PATCHES 3000.0 /* most of the polishing sees no more than these show */
-#define SIGHTS 24            /* kept for each thread */
-#define STEP_FIRST 0.25      /* of half an unknown's range, of the compass */
+#define ROUGH_PATCHES 4000.0  /* most of the polishing sees no more than these show */
+#define SHARP_PATCHES 60000.0 /* the last of it sees the final patches, or so many */
+#define SIGHTS 24             /* kept for each thread */
+#define STEP_FIRST 0.25       /* of half an unknown's range, of the compass */
 #define STEP_SHARP 0.12
 #define STEP_TURN 0.045 /* small enough for places to stay */
 #define STEP_LEAST 0.006
@@ -24,7 +25,7 @@
 
 static bool sights_create(const sp_search *search, int threads, size_t capacity, sp_sights **sights, sp_error *error)
 {
-    *sights = calloc((size_t)threads, sizeof **sights);
+    *sights = calloc(threads > 0 ? (size_t)threads : 1, sizeof **sights);
     if (!*sights)
         return sp_fail_memory(error);
     for (int i = 0; i < threads; i++)
@@ -44,11 +45,30 @@ void sp_polishing_free(sp_polishing *polishing)
 {
     sights_free(polishing->sights, polishing->threads);
     sights_free(polishing->rough_sights, polishing->threads);
+    sights_free(polishing->sharp_sights, polishing->threads);
+    if (polishing->sharp.coarse)
+        sp_search_free(&polishing->sharp);
+    sp_evaluator_destroy(polishing->sharp_evaluator);
     if (polishing->rough_evaluator)
         sp_search_free(&polishing->rough);
     sp_evaluator_destroy(polishing->rough_evaluator);
     sp_tuned_free(&polishing->tuned);
     *polishing = (sp_polishing){0};
+}
+
+/* The search on the final patches. */
+static bool create_sharp(sp_polishing *polishing, const sp_evaluator *fine, sp_error *error)
+{
+    const sp_search *search = polishing->search;
+    double count = (double)sp_evaluator_patches(fine)->count;
+    const sp_evaluator *sharp = fine;
+    if (count > 1.5 * SHARP_PATCHES)
+        sharp = polishing->sharp_evaluator =
+            sp_evaluator_resample(fine, sp_evaluator_fidelity(fine)->texel * sqrt(count / SHARP_PATCHES), error);
+    return sharp &&
+           sp_search_create(sharp, search->options, search->sites, search->candidates, search->visibility,
+                            &polishing->sharp, error) &&
+           sights_create(&polishing->sharp, polishing->threads, SIGHTS, &polishing->sharp_sights, error);
 }
 
 bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine, sp_watch *watch,
@@ -65,7 +85,8 @@ bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_
                sp_search_create(polishing->rough_evaluator, search->options, search->sites, search->candidates,
                                 search->visibility, &polishing->rough, error);
     }
-    done = done && sights_create(search, polishing->threads, SIGHTS, &polishing->sights, error) &&
+    done = done && create_sharp(polishing, fine, error) &&
+           sights_create(search, polishing->threads, SIGHTS, &polishing->sights, error) &&
            sights_create(&polishing->rough, polishing->threads, SIGHTS, &polishing->rough_sights, error);
     if (!done)
         sp_polishing_free(polishing);
@@ -264,13 +285,29 @@ bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error
     return done;
 }
 
-bool sp_sharpen(sp_polishing *polishing, double budget, sp_draft *draft, sp_error *error)
+/* On the final patches, then as the search's own see it. */
+static bool sharpen(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
 {
-    sp_sights *sights = &polishing->sights[0];
+    sp_sights *sights = &polishing->sharp_sights[thread], *own = &polishing->sights[thread];
+    sp_draft sharp, draft;
     sp_sights_forget(sights);
-    return sp_anneal(sights, SHARP_START, SP_WIDTHS, budget, polishing->watch, draft, error) &&
-           sp_compass(sights, STEP_SHARP, STEP_LEAST, budget, polishing->watch, draft, error) &&
-           look_again(polishing->search, draft, error);
+    sp_sights_forget(own);
+    if (!transfer(sights, &trial->draft, &sharp, error))
+        return false;
+    bool done = sp_anneal(sights, SHARP_START, SP_WIDTHS, trial->budget, polishing->watch, &sharp, error) &&
+                sp_compass(sights, STEP_SHARP, STEP_LEAST, trial->budget, polishing->watch, &sharp, error) &&
+                transfer(own, &sharp, &draft, error);
+    sp_draft_free(&sharp);
+    if (!done)
+        return false;
+    sp_draft_free(&trial->draft);
+    trial->draft = draft;
+    return look_again(polishing->search, &trial->draft, error);
+}
+
+bool sp_sharpen(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error)
+{
+    return for_each(polishing, trials, count, false, sharpen, error);
 }
 
 bool sp_look_anew(sp_polishing *polishing, sp_draft *draft, sp_error *error)

@@ -30,9 +30,11 @@ typedef struct {
     sp_watch *watch;
     sp_evaluator *rough_evaluator; /* NULL: the search's patches are few enough */
     sp_search rough;
-    sp_tuned tuned; /* where walks and other drafts find their poses */
+    sp_evaluator *sharp_evaluator; /* NULL: the final patches are few enough */
+    sp_search sharp;               /* on these */
+    sp_tuned tuned;                /* where walks and other drafts find their poses */
     int threads;
-    sp_sights *sights, *rough_sights; /* [threads] */
+    sp_sights *sights, *rough_sights, *sharp_sights; /* [threads] */
 } sp_polishing;
 
 bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine, sp_watch *watch,
@@ -42,8 +44,8 @@ void sp_polishing_free(sp_polishing *polishing);
 /* Polishes every trial on few patches, and the best for each amount of water on the search's own. What comes out does
  * not depend on the number of threads. */
 bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error);
-/* Polishes one draft sharply on the search's own patches, where it never gets worse. */
-bool sp_sharpen(sp_polishing *polishing, double budget, sp_draft *draft, sp_error *error);
+/* Polishes every trial's draft sharply on the final patches, where it never gets worse. */
+bool sp_sharpen(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error);
 /* Looks anew on the search's own patches. */
 bool sp_look_anew(sp_polishing *polishing, sp_draft *draft, sp_error *error);
 

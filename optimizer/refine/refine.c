@@ -17,7 +17,12 @@
 #define MISJUDGED 0.003 /* of what is covered: by so much the search's patches may rank drafts wrongly */
 #define BETWEEN 0.05    /* less water than a draft of the front, for another */
 #define APART 0.02      /* share by which waters must differ for that */
+#define NEAR 0.006      /* of the target: what may be missing for a draft to be near it */
+#define NEAR_MOST 5     /* drafts near it that are tried */
+#define LEEWAY 0.03     /* more water that such a draft may take */
 
+#define SHARP_ROUNDS 3    /* of the last polish */
+#define SHARP_SAVING 2e-3 /* less water, for another round */
 typedef struct {
     const sp_search *search;
     const sp_pool *pool;
@@ -256,25 +261,22 @@ static bool same(const sp_front_point *a, const sp_front_point *b)
     return fabs(a->area - b->area) <= GAIN_LEAST * b->area && fabs(a->flow - b->flow) <= GAIN_LEAST * b->flow;
 }
 
-/* Turns adjustable nozzles down while the target holds. */
-static bool save_flow(sp_refining *refining)
+/* Turns a draft's adjustable nozzles down while it reaches the target. */
+static bool save_flow(sp_refining *refining, const sp_draft *full)
 {
     const sp_search *search = refining->search;
     sp_front *front = refining->front;
-    double high = front->best.flow, low = search->kept_flow;
-    for (size_t i = 0; i < front->best.count; i++)
-        low += sp_least_flow(search, &front->best.items[i]);
-    sp_draft full;
+    double high = full->flow, low = search->kept_flow;
+    for (size_t i = 0; i < full->count; i++)
+        low += sp_least_flow(search, &full->items[i]);
     if (!(low < high * (1 - 1e-6)))
         return true;
-    if (!sp_draft_copy(search, &front->best, &full, refining->error))
-        return false;
     bool done = true;
     for (int trial = 0; done && trial < FLOW_TRIALS && sp_watch_goes_on(refining->watch, "refine", 1); trial++) {
         sp_draft draft;
         sp_front_point point;
         double middle = 0.5 * (low + high);
-        done = sp_draft_copy(search, &full, &draft, refining->error);
+        done = sp_draft_copy(search, full, &draft, refining->error);
         if (!done)
             break;
         sp_turn_down(search, &draft, middle);
@@ -286,7 +288,6 @@ static bool save_flow(sp_refining *refining)
         else
             low = middle;
     }
-    sp_draft_free(&full);
     return done;
 }
 
@@ -345,17 +346,42 @@ static bool save_water(sp_refining *refining)
     return true;
 }
 
-/* The best once more, on the search's own patches. */
-static bool sharpen_best(sp_refining *refining)
+/* The best once more, and drafts that all but reach the target with less water, on the final patches; those may take a
+ * little more, if it is less than the best's. */
+static bool sharpen(sp_refining *refining, bool saves, bool near)
 {
     sp_front *front = refining->front;
-    sp_draft draft;
-    if (!sp_draft_copy(refining->search, &front->best, &draft, refining->error))
-        return false;
-    bool done = sp_sharpen(&refining->polishing, draft.flow, &draft, refining->error) &&
-                sp_front_measure(front, refining->search, &draft, NULL, refining->error);
-    sp_draft_free(&draft);
+    sp_trials trials = {0};
+    bool done = try_also(refining, &trials, &front->best, front->best.flow, SP_TRIAL_POLISH);
+    for (size_t i = 0; near && done && i < front->by_water.count && trials.count <= NEAR_MOST; i++) {
+        const sp_front_entry *entry = &front->by_water.entries[i];
+        double budget = fmin(entry->point.flow * (1 + LEEWAY), front->best.flow);
+        if (entry->point.flow < front->best.flow * (1 - GAIN_LEAST) && entry->point.area < front->target &&
+            entry->point.area >= front->target * (1 - NEAR))
+            done = try_also(refining, &trials, &entry->draft, budget, SP_TRIAL_POLISH);
+    }
+    done = done && sp_sharpen(&refining->polishing, trials.items, trials.count, refining->error);
+    for (size_t i = 0; done && i < trials.count; i++) {
+        sp_front_point point;
+        done = sp_front_measure(front, refining->search, &trials.items[i].draft, &point, refining->error);
+        if (done && saves && point.area >= front->target)
+            done = save_flow(refining, &trials.items[i].draft);
+    }
+    trials_free(&trials);
     return done;
+}
+
+/* Until that saves no more water. */
+static bool sharpen_often(sp_refining *refining, bool saves)
+{
+    double before = INFINITY;
+    const sp_draft *best = &refining->front->best;
+    for (int round = 0; round < SHARP_ROUNDS && best->flow < before * (1 - SHARP_SAVING); round++) {
+        before = best->flow;
+        if (!sharpen(refining, saves, saves && round == 0))
+            return false;
+    }
+    return true;
 }
 
 static bool refine_all(sp_refining *refining)
@@ -365,7 +391,7 @@ static bool refine_all(sp_refining *refining)
         return false;
     bool saves = front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
     return walk_from_front(refining) && recombine_front(refining) && (!saves || save_water(refining)) &&
-           recombine_front(refining) && sharpen_best(refining) && (!saves || save_flow(refining));
+           recombine_front(refining) && sharpen_often(refining, saves);
 }
 
 bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error)

@@ -180,10 +180,10 @@ static void print_film(const sp_result *result, const sp_figures *figures, int w
             continue;
         if (!told)
             printf("\n%-*s %12s %16s %16s %16s %22s\n", width, "film", "alone m2", "drains L/min", "stands L/min",
-                   "astray L/min", "per outline L/min/m");
+                   "astray L/min", "per girth L/min/m");
         told = true;
         printf("%-*s %12.3f %16.1f %16.1f %16.1f %22.1f\n", width, result->designs[i].name, film->area,
-               6e4 * film->left, 6e4 * film->held, 6e4 * film->astray, 6e4 * film->per_outline);
+               6e4 * film->left, 6e4 * film->held, 6e4 * film->astray, 6e4 * film->per_girth);
     }
 }
 

@@ -19,9 +19,9 @@ static double astray(const sp_figures *f)
 {
     return 6e4 * f->film.astray;
 }
-static double per_outline(const sp_figures *f)
+static double per_girth(const sp_figures *f)
 {
-    return 6e4 * f->film.per_outline;
+    return 6e4 * f->film.per_girth;
 }
 
 static void add_row(const sp_page *page, sp_text *text, const char *title, const char *unit, int decimals,
@@ -56,7 +56,7 @@ void sp_page_film(const sp_page *page, sp_text *text)
     add_row(page, text, "Drains from the geometry", "L/min", 1, drained);
     add_row(page, text, "Stands where it cannot drain", "L/min", 1, held);
     add_row(page, text, "Drips on dry surface", "L/min", 1, astray);
-    add_row(page, text, "Supply per metre of the walls&#39; outline at middle height", "L/min per m", 1, per_outline);
-    sp_text_add(text, "</tbody></table></div>\n<p>The last row is the measure of rules of thumb, a mean over the "
-                      "outline; what the criterion asks for is what runs down at each place.</p>\n</section>\n");
+    add_row(page, text, "Supply per metre around all walls, seen from above", "L/min per m", 1, per_girth);
+    sp_text_add(text, "</tbody></table></div>\n<p>The last row is the measure of rules of thumb, a mean around the "
+                      "walls; what the criterion asks for is what runs down at each place.</p>\n</section>\n");
 }

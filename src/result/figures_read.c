@@ -282,7 +282,7 @@ static bool read_film(const reader *in, const json_t *layout, sp_film_balance *b
            get_real(&inner, film, "left_l_min", 0, LARGEST, l_min, &balance->left) &&
            get_real(&inner, film, "astray_l_min", 0, LARGEST, l_min, &balance->astray) &&
            get_real(&inner, film, "held_l_min", 0, LARGEST, l_min, &balance->held) &&
-           get_real(&inner, film, "per_outline_l_min_m", 0, LARGEST, l_min, &balance->per_outline);
+           get_real(&inner, film, "per_girth_l_min_m", 0, LARGEST, l_min, &balance->per_girth);
 }
 
 static bool read_reason(const reader *in, const json_t *entry, sp_reason *reason)

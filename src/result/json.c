@@ -149,7 +149,7 @@ static bool put_film(json_t *object, const sp_film_balance *balance)
         put_real(film, "covered_area_m2", balance->area) && put_real(film, "arriving_l_min", 6e4 * balance->arriving) &&
         put_real(film, "left_l_min", 6e4 * balance->left) && put_real(film, "astray_l_min", 6e4 * balance->astray) &&
         put_real(film, "held_l_min", 6e4 * balance->held) &&
-        put_real(film, "per_outline_l_min_m", 6e4 * balance->per_outline);
+        put_real(film, "per_girth_l_min_m", 6e4 * balance->per_girth);
     return put(object, "film", film) && done;
 }
 

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #define CELLS_MOST 30000.0 /* film varies over lengths far above a texel's: 80 mm instead of 5 change .4 points */
-#define BANDS 64           /* of height, in which the outline is measured */
 
 /* The evaluator of all wet sides, with nothing asked for. */
 static sp_evaluator *create_walls(const sp_evaluator *evaluator, sp_error *error)
@@ -39,29 +38,62 @@ static void find_cells(const sp_evaluator *evaluator, sp_rundown *rundown)
     }
 }
 
-static int rising(const void *left, const void *right)
+static int by_place(const void *left, const void *right)
 {
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
+    const double *a = left, *b = right;
+    return a[0] != b[0] ? (a[0] > b[0]) - (a[0] < b[0]) : (a[1] > b[1]) - (a[1] < b[1]);
 }
 
-/* The median, over bands of equal height, of Σ area sin(slope) / height. */
-static double measure_outline(const sp_evaluator *walls)
+/* Takes points off the end of a hull as long as `next` makes them hollow. */
+static size_t shave(double (*hull)[2], size_t count, size_t least, const double next[2])
+{
+    while (count >= least + 2) {
+        const double *a = hull[count - 2], *b = hull[count - 1];
+        if ((b[0] - a[0]) * (next[1] - a[1]) - (b[1] - a[1]) * (next[0] - a[0]) > 0)
+            break;
+        count--;
+    }
+    return count;
+}
+
+/* The length of the convex hull of points in a plane, sorted (monotone chain). hull: [2 count + 1] */
+static double hull_length(const double (*at)[2], size_t count, double (*hull)[2])
+{
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++) {
+        found = shave(hull, found, 0, at[i]);
+        memcpy(hull[found++], at[i], sizeof *hull);
+    }
+    size_t lower = found ? found - 1 : 0;
+    for (size_t i = count; i-- > 1;) {
+        found = shave(hull, found, lower, at[i - 1]);
+        memcpy(hull[found++], at[i - 1], sizeof *hull);
+    }
+    double length = 0;
+    for (size_t i = 1; i < found; i++)
+        length += hypot(hull[i][0] - hull[i - 1][0], hull[i][1] - hull[i - 1][1]);
+    return length;
+}
+
+/* Around all walls, seen from above. */
+static bool measure_girth(const sp_evaluator *walls, double *girth)
 {
     const sp_patches *cells = &walls->patches;
-    sp_vec3 up = sp_unit(walls->setup.up);
-    double low = INFINITY, high = -INFINITY, length[BANDS] = {0};
-    for (size_t i = 0; i < cells->count; i++) {
-        low = fmin(low, sp_dot(cells->point[i], up));
-        high = fmax(high, sp_dot(cells->point[i], up));
+    sp_vec3 up = sp_unit(walls->setup.up), x = sp_unit(sp_cross(up, sp_v(up.z, up.x, up.y))), y = sp_cross(up, x);
+    double(*at)[2] = malloc((cells->count + 1) * sizeof *at),
+    (*hull)[2] = malloc((2 * cells->count + 1) * sizeof *hull);
+    for (size_t i = 0; at && i < cells->count; i++) {
+        at[i][0] = sp_dot(cells->point[i], x);
+        at[i][1] = sp_dot(cells->point[i], y);
     }
-    double band = (high - low) / BANDS;
-    for (size_t i = 0; band > 0 && i < cells->count; i++) {
-        double at = (sp_dot(cells->point[i], up) - low) / band;
-        length[(int)fmin(at, BANDS - 1)] += cells->area[i] * sp_length(sp_cross(cells->normal[i], up)) / band;
+    bool done = at && hull;
+    if (done) {
+        qsort(at, cells->count, sizeof *at, by_place);
+        *girth = hull_length((const double(*)[2])at, cells->count, hull);
     }
-    qsort(length, BANDS, sizeof *length, rising);
-    return length[BANDS / 2];
+    free(at);
+    free(hull);
+    return done;
 }
 
 bool sp_rundown_create(sp_evaluator *evaluator, sp_error *error)
@@ -88,8 +120,7 @@ bool sp_rundown_create(sp_evaluator *evaluator, sp_error *error)
     if (!rundown->film)
         return false;
     find_cells(evaluator, rundown);
-    rundown->outline = measure_outline(walls);
-    return true;
+    return measure_girth(walls, &rundown->girth) || sp_fail_memory(error);
 }
 
 void sp_rundown_destroy(sp_rundown *rundown)
@@ -120,7 +151,7 @@ bool sp_rundown_find(const sp_rundown *rundown, const sp_layout *layout, sp_cove
     balance->left = ends.left;
     balance->astray = ends.astray;
     balance->held = ends.held;
-    balance->per_outline = rundown->outline > 0 ? balance->arriving / rundown->outline : 0;
+    balance->per_girth = rundown->girth > 0 ? balance->arriving / rundown->girth : 0;
     sp_coverage_destroy(arriving);
     free(film);
     return done;

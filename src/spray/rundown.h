@@ -9,7 +9,7 @@ typedef struct sp_rundown {
     sp_evaluator *walls; /* owned: all wet sides, cleaned or not, in cells */
     sp_film *film;       /* on them */
     uint32_t *cell;      /* [patches of the evaluator], the cell that holds each patch's point */
-    double outline;      /* m, of the walls at middle height */
+    double girth;        /* m, around all walls, seen from above */
 } sp_rundown;
 
 /* The evaluator's rundown, where its criterion asks for film. True where it does not. */
