@@ -18,6 +18,7 @@ typedef struct {
 typedef struct {
     const sp_film_surface *surface;
     sp_film_links *links;
+    sp_vec3 *tangents; /* [triangles] */
     size_t count, capacity;
     piece *pieces;
 } gathering;
@@ -61,8 +62,7 @@ static bool take_border(void *user, const sp_border *border)
     uint32_t to = border->other == SP_NONE ? SP_NONE : surface->cell_of[border->other][border->other_side];
     if (from == SP_NONE || from == to)
         return true;
-    sp_vec3 tangent = sp_film_tangent(sp_triangle_normal(surface->mesh, border->triangle), surface->down);
-    double across = sp_dot(tangent, border->outward), length = sp_length(border->outward);
+    double across = sp_dot(own->tangents[border->triangle], border->outward), length = sp_length(border->outward);
     if (to != SP_NONE)
         return add_piece(own, (piece){from, to, across, length});
     own->links->end_across[from] += across;
@@ -70,6 +70,17 @@ static bool take_border(void *user, const sp_border *border)
     if (length > sp_length(own->links->end[from]))
         own->links->end[from] = border->outward;
     return true;
+}
+
+static bool find_borders(gathering *own, sp_error *error)
+{
+    const sp_mesh *mesh = own->surface->mesh;
+    own->tangents = malloc((mesh->triangle_count + 1) * sizeof *own->tangents);
+    if (!own->tangents)
+        return sp_fail_memory(error);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        own->tangents[t] = sp_film_tangent(sp_triangle_normal(mesh, t), own->surface->down);
+    return sp_atlas_visit_borders(own->surface->atlas, mesh, take_border, own, error);
 }
 
 /* The pieces in the order of the cells that they are between; NULL where memory ran out. */
@@ -146,7 +157,7 @@ bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, 
                              .drips = calloc(count + 1, sizeof *links->drips)};
     gathering own = {.surface = surface, .links = links};
     bool done = links->start && links->end_across && links->end_length && links->end && links->drips &&
-                sp_atlas_visit_borders(surface->atlas, surface->mesh, take_border, &own, error);
+                find_borders(&own, error);
     if (done && own.count >= SP_NONE) {
         sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "film: %zu borders of texels found, too many: take a coarser texel",
                 own.count);
@@ -154,6 +165,7 @@ bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, 
     }
     done = done && join(&own);
     free(own.pieces);
+    free(own.tangents);
     if (done) {
         find_drips(surface, links);
         return true;

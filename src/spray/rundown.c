@@ -45,7 +45,17 @@ static int rising(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* The median, over bands of equal height, of Σ area sin(slope) / height. */
+/* Adds the sideways extent of a wall that rises from `from` to `to`, in bands from 0 on, to all that it crosses. */
+static void add_extent(double length[BANDS], double from, double to, double extent)
+{
+    int last = (int)fmin(fmax(to, 0), BANDS - 1);
+    for (int i = (int)fmin(fmax(from, 0), BANDS - 1); i <= last; i++) {
+        double within = fmin(to, i + 1) - fmax(from, i);
+        length[i] += to > from ? extent * fmax(0, within) / (to - from) : extent;
+    }
+}
+
+/* The median, over bands of equal height, of Σ area sin(slope) / height. A cell may be higher than a band. */
 static double measure_outline(const sp_evaluator *walls)
 {
     const sp_patches *cells = &walls->patches;
@@ -57,8 +67,9 @@ static double measure_outline(const sp_evaluator *walls)
     }
     double band = (high - low) / BANDS;
     for (size_t i = 0; band > 0 && i < cells->count; i++) {
-        double at = (sp_dot(cells->point[i], up) - low) / band;
-        length[(int)fmin(at, BANDS - 1)] += cells->area[i] * sp_length(sp_cross(cells->normal[i], up)) / band;
+        double slope = sp_length(sp_cross(cells->normal[i], up)), at = (sp_dot(cells->point[i], up) - low) / band;
+        double half = 0.5 * slope * cells->length[i] / band;
+        add_extent(length, at - half, at + half, cells->area[i] * slope / band);
     }
     qsort(length, BANDS, sizeof *length, rising);
     return length[BANDS / 2];

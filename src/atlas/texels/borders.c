@@ -113,34 +113,73 @@ static void sort_leaves(const sp_mesh *mesh, const uint32_t *half_edges, size_t 
     qsort(leaves, count, sizeof *leaves, by_angle);
 }
 
-/* All along an edge, out of one triangle over one of its sides. `b` is `a` where the surface ends. */
-static bool visit_edge(const walk *w, sp_edge_walk *edge, uint32_t a, uint32_t b, sp_border border)
+/* What two triangles share of an edge, from one texel to the next; `a` is `b` where the surface ends. */
+typedef struct {
+    const walk *walk;
+    sp_edge_walk *edge;
+    uint32_t a, b;
+    sp_vec3 out_of_a, out_of_b; /* along the whole edge */
+} fold;
+
+static fold fold_of(const walk *w, sp_edge_walk *edge, uint32_t a, uint32_t b)
 {
-    sp_vec3 outward = sp_cross(step_of(w->mesh, a), sp_triangle_normal(w->mesh, a / 3));
+    return (fold){w,
+                  edge,
+                  a,
+                  b,
+                  sp_cross(step_of(w->mesh, a), sp_triangle_normal(w->mesh, a / 3)),
+                  sp_cross(step_of(w->mesh, b), sp_triangle_normal(w->mesh, b / 3))};
+}
+
+/* The piece that the walk is at, from both triangles: `side` of one goes on in `other_side` of the other. */
+static bool visit_piece(const fold *f, uint8_t side, uint8_t other_side)
+{
+    const sp_edge_walk *edge = f->edge;
+    double part = edge->to - edge->from;
+    bool ends = f->a == f->b;
+    if (!ends && edge->texel_a == edge->texel_b)
+        return true;
+    sp_border out = {.texel = edge->texel_a, .triangle = f->a / 3, .other = ends ? SP_NONE : edge->texel_b};
+    out.side = side;
+    out.other_side = other_side;
+    out.outward = sp_scale(f->out_of_a, part);
+    sp_border back = {edge->texel_b, f->b / 3, edge->texel_a, other_side, side, sp_scale(f->out_of_b, part)};
+    return f->walk->visit(f->walk->user, &out) && (ends || f->walk->visit(f->walk->user, &back));
+}
+
+/* An edge of one triangle or two: both sides go on, or end, at once. */
+static bool visit_plain(const walk *w, sp_edge_walk *edge, uint32_t a, uint32_t b)
+{
+    fold f = fold_of(w, edge, a, b);
+    uint8_t front = a == b || sp_edge_is_opposite(w->mesh, a, b) ? 0 : 1; /* where the front of `a` goes on */
     if (!sp_edge_walk_begin(edge, w->atlas, w->mesh, a, b))
         return false;
-    border.triangle = a / 3;
-    while (sp_edge_walk_next(edge, w->atlas)) {
-        border.texel = edge->texel_a;
-        border.other = a == b ? SP_NONE : edge->texel_b;
-        border.outward = sp_scale(outward, edge->to - edge->from);
-        if (border.texel != border.other && !w->visit(w->user, &border))
+    while (sp_edge_walk_next(edge, w->atlas))
+        if (!visit_piece(&f, 0, front) || !visit_piece(&f, 1, 1 - front))
             return false;
-    }
     return true;
 }
 
-/* Over either side of the triangle at `i` of an edge. */
-static bool visit_leaf(const walk *w, sp_edge_walk *edge, const leaf *leaves, size_t count, size_t i)
+/* From the side of one triangle that faces ahead to the side of the next that faces back. */
+static bool visit_leaf(const walk *w, sp_edge_walk *edge, const leaf *own, const leaf *next)
 {
-    const leaf *own = &leaves[i];
-    for (uint8_t side = 0; side < 2; side++) {
-        bool ahead = own->ahead == (side == 0);
-        const leaf *next = &leaves[ahead ? (i + 1) % count : (i + count - 1) % count];
-        sp_border border = {.side = side, .other_side = next->ahead == ahead ? 1 : 0};
-        if (!visit_edge(w, edge, own->half_edge, next->half_edge, border))
+    fold f = fold_of(w, edge, own->half_edge, next->half_edge);
+    if (!sp_edge_walk_begin(edge, w->atlas, w->mesh, f.a, f.b))
+        return false;
+    while (sp_edge_walk_next(edge, w->atlas))
+        if (!visit_piece(&f, own->ahead ? 0 : 1, next->ahead ? 1 : 0))
             return false;
-    }
+    return true;
+}
+
+static bool visit_leaves(const walk *w, sp_edge_walk *edge, const uint32_t *half_edges, size_t count, leaf *leaves)
+{
+    if (count <= 2)
+        return visit_plain(w, edge, half_edges[0], half_edges[count - 1]);
+    sort_leaves(w->mesh, half_edges, count, leaves);
+    for (size_t k = 0; k < count; k++)
+        if (!visit_leaf(w, edge, &leaves[k], &leaves[(k + 1) % count]))
+            return false;
     return true;
 }
 
@@ -152,9 +191,7 @@ static bool visit_edges(const walk *w, sp_error *error)
     bool done = leaves && sp_half_edges_create(w->mesh, &edges, error);
     for (size_t i = 0, of_edge; done && i < 3 * w->mesh->triangle_count; i += of_edge) {
         of_edge = sp_half_edges_of_edge(w->mesh, &edges, i);
-        sort_leaves(w->mesh, &edges.order[i], of_edge, leaves);
-        for (size_t k = 0; done && k < of_edge; k++)
-            done = visit_leaf(w, &edge, leaves, of_edge, k);
+        done = visit_leaves(w, &edge, &edges.order[i], of_edge, leaves);
     }
     sp_edge_walk_free(&edge);
     sp_half_edges_destroy(&edges);
