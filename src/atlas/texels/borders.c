@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#define BESIDE 0.01 /* pixels: an edge nearer than this to a border of pixels may run along it */
+
 typedef struct {
     const sp_atlas *atlas;
     const sp_mesh *mesh;
@@ -59,9 +61,19 @@ static bool visit_between(void *user, uint32_t a, uint32_t b, uint32_t x, uint32
            visit_sides(s->walk, (sp_border){b, s->triangle, a, 0, 0, sp_scale(outward, -1)});
 }
 
+static bool is_in_one_pixel(const double (*uv)[2])
+{
+    for (int k = 0; k < 2; k++)
+        if (floor(uv[0][k]) != floor(uv[1][k]) || floor(uv[0][k]) != floor(uv[2][k]))
+            return false;
+    return true;
+}
+
 static bool visit_inside(const walk *w, uint32_t triangle, sp_pieces *pieces)
 {
     const double(*uv)[2] = (const double(*)[2])w->atlas->uv[triangle];
+    if (is_in_one_pixel(uv))
+        return true;
     double u[2] = {uv[1][0] - uv[0][0], uv[1][1] - uv[0][1]}, v[2] = {uv[2][0] - uv[0][0], uv[2][1] - uv[0][1]};
     double twice = u[0] * v[1] - u[1] * v[0];
     if (!(twice > 0))
@@ -147,9 +159,28 @@ static bool visit_piece(const fold *f, uint8_t side, uint8_t other_side)
     return f->walk->visit(f->walk->user, &out) && (ends || f->walk->visit(f->walk->user, &back));
 }
 
+/* True where the two triangles of an edge lie side by side on the page: they share all texels that it crosses, unless
+ * it runs along a border of pixels. */
+static bool is_inside(const walk *w, uint32_t a, uint32_t b)
+{
+    double p[2], q[2];
+    if (a == b || !sp_edge_is_opposite(w->mesh, a, b) || sp_edge_is_cut(w->atlas, w->mesh, a, b))
+        return false;
+    sp_edge_point(w->atlas, a, 0, p);
+    sp_edge_point(w->atlas, a, 1, q);
+    for (int k = 0; k < 2; k++) {
+        double border = floor(p[k] + 0.5);
+        if (fabs(p[k] - border) < BESIDE && fabs(q[k] - border) < BESIDE)
+            return false;
+    }
+    return true;
+}
+
 /* An edge of one triangle or two: both sides go on, or end, at once. */
 static bool visit_plain(const walk *w, sp_edge_walk *edge, uint32_t a, uint32_t b)
 {
+    if (is_inside(w, a, b))
+        return true;
     fold f = fold_of(w, edge, a, b);
     uint8_t front = a == b || sp_edge_is_opposite(w->mesh, a, b) ? 0 : 1; /* where the front of `a` goes on */
     if (!sp_edge_walk_begin(edge, w->atlas, w->mesh, a, b))
