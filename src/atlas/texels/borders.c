@@ -84,7 +84,7 @@ static bool visit_inside(const walk *w, uint32_t triangle, sp_pieces *pieces)
     sheet s = {w, triangle, uv, .normal = sp_triangle_normal(w->mesh, triangle)};
     s.along[0] = sp_along(sp_scale(first, v[1] / twice), -u[1] / twice, second);
     s.along[1] = sp_along(sp_scale(first, -v[0] / twice), u[0] / twice, second);
-    return sp_pieces_sides(pieces, w->atlas, w->mesh, triangle, visit_between, &s);
+    return sp_pieces_sides(pieces, w->atlas, triangle, visit_between, &s);
 }
 
 /* One triangle at an edge, as it is met on the way about it. */
