@@ -19,6 +19,7 @@ typedef struct {
     const sp_film_surface *surface;
     sp_film_links *links;
     sp_vec3 *tangents; /* [triangles] */
+    double *facing;    /* [triangles], the cosine of the front to straight down */
     size_t count, capacity;
     piece *pieces;
 } gathering;
@@ -63,6 +64,7 @@ static bool take_border(void *user, const sp_border *border)
     if (from == SP_NONE || from == to)
         return true;
     double across = sp_dot(own->tangents[border->triangle], border->outward), length = sp_length(border->outward);
+    own->links->facing[from] += length * (border->side ? -1 : 1) * own->facing[border->triangle];
     if (to != SP_NONE)
         return add_piece(own, (piece){from, to, across, length});
     own->links->end_across[from] += across;
@@ -76,10 +78,14 @@ static bool find_borders(gathering *own, sp_error *error)
 {
     const sp_mesh *mesh = own->surface->mesh;
     own->tangents = malloc((mesh->triangle_count + 1) * sizeof *own->tangents);
-    if (!own->tangents)
+    own->facing = malloc((mesh->triangle_count + 1) * sizeof *own->facing);
+    if (!own->tangents || !own->facing)
         return sp_fail_memory(error);
-    for (uint32_t t = 0; t < mesh->triangle_count; t++)
-        own->tangents[t] = sp_film_tangent(sp_triangle_normal(mesh, t), own->surface->down);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        sp_vec3 normal = sp_triangle_normal(mesh, t);
+        own->tangents[t] = sp_film_tangent(normal, own->surface->down);
+        own->facing[t] = sp_dot(normal, own->surface->down);
+    }
     return sp_atlas_visit_borders(own->surface->atlas, mesh, take_border, own, error);
 }
 
@@ -126,14 +132,17 @@ static bool join(const gathering *own)
     return done;
 }
 
-/* True where the cell faces down and none beside it lies lower. */
+/* True where nothing lies lower than the cell and it does not face up: liquid that has come there hangs. A cell that
+ * goes round an edge counts as what of it lies on its borders, whichever way its point faces. */
 static bool is_tip(const sp_film_surface *surface, const sp_film_links *links, uint32_t cell)
 {
     const sp_vec3 *point = surface->cells->point;
-    if (!(sp_dot(surface->cells->normal[cell], surface->down) > 0))
+    double length = surface->cells->length[cell], facing = links->facing[cell] / length;
+    if (facing < -SP_FILM_FLAT)
         return false;
     for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++)
-        if (sp_dot(point[links->to[k]], surface->down) > sp_dot(point[cell], surface->down))
+        if (sp_dot(point[links->to[k]], surface->down) > sp_dot(point[cell], surface->down) ||
+            (facing < SP_FILM_FLAT && links->across[k] > LEAST_ACROSS * length))
             return false;
     return true;
 }
@@ -154,9 +163,10 @@ bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, 
                              .end_across = calloc(count + 1, sizeof *links->end_across),
                              .end_length = calloc(count + 1, sizeof *links->end_length),
                              .end = calloc(count + 1, sizeof *links->end),
+                             .facing = calloc(count + 1, sizeof *links->facing),
                              .drips = calloc(count + 1, sizeof *links->drips)};
     gathering own = {.surface = surface, .links = links};
-    bool done = links->start && links->end_across && links->end_length && links->end && links->drips &&
+    bool done = links->start && links->end_across && links->end_length && links->end && links->facing && links->drips &&
                 find_borders(&own, error);
     if (done && own.count >= SP_NONE) {
         sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "film: %zu borders of texels found, too many: take a coarser texel",
@@ -166,6 +176,7 @@ bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, 
     done = done && join(&own);
     free(own.pieces);
     free(own.tangents);
+    free(own.facing);
     if (done) {
         find_drips(surface, links);
         return true;
@@ -183,6 +194,7 @@ void sp_film_links_free(sp_film_links *links)
     free(links->end_across);
     free(links->end_length);
     free(links->end);
+    free(links->facing);
     free(links->drips);
     *links = (sp_film_links){0};
 }

@@ -15,8 +15,9 @@ typedef struct {
     double *end_across; /* [count], m, as `across`, of borders where the surface ends or goes on dry */
     double *end_length; /* [count], m, of these */
     sp_vec3 *end;       /* [count], m, b of the longest of these */
-    bool *drips;        /* [count], all that comes there drips off: a ceiling so flat that it does not hold its film, or
-                         * what hangs lower than all beside it */
+    double *facing; /* [count], m, Σ over all borders of length times the cosine of the side there to straight down */
+    bool *drips;    /* [count], all that comes there drips off: a ceiling so flat that it does not hold its film, or
+                     * what hangs lower than all beside it */
 } sp_film_links;
 
 bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, sp_error *error);

@@ -92,7 +92,7 @@ static void everything_ends_somewhere(void **state)
 {
     (void)state;
     walls w;
-    walls_open(&w, crowded_room(), SP_CAVITY_POINT, sp_v(0, 0.9, 0.9), 0.04);
+    walls_open(&w, crowded_room(), SP_CAVITY_POINT, sp_v(0, 0.9, 0.9), 0.06);
     walls_rain(&w, everywhere, LAID);
     walls_rain(&w, (region){sp_v(-9, -9, 0), sp_v(0, 9, 9), {0, 0, 0}}, LAID);
     for (size_t i = 0; i < w.cells->count; i += 97) {
@@ -110,7 +110,7 @@ static void adjoint_is_the_transpose(void **state)
 {
     (void)state;
     walls w;
-    walls_open(&w, crowded_room(), SP_CAVITY_POINT, sp_v(0, 0.9, 0.9), 0.04);
+    walls_open(&w, crowded_room(), SP_CAVITY_POINT, sp_v(0, 0.9, 0.9), 0.06);
     double *weight = malloc(w.cells->count * sizeof *weight), *worth = malloc(w.cells->count * sizeof *worth);
     uint64_t seed = 5;
     for (int turn = 0; turn < 5; turn++) {
@@ -165,7 +165,7 @@ static void same_for_any_threads(void **state)
     double *first = NULL;
     for (int threads = 1; threads <= 3; threads++) {
         walls w;
-        sp_setup setup = walls_setup(&w, crowded_room(), SP_CAVITY_POINT, sp_v(0, 0.9, 0.9), 0.05);
+        sp_setup setup = walls_setup(&w, crowded_room(), SP_CAVITY_POINT, sp_v(0, 0.9, 0.9), 0.07);
         setup.run.threads = threads;
         walls_start(&w, &setup);
         walls_rain(&w, everywhere, LAID);
@@ -482,7 +482,7 @@ static void ring_round_a_shaft(void **state)
 static void keels_drip(void **state)
 {
     (void)state;
-    for (int kind = 0; kind < 4; kind++) {
+    for (int kind = 0; kind < 6; kind++) {
         shape s = room_with_hole(0.1);
         shape_part(&s, "keel");
         const double pipe[5][2] = {{0, -0.5}, {0.2, 0}, {0, 0.2}};
@@ -492,10 +492,14 @@ static void keels_drip(void **state)
             turned_box(&s, sp_v(0, 0, 0), sp_v(0.6, 0.3, 0.3), M_PI / 4, 0.02);
         else if (kind == 2) /* on a corner */
             turned_box(&s, sp_v(0, 0, 0), sp_v(0.4, 0.4, 0.4), M_PI / 4, 0.6);
-        else /* on a tip */
+        else if (kind == 3) /* on a tip */
             shape_turned(&s, pipe, 3, 7);
+        else if (kind == 4) /* so thin that texels go round its lower edge */
+            shape_box(&s, sp_v(-0.3, -0.003, -0.2), sp_v(0.3, 0.003, 0.1), false);
+        else /* a level strip narrower than a texel */
+            shape_sheet(&s, sp_v(-0.3, -0.01, 0), sp_v(0.6, 0, 0), sp_v(0, 0.02, 0), 1);
         walls w;
-        walls_open(&w, shape_mesh(&s), SP_CAVITY_POINT, sp_v(0.7, 0.2, 0.8), 0.05);
+        walls_open(&w, shape_mesh(&s), SP_CAVITY_POINT, sp_v(0.7, 0.2, 0.8), 0.06);
         walls_rain(&w, (region){{-0.4, -0.4, -0.7}, {0.4, 0.4, 0.7}, {0, 0, 0}}, LAID);
         assert_ends(&w, 1, 0, 0, 1e-12);
         walls_close(&w);
