@@ -7,8 +7,8 @@
 
 static const region everywhere = {{-9, -9, -9}, {9, 9, 9}, {0, 0, 0}};
 
-/* Of liquid on the upper half of a ball: Γ = q R tan(ϑ/2) there, from 2π R sin ϑ Γ = q 2π R² (1 - cos ϑ). The mean
- * of its relative error, by area, down to the equator. */
+/* Of liquid on the upper half of a ball: Γ = q R tan(ϑ/2) there, from 2π R sin ϑ Γ = q 2π R² (1 - cos ϑ). The
+ * mean of its relative error, by area, down to the equator. */
 static double ball_error(double texel)
 {
     walls w;
