@@ -1,6 +1,8 @@
 /* Where liquid on the walls runs, pools, drips and ends. */
 #include "walls.h"
 
+#include "spray/rundown.h"
+
 #define LAID 1e-4 /* m/s */
 
 static const sp_vec3 X = {1, 0, 0}, Y = {0, 1, 0}, Z = {0, 0, 1};
@@ -496,6 +498,46 @@ static void keels_drip(void **state)
     }
 }
 
+/* Liquid that is thrown on a shelf that need not be clean runs on to the wall, which is to be, and counts there. */
+static void film_crosses_what_is_not_cleaned(void **state)
+{
+    (void)state;
+    sp_error error = {0};
+    shape s = room_with_hole(0.1);
+    shape_part(&s, "shelf");
+    shape_sheet(&s, sp_v(0.5, -0.3, 0.2), sp_v(0.5, 0, -0.2), sp_v(0, 0.6, 0), 2);
+    walls w;
+    sp_setup setup = walls_setup(&w, shape_mesh(&s), SP_CAVITY_POINT, sp_v(0.1, 0.2, 0.8), 0.08);
+    w.surfaces[1].clean = false;
+    setup.criterion = (sp_criterion){.flux = 1e9, .incidence = M_PI / 2, .film = 1e-5};
+    w.evaluator = sp_evaluator_create(&setup, &error);
+    assert_string_equal(error.message, "");
+    w.cells = &w.evaluator->patches;
+    const sp_rundown *rundown = w.evaluator->rundown;
+    assert_true(rundown->walls->patches.count > w.cells->count);
+    const sp_nozzle_type cone = {
+        .pattern = SP_PATTERN_FULL_CONE, .angle = 0.5, .flow = 1e-4, .at = 2e5, .exponent = 0.5, .cv = 0.95};
+    sp_nozzle nozzle = {.type = &cone, .position = sp_v(0.75, 0, 0.5), .axis = sp_v(0, 0, -1), .pressure = 2e5};
+    sp_layout *layout = sp_layout_create(&nozzle, 1, &error);
+    sp_coverage *coverage = sp_evaluate_inverse(w.evaluator, layout, &error);
+    assert_string_equal(error.message, "");
+    assert_near("arriving", coverage->film.arriving, 1e-4, 0.1);
+    assert_near("leaving", coverage->film.left, coverage->film.arriving, 1e-12);
+    assert_true(coverage->film.area > 0);
+    assert_near("covered", coverage->covered_area, coverage->film.area, 1e-12);
+    double wall = 0, area = 0;
+    for (size_t i = 0; i < w.cells->count; i++) {
+        const region beneath = {{0.99, -1, -0.9}, {1.1, 1, -0.1}, minus(X)};
+        wall += region_holds(&beneath, &w, i) ? coverage->deposits.film[i] * w.cells->area[i] : 0;
+        area += region_holds(&beneath, &w, i) ? w.cells->area[i] : 0;
+        assert_int_equal(coverage->deposits.covered[i], coverage->deposits.film[i] >= 1e-5);
+    }
+    assert_near("on the wall", 2 * wall / area, coverage->film.arriving, 0.15);
+    sp_coverage_destroy(coverage);
+    sp_layout_destroy(layout);
+    walls_close(&w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -518,6 +560,7 @@ int main(void)
         cmocka_unit_test(level_shelf_leaves_where_nothing_stands),
         cmocka_unit_test(ring_round_a_shaft),
         cmocka_unit_test(keels_drip),
+        cmocka_unit_test(film_crosses_what_is_not_cleaned),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
