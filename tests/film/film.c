@@ -498,6 +498,33 @@ static void keels_drip(void **state)
     }
 }
 
+/* A ball of which some triangles, or all, face inwards: whichever way each of them faces, film runs on its outside from
+ * one to the next. */
+static void triangles_may_face_either_way(void **state)
+{
+    (void)state;
+    for (int turned = 0; turned < 3; turned++) { /* none, about half, all */
+        uint64_t seed = 3;
+        shape s = shape_create();
+        shape_part(&s, "ball");
+        shape_sphere(&s, 0.5, false, 24);
+        for (size_t i = 0; i < s.triangle_count; i++)
+            if (turned == 2 || (turned == 1 && random_share(&seed) < 0.5)) {
+                uint32_t second = s.triangles[i][1];
+                s.triangles[i][1] = s.triangles[i][2];
+                s.triangles[i][2] = second;
+            }
+        walls w;
+        walls_open(&w, shape_mesh(&s), SP_CAVITY_OUTSIDE, sp_v(0, 0, 0), 0.03);
+        walls_rain(&w, (region){{-1, -1, 0}, {1, 1, 1}, {0, 0, 0}}, LAID);
+        double around = w.all / (2 * M_PI * 0.5);
+        assert_near("below the middle", mean_film(&w, (region){{-1, -1, -0.15}, {1, 1, -0.03}, {0, 0, 0}}), around,
+                    0.05);
+        assert_ends(&w, 1, 0, 0, 1e-12);
+        walls_close(&w);
+    }
+}
+
 /* Liquid that is thrown on a shelf that need not be clean runs on to the wall, which is to be, and counts there. */
 static void film_crosses_what_is_not_cleaned(void **state)
 {
@@ -560,6 +587,7 @@ int main(void)
         cmocka_unit_test(level_shelf_leaves_where_nothing_stands),
         cmocka_unit_test(ring_round_a_shaft),
         cmocka_unit_test(keels_drip),
+        cmocka_unit_test(triangles_may_face_either_way),
         cmocka_unit_test(film_crosses_what_is_not_cleaned),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
