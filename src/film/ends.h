@@ -16,8 +16,6 @@ static inline bool sp_film_is_cell(uint32_t to)
     return to < SP_FILM_HELD;
 }
 
-/* True where the cell hangs from a ceiling so flat that liquid drips off. */
-bool sp_film_drips(const sp_film_surface *surface, uint32_t cell);
 /* For every cell the one that it drips on, or its border with nothing beyond leads to; SP_FILM_LEFT, SP_FILM_ASTRAY,
  * SP_FILM_SHUT; SP_NONE where all that leaves it crosses links. [cells]; the caller frees; NULL where memory ran out.
  */

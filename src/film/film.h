@@ -1,6 +1,6 @@
-/* The film that runs down the walls: ∇·(Γ t) = q, steady, on a surface cut into cells, by upwind finite volumes. q
- * (m/s) is the liquid that arrives per area, t the tangent of gravity, Γ (m²/s) the flow per width across t. All of it
- * is linear in q. No inertia, no rivulets, no hold-up: what has arrived runs down at once. */
+/* The film that runs down the walls: ∇·(Γ t) = q, steady, on a surface cut into cells, by upwind finite volumes.
+ * q (m/s) is the liquid that arrives per area, t the tangent of gravity, Γ (m²/s) the flow per width across t. All of
+ * it is linear in q. No inertia, no rivulets, no hold-up: what has arrived runs down at once. */
 #ifndef SPRAYPLAN_FILM_H
 #define SPRAYPLAN_FILM_H
 
@@ -28,14 +28,15 @@ typedef struct {
 typedef struct sp_film sp_film;
 
 /* Where the liquid of every cell runs: over its borders in proportion to t·b, b the outward normal of a border times
- * its length; from the end of a wall to what it meets within 2.5 texels, or drips on; from ceilings flatter than 10° to
- * what lies beneath. Hollows and flats are filled to their rim and run over there (priority flood, Barnes et al. 2014).
- * Nothing is kept of the surface. NULL on error; the caller destroys. */
+ * its length; from the end of a wall to what it meets within 2.5 texels, or drips on; to what lies beneath from
+ * ceilings flatter than 10°, and from what hangs lower than all beside it. Hollows and flats are filled to their rim
+ * and run over there (priority flood, Barnes et al. 2014). Nothing is kept of the surface. NULL on error; the caller
+ * destroys. */
 sp_film *sp_film_create(const sp_film_surface *surface, sp_error *error);
 void sp_film_destroy(sp_film *film);
 
-/* The flow per width (m²/s) on every cell from what arrives on each (m³/s), both [cells]; of a pool, what leaves it per
- * length of its rim. *ends may be NULL; its parts come to what arrives. False where memory ran out. */
+/* The flow per width (m²/s) on every cell from what arrives on each (m³/s), both [cells]; of a pool, what leaves it
+ * per length of its rim. *ends may be NULL; its parts come to what arrives. False where memory ran out. */
 bool sp_film_run(const sp_film *film, const double *arriving, double *per_width, sp_film_ends *ends, sp_error *error);
 /* The transpose of that: what a unit (m³/s) that arrives on each cell adds to Σ weight per_width. [cells] */
 bool sp_film_adjoint(const sp_film *film, const double *weight, double *worth, sp_error *error);

@@ -88,7 +88,7 @@ static bool spread(flood *own, uint32_t *rank)
         uint32_t cell = (uint32_t)key, level = (uint32_t)(key >> 33);
         own->order->rank[cell] = (*rank)++;
         for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++)
-            if (!sp_film_drips(own->surface, links->to[k]) && !reach(own, links->to[k], cell, level))
+            if (!links->drips[links->to[k]] && !reach(own, links->to[k], cell, level))
                 return false;
         for (uint32_t fed = own->fed[cell]; fed != SP_NONE; fed = own->fed_too[fed])
             if (!reach(own, fed, cell, level))

@@ -6,6 +6,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#define LEAST_ACROSS 1e-9           /* of a cell's edge: less is round-off */
+#define CEILING 0.17453292519943295 /* rad, 10°: the slope below which a ceiling does not hold its film */
+
 /* A piece of a border between two cells. */
 typedef struct {
     uint32_t from, to;
@@ -15,6 +18,8 @@ typedef struct {
 typedef struct {
     const sp_film_surface *surface;
     sp_film_links *links;
+    sp_vec3 *tangents; /* [triangles] */
+    double *facing;    /* [triangles], the cosine of the front to straight down */
     size_t count, capacity;
     piece *pieces;
 } gathering;
@@ -23,6 +28,17 @@ sp_vec3 sp_film_tangent(sp_vec3 normal, sp_vec3 down)
 {
     sp_vec3 along = sp_along(down, -sp_dot(down, normal), normal);
     return sp_length(along) < SP_FILM_FLAT ? sp_v(0, 0, 0) : sp_unit(along);
+}
+
+bool sp_film_is_flat(const sp_film_surface *surface, uint32_t cell)
+{
+    return !(sp_length(sp_film_tangent(surface->cells->normal[cell], surface->down)) > 0);
+}
+
+bool sp_film_is_open(const sp_film_surface *surface, const sp_film_links *links, uint32_t cell)
+{
+    double across = sp_film_is_flat(surface, cell) ? links->end_length[cell] : links->end_across[cell];
+    return across > LEAST_ACROSS * surface->cells->length[cell];
 }
 
 static bool add_piece(gathering *own, piece added)
@@ -47,13 +63,30 @@ static bool take_border(void *user, const sp_border *border)
     uint32_t to = border->other == SP_NONE ? SP_NONE : surface->cell_of[border->other][border->other_side];
     if (from == SP_NONE || from == to)
         return true;
-    sp_vec3 tangent = sp_film_tangent(sp_triangle_normal(surface->mesh, border->triangle), surface->down);
-    double across = sp_dot(tangent, border->outward);
+    double across = sp_dot(own->tangents[border->triangle], border->outward), length = sp_length(border->outward);
+    own->links->facing[from] += length * (border->side ? -1 : 1) * own->facing[border->triangle];
     if (to != SP_NONE)
-        return add_piece(own, (piece){from, to, across, sp_length(border->outward)});
+        return add_piece(own, (piece){from, to, across, length});
     own->links->end_across[from] += across;
-    own->links->end[from] = sp_add(own->links->end[from], border->outward);
+    own->links->end_length[from] += length;
+    if (length > sp_length(own->links->end[from]))
+        own->links->end[from] = border->outward;
     return true;
+}
+
+static bool find_borders(gathering *own, sp_error *error)
+{
+    const sp_mesh *mesh = own->surface->mesh;
+    own->tangents = malloc((mesh->triangle_count + 1) * sizeof *own->tangents);
+    own->facing = malloc((mesh->triangle_count + 1) * sizeof *own->facing);
+    if (!own->tangents || !own->facing)
+        return sp_fail_memory(error);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        sp_vec3 normal = sp_triangle_normal(mesh, t);
+        own->tangents[t] = sp_film_tangent(normal, own->surface->down);
+        own->facing[t] = sp_dot(normal, own->surface->down);
+    }
+    return sp_atlas_visit_borders(own->surface->atlas, mesh, take_border, own, error);
 }
 
 /* The pieces in the order of the cells that they are between; NULL where memory ran out. */
@@ -99,16 +132,42 @@ static bool join(const gathering *own)
     return done;
 }
 
+/* True where nothing lies lower than the cell and it does not face up: liquid that has come there hangs. A cell that
+ * goes round an edge counts as what of it lies on its borders, whichever way its point faces. */
+static bool is_tip(const sp_film_surface *surface, const sp_film_links *links, uint32_t cell)
+{
+    const sp_vec3 *point = surface->cells->point;
+    double length = surface->cells->length[cell], facing = links->facing[cell] / length;
+    if (facing < -SP_FILM_FLAT)
+        return false;
+    for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++)
+        if (sp_dot(point[links->to[k]], surface->down) > sp_dot(point[cell], surface->down) ||
+            (facing < SP_FILM_FLAT && links->across[k] > LEAST_ACROSS * length))
+            return false;
+    return true;
+}
+
+/* Over an open end liquid runs on: what hangs there is no tip. */
+static void find_drips(const sp_film_surface *surface, sp_film_links *links)
+{
+    for (uint32_t i = 0; i < links->count; i++)
+        links->drips[i] = sp_dot(surface->cells->normal[i], surface->down) > cos(CEILING) ||
+                          (!sp_film_is_open(surface, links, i) && is_tip(surface, links, i));
+}
+
 bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, sp_error *error)
 {
     size_t count = surface->cells->count;
     *links = (sp_film_links){.count = count,
                              .start = calloc(count + 1, sizeof *links->start),
                              .end_across = calloc(count + 1, sizeof *links->end_across),
-                             .end = calloc(count + 1, sizeof *links->end)};
+                             .end_length = calloc(count + 1, sizeof *links->end_length),
+                             .end = calloc(count + 1, sizeof *links->end),
+                             .facing = calloc(count + 1, sizeof *links->facing),
+                             .drips = calloc(count + 1, sizeof *links->drips)};
     gathering own = {.surface = surface, .links = links};
-    bool done = links->start && links->end_across && links->end &&
-                sp_atlas_visit_borders(surface->atlas, surface->mesh, take_border, &own, error);
+    bool done = links->start && links->end_across && links->end_length && links->end && links->facing && links->drips &&
+                find_borders(&own, error);
     if (done && own.count >= SP_NONE) {
         sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "film: %zu borders of texels found, too many: take a coarser texel",
                 own.count);
@@ -116,8 +175,12 @@ bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, 
     }
     done = done && join(&own);
     free(own.pieces);
-    if (done)
+    free(own.tangents);
+    free(own.facing);
+    if (done) {
+        find_drips(surface, links);
         return true;
+    }
     sp_film_links_free(links);
     return sp_fail_memory(error);
 }
@@ -129,6 +192,9 @@ void sp_film_links_free(sp_film_links *links)
     free(links->across);
     free(links->length);
     free(links->end_across);
+    free(links->end_length);
     free(links->end);
+    free(links->facing);
+    free(links->drips);
     *links = (sp_film_links){0};
 }

@@ -13,7 +13,11 @@ typedef struct {
     double *across;     /* m, Σ t·b: what runs over the border out of the cell, above 0, or may run in from beyond */
     double *length;     /* m */
     double *end_across; /* [count], m, as `across`, of borders where the surface ends or goes on dry */
-    sp_vec3 *end;       /* [count], m, Σ b of these */
+    double *end_length; /* [count], m, of these */
+    sp_vec3 *end;       /* [count], m, b of the longest of these */
+    double *facing; /* [count], m, Σ over all borders of length times the cosine of the side there to straight down */
+    bool *drips;    /* [count], all that comes there drips off: a ceiling so flat that it does not hold its film, or
+                     * what hangs lower than all beside it */
 } sp_film_links;
 
 bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, sp_error *error);
@@ -21,5 +25,8 @@ void sp_film_links_free(sp_film_links *links);
 
 /* Unit vector in the plane with that normal (unit) along which gravity pulls; 0 where the plane is level. */
 sp_vec3 sp_film_tangent(sp_vec3 normal, sp_vec3 down);
+bool sp_film_is_flat(const sp_film_surface *surface, uint32_t cell);
+/* True where liquid of the cell gets to where the surface ends; on a flat, where the surface ends there at all. */
+bool sp_film_is_open(const sp_film_surface *surface, const sp_film_links *links, uint32_t cell);
 
 #endif

@@ -31,7 +31,7 @@ bool sp_film_basins_create(const sp_film_surface *surface, const sp_film_links *
     bool done = sets && first && basins->of && basins->pooled;
     for (uint32_t i = 0; done && i < count; i++) {
         sets[i] = first[i] = i;
-        basins->pooled[i] = !sp_film_drips(surface, i) && fills(surface, links, ends, order, i);
+        basins->pooled[i] = !links->drips[i] && fills(surface, links, ends, order, i);
     }
     for (uint32_t i = 0; done && i < count; i++)
         for (size_t k = links->start[i]; basins->pooled[i] && k < links->start[i + 1]; k++)

@@ -47,7 +47,7 @@ static bool share_wall(sharing *own, uint32_t cell)
 {
     const sp_film_links *links = own->links;
     double *width = &own->shares->width[cell];
-    bool drips = sp_film_drips(own->surface, cell), done = true;
+    bool drips = links->drips[cell], done = true;
     for (size_t k = links->start[cell]; done && k < links->start[cell + 1]; k++) {
         *width += fmax(0, links->across[k]);
         done = drips || share(own, cell, links->to[k], links->across[k]);
@@ -67,7 +67,7 @@ static bool share_rim(sharing *own, uint32_t cell)
     bool done = true;
     for (size_t k = links->start[cell]; done && k < links->start[cell + 1]; k++)
         done = own->basins->of[links->to[k]] == pool || share(own, pool, links->to[k], links->length[k]);
-    done = done && share(own, pool, own->ends[cell], sp_length(links->end[cell]));
+    done = done && share(own, pool, own->ends[cell], links->end_length[cell]);
     for (size_t i = before; i < own->shares->count; i++)
         own->shares->width[pool] += own->shares->items[i].width;
     return done;

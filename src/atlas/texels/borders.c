@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#define BESIDE 0.01 /* pixels: an edge nearer than this to a border of pixels may run along it */
+
 typedef struct {
     const sp_atlas *atlas;
     const sp_mesh *mesh;
@@ -59,9 +61,19 @@ static bool visit_between(void *user, uint32_t a, uint32_t b, uint32_t x, uint32
            visit_sides(s->walk, (sp_border){b, s->triangle, a, 0, 0, sp_scale(outward, -1)});
 }
 
+static bool is_in_one_pixel(const double (*uv)[2])
+{
+    for (int k = 0; k < 2; k++)
+        if (floor(uv[0][k]) != floor(uv[1][k]) || floor(uv[0][k]) != floor(uv[2][k]))
+            return false;
+    return true;
+}
+
 static bool visit_inside(const walk *w, uint32_t triangle, sp_pieces *pieces)
 {
     const double(*uv)[2] = (const double(*)[2])w->atlas->uv[triangle];
+    if (is_in_one_pixel(uv))
+        return true;
     double u[2] = {uv[1][0] - uv[0][0], uv[1][1] - uv[0][1]}, v[2] = {uv[2][0] - uv[0][0], uv[2][1] - uv[0][1]};
     double twice = u[0] * v[1] - u[1] * v[0];
     if (!(twice > 0))
@@ -72,7 +84,7 @@ static bool visit_inside(const walk *w, uint32_t triangle, sp_pieces *pieces)
     sheet s = {w, triangle, uv, .normal = sp_triangle_normal(w->mesh, triangle)};
     s.along[0] = sp_along(sp_scale(first, v[1] / twice), -u[1] / twice, second);
     s.along[1] = sp_along(sp_scale(first, -v[0] / twice), u[0] / twice, second);
-    return sp_pieces_sides(pieces, w->atlas, w->mesh, triangle, visit_between, &s);
+    return sp_pieces_sides(pieces, w->atlas, triangle, visit_between, &s);
 }
 
 /* One triangle at an edge, as it is met on the way about it. */
@@ -113,34 +125,92 @@ static void sort_leaves(const sp_mesh *mesh, const uint32_t *half_edges, size_t 
     qsort(leaves, count, sizeof *leaves, by_angle);
 }
 
-/* All along an edge, out of one triangle over one of its sides. `b` is `a` where the surface ends. */
-static bool visit_edge(const walk *w, sp_edge_walk *edge, uint32_t a, uint32_t b, sp_border border)
+/* What two triangles share of an edge, from one texel to the next; `a` is `b` where the surface ends. */
+typedef struct {
+    const walk *walk;
+    sp_edge_walk *edge;
+    uint32_t a, b;
+    sp_vec3 out_of_a, out_of_b; /* along the whole edge */
+} fold;
+
+static fold fold_of(const walk *w, sp_edge_walk *edge, uint32_t a, uint32_t b)
 {
-    sp_vec3 outward = sp_cross(step_of(w->mesh, a), sp_triangle_normal(w->mesh, a / 3));
-    if (!sp_edge_walk_begin(edge, w->atlas, w->mesh, a, b))
+    return (fold){w,
+                  edge,
+                  a,
+                  b,
+                  sp_cross(step_of(w->mesh, a), sp_triangle_normal(w->mesh, a / 3)),
+                  sp_cross(step_of(w->mesh, b), sp_triangle_normal(w->mesh, b / 3))};
+}
+
+/* The piece that the walk is at, from both triangles: `side` of one goes on in `other_side` of the other. */
+static bool visit_piece(const fold *f, uint8_t side, uint8_t other_side)
+{
+    const sp_edge_walk *edge = f->edge;
+    double part = edge->to - edge->from;
+    bool ends = f->a == f->b;
+    if (!ends && edge->texel_a == edge->texel_b)
+        return true;
+    sp_border out = {.texel = edge->texel_a, .triangle = f->a / 3, .other = ends ? SP_NONE : edge->texel_b};
+    out.side = side;
+    out.other_side = other_side;
+    out.outward = sp_scale(f->out_of_a, part);
+    sp_border back = {edge->texel_b, f->b / 3, edge->texel_a, other_side, side, sp_scale(f->out_of_b, part)};
+    return f->walk->visit(f->walk->user, &out) && (ends || f->walk->visit(f->walk->user, &back));
+}
+
+/* True where the two triangles of an edge lie side by side on the page: they share all texels that it crosses, unless
+ * it runs along a border of pixels. */
+static bool is_inside(const walk *w, uint32_t a, uint32_t b)
+{
+    double p[2], q[2];
+    if (a == b || !sp_edge_is_opposite(w->mesh, a, b) || sp_edge_is_cut(w->atlas, w->mesh, a, b))
         return false;
-    border.triangle = a / 3;
-    while (sp_edge_walk_next(edge, w->atlas)) {
-        border.texel = edge->texel_a;
-        border.other = a == b ? SP_NONE : edge->texel_b;
-        border.outward = sp_scale(outward, edge->to - edge->from);
-        if (border.texel != border.other && !w->visit(w->user, &border))
+    sp_edge_point(w->atlas, a, 0, p);
+    sp_edge_point(w->atlas, a, 1, q);
+    for (int k = 0; k < 2; k++) {
+        double border = floor(p[k] + 0.5);
+        if (fabs(p[k] - border) < BESIDE && fabs(q[k] - border) < BESIDE)
             return false;
     }
     return true;
 }
 
-/* Over either side of the triangle at `i` of an edge. */
-static bool visit_leaf(const walk *w, sp_edge_walk *edge, const leaf *leaves, size_t count, size_t i)
+/* An edge of one triangle or two: both sides go on, or end, at once. */
+static bool visit_plain(const walk *w, sp_edge_walk *edge, uint32_t a, uint32_t b)
 {
-    const leaf *own = &leaves[i];
-    for (uint8_t side = 0; side < 2; side++) {
-        bool ahead = own->ahead == (side == 0);
-        const leaf *next = &leaves[ahead ? (i + 1) % count : (i + count - 1) % count];
-        sp_border border = {.side = side, .other_side = next->ahead == ahead ? 1 : 0};
-        if (!visit_edge(w, edge, own->half_edge, next->half_edge, border))
+    if (is_inside(w, a, b))
+        return true;
+    fold f = fold_of(w, edge, a, b);
+    uint8_t front = a == b || sp_edge_is_opposite(w->mesh, a, b) ? 0 : 1; /* where the front of `a` goes on */
+    if (!sp_edge_walk_begin(edge, w->atlas, w->mesh, a, b))
+        return false;
+    while (sp_edge_walk_next(edge, w->atlas))
+        if (!visit_piece(&f, 0, front) || !visit_piece(&f, 1, 1 - front))
             return false;
-    }
+    return true;
+}
+
+/* From the side of one triangle that faces ahead to the side of the next that faces back. */
+static bool visit_leaf(const walk *w, sp_edge_walk *edge, const leaf *own, const leaf *next)
+{
+    fold f = fold_of(w, edge, own->half_edge, next->half_edge);
+    if (!sp_edge_walk_begin(edge, w->atlas, w->mesh, f.a, f.b))
+        return false;
+    while (sp_edge_walk_next(edge, w->atlas))
+        if (!visit_piece(&f, own->ahead ? 0 : 1, next->ahead ? 1 : 0))
+            return false;
+    return true;
+}
+
+static bool visit_leaves(const walk *w, sp_edge_walk *edge, const uint32_t *half_edges, size_t count, leaf *leaves)
+{
+    if (count <= 2)
+        return visit_plain(w, edge, half_edges[0], half_edges[count - 1]);
+    sort_leaves(w->mesh, half_edges, count, leaves);
+    for (size_t k = 0; k < count; k++)
+        if (!visit_leaf(w, edge, &leaves[k], &leaves[(k + 1) % count]))
+            return false;
     return true;
 }
 
@@ -152,9 +222,7 @@ static bool visit_edges(const walk *w, sp_error *error)
     bool done = leaves && sp_half_edges_create(w->mesh, &edges, error);
     for (size_t i = 0, of_edge; done && i < 3 * w->mesh->triangle_count; i += of_edge) {
         of_edge = sp_half_edges_of_edge(w->mesh, &edges, i);
-        sort_leaves(w->mesh, &edges.order[i], of_edge, leaves);
-        for (size_t k = 0; done && k < of_edge; k++)
-            done = visit_leaf(w, &edge, leaves, of_edge, k);
+        done = visit_leaves(w, &edge, &edges.order[i], of_edge, leaves);
     }
     sp_edge_walk_free(&edge);
     sp_half_edges_destroy(&edges);

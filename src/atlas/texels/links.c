@@ -98,7 +98,7 @@ bool sp_texel_links_create(sp_texel_links *links, const sp_atlas *atlas, const s
     sp_pieces pieces = {0};
     bool done = true;
     for (uint32_t t = 0; t < mesh->triangle_count && done; t++)
-        done = sp_pieces_sides(&pieces, atlas, mesh, t, pair_sides, &p);
+        done = sp_pieces_sides(&pieces, atlas, t, pair_sides, &p);
     done = done && pair_edges(&p, atlas, mesh, error) && collect(links, atlas, &p, error);
     free(p.items);
     sp_pieces_free(&pieces);

@@ -20,7 +20,7 @@ static bool add_row(sp_pieces *pieces, const sp_atlas *atlas, uint32_t triangle)
     }
     uint32_t texel = sp_atlas_row_texel(atlas, triangle, cover);
     for (uint32_t i = 0; i < cover->count; i++)
-        pieces->items[pieces->count + i] = (sp_piece){texel + i, sp_most(cover->area[i], LEAST_SHARE * cover->flat)};
+        pieces->items[pieces->count + i].texel = texel + i;
     for (size_t at = sp_atlas_shared_from(atlas, texel);
          at < atlas->shared_count && atlas->shared[at].pixel - texel < cover->count; at++)
         if (atlas->shared[at].triangle == triangle)
@@ -29,14 +29,24 @@ static bool add_row(sp_pieces *pieces, const sp_atlas *atlas, uint32_t triangle)
     return true;
 }
 
+static void measure_row(sp_pieces *pieces)
+{
+    const sp_cover *cover = &pieces->cover;
+    sp_piece *row = pieces->items + (pieces->count - cover->count);
+    for (uint32_t i = 0; i < cover->count; i++)
+        row[i].area = sp_most(cover->area[i], LEAST_SHARE * cover->flat);
+}
+
 bool sp_pieces_of(sp_pieces *pieces, const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle)
 {
     pieces->count = 0;
     if (!sp_atlas_cover(atlas, triangle, SP_COVER_AREAS, &pieces->cover))
         return false;
-    while (sp_cover_next(&pieces->cover))
+    while (sp_cover_next(&pieces->cover)) {
         if (!add_row(pieces, atlas, triangle))
             return false;
+        measure_row(pieces);
+    }
     double total = 0, surface = sp_triangle_area(mesh, triangle);
     for (size_t i = 0; i < pieces->count; i++)
         total += pieces->items[i].area;
@@ -51,26 +61,33 @@ typedef struct {
     size_t first;
 } piece_row;
 
-bool sp_pieces_sides(sp_pieces *pieces, const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle,
-                     sp_pieces_visitor *visit, void *user)
+static bool visit_row(const sp_piece *items, const piece_row *row, const piece_row *below, sp_pieces_visitor *visit,
+                      void *user)
 {
-    if (!sp_pieces_of(pieces, atlas, mesh, triangle) ||
-        !sp_atlas_cover(atlas, triangle, SP_COVER_PIXELS, &pieces->cover))
-        return false;
+    const sp_piece *own = items + row->first, *other = items + below->first;
+    for (uint32_t i = 1; i < row->count; i++)
+        if (!visit(user, own[i - 1].texel, own[i].texel, row->x + i - 1, row->y, false))
+            return false;
+    uint32_t from = row->x > below->x ? row->x : below->x, end = row->x + row->count;
+    end = end < below->x + below->count ? end : below->x + below->count;
+    for (uint32_t x = from; below->y + 1 == row->y && x < end; x++)
+        if (!visit(user, other[x - below->x].texel, own[x - row->x].texel, x, below->y, true))
+            return false;
+    return true;
+}
+
+bool sp_pieces_sides(sp_pieces *pieces, const sp_atlas *atlas, uint32_t triangle, sp_pieces_visitor *visit, void *user)
+{
     const sp_cover *cover = &pieces->cover;
-    const sp_piece *items = pieces->items;
+    pieces->count = 0;
+    if (!sp_atlas_cover(atlas, triangle, SP_COVER_PIXELS, &pieces->cover))
+        return false;
     piece_row below = {0};
-    for (size_t first = 0; sp_cover_next(&pieces->cover); first += cover->count) {
-        for (uint32_t i = 1; i < cover->count; i++)
-            if (!visit(user, items[first + i - 1].texel, items[first + i].texel, cover->x + i - 1, cover->y, false))
-                return false;
-        uint32_t from = cover->x > below.x ? cover->x : below.x, end = cover->x + cover->count;
-        end = end < below.x + below.count ? end : below.x + below.count;
-        for (uint32_t x = from; below.y + 1 == cover->y && x < end; x++)
-            if (!visit(user, items[below.first + (x - below.x)].texel, items[first + (x - cover->x)].texel, x, below.y,
-                       true))
-                return false;
-        below = (piece_row){cover->x, cover->y, cover->count, first};
+    while (sp_cover_next(&pieces->cover)) {
+        piece_row row = {cover->x, cover->y, cover->count, pieces->count};
+        if (!add_row(pieces, atlas, triangle) || !visit_row(pieces->items, &row, &below, visit, user))
+            return false;
+        below = row;
     }
     return true;
 }

@@ -46,12 +46,11 @@ typedef struct {
 } sp_pieces;
 /* Ordered by row, then x. Returns false when memory runs out. */
 bool sp_pieces_of(sp_pieces *pieces, const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle);
-/* The same, then visits the triangle's own texels that share the side of a pixel: a triangle is convex, so it passes
- * through that side. a lies at x, y, b at the next x, or y where `above`. False where memory runs out or the visitor
- * returns false. */
+/* Visits the triangle's own texels that share the side of a pixel: a triangle is convex, so it passes through that
+ * side. a lies at x, y, b at the next x, or y where `above`. `pieces` is room to work in. False where memory runs out
+ * or the visitor returns false. */
 typedef bool sp_pieces_visitor(void *user, uint32_t a, uint32_t b, uint32_t x, uint32_t y, bool above);
-bool sp_pieces_sides(sp_pieces *pieces, const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle,
-                     sp_pieces_visitor *visit, void *user);
+bool sp_pieces_sides(sp_pieces *pieces, const sp_atlas *atlas, uint32_t triangle, sp_pieces_visitor *visit, void *user);
 void sp_pieces_free(sp_pieces *pieces);
 
 /* polygon.c: the area on the surface (m²) of a triangle's part of pixel (x, y) of its page; all of it where the
