@@ -41,9 +41,9 @@ typedef struct {
     double flux;         /* m³/s per m², 0: none */
     double impact_speed; /* m/s, 0: none */
     double incidence;    /* rad, π/2: none */
+    sp_combine combine;
     double film;         /* m²/s, 0: none; else as much running down a patch, per width, covers it whatever the others
                           * say. Needs a cavity and gravity */
-    sp_combine combine;
 } sp_criterion;
 
 typedef enum { SP_TRAJECTORY_AUTO, SP_TRAJECTORY_LINE, SP_TRAJECTORY_PARABOLA } sp_trajectory;

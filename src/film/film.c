@@ -39,7 +39,8 @@ static bool line_up(sp_film *film, const sp_film_shares *shares, const sp_film_o
             film->share[k] /= width;
         film->steps[film->step_count++] = from;
         film->start[film->step_count] = end;
-        film->per_metre[from] = 1 / shares->width[from];
+        /* what stands is not what runs by: it counts as nothing */
+        film->per_metre[from] = film->to[i] == SP_FILM_HELD ? 0 : 1 / shares->width[from];
     }
     free(keys);
     free(by_rank);

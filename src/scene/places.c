@@ -52,10 +52,9 @@ static const sp_yaml *find_setting(const sp_yaml *tree, const char *message)
     const sp_yaml *found = sp_yaml_get(tree, key);
     if (found && !strcmp(key, "nozzles") && !strncmp(message + size, ": ", 2))
         found = find_nozzle(found, message + size + 2);
-    if (!found)
-        found = sp_yaml_get(sp_yaml_get(tree, "simulate"), key);
-    if (!found)
-        found = sp_yaml_get(sp_yaml_get(tree, "place"), key);
+    static const char *const blocks[] = {"criterion", "simulate", "place"};
+    for (size_t i = 0; !found && i < sizeof blocks / sizeof *blocks; i++)
+        found = sp_yaml_get(sp_yaml_get(tree, blocks[i]), key);
     return found && found->file ? found : tree;
 }
 

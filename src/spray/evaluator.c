@@ -71,7 +71,7 @@ static bool check_setup(const sp_setup *setup, sp_error *error)
         return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "evaluator: expected %s", wrong);
     if (criterion->film > 0 && (setup->cavity == SP_CAVITY_NONE || !(setup->gravity > 0)))
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                       "criterion.film: found without %s; expected a cavity, which says on which side of a wall it "
+                       "film: found without %s; expected a cavity, which says on which side of a wall it "
                        "runs down, and gravity",
                        setup->gravity > 0 ? "a cavity" : "gravity");
     return check_caps(setup, error) && check_surfaces(setup, error) && sp_geometry_is_resolved(setup, error);

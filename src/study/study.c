@@ -184,7 +184,7 @@ sp_study *sp_study_create(const sp_setup *setup, const sp_layout *layout, const 
         return NULL;
     if (setup->criterion.film > 0)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                       "criterion.film: found, expected none: study judges single points, which tell nothing of what "
+                       "film: found, expected none: study judges single points, which tell nothing of what "
                        "runs down to them"),
                NULL;
     if (layout->count == 0 && !place)

@@ -566,6 +566,51 @@ static void simulate_says_where_the_liquid_goes(void **state)
     assert_non_null(strstr(row, "<td>3.3 <span class=\"unit\">(16.7&nbsp;%)"));
 }
 
+/* A closed room keeps all that runs down its walls; film covers more than impact alone, and is read back. */
+static void film_runs_down_the_walls(void **state)
+{
+    (void)state;
+    write_room_with("film.yaml", "flux: 1 L/min/m2", "flux: 20 L/min/m2, film: 2 L/min/m");
+    write_room_with("impact.yaml", "flux: 1 L/min/m2", "flux: 20 L/min/m2");
+    json_t *object = expect_json("simulate film.yaml -o film --json", 0), *layout = layout_named(object, "manual");
+    json_t *film = json_object_get(layout, "film"), *impact = expect_json("simulate impact.yaml --json", 0);
+    double arriving = number(film, "arriving_l_min"), held = number(film, "held_l_min");
+    assert_true(fabs(arriving - 12) < 0.02 * 12); /* as far as patches tell how much falls on them */
+    assert_true(fabs(number(film, "left_l_min") + number(film, "astray_l_min") + held - arriving) < 1e-9);
+    assert_true(held > 0.999 * arriving);
+    assert_true(fabs(number(film, "per_girth_l_min_m") - arriving / 4) < 0.05 * arriving);
+    double alone = number(film, "covered_area_m2"), covered = number(layout, "covered_area_m2");
+    assert_true(alone > 0.1);
+    assert_true(fabs(number(layout_named(impact, "manual"), "covered_area_m2") + alone - covered) < 1e-9);
+    json_t *read = expect_json("compare film/result.json impact.yaml --json", 0);
+    json_t *again = json_object_get(json_array_get(json_object_get(read, "layouts"), 0), "film");
+    assert_true(fabs(number(again, "covered_area_m2") - alone) < 1e-12);
+    json_decref(object);
+    json_decref(impact);
+    json_decref(read);
+}
+
+static void refused(const char *arguments, const char *complaint)
+{
+    outcome result = run_program(arguments);
+    assert_int_equal(result.status, 3);
+    assert_non_null(strstr(result.err, complaint));
+    forget(&result);
+}
+
+/* Where film is not counted, or cannot be, it is refused. */
+static void film_is_refused_where_it_is_not_counted(void **state)
+{
+    (void)state;
+    write_room_with("film.yaml", "flux: 1 L/min/m2", "film: 2 L/min/m");
+    refused("place film.yaml", "film: found, expected none");
+    refused("study film.yaml", "film: found, expected none");
+    write_file("nowhere.yaml", "geometry:\n  - file: room.obj\ncriterion: {film: 2 L/min/m}\n");
+    refused("check nowhere.yaml", "nowhere.yaml:3:19: film: found without a cavity");
+    write_file("wrong.yaml", "geometry:\n  - file: room.obj\ncriterion: {film: 2 L/min}\n");
+    refused("check wrong.yaml", "wrong.yaml:3:19: film: found '2 L/min', expected a flow per width");
+}
+
 static void atlas_keeps_every_triangle(void **state)
 {
     (void)state;
@@ -724,6 +769,8 @@ int main(void)
         cmocka_unit_test(a_layout_has_one_coverage_wherever_it_is_read),
         cmocka_unit_test(a_nozzle_must_stand_in_the_liquid),
         cmocka_unit_test(simulate_says_where_the_liquid_goes),
+        cmocka_unit_test(film_runs_down_the_walls),
+        cmocka_unit_test(film_is_refused_where_it_is_not_counted),
         cmocka_unit_test(atlas_keeps_every_triangle),
         cmocka_unit_test(out_of_time_place_writes_the_best_so_far),
         cmocka_unit_test(interrupting_place_writes_the_best_so_far),

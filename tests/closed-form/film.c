@@ -171,7 +171,7 @@ static sp_mesh *domed_vessel(void)
 }
 
 typedef struct {
-    double hit, both, outline;
+    double hit, both, girth;
 } shares;
 
 /* A ball that throws upwards, evenly over the upper half of all directions, on the axis 110 mm beneath where the head
@@ -197,7 +197,7 @@ static shares clean_vessel(double texel)
     assert_true(film->known);
     assert_near("arriving", film->arriving, up.flow, 1e-3);
     assert_near("leaving", film->left, film->arriving, 1e-12);
-    shares found = {(coverage->covered_area - film->area) / coverage->area, coverage->fraction, film->per_outline};
+    shares found = {(coverage->covered_area - film->area) / coverage->area, coverage->fraction, film->per_girth};
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
     walls_close(&w);
@@ -211,7 +211,7 @@ static void field_rule(void **state)
     (void)state;
     shares coarse = clean_vessel(0.02 * COARSER);
     assert_true(coarse.hit > 0.2 && coarse.hit < 0.23 && coarse.both > 0.995);
-    assert_near("per metre of outline", coarse.outline, 25 * LITRES, 0.01 * COARSER);
+    assert_near("per metre of girth", coarse.girth, 25 * LITRES, 0.01 * COARSER);
 #ifndef SPRAYPLAN_SANITIZE
     shares fine = clean_vessel(0.01);
     assert_true(fabs(fine.hit - coarse.hit) < 0.005 && fabs(fine.both - coarse.both) < 0.005);

@@ -126,7 +126,7 @@ static void lines_where_they_keep_the_accuracy_and_save_work(void **state)
             nozzles[i].speed = speeds[k];
             nozzles[i].position.z -= 0.03 * i;
         }
-        st.s.setup.criterion = (sp_criterion){0, 0, M_PI / 2, SP_COMBINE_SUM};
+        st.s.setup.criterion = (sp_criterion){0, 0, M_PI / 2, SP_COMBINE_SUM, 0};
         st.s.setup.fidelity.texel = 0.012;
         sp_layout *layout = sp_layout_create(nozzles, NOZZLES, &error);
         sp_evaluator *evaluator = chosen_for(&st.s, layout);

@@ -125,7 +125,7 @@ static void trial_open(trial *t)
     setup->fidelity.method = SP_METHOD_INVERSE;
     setup->criterion =
         (sp_criterion){one_in(2) ? 0 : pow(10, between(-6, -3.5)), one_in(2) ? 0 : between(1, 8),
-                       one_in(2) ? M_PI / 2 : deg(between(40, 89)), one_in(2) ? SP_COMBINE_SUM : SP_COMBINE_SINGLE};
+                       one_in(2) ? M_PI / 2 : deg(between(40, 89)), one_in(2) ? SP_COMBINE_SUM : SP_COMBINE_SINGLE, 0};
     setup->gravity = one_in(8) ? 1 : 9.81;
     for (int k = 0; k < 2; k++) {
         setup->fidelity.trajectory = k ? SP_TRAJECTORY_PARABOLA : SP_TRAJECTORY_LINE;

@@ -42,7 +42,7 @@ static summary cover_boxes(size_t copies, bool bits, sp_trajectory trajectory)
     s.setup.fidelity.texel = 0.08;
     s.setup.cavity = SP_CAVITY_POINT;
     s.setup.cavity_point = sp_v(0.1, 0.2, 0.8);
-    s.setup.criterion = (sp_criterion){8.3e-6, 3, deg(80), SP_COMBINE_SUM};
+    s.setup.criterion = (sp_criterion){8.3e-6, 3, deg(80), SP_COMBINE_SUM, 0};
     sp_evaluator *evaluator = scene_evaluator(&s);
     sp_nozzle_type type = spray_type(SP_PATTERN_FULL_CONE, 100);
     sp_nozzle nozzle = nozzle_at(&type, sp_v(0.31, 0.13, 0.71), sp_v(0.9, 0.3, -0.2), 9);

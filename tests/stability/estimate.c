@@ -93,7 +93,7 @@ static void assert_on_plate(plate *p)
     sp_layout_destroy(layout);
 }
 
-static const sp_criterion any_liquid = {0, 0, M_PI / 2, SP_COMBINE_SUM};
+static const sp_criterion any_liquid = {0, 0, M_PI / 2, SP_COMBINE_SUM, 0};
 
 static plate floor_plate(const char *name, sp_pattern pattern, double degrees, double height, double speed)
 {

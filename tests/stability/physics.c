@@ -204,7 +204,7 @@ static void a_criterion_met_to_the_last_bit(void **state)
     for (int k = 0; k < 2; k++) {
         stage_open(&st, SP_TRAJECTORY_LINE, &home, sp_v(0, 0, 1));
         sp_criterion *criterion = &st.s.setup.criterion;
-        *criterion = (sp_criterion){0, 0, M_PI / 2, SP_COMBINE_SUM};
+        *criterion = (sp_criterion){0, 0, M_PI / 2, SP_COMBINE_SUM, 0};
         sp_evaluator *evaluator = scene_evaluator(&st.s);
         sp_coverage *free_of = sound_cover(evaluator, st.nozzles, 1, k == 0);
         const double *counted = free_of->deposits.counted, some = 0.45 * free_of->flux_max;
@@ -215,7 +215,7 @@ static void a_criterion_met_to_the_last_bit(void **state)
         const double flux = counted[patch], speed = free_of->deposits.speed_max[patch];
         for (int i = 0; i < 4; i++) {
             double asked = i % 2 ? nextafter(i < 2 ? flux : speed, INFINITY) : i < 2 ? flux : speed;
-            *criterion = (sp_criterion){i < 2 ? asked : 0, i < 2 ? 0 : asked, M_PI / 2, SP_COMBINE_SUM};
+            *criterion = (sp_criterion){i < 2 ? asked : 0, i < 2 ? 0 : asked, M_PI / 2, SP_COMBINE_SUM, 0};
             sp_evaluator *strict = scene_evaluator(&st.s);
             sp_coverage *coverage = sound_cover(strict, st.nozzles, 1, k == 0);
             assert_int_equal(coverage->deposits.covered[patch], i % 2 == 0);

@@ -16,13 +16,13 @@ static void open_room(scene *s, sp_trajectory trajectory, double texel)
 static void criteria_that_nothing_or_everything_meets(void **state)
 {
     (void)state;
-    static const sp_criterion nothing[] = {{1e6, 0, M_PI / 2, SP_COMBINE_SUM},
-                                           {1e300, 0, M_PI / 2, SP_COMBINE_SINGLE},
-                                           {0, 1e3, M_PI / 2, SP_COMBINE_SUM},
-                                           {0, 0, 1e-9, SP_COMBINE_SUM}},
-                              everything[] = {{0, 0, M_PI / 2, SP_COMBINE_SUM},
-                                              {1e-300, 1e-300, M_PI / 2, SP_COMBINE_SINGLE},
-                                              {1e-12, 1e-3, M_PI / 2, SP_COMBINE_SUM}};
+    static const sp_criterion nothing[] = {{1e6, 0, M_PI / 2, SP_COMBINE_SUM, 0},
+                                           {1e300, 0, M_PI / 2, SP_COMBINE_SINGLE, 0},
+                                           {0, 1e3, M_PI / 2, SP_COMBINE_SUM, 0},
+                                           {0, 0, 1e-9, SP_COMBINE_SUM, 0}},
+                              everything[] = {{0, 0, M_PI / 2, SP_COMBINE_SUM, 0},
+                                              {1e-300, 1e-300, M_PI / 2, SP_COMBINE_SINGLE, 0},
+                                              {1e-12, 1e-3, M_PI / 2, SP_COMBINE_SUM, 0}};
     sp_nozzle_type ball = spray_type(SP_PATTERN_FULL_CONE, 360);
     sp_nozzle nozzle = nozzle_at(&ball, sp_v(0.11, 0.03, 0.71), sp_v(0, 0, 1), 20);
     double off[2] = {0};

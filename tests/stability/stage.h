@@ -65,7 +65,7 @@ static inline void stage_open(stage *st, sp_trajectory trajectory, const sp_tran
     setup->cavity_point = sp_transform_point(pose, sp_v(0.6, -0.4, 1.2));
     setup->up = up;
     setup->gravity = 9.81 * pose->scale;
-    setup->criterion = (sp_criterion){8.3e-6, 3 * pose->scale, deg(80), SP_COMBINE_SUM};
+    setup->criterion = (sp_criterion){8.3e-6, 3 * pose->scale, deg(80), SP_COMBINE_SUM, 0};
     st->types[0] = spray_type(SP_PATTERN_FULL_CONE, 100);
     st->types[1] = spray_type(SP_PATTERN_FLAT_FAN, 90);
     st->nozzles[0] = nozzle_at(&st->types[0], sp_v(-0.61, 0.17, 1.23), sp_v(0.7, -0.2, -0.6), 9);
