@@ -33,7 +33,7 @@ sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error);
 sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *layout, sp_error *error);
 /* A second evaluator on the same geometry with another texel size (m), sharing accelerator, charts and wet sides with
  * `fine`, which must outlive it. On thin parts and on what is not cleaned its texels differ from `texel` in proportion
- * to those of `fine`. Inverse, whatever the setup asks: for searching. */
+ * to those of `fine`. Inverse, whatever the setup asks, and without film: for searching. */
 sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_error *error);
 /* A third on the same geometry, by the scene's own method, to count on again what was found on `evaluator`, which must
  * outlive it: by parabolas where auto took lines, and with `shorter` on texels half as long where auto chose them. NULL
