@@ -77,14 +77,14 @@ bool sp_study_refer(sp_studying *studying, const sp_evaluator *own, double texel
            (!sp_study_reflects(studying->setup) || fly_reference(studying, texel, study, error));
 }
 
-static sp_evaluator *prepare(const sp_setup *setup, sp_study_run *run, sp_error *error)
+static sp_evaluator *prepare(const sp_setup *setup, const sp_layout *layout, sp_study_run *run, sp_error *error)
 {
     sp_stopwatch watch = {.count = 0};
     sp_evaluator *evaluator = NULL;
     do {
         sp_evaluator_destroy(evaluator);
         sp_moment start = sp_moment_now();
-        evaluator = sp_evaluator_create(setup, error);
+        evaluator = sp_evaluator_create_for(setup, run->chosen ? layout : NULL, error);
         watch.rounds[watch.count++] = sp_moment_since(start);
     } while (evaluator && sp_stopwatch_wants(&watch));
     sp_moment median = sp_stopwatch_median(&watch);
@@ -116,7 +116,7 @@ bool sp_study_measure(sp_studying *studying, const sp_fidelity *fidelity, const 
     sp_setup setup = sp_study_setup(studying, fidelity);
     if (options->meter_start)
         options->meter_start();
-    sp_evaluator *evaluator = prepare(&setup, run, error);
+    sp_evaluator *evaluator = prepare(&setup, layout, run, error);
     sp_coverage *coverage = evaluator ? evaluate(evaluator, layout, run, error) : NULL;
     run->speed.memory = options->meter_peak ? options->meter_peak() : 0;
     bool good =

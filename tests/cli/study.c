@@ -167,6 +167,14 @@ static void misjudged_area_halves_with_the_texel(void **state)
     json_t *order = json_array_get(json_object_get(study, "orders"), 0);
     double fitted = json_real_value(json_object_get(order, "misjudged"));
     assert_true(fitted > 0.75 && fitted < 1.15);
+    /* the last run is where auto lands, as it does without a study */
+    json_t *simulated = expect_json("simulate vessel.yaml --json --set simulate.evaluator=inverse --set "
+                                    "simulate.trajectory=parabola --set simulate.accuracy=2%",
+                                    0);
+    double landed = json_real_value(json_object_get(json_object_get(simulated, "fidelity"), "texel_m"));
+    assert_true(json_is_true(json_object_get(json_array_get(runs, 4), "chosen")));
+    assert_float_equal(json_real_value(json_object_get(json_array_get(runs, 4), "texel_m")), landed, 1e-12);
+    json_decref(simulated);
     json_decref(study);
 }
 #endif
