@@ -1,6 +1,6 @@
 #include "watch.h"
 
-#include "grow.h"
+#include "mesh/grow.h"
 
 #include <math.h>
 #include <omp.h>

@@ -3,7 +3,7 @@
 #include "ranking.h"
 
 #include "bound/branch_work.h"
-#include "grow.h"
+#include "mesh/grow.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 #include "bound/branch_work.h"
-#include "grow.h"
+#include "mesh/grow.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 #include "bound/cover.h"
 
-#include "grow.h"
+#include "mesh/grow.h"
 
 #include <math.h>
 #include <stdlib.h>

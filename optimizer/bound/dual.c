@@ -1,6 +1,6 @@
 #include "bound/dual.h"
 
-#include "grow.h"
+#include "mesh/grow.h"
 #include "bound/coarse.h"
 #include "bound/hybrid.h"
 

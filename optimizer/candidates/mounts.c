@@ -1,6 +1,6 @@
 #include "candidates/mounts.h"
 
-#include "grow.h"
+#include "mesh/grow.h"
 
 #include "mesh/distance.h"
 #include "watch.h"

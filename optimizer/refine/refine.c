@@ -1,6 +1,6 @@
 #include "refine/refine.h"
 
-#include "grow.h"
+#include "mesh/grow.h"
 
 #include "search/guess.h"
 #include "refine/polish.h"

@@ -1,6 +1,6 @@
 #include "scoring/draft.h"
 
-#include "grow.h"
+#include "mesh/grow.h"
 
 #include "scoring/scoring.h"
 

@@ -1,6 +1,6 @@
 #include "search/front.h"
 
-#include "grow.h"
+#include "mesh/grow.h"
 
 #include <stdlib.h>
 #include <string.h>

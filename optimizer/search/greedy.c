@@ -1,6 +1,6 @@
 #include "search/greedy.h"
 
-#include "grow.h"
+#include "mesh/grow.h"
 #include "ranking.h"
 
 #include <omp.h>

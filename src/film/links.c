@@ -2,6 +2,7 @@
 
 #include "atlas/order.h"
 #include "atlas/texels/borders.h"
+#include "mesh/grow.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -43,14 +44,8 @@ bool sp_film_is_open(const sp_film_surface *surface, const sp_film_links *links,
 
 static bool add_piece(gathering *own, piece added)
 {
-    if (own->count == own->capacity) {
-        size_t capacity = own->capacity ? own->capacity + own->capacity / 2 : 4096;
-        piece *pieces = realloc(own->pieces, capacity * sizeof *pieces);
-        if (!pieces)
-            return false;
-        own->pieces = pieces;
-        own->capacity = capacity;
-    }
+    if (!sp_grow(&own->pieces, &own->capacity, own->count + 1, sizeof *own->pieces))
+        return false;
     own->pieces[own->count++] = added;
     return true;
 }

@@ -4,7 +4,8 @@
 
 #include <stdlib.h>
 
-bool sp_film_runs_off(const sp_film_links *links, const uint32_t *ends, const sp_film_order *order, uint32_t cell)
+/* True where something of what runs on the cell leaves it to where liquid goes from there. */
+static bool runs_off(const sp_film_links *links, const uint32_t *ends, const sp_film_order *order, uint32_t cell)
 {
     for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++)
         if (links->across[k] > 0 && order->rank[links->to[k]] < order->rank[cell])
@@ -19,7 +20,7 @@ static bool fills(const sp_film_surface *surface, const sp_film_links *links, co
 {
     if (order->sunk[cell])
         return true;
-    return sp_dot(surface->cells->normal[cell], surface->down) < 0 && !sp_film_runs_off(links, ends, order, cell);
+    return sp_dot(surface->cells->normal[cell], surface->down) < 0 && !runs_off(links, ends, order, cell);
 }
 
 bool sp_film_basins_create(const sp_film_surface *surface, const sp_film_links *links, const uint32_t *ends,

@@ -9,8 +9,6 @@ typedef struct {
     bool *pooled; /* [cells] */
 } sp_film_basins;
 
-/* True where something of what runs on the cell leaves it to where liquid goes from there. */
-bool sp_film_runs_off(const sp_film_links *links, const uint32_t *ends, const sp_film_order *order, uint32_t cell);
 bool sp_film_basins_create(const sp_film_surface *surface, const sp_film_links *links, const uint32_t *ends,
                            const sp_film_order *order, sp_film_basins *basins, sp_error *error);
 void sp_film_basins_free(sp_film_basins *basins);

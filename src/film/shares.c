@@ -1,5 +1,7 @@
 #include "film/shares.h"
 
+#include "mesh/grow.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -16,14 +18,8 @@ typedef struct {
 static bool add(sharing *own, uint32_t from, uint32_t to, double width)
 {
     sp_film_shares *shares = own->shares;
-    if (shares->count == shares->capacity) {
-        size_t capacity = shares->capacity ? shares->capacity + shares->capacity / 2 : 4096;
-        sp_film_share *items = realloc(shares->items, capacity * sizeof *items);
-        if (!items)
-            return false;
-        shares->items = items;
-        shares->capacity = capacity;
-    }
+    if (!sp_grow(&shares->items, &shares->capacity, shares->count + 1, sizeof *shares->items))
+        return false;
     shares->items[shares->count++] = (sp_film_share){from, to, width};
     own->shared[from] = true;
     return true;

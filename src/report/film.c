@@ -46,11 +46,7 @@ void sp_page_film(const sp_page *page, sp_text *text)
         return;
     sp_text_add(text, "<section id=\"film\"><h2>What runs down the walls</h2>\n<div class=\"wide\"><table "
                       "class=\"numbers\"><thead><tr><th scope=\"col\">Film</th>");
-    for (size_t i = 0; i < page->result->design_count; ++i) {
-        sp_text_add(text, "<th scope=\"col\">");
-        sp_page_name(page, text, i);
-        sp_text_add(text, "</th>");
-    }
+    sp_page_columns(page, text);
     sp_text_add(text, "</tr></thead>\n<tbody>\n");
     add_row(page, text, "Covered by film alone", "m\xc2\xb2", 3, covered);
     add_row(page, text, "Drains from the geometry", "L/min", 1, drained);

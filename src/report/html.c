@@ -66,6 +66,15 @@ void sp_page_name(const sp_page *page, sp_text *text, size_t design)
         sp_markup_escape(text, name);
 }
 
+void sp_page_columns(const sp_page *page, sp_text *text)
+{
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        sp_text_add(text, "<th scope=\"col\">");
+        sp_page_name(page, text, i);
+        sp_text_add(text, "</th>");
+    }
+}
+
 const char *sp_page_colour(const sp_page *page, size_t design)
 {
     static const char *const others[] = {"#3b5b92", "#b5542e", "#0b6670", "#7a4b8f", "#6b7a87", "#8a6d1d"};

@@ -47,11 +47,7 @@ void sp_page_liquid(const sp_page *page, sp_text *text)
     sp_text_add(text, "<section id=\"liquid\"><h2>Where the liquid goes</h2>\n<div class=\"wide\"><table "
                       "class=\"numbers\"><thead><tr><th scope=\"col\">L/min <span class=\"unit\">(of the "
                       "layout&#39;s water)</span></th>");
-    for (size_t i = 0; i < page->result->design_count; ++i) {
-        sp_text_add(text, "<th scope=\"col\">");
-        sp_page_name(page, text, i);
-        sp_text_add(text, "</th>");
-    }
+    sp_page_columns(page, text);
     sp_text_add(text, "</tr></thead>\n<tbody>\n");
     add_row(page, text, "Lands on surface to be cleaned", on_clean);
     add_row(page, text, "Lands on other surface: obstacles, dry sides", on_other);

@@ -20,6 +20,8 @@ typedef struct {
 void sp_page_head(sp_text *text, const char *title, const char *scene);
 /* A design's name for readers, escaped. */
 void sp_page_name(const sp_page *page, sp_text *text, size_t design);
+/* html.c: a heading of a column for each design. */
+void sp_page_columns(const sp_page *page, sp_text *text);
 /* Colour of a design in charts, "#rrggbb". */
 const char *sp_page_colour(const sp_page *page, size_t design);
 

@@ -119,11 +119,7 @@ void sp_page_figures(const sp_page *page, sp_text *text)
     sp_text_add(text,
                 "<section id=\"figures\"><h2>Figures</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead><tr>"
                 "<th scope=\"col\">Measure</th>");
-    for (size_t i = 0; i < page->result->design_count; ++i) {
-        sp_text_add(text, "<th scope=\"col\">");
-        sp_page_name(page, text, i);
-        sp_text_add(text, "</th>");
-    }
+    sp_page_columns(page, text);
     if (page->main != SP_UNKNOWN && page->manual != SP_UNKNOWN && page->main != page->manual)
         sp_text_add(text, "<th scope=\"col\">Proposed against manual</th>");
     sp_text_add(text, "</tr></thead>\n<tbody>\n");

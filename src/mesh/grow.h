@@ -1,6 +1,6 @@
 /* Arrays that grow. */
-#ifndef OPTIMIZER_GROW_H
-#define OPTIMIZER_GROW_H
+#ifndef SPRAYPLAN_MESH_GROW_H
+#define SPRAYPLAN_MESH_GROW_H
 
 #include <stdbool.h>
 #include <stdint.h>
