@@ -13,7 +13,7 @@
 #define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
 #define TRIALS_WATER 2     /* such waters */
 #define STEP_WATER 0.4     /* of the way to the proposal's water, for the first of them */
-#define WORK_LEAST 1e6     /* of branch and bound at the front's points, see sp_tree */
+#define WORK_LEAST 3e5     /* of branch and bound at the front's points, see sp_tree */
 #define WORK_EACH 6        /* the same, besides, in pricings of all candidates */
 #define WORK_PROVING 1e10  /* with --prove, where no time limit ends it */
 #define WATER_LIKE 1.7     /* times more or less water still counts as about as much */

@@ -248,14 +248,6 @@ static bool recombine_front(sp_refining *refining)
     return done;
 }
 
-static bool walk_from_front(sp_refining *refining)
-{
-    sp_trials trials = {0};
-    bool done = try_front(refining, &trials, SP_TRIAL_WALK) && carry_out(refining, &trials, NULL);
-    trials_free(&trials);
-    return done;
-}
-
 static bool same(const sp_front_point *a, const sp_front_point *b)
 {
     return fabs(a->area - b->area) <= GAIN_LEAST * b->area && fabs(a->flow - b->flow) <= GAIN_LEAST * b->flow;
@@ -390,7 +382,7 @@ static bool refine_all(sp_refining *refining)
     if (!polish_front(refining))
         return false;
     bool saves = front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
-    return walk_from_front(refining) && recombine_front(refining) && (!saves || save_water(refining)) &&
+    return recombine_front(refining) && (!saves || save_water(refining)) &&
            recombine_front(refining) && sharpen_often(refining, saves);
 }
 
