@@ -276,7 +276,7 @@ static void attainable_is_what_one_could_cover(void **state)
 {
     (void)state;
     job j;
-    job_open(&j);
+    job_open_coarse(&j, 0.05);
     /* one narrow cone straight down from one point: just its own footprint */
     j.mounts[0].from = j.mounts[0].to = sp_v(0, 0, 1);
     j.options.types = &j.type_list[1];
@@ -317,7 +317,7 @@ static void the_target_is_of_the_whole_surface(void **state)
                                               SP_OBJECTIVE_MAX_COVERAGE};
 #endif
     job j;
-    job_open(&j);
+    job_open_coarse(&j, 0.05);
     j.mounts[0].from = j.mounts[0].to = sp_v(0, 0, 1);
     j.options.types = &j.type_list[1];
     j.options.type_count = 1;

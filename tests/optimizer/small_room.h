@@ -49,9 +49,14 @@ static inline void job_open_coarse(job *j, double texel)
     j->options.mount_count = 1;
 }
 
+#ifdef SPRAYPLAN_SANITIZE
+#define SMALL_TEXEL 0.1
+#else
+#define SMALL_TEXEL 0.05
+#endif
 static inline void job_open(job *j)
 {
-    job_open_coarse(j, 0.05);
+    job_open_coarse(j, SMALL_TEXEL);
 }
 
 static inline sp_proposal *job_place(job *j)

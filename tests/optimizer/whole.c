@@ -102,7 +102,7 @@ static void wherever_it_stops_the_best_so_far_is_valid(void **state)
     for (size_t s = 0; s < sizeof stages / sizeof *stages; s++)
         for (size_t c = 0; c < sizeof calls / sizeof *calls; c++) {
             job j;
-            job_open_coarse(&j, 0.1);
+            job_open_coarse(&j, 0.2);
             stopper stop = {stages[s], 0, calls[c]};
             j.options.max_nozzles = 3;
             j.options.coverage = 0.7;
