@@ -87,6 +87,17 @@ typedef struct {
 const sp_opening *sp_evaluator_openings(const sp_evaluator *evaluator, size_t *count);
 /* m² of surface that is seen through openings alone and lies under the sky: it is left out. */
 double sp_evaluator_outdoors(const sp_evaluator *evaluator);
+/* Where what runs down the walls stands: hollows up to their rim, flats, and the lowest places of a vessel without its
+ * drain. */
+typedef struct {
+    sp_vec3 place; /* m, its lowest */
+    double area;   /* m², of the cells that film is routed on */
+    bool drains;   /* over its rim; else all that comes there stays */
+} sp_hollow;
+#define SP_HOLLOWS 16 /* as many are kept */
+/* Those that do not drain, then the others, those of most area first. Owned by the evaluator. None where the criterion
+ * does not ask for film. */
+const sp_hollow *sp_evaluator_hollows(const sp_evaluator *evaluator, size_t *count);
 /* True where the point lies in the space that the wet sides face (no cavity: everywhere). Never in a solid; else by
  * lines of sight in at least 16 directions: what most of them first meet is a wet side (or, with the cavity outside,
  * nothing). */

@@ -149,6 +149,16 @@ static void warn_of_openings(findings *found)
     }
 }
 
+static void warn_of_hollows(findings *found)
+{
+    size_t count;
+    const sp_hollow *hollows = sp_evaluator_hollows(found->opened->evaluator, &count);
+    for (size_t i = 0; i < count && !hollows[i].drains; i++) {
+        sp_vec3 p = told(found, hollows[i].place);
+        warn(found, "film: what runs down to [%.4g m, %.4g m, %.4g m] stands there: is a drain missing?", p.x, p.y, p.z);
+    }
+}
+
 static void warn_of_nozzles(findings *found)
 {
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
@@ -211,6 +221,19 @@ static void print_openings(const findings *found)
     }
 }
 
+static void print_hollows(const findings *found)
+{
+    size_t count;
+    const sp_hollow *hollows = sp_evaluator_hollows(found->opened->evaluator, &count);
+    if (count)
+        printf("\n%-36s %12s  %s\n", "hollow or flat at m", "area m2", "drains");
+    for (size_t i = 0; i < count; i++) {
+        sp_vec3 p = told(found, hollows[i].place);
+        printf("[%10.4f, %10.4f, %10.4f] %12.4g  %s\n", p.x, p.y, p.z, hollows[i].area,
+               hollows[i].drains ? "over its rim" : "not at all");
+    }
+}
+
 static void print_table(const findings *found, const char *output)
 {
     const sp_setup *setup = setup_of(found);
@@ -230,6 +253,7 @@ static void print_table(const findings *found, const char *output)
     print_parts(found);
     print_boxes(found);
     print_openings(found);
+    print_hollows(found);
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
     if (layout->count)
         printf("\n%-16s %-20s %12s %11s %10s\n", "nozzle", "type", "flow L/min", "speed m/s", "angle deg");
@@ -297,6 +321,19 @@ static json_t *openings_json(const findings *found)
     return list;
 }
 
+static json_t *hollows_json(const findings *found)
+{
+    size_t count;
+    const sp_hollow *hollows = sp_evaluator_hollows(found->opened->evaluator, &count);
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++) {
+        sp_vec3 p = told(found, hollows[i].place);
+        json_array_append_new(list, json_pack("{s:[fff], s:f, s:b}", "place_m", p.x, p.y, p.z, "area_m2",
+                                              hollows[i].area, "drains", (int)hollows[i].drains));
+    }
+    return list;
+}
+
 /* A point, "outside" or, where none is named, null. */
 static json_t *cavity_json(const sp_setup *setup)
 {
@@ -312,10 +349,10 @@ static bool print_json(const findings *found)
     for (size_t i = 0; i < found->warning_count; i++)
         json_array_append_new(warnings, json_string(found->warnings[i]));
     json_t *object =
-        json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}", "sprayplan", SP_VERSION,
+        json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}", "sprayplan", SP_VERSION,
                   "command", "check", "scene", sp_scene_path(found->opened->scene), "mesh", mesh_json(found), "parts",
-                  parts_json(found), "cavity_m", cavity_json(setup_of(found)), "openings", openings_json(found),
-                  "outdoors_m2", sp_evaluator_outdoors(found->opened->evaluator), "clean_area_m2",
+                  parts_json(found), "cavity_m", cavity_json(setup_of(found)), "openings", openings_json(found), "hollows",
+                  hollows_json(found), "outdoors_m2", sp_evaluator_outdoors(found->opened->evaluator), "clean_area_m2",
                   sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
                   (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
                   sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",
@@ -336,6 +373,7 @@ static bool examine(const cli_options *options, findings *found, sp_error *error
     warn_of_cavity(found);
     warn_of_sides(found);
     warn_of_openings(found);
+    warn_of_hollows(found);
     warn_of_nozzles(found);
     if (!cli_write_wet(options, found->opened, error))
         return false;

@@ -37,6 +37,27 @@ static void add_row(const sp_page *page, sp_text *text, const char *title, const
     sp_text_add(text, "</tr>\n");
 }
 
+/* A fault of the vessel, not of a layout. */
+static void add_hollows(const sp_page *page, sp_text *text)
+{
+    const sp_evaluator *evaluator = page->result->designs[page->main].evaluator;
+    size_t count = 0;
+    const sp_hollow *hollows = evaluator ? sp_evaluator_hollows(evaluator, &count) : NULL;
+    if (!count)
+        return;
+    sp_text_add(text, "<h3>Hollows and flats, where liquid stands</h3>\n<div class=\"wide\"><table class=\"numbers\">"
+                      "<thead><tr><th scope=\"col\">Lowest place <span class=\"unit\">(m)</span></th><th "
+                      "scope=\"col\">Area <span class=\"unit\">(m\xc2\xb2)</span></th><th scope=\"col\">Drains"
+                      "</th></tr></thead>\n<tbody>\n");
+    for (size_t i = 0; i < count; i++) {
+        sp_vec3 place = sp_setup_outside(sp_evaluator_setup(evaluator), hollows[i].place);
+        sp_text_add(text, "<tr><th scope=\"row\">%.3f, %.3f, %.3f</th><td>", place.x, place.y, place.z);
+        sp_markup_decimals(text, hollows[i].area, 4);
+        sp_text_add(text, "</td><td>%s</td></tr>\n", hollows[i].drains ? "over its rim" : "not at all");
+    }
+    sp_text_add(text, "</tbody></table></div>\n");
+}
+
 void sp_page_film(const sp_page *page, sp_text *text)
 {
     bool known = false;
@@ -54,5 +75,7 @@ void sp_page_film(const sp_page *page, sp_text *text)
     add_row(page, text, "Drips on dry surface", "L/min", 1, astray);
     add_row(page, text, "Supply per metre around all walls, seen from above", "L/min per m", 1, per_girth);
     sp_text_add(text, "</tbody></table></div>\n<p>The last row is the measure of rules of thumb, a mean around the "
-                      "walls; what the criterion asks for is what runs down at each place.</p>\n</section>\n");
+                      "walls; what the criterion asks for is what runs down at each place.</p>\n");
+    add_hollows(page, text);
+    sp_text_add(text, "</section>\n");
 }

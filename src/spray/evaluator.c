@@ -296,6 +296,12 @@ unsigned sp_evaluator_wet_at(const sp_evaluator *evaluator, uint32_t triangle, d
     return sp_wet_at(evaluator->wet, triangle, u, v);
 }
 
+const sp_hollow *sp_evaluator_hollows(const sp_evaluator *evaluator, size_t *count)
+{
+    *count = evaluator->rundown ? evaluator->rundown->hollow_count : 0;
+    return evaluator->rundown ? evaluator->rundown->hollows : NULL;
+}
+
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator)
 {
     return evaluator->gravity;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define CELLS_MOST 30000.0 /* film varies over lengths far above a texel's: 80 mm instead of 5 change .4 points */
+#define SPECK 0.1          /* of a cell: less is the sliver of one */
 
 /* The evaluator of all wet sides, with nothing asked for. */
 static sp_evaluator *create_walls(const sp_evaluator *evaluator, sp_error *error)
@@ -96,6 +97,30 @@ static bool measure_girth(const sp_evaluator *walls, double *girth)
     return done;
 }
 
+static bool goes_before(const sp_hollow *a, const sp_hollow *b)
+{
+    return a->drains != b->drains ? b->drains : a->area > b->area;
+}
+
+/* The worst of all pools, without specks that hold nothing. */
+static void list_hollows(sp_rundown *rundown)
+{
+    double texel = rundown->walls->fidelity.texel, speck = SPECK * texel * texel;
+    size_t count, *kept = &rundown->hollow_count;
+    const sp_film_pool *pools = sp_film_pools(rundown->film, &count);
+    for (size_t i = 0; i < count; i++) {
+        sp_hollow hollow = {rundown->walls->patches.point[pools[i].lowest], pools[i].area, pools[i].drains};
+        size_t at = *kept;
+        while (at > 0 && goes_before(&hollow, &rundown->hollows[at - 1]))
+            at--;
+        if (at == SP_HOLLOWS || (hollow.drains && hollow.area < speck))
+            continue;
+        *kept += *kept < SP_HOLLOWS;
+        memmove(&rundown->hollows[at + 1], &rundown->hollows[at], (*kept - at - 1) * sizeof hollow);
+        rundown->hollows[at] = hollow;
+    }
+}
+
 bool sp_rundown_create(sp_evaluator *evaluator, sp_error *error)
 {
     if (!(evaluator->setup.criterion.film > 0))
@@ -120,6 +145,7 @@ bool sp_rundown_create(sp_evaluator *evaluator, sp_error *error)
     if (!rundown->film)
         return false;
     find_cells(evaluator, rundown);
+    list_hollows(rundown);
     return measure_girth(walls, &rundown->girth) || sp_fail_memory(error);
 }
 

@@ -10,6 +10,8 @@ typedef struct sp_rundown {
     sp_film *film;       /* on them */
     uint32_t *cell;      /* [patches of the evaluator], the cell that holds each patch's point */
     double girth;        /* m, around all walls, seen from above */
+    size_t hollow_count;
+    sp_hollow hollows[SP_HOLLOWS];
 } sp_rundown;
 
 /* The evaluator's rundown, where its criterion asks for film. True where it does not. */

@@ -590,6 +590,32 @@ static void film_runs_down_the_walls(void **state)
     json_decref(read);
 }
 
+/* The room's floor has no drain. */
+static void check_says_where_liquid_stands(void **state)
+{
+    (void)state;
+    write_room_with("film.yaml", "flux: 1 L/min/m2", "film: 2 L/min/m");
+    json_t *object = expect_json("check film.yaml --json", 0), *hollows = json_object_get(object, "hollows");
+    assert_int_equal(json_array_size(hollows), 1);
+    json_t *floor = json_array_get(hollows, 0);
+    assert_true(fabs(number(floor, "area_m2") - 1) < 1e-9);
+    assert_true(json_is_false(json_object_get(floor, "drains")));
+    assert_true(json_number_value(json_array_get(json_object_get(floor, "place_m"), 2)) == 0);
+    assert_non_null(strstr(json_string_value(json_array_get(json_object_get(object, "warnings"), 0)), "stands there"));
+    json_decref(object);
+    outcome result = run_program("check film.yaml");
+    assert_non_null(strstr(result.out, "not at all\n"));
+    forget(&result);
+    object = expect_json("check room.yaml --json", 0);
+    assert_int_equal(json_array_size(json_object_get(object, "hollows")), 0);
+    json_decref(object);
+    result = run_program("simulate film.yaml -o standing --quiet");
+    forget(&result);
+    char *page = read_file("standing/report.html", NULL);
+    assert_non_null(strstr(page, "<td>1.0000</td><td>not at all</td>"));
+    free(page);
+}
+
 static void refused(const char *arguments, const char *complaint)
 {
     outcome result = run_program(arguments);
@@ -770,6 +796,7 @@ int main(void)
         cmocka_unit_test(a_nozzle_must_stand_in_the_liquid),
         cmocka_unit_test(simulate_says_where_the_liquid_goes),
         cmocka_unit_test(film_runs_down_the_walls),
+        cmocka_unit_test(check_says_where_liquid_stands),
         cmocka_unit_test(film_is_refused_where_it_is_not_counted),
         cmocka_unit_test(atlas_keeps_every_triangle),
         cmocka_unit_test(out_of_time_place_writes_the_best_so_far),
