@@ -22,8 +22,9 @@ typedef enum {
 } sp_pattern;
 
 typedef struct {
-    double density;   /* kg/m³ */
-    double viscosity; /* Pa s */
+    double density;         /* kg/m³ */
+    double viscosity;       /* Pa s */
+    double surface_tension; /* N/m, of liquids */
 } sp_fluid;
 
 /* A catalogue entry. Plain data; angles are full opening angles. */

@@ -155,7 +155,8 @@ static void warn_of_hollows(findings *found)
     const sp_hollow *hollows = sp_evaluator_hollows(found->opened->evaluator, &count);
     for (size_t i = 0; i < count && !hollows[i].drains; i++) {
         sp_vec3 p = told(found, hollows[i].place);
-        warn(found, "film: what runs down to [%.4g m, %.4g m, %.4g m] stands there: is a drain missing?", p.x, p.y, p.z);
+        warn(found, "film: what runs down to [%.4g m, %.4g m, %.4g m] stands there: is a drain missing?", p.x, p.y,
+             p.z);
     }
 }
 
@@ -351,9 +352,9 @@ static bool print_json(const findings *found)
     json_t *object =
         json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}", "sprayplan", SP_VERSION,
                   "command", "check", "scene", sp_scene_path(found->opened->scene), "mesh", mesh_json(found), "parts",
-                  parts_json(found), "cavity_m", cavity_json(setup_of(found)), "openings", openings_json(found), "hollows",
-                  hollows_json(found), "outdoors_m2", sp_evaluator_outdoors(found->opened->evaluator), "clean_area_m2",
-                  sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
+                  parts_json(found), "cavity_m", cavity_json(setup_of(found)), "openings", openings_json(found),
+                  "hollows", hollows_json(found), "outdoors_m2", sp_evaluator_outdoors(found->opened->evaluator),
+                  "clean_area_m2", sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
                   (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
                   sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",
                   (json_int_t)sp_scene_layout(found->opened->scene)->count, "warnings", warnings);

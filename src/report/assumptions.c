@@ -1,6 +1,8 @@
 /* What the figures rest on. */
 #include "page.h"
 
+#include "film/laminar.h"
+
 static void add_item(sp_text *text, const char *term)
 {
     sp_text_add(text, "<dt>%s</dt><dd>", term);
@@ -58,7 +60,8 @@ static void add_flight(sp_text *text, const sp_evaluator *evaluator)
                     "flux is off by some %.0f&nbsp;%%",
                     1e-6 * sp_evaluator_jets_wanted(evaluator), sp_evaluator_jets_met(evaluator),
                     100 / sqrt(fmax(1, sp_evaluator_jets_met(evaluator))));
-    sp_text_add(text, "; run-off along walls is not counted</dd>\n");
+    sp_text_add(text, "%s</dd>\n",
+                sp_evaluator_setup(evaluator)->criterion.film > 0 ? "" : "; run-off along walls is not counted");
     add_item(text, "Resolution");
     sp_text_add(text,
                 "texels of %.3g&nbsp;mm, %zu patches; each is judged at one point, and at a spray's edge "
@@ -87,8 +90,21 @@ static void add_choice(sp_text *text, const sp_evaluator *evaluator)
         sp_text_add(text, "</dd>\n");
 }
 
-static void add_criterion(sp_text *text, const sp_criterion *criterion)
+/* A wall that film rinses, for readers who know how thick films are. */
+static void add_film(sp_text *text, const sp_setup *setup)
 {
+    double per_width = setup->criterion.film, thickness = sp_film_thickness(&setup->liquid, per_width, setup->gravity);
+    sp_text_add(
+        text,
+        "; or at least %.4g&nbsp;L/min runs down per metre of width (on an upright wall %.2g&nbsp;mm thick and "
+        "%.2g&nbsp;m/s fast): rinsed by film, whatever hits it. All that hits a wall runs down from there at "
+        "once, also what it would throw back; solid streams spread on it first; rivulets of less are not counted",
+        6e4 * per_width, 1e3 * thickness, per_width / thickness);
+}
+
+static void add_criterion(sp_text *text, const sp_setup *setup)
+{
+    const sp_criterion *criterion = &setup->criterion;
     const char *separator = "";
     add_item(text, "Covered means");
     if (criterion->flux > 0) {
@@ -110,12 +126,7 @@ static void add_criterion(sp_text *text, const sp_criterion *criterion)
         sp_text_add(text, criterion->combine == SP_COMBINE_SINGLE ? "; one nozzle alone must do it"
                                                                   : "; the flux of all nozzles adds up");
     if (criterion->film > 0)
-        sp_text_add(
-            text,
-            "; or at least %.4g&nbsp;L/min runs down per metre of width: rinsed by film, whatever hits it. All "
-            "that hits a wall runs down from there at once, also what it would throw back; rivulets of less are "
-            "not counted",
-            6e4 * criterion->film);
+        add_film(text, setup);
     sp_text_add(text, "</dd>\n");
 }
 
@@ -179,7 +190,7 @@ void sp_page_assumptions(const sp_page *page, sp_text *text)
         }
         before = evaluator;
         sp_text_add(text, "<dl>\n");
-        add_criterion(text, &sp_evaluator_setup(evaluator)->criterion);
+        add_criterion(text, sp_evaluator_setup(evaluator));
         add_flight(text, evaluator);
         add_choice(text, evaluator);
         add_errors(page, text, evaluator);

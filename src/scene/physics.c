@@ -4,13 +4,23 @@
 #include <stdlib.h>
 
 static bool read_fluid(const sp_scene *scene, const sp_reader *reader, const char *key, const char *what,
-                       sp_fluid *fluid)
+                       const sp_key *keys, sp_fluid *fluid)
 {
-    static const sp_key keys[] = {{"density", false}, {"viscosity", false}, {NULL, false}};
     const sp_yaml *node = sp_yaml_get(scene->tree, key);
-    return !node || (sp_read_keys(reader, node, key, what, keys) &&
-                     sp_read_quantity(reader, node, "density", &sp_density_unit, sp_above(0), &fluid->density) &&
-                     sp_read_quantity(reader, node, "viscosity", &sp_viscosity_unit, sp_above(0), &fluid->viscosity));
+    return !node ||
+           (sp_read_keys(reader, node, key, what, keys) &&
+            sp_read_quantity(reader, node, "density", &sp_density_unit, sp_above(0), &fluid->density) &&
+            sp_read_quantity(reader, node, "viscosity", &sp_viscosity_unit, sp_above(0), &fluid->viscosity) &&
+            sp_read_quantity(reader, node, "surface_tension", &sp_tension_unit, sp_above(0), &fluid->surface_tension));
+}
+
+static bool read_fluids(sp_scene *scene, const sp_reader *reader)
+{
+    static const sp_key liquid[] = {
+        {"density", false}, {"viscosity", false}, {"surface_tension", false}, {NULL, false}};
+    static const sp_key air[] = {{"density", false}, {"viscosity", false}, {NULL, false}};
+    return read_fluid(scene, reader, "liquid", "the liquid", liquid, &scene->setup.liquid) &&
+           read_fluid(scene, reader, "air", "the air", air, &scene->setup.air);
 }
 
 static bool read_cavity(sp_scene *scene, const sp_reader *reader)
@@ -80,8 +90,7 @@ bool sp_scene_read_physics(sp_scene *scene, const sp_reader *reader)
     sp_setup *setup = &scene->setup;
     int up = 0;
     if (!sp_read_choice(reader, scene->tree, "up", ups, &up) || !read_cavity(scene, reader) ||
-        !read_caps(scene, reader) || !read_fluid(scene, reader, "liquid", "the liquid", &setup->liquid) ||
-        !read_fluid(scene, reader, "air", "the air", &setup->air) ||
+        !read_caps(scene, reader) || !read_fluids(scene, reader) ||
         !sp_read_quantity(reader, scene->tree, "gravity", &sp_acceleration_unit, sp_from(0), &setup->gravity) ||
         !read_criterion(scene, reader, &setup->criterion))
         return false;

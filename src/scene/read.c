@@ -19,6 +19,7 @@ const sp_dimension sp_flux_unit = {"a flux", "m3/s/m2", "1 L/min/m2", false};
 const sp_dimension sp_speed_unit = {"a speed", "m/s", "1 m/s", false};
 const sp_dimension sp_density_unit = {"a density", "kg/m3", "1000 kg/m3", false};
 const sp_dimension sp_viscosity_unit = {"a viscosity", "Pa.s", "1 mPa.s", false};
+const sp_dimension sp_tension_unit = {"a surface tension", "N/m", "72 mN/m", false};
 const sp_dimension sp_acceleration_unit = {"an acceleration", "m/s2", "9.81 m/s2", false};
 
 /* What stands at a node, as an error message says it. */

@@ -1,5 +1,6 @@
 #include "rundown.h"
 
+#include "discs.h"
 #include "resolution.h"
 
 #include <stdlib.h>
@@ -159,26 +160,53 @@ void sp_rundown_destroy(sp_rundown *rundown)
     free(rundown);
 }
 
+/* Of the layout the nozzles that are solid streams, or those that are not. */
+static sp_layout *part_of_layout(const sp_layout *layout, bool streams, sp_error *error)
+{
+    sp_layout *part = sp_layout_create(layout->nozzles, layout->count, error);
+    for (size_t i = part ? part->count : 0; i-- > 0;)
+        if ((part->nozzles[i].type->pattern == SP_PATTERN_SOLID_STREAM) != streams)
+            part->nozzles[i] = part->nozzles[--part->count];
+    return part;
+}
+
+/* What comes to every cell (m³/s) before it runs down. */
+static bool find_arriving(const sp_evaluator *walls, const sp_layout *layout, double *arriving, sp_error *error)
+{
+    sp_layout *streams = part_of_layout(layout, true, error);
+    sp_layout *sprays = streams ? part_of_layout(layout, false, error) : NULL;
+    sp_coverage *sprayed = sprays ? sp_evaluate_inverse(walls, sprays, error) : NULL;
+    bool done = sprayed != NULL;
+    for (size_t i = 0; done && i < walls->patches.count; i++)
+        arriving[i] = sprayed->deposits.flux[i] * walls->patches.area[i];
+    for (size_t i = 0; done && i < streams->count; i++) {
+        sp_layout one = {.count = 1, .nozzles = &streams->nozzles[i]};
+        done = sp_discs_add(walls, &one, arriving, error);
+    }
+    sp_coverage_destroy(sprayed);
+    sp_layout_destroy(sprays);
+    sp_layout_destroy(streams);
+    return done;
+}
+
 bool sp_rundown_find(const sp_rundown *rundown, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
 {
-    const sp_patches *cells = &rundown->walls->patches;
-    sp_coverage *arriving = sp_evaluate_inverse(rundown->walls, layout, error);
-    double *flow = arriving ? arriving->deposits.flux : NULL, *film = malloc((cells->count + 1) * sizeof *film);
+    size_t count = rundown->walls->patches.count;
+    double *flow = malloc((count + 1) * sizeof *flow), *film = malloc((count + 1) * sizeof *film);
     sp_film_balance *balance = &coverage->film;
-    *balance = (sp_film_balance){.known = true};
-    for (size_t i = 0; flow && i < cells->count; i++) {
-        flow[i] *= cells->area[i];
-        balance->arriving += flow[i];
-    }
     sp_film_ends ends = {0};
-    bool done = flow && (film || sp_fail_memory(error)) && sp_film_run(rundown->film, flow, film, &ends, error);
+    *balance = (sp_film_balance){.known = true};
+    bool done = ((flow && film) || sp_fail_memory(error)) && find_arriving(rundown->walls, layout, flow, error) &&
+                sp_film_run(rundown->film, flow, film, &ends, error);
+    for (size_t i = 0; done && i < count; i++)
+        balance->arriving += flow[i];
     for (size_t i = 0; done && i < coverage->deposits.count; i++)
         coverage->deposits.film[i] = rundown->cell[i] == SP_NONE ? 0 : film[rundown->cell[i]];
     balance->left = ends.left;
     balance->astray = ends.astray;
     balance->held = ends.held;
     balance->per_girth = rundown->girth > 0 ? balance->arriving / rundown->girth : 0;
-    sp_coverage_destroy(arriving);
+    free(flow);
     free(film);
     return done;
 }

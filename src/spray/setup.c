@@ -4,7 +4,7 @@ sp_setup sp_setup_default(void)
 {
     return (sp_setup){
         .cavity = SP_CAVITY_NONE,
-        .liquid = {.density = 1000, .viscosity = 1e-3},
+        .liquid = {.density = 1000, .viscosity = 1e-3, .surface_tension = 72e-3},
         .air = {.density = 1.2, .viscosity = 18e-6},
         .up = {0, 0, 1},
         .gravity = 9.81,

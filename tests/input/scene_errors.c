@@ -44,6 +44,11 @@ static const slip quantities[] = {
     {"2 mPa.s", "2 mPa",
      "scene.yaml:13:41: viscosity: found '2 mPa', expected a viscosity above 0 such as 1 mPa.s ('mPa' measures "
      "something else)"},
+    {"40 mN/m", "0 mN/m",
+     "scene.yaml:13:67: surface_tension: found '0 mN/m', expected a surface tension above 0 such as 72 mN/m"},
+    {"20 uPa.s}", "20 uPa.s, surface_tension: 1 N/m}",
+     "scene.yaml:14:48: surface_tension: found a key that the air does not have, expected one of density, "
+     "viscosity"},
     {"20 uPa.s", "-2 uPa.s",
      "scene.yaml:14:38: viscosity: found '-2 uPa.s', expected a viscosity above 0 such as 1 mPa.s"},
     {"1 L/min/m2", "1 L/min",
@@ -187,9 +192,9 @@ static const slip kinds[] = {
     {"[0.1 m, 20 cm, 0.3]", "[0.1 m, 20 cm]",
      "scene.yaml:12:9: cavity: found a list of 2, expected a list of three values such as [0, 0, 1]"},
     {"combine: single", "combine: mean", "scene.yaml:16:83: combine: found 'mean', expected sum or single"},
-    {"liquid: {density: 1.1 g/cm3, viscosity: 2 mPa.s}", "liquid: water",
+    {"liquid: {density: 1.1 g/cm3, viscosity: 2 mPa.s, surface_tension: 40 mN/m}", "liquid: water",
      "scene.yaml:13:9: liquid: found 'water', expected the keys of the liquid"},
-    {"liquid: {density: 1.1 g/cm3, viscosity: 2 mPa.s}", "liquid: [1]",
+    {"liquid: {density: 1.1 g/cm3, viscosity: 2 mPa.s, surface_tension: 40 mN/m}", "liquid: [1]",
      "scene.yaml:13:9: liquid: found a list of 1, expected the keys of the liquid"},
     {"name: N2", "name: N1", "scene.yaml:20:12: name: found 'N1', expected a name that no other nozzle has"},
     {"name: N2", "name: [N2]", "scene.yaml:20:12: name: found a list of 1, expected a name"},

@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-static const sp_fluid water = {1000, 1e-3};
+static const sp_fluid water = {1000, 1e-3, 72e-3};
 
 static sp_nozzle_type cone_type(sp_pattern pattern, double angle)
 {
@@ -30,7 +30,7 @@ static void flow_follows_the_root_of_pressure(void **state)
     sp_nozzle_type type = cone_type(SP_PATTERN_FULL_CONE, 1);
     sp_nozzle nozzle = {.type = &type, .pressure = 8e5};
     assert_float_equal(sp_nozzle_flow(&nozzle, &water), 2 * 12e-3 / 60, 1e-15);
-    sp_fluid heavy = {1210, 1e-3};
+    sp_fluid heavy = {1210, 1e-3, 72e-3};
     assert_float_equal(sp_nozzle_flow(&nozzle, &heavy), 2 * 12e-3 / 60 / 1.1, 1e-15);
     type.exponent = 0.46;
     assert_float_equal(sp_nozzle_flow(&nozzle, &water), 2e-4 * pow(4, 0.46), 1e-15);

@@ -45,6 +45,7 @@ static void defaults(void **state)
     near(setup->gravity, 9.81);
     near(setup->liquid.density, 1000);
     near(setup->liquid.viscosity, 1e-3);
+    near(setup->liquid.surface_tension, 72e-3);
     near(setup->air.density, 1.2);
     near(setup->air.viscosity, 18e-6);
     near(setup->criterion.flux, 0);
@@ -112,6 +113,7 @@ static void surfaces_and_physics(void **state)
     near_vector(setup->cavity_point, 0.1, 0.2, 0.3);
     near(setup->liquid.density, 1100);
     near(setup->liquid.viscosity, 2e-3);
+    near(setup->liquid.surface_tension, 40e-3);
     near(setup->air.viscosity, 20e-6);
     near(setup->criterion.flux, 1e-3 / 60);
     near(setup->criterion.impact_speed, 1);

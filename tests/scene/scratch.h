@@ -87,7 +87,7 @@ static const char full_scene[] =
     "    clean_parts: [floor, \"wall_*\"]\n"
     "  - {file: stirrer.obj, role: obstacle}\n"
     "cavity: [0.1 m, 20 cm, 0.3]\n"
-    "liquid: {density: 1.1 g/cm3, viscosity: 2 mPa.s}\n"
+    "liquid: {density: 1.1 g/cm3, viscosity: 2 mPa.s, surface_tension: 40 mN/m}\n"
     "air: {density: 1.3 kg/m3, viscosity: 20 uPa.s}\n"
     "gravity: 9.8 m/s2\n"
     "criterion: {flux: 1 L/min/m2, impact_speed: 3.6 km/h, incidence: 60 deg, combine: single}\n"
