@@ -2,6 +2,7 @@
 #include "certificate/certificate.h"
 #include "forward_check.h"
 #include "search/find.h"
+#include "refine/least_squares.h"
 #include "refine/refine.h"
 
 #include <sprayplan/points.h>
@@ -51,7 +52,8 @@ static bool check(const sp_evaluator *evaluator, const sp_place_options *options
     for (size_t i = 0; options->kept && i < options->kept->count; i++)
         if (options->kept->nozzles[i].keep && !sp_evaluator_admits(evaluator, &options->kept->nozzles[i], error))
             return false;
-    return true;
+    /* said now, not after the minutes that a search may take */
+    return !sp_refine_asked(&options->refine) || sp_least_squares_ready(error);
 }
 
 /* Mounting points, candidates, and what each point can reach on patches few enough. */

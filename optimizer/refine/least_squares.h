@@ -22,6 +22,9 @@ typedef struct {
     double tolerance; /* of cost, gradient and step, as Ceres defines them */
 } sp_least_squares;
 
+/* True where the solver is there, which is looked for once. */
+bool sp_least_squares_ready(sp_error *error);
+
 /* Minimises half the sum of squared residuals from x, which it improves in place (x never gets worse).
  * Levenberg-Marquardt, one thread, no logging. Fails where the function ever fails or memory runs out; x is then as it
  * was. */

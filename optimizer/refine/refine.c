@@ -386,10 +386,14 @@ static bool refine_all(sp_refining *refining)
            recombine_front(refining) && sharpen_often(refining, saves);
 }
 
+bool sp_refine_asked(const sp_refine *refine)
+{
+    return refine->position != 0 || refine->axis != 0 || refine->roll || refine->angle != 0 || refine->flow != 0;
+}
+
 bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error)
 {
-    const sp_refine *allowed = &search->options->refine;
-    if (allowed->position == 0 && allowed->axis == 0 && !allowed->roll && allowed->angle == 0 && allowed->flow == 0)
+    if (!sp_refine_asked(&search->options->refine))
         return true;
     sp_refining refining = {.search = search, .pool = pool, .watch = watch, .front = front, .error = error};
     if (!sp_polishing_create(search, pool, front->fine, watch, &refining.polishing, error))

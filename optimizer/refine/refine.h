@@ -5,6 +5,8 @@
 #include "search/exchange.h"
 #include "search/front.h"
 
+/* Whether refinement may change anything. */
+bool sp_refine_asked(const sp_refine *refine);
 /* Refines front->best in place: poses, then less water at the coverage asked for. */
 bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error);
 
