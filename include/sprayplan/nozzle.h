@@ -13,6 +13,7 @@ extern "C" {
 #endif
 
 #define SP_NAME 64 /* bytes of a name, the terminating zero included */
+#define SP_URL 256 /* the same of an address */
 
 typedef enum {
     SP_PATTERN_FULL_CONE,
@@ -41,7 +42,13 @@ typedef struct {
     double drop;                 /* diameter of the drops, m */
     double angle_min, angle_max; /* rad; equal to angle where not adjustable */
     double flow_min, flow_max;   /* m³/s of water at `at`; equal to flow where not adjustable */
+    char order_code[SP_NAME];    /* by which its maker sells it; "" where it has none */
+    char url[SP_URL];            /* of its page; "" where it has none, else as sp_is_url */
 } sp_nozzle_type;
+
+/* True of an http or https address that fits and has neither spaces nor control characters nor quotes: a page may link
+ * it. */
+bool sp_is_url(const char *text);
 
 /* One nozzle of a layout. */
 typedef struct {

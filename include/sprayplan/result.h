@@ -30,6 +30,7 @@ typedef struct {
 
 typedef struct {
     char *name, *type;                         /* owned */
+    char *order_code, *url;                    /* owned; of its type */
     sp_vec3 position;                          /* m */
     sp_vec3 axis;                              /* unit */
     double roll, angle, pressure, flow, speed; /* rad, rad, Pa, m³/s, m/s */
@@ -110,7 +111,8 @@ sp_figures *sp_result_figures(const sp_result *result, sp_error *error);
  * text, newline at the end, the caller frees. */
 char *sp_result_json(const sp_result *result, sp_error *error);
 /* nozzles.csv: one row a nozzle of `layout`, a layout of the setup:
- * name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar, flow_l_min,speed_m_s. Malloc'd. */
+ * name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s,order_code,url.
+ * Malloc'd. */
 char *sp_nozzles_csv(const sp_layout *layout, const sp_setup *setup, sp_error *error);
 
 /* A set of files that is written whole or not at all: each goes to a temporary name in `directory` (created where

@@ -37,18 +37,19 @@ static void add_row(const sp_page *page, sp_text *text, const char *title, const
     sp_text_add(text, "</tr>\n");
 }
 
-/* A fault of the vessel, not of a layout. */
-static void add_hollows(const sp_page *page, sp_text *text)
+/* Of the geometry of a design: a fault of the vessel, not of a layout. */
+static void add_hollows(const sp_page *page, sp_text *text, size_t design)
 {
-    const sp_evaluator *evaluator = page->result->designs[page->main].evaluator;
-    size_t count = 0;
-    const sp_hollow *hollows = evaluator ? sp_evaluator_hollows(evaluator, &count) : NULL;
+    const sp_evaluator *evaluator = page->result->designs[design].evaluator;
+    size_t count;
+    const sp_hollow *hollows = sp_evaluator_hollows(evaluator, &count);
     if (!count)
         return;
-    sp_text_add(text, "<h3>Hollows and flats, where liquid stands</h3>\n<div class=\"wide\"><table class=\"numbers\">"
-                      "<thead><tr><th scope=\"col\">Lowest place <span class=\"unit\">(m)</span></th><th "
-                      "scope=\"col\">Area <span class=\"unit\">(m\xc2\xb2)</span></th><th scope=\"col\">Drains"
-                      "</th></tr></thead>\n<tbody>\n");
+    sp_text_add(text, "<div class=\"wide\"><table class=\"numbers\"><caption>");
+    sp_page_name(page, text, design);
+    sp_text_add(text, ": hollows and flats, where liquid stands</caption>\n<thead><tr><th scope=\"col\">Lowest place "
+                      "<span class=\"unit\">(m)</span></th><th scope=\"col\">Area <span class=\"unit\">(m\xc2\xb2)"
+                      "</span></th><th scope=\"col\">Drains</th></tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < count; i++) {
         sp_vec3 place = sp_setup_outside(sp_evaluator_setup(evaluator), hollows[i].place);
         sp_text_add(text, "<tr><th scope=\"row\">%.3f, %.3f, %.3f</th><td>", place.x, place.y, place.z);
@@ -76,6 +77,12 @@ void sp_page_film(const sp_page *page, sp_text *text)
     add_row(page, text, "Supply per metre around all walls, seen from above", "L/min per m", 1, per_girth);
     sp_text_add(text, "</tbody></table></div>\n<p>The last row is the measure of rules of thumb, a mean around the "
                       "walls; what the criterion asks for is what runs down at each place.</p>\n");
-    add_hollows(page, text);
+    const sp_evaluator *before = NULL;
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        const sp_evaluator *evaluator = page->result->designs[i].evaluator;
+        if (evaluator && evaluator != before)
+            add_hollows(page, text, i);
+        before = evaluator;
+    }
     sp_text_add(text, "</section>\n");
 }

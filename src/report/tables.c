@@ -144,7 +144,20 @@ static void add_text_cell(sp_text *text, const char *tag, const char *value)
     sp_text_add(text, "</%.2s>", tag);
 }
 
-static void add_nozzle(sp_text *text, const sp_nozzle_figures *n)
+/* The type's name, which leads to its page where that is known. */
+static void add_type(sp_text *text, const sp_nozzle_figures *n)
+{
+    sp_text_add(text, "<td class=\"text\">");
+    if (n->url[0]) {
+        sp_text_add(text, "<a href=\"");
+        sp_markup_escape(text, n->url);
+        sp_text_add(text, "\" rel=\"noopener noreferrer\">");
+    }
+    sp_markup_escape(text, n->type);
+    sp_text_add(text, "%s</td>", n->url[0] ? "</a>" : "");
+}
+
+static void add_nozzle(sp_text *text, const sp_nozzle_figures *n, bool codes)
 {
     const double deg = 180 / M_PI;
     const double values[] = {n->position.x, n->position.y,  n->position.z,     n->axis.x,       n->axis.y, n->axis.z,
@@ -152,9 +165,19 @@ static void add_nozzle(sp_text *text, const sp_nozzle_figures *n)
     const int decimals[] = {3, 3, 3, 3, 3, 3, 1, 1, 2, 2, 1};
     sp_text_add(text, "<tr>");
     add_text_cell(text, "th scope=\"row\"", n->name);
-    add_text_cell(text, "td class=\"text\"", n->type);
+    add_type(text, n);
+    if (codes)
+        add_text_cell(text, "td class=\"text\"", n->order_code);
     add_numbers(text, values, decimals, sizeof values / sizeof *values);
     sp_text_add(text, "</tr>\n");
+}
+
+static bool has_codes(const sp_figures *figures)
+{
+    bool any = false;
+    for (size_t k = 0; k < figures->nozzle_count; ++k)
+        any |= figures->nozzles[k].order_code[0] != 0;
+    return any;
 }
 
 void sp_page_nozzles(const sp_page *page, sp_text *text)
@@ -162,6 +185,7 @@ void sp_page_nozzles(const sp_page *page, sp_text *text)
     sp_text_add(text, "<section id=\"nozzles\"><h2>Nozzles</h2>\n");
     for (size_t i = 0; i < page->result->design_count; ++i) {
         const sp_figures *figures = &page->figures[i];
+        bool codes = has_codes(figures);
         sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\"><caption>");
         sp_page_name(page, text, i);
         sp_text_add(text, ": %zu nozzle%s, ", figures->nozzle_count, figures->nozzle_count == 1 ? "" : "s");
@@ -169,13 +193,14 @@ void sp_page_nozzles(const sp_page *page, sp_text *text)
         sp_text_add(
             text,
             "&nbsp;L/min</caption>\n<thead><tr><th scope=\"col\">Name</th><th scope=\"col\" "
-            "class=\"text\">Type</th><th scope=\"col\">x&nbsp;m</th><th scope=\"col\">y&nbsp;m</th><th "
+            "class=\"text\">Type</th>%s<th scope=\"col\">x&nbsp;m</th><th scope=\"col\">y&nbsp;m</th><th "
             "scope=\"col\">z&nbsp;m</th><th scope=\"col\">axis&nbsp;x</th><th scope=\"col\">axis&nbsp;y</th><th "
             "scope=\"col\">axis&nbsp;z</th><th scope=\"col\">roll&nbsp;&deg;</th><th scope=\"col\">angle&nbsp;&deg;"
             "</th><th scope=\"col\">bar</th><th scope=\"col\">L/min</th><th scope=\"col\">m/s</th></tr></thead>\n"
-            "<tbody>\n");
+            "<tbody>\n",
+            codes ? "<th scope=\"col\" class=\"text\">Order code</th>" : "");
         for (size_t k = 0; k < figures->nozzle_count; ++k)
-            add_nozzle(text, &figures->nozzles[k]);
+            add_nozzle(text, &figures->nozzles[k], codes);
         sp_text_add(text, "</tbody></table></div>\n");
     }
     sp_text_add(text, "</section>\n");

@@ -22,7 +22,8 @@ char *sp_nozzles_csv(const sp_layout *layout, const sp_setup *setup, sp_error *e
     const sp_fluid *liquid = &setup->liquid;
     sp_text text = {0};
     sp_text_add(&text,
-                "name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s\n");
+                "name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s,"
+                "order_code,url\n");
     for (size_t i = 0; i < layout->count; ++i) {
         const sp_nozzle *nozzle = &layout->nozzles[i];
         const sp_vec3 position = sp_setup_outside(setup, nozzle->position);
@@ -44,6 +45,10 @@ char *sp_nozzles_csv(const sp_layout *layout, const sp_setup *setup, sp_error *e
             sp_text_append(&text, ",", 1);
             sp_text_number(&text, values[k]);
         }
+        sp_text_append(&text, ",", 1);
+        add_field(&text, nozzle->type->order_code);
+        sp_text_append(&text, ",", 1);
+        add_field(&text, nozzle->type->url);
         sp_text_append(&text, "\n", 1);
     }
     return sp_text_finish(&text, error);

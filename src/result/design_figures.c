@@ -53,6 +53,8 @@ static bool set_nozzles(sp_figures *figures, const sp_layout *layout, const sp_s
         const sp_nozzle *nozzle = &layout->nozzles[i];
         figures->nozzles[i] = (sp_nozzle_figures){.name = sp_text_utf8(nozzle->name),
                                                   .type = sp_text_utf8(nozzle->type->name),
+                                                  .order_code = sp_text_utf8(nozzle->type->order_code),
+                                                  .url = sp_text_utf8(nozzle->type->url),
                                                   .position = sp_setup_outside(setup, nozzle->position),
                                                   .axis = nozzle->axis,
                                                   .roll = nozzle->roll,
@@ -60,7 +62,8 @@ static bool set_nozzles(sp_figures *figures, const sp_layout *layout, const sp_s
                                                   .pressure = nozzle->pressure,
                                                   .flow = sp_nozzle_flow(nozzle, liquid),
                                                   .speed = sp_nozzle_speed(nozzle, liquid)};
-        copied &= figures->nozzles[i].name && figures->nozzles[i].type;
+        copied &= figures->nozzles[i].name && figures->nozzles[i].type && figures->nozzles[i].order_code &&
+                  figures->nozzles[i].url;
     }
     return copied;
 }

@@ -11,6 +11,8 @@ static void figures_clear(sp_figures *figures)
     for (size_t i = 0; i < figures->nozzle_count; ++i) {
         free(figures->nozzles[i].name);
         free(figures->nozzles[i].type);
+        free(figures->nozzles[i].order_code);
+        free(figures->nozzles[i].url);
     }
     for (size_t i = 0; i < figures->missing_count; ++i)
         free(figures->missing[i].part);

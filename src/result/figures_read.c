@@ -309,9 +309,18 @@ static bool read_shadow(const reader *in, const json_t *entry, sp_shadow_figures
            get_vector(in, entry, "centroid_m", &shadow->centroid) && get_text(in, entry, "part", &shadow->part);
 }
 
+/* A page will link it. */
+static bool get_url(const reader *in, const json_t *object, const char *key, char **value)
+{
+    return get_text(in, object, key, value) &&
+           (!(*value)[0] || sp_is_url(*value) ||
+            wrong(in, key, json_object_get(object, key), "an http or https address"));
+}
+
 static bool read_nozzle(const reader *in, const json_t *entry, sp_nozzle_figures *nozzle)
 {
     return get_text(in, entry, "name", &nozzle->name) && get_text(in, entry, "type", &nozzle->type) &&
+           get_text(in, entry, "order_code", &nozzle->order_code) && get_url(in, entry, "url", &nozzle->url) &&
            get_vector(in, entry, "position_m", &nozzle->position) && get_vector(in, entry, "axis", &nozzle->axis) &&
            get_real(in, entry, "roll_rad", -1e6, 1e6, 1, &nozzle->roll) &&
            get_real(in, entry, "angle_rad", 0, 7, 1, &nozzle->angle) &&

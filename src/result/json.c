@@ -168,6 +168,7 @@ static bool put_nozzle(json_t *nozzles, const sp_nozzle_figures *figures)
 {
     json_t *nozzle = json_object();
     bool done = put_text(nozzle, "name", figures->name) && put_text(nozzle, "type", figures->type) &&
+                put_text(nozzle, "order_code", figures->order_code) && put_text(nozzle, "url", figures->url) &&
                 put_vector(nozzle, "position_m", figures->position) && put_vector(nozzle, "axis", figures->axis) &&
                 put_real(nozzle, "roll_rad", figures->roll) && put_real(nozzle, "angle_rad", figures->angle) &&
                 put_real(nozzle, "pressure_pa", figures->pressure) &&

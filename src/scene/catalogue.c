@@ -102,19 +102,35 @@ static bool read_flow(const sp_reader *reader, const sp_yaml *node, sp_nozzle_ty
     return true;
 }
 
+/* Where to buy it. */
+static bool read_source(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+{
+    static const char expected[] = "an address such as https://example.com/nozzle";
+    const sp_yaml *child = sp_yaml_get(node, "url");
+    if (!sp_read_name(reader, node, "order_code", type->order_code))
+        return false;
+    if (!child)
+        return true;
+    const char *text = sp_read_text(reader, child, "url", expected);
+    if (!text)
+        return false;
+    snprintf(type->url, sizeof type->url, "%s", text);
+    return sp_is_url(text) || sp_read_fail(reader, child, "url", "%s", expected);
+}
+
 static bool read_type(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
     static const sp_key keys[] = {
-        {"name", true},       {"pattern", true},  {"angle", false},       {"hollow", false},
-        {"thickness", false}, {"flow", true},     {"at", true},           {"exponent", false},
-        {"cv", false},        {"drop", false},    {"angle_range", false}, {"flow_range", false},
-        {"image", false},     {"members", false}, {"rotation", false},    {NULL, false}};
+        {"name", true},         {"pattern", true},     {"angle", false},      {"hollow", false}, {"thickness", false},
+        {"flow", true},         {"at", true},          {"exponent", false},   {"cv", false},     {"drop", false},
+        {"angle_range", false}, {"flow_range", false}, {"order_code", false}, {"url", false},    {"image", false},
+        {"members", false},     {"rotation", false},   {NULL, false}};
     *type = (sp_nozzle_type){0};
     /* What is not built yet is said before what such a type may lack. */
     return (node->kind != SP_YAML_MAP || read_pattern(reader, node, type)) &&
            sp_read_keys(reader, node, "nozzles", "a catalogue type", keys) &&
            sp_read_name(reader, node, "name", type->name) && read_shape(reader, node, type) &&
-           read_flow(reader, node, type);
+           read_flow(reader, node, type) && read_source(reader, node, type);
 }
 
 static bool read_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *list)

@@ -397,7 +397,13 @@ static const slip catalogue_slips[] = {
     {"drop: 2 mm", "drop: 0 mm", "catalogue.yaml:4:109: drop: found '0 mm', expected a length above 0 such as 250 mm"},
     {"drop: 2 mm", "drop: 2 mm, colour: red",
      "catalogue.yaml:4:115: colour: found a key that a catalogue type does not have, expected one of name, pattern, "
-     "angle, hollow, thickness, flow, at, exponent, cv, drop, angle_range, flow_range, image, members, rotation"},
+     "angle, hollow, thickness, flow, at, exponent, cv, drop, angle_range, flow_range, order_code, url, image, "
+     "members, "
+     "rotation"},
+    {"https://example.com/r", "javascript:alert(1)//",
+     "catalogue.yaml:3:130: url: found 'javascript:alert(1)//?a=1&b=2', expected an address such as "
+     "https://example.com/nozzle"},
+    {"order_code: R-80", "order_code: [R]", "catalogue.yaml:3:121: order_code: found a list of 1, expected a name"},
     {"[60 deg, 120 deg]", "[60 deg]",
      "catalogue.yaml:7:19: angle_range: found a list of 1, expected a list of two values such as [30 deg, ...]"},
     {"[60 deg, 120 deg]", "60 deg",

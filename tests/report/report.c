@@ -201,7 +201,9 @@ static void names_from_strangers_stay_text(void **state)
     char *page = read_whole("report.html", &size);
     assert_non_null(strstr(page, "vessel &lt;script&gt;alert(1)&lt;/script&gt; &amp; "));
     assert_non_null(strstr(page, "N3 &lt;b&gt;"));
-    assert_non_null(strstr(page, "flat-fan-90 &amp; co"));
+    assert_non_null(strstr(page, "<a href=\"https://example.com/f?a=1&amp;b=2\" rel=\"noopener noreferrer\">"
+                                 "flat-fan-90 &amp; co</a></td><td class=\"text\">F&lt;90&gt;</td>"));
+    assert_non_null(strstr(page, "<td class=\"text\">full-cone-120</td><td class=\"text\"></td>"));
     assert_non_null(strstr(page, "dip &lt;tube&gt;"));
     assert_non_null(strstr(page, "<dt>Measured error</dt><dd>Manual \xc2\xb1"));
     assert_null(strstr(page, "N3 <b>"));

@@ -122,7 +122,9 @@ static const sp_nozzle_type tank_types[2] = {{.name = "full-cone-120",
                                               .angle_min = M_PI / 2,
                                               .angle_max = M_PI / 2,
                                               .flow_min = 8 / 6e4,
-                                              .flow_max = 8 / 6e4}};
+                                              .flow_max = 8 / 6e4,
+                                              .order_code = "F<90>",
+                                              .url = "https://example.com/f?a=1&b=2"}};
 
 static const sp_nozzle tank_manual[3] = {
     {.name = "N1", .type = &tank_types[0], .position = {0.3, -0.25, 1.25}, .axis = {0, 0, -1}, .pressure = 2e5},

@@ -23,7 +23,9 @@ static void rows_read_back(void **state)
                            .angle_min = M_PI / 2,
                            .angle_max = M_PI / 2,
                            .flow_min = 2e-4,
-                           .flow_max = 2e-4};
+                           .flow_max = 2e-4,
+                           .order_code = "A,1",
+                           .url = "https://example.com/a"};
     const sp_nozzle nozzle = {.name = "N1",
                               .type = &type,
                               .position = {0.1, -1.0 / 3, 1.8},
@@ -36,16 +38,17 @@ static void rows_read_back(void **state)
     char *csv = sp_nozzles_csv(layout, &setup, &error);
     assert_non_null(csv);
     const char *start =
-        "name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s\n"
+        "name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s,"
+        "order_code,url\n"
         "N1,\"cone, \"\"wide\"\"\",0.1,";
     assert_memory_equal(csv, start, strlen(start));
     double values[10];
     char *at = csv + strlen(start);
     for (int i = 0; i < 10; ++i) {
         values[i] = strtod(at, &at);
-        assert_int_equal(*at++, i < 9 ? ',' : '\n');
+        assert_int_equal(*at++, ',');
     }
-    assert_string_equal(at, "");
+    assert_string_equal(at, "\"A,1\",https://example.com/a\n");
     assert_true(values[0] == -1.0 / 3 && values[1] == 1.8 && values[4] == -1);
     assert_true(fabs(values[5] - 30) < 1e-12 && fabs(values[6] - 90) < 1e-12 && values[7] == 2);
     assert_true(fabs(values[8] - 12) < 1e-12 && fabs(values[9] - 19) < 1e-12);

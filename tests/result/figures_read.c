@@ -42,7 +42,8 @@ static void reads_what_design_says(void **state)
         " \"error_estimate\": 0.01, \"borderline_m2\": 0.04,"
         " \"coverage_of_attainable\": 0.95, \"flux_l_min_m2\": {\"min\": 0, \"mean\": 6},"
         " \"shadows\": [{\"area_m2\": 0.5, \"centroid_m\": [1, 2, 3], \"part\": \"lid\", \"reachable\": false}, {}],"
-        " \"nozzles\": [{\"name\": \"N1\", \"type\": \"t\", \"position_m\": [0, 0, 1.5], \"axis\": [0, 0, -1],"
+        " \"nozzles\": [{\"name\": \"N1\", \"type\": \"t\", \"order_code\": \"c\", \"url\": \"http://u\","
+        " \"position_m\": [0, 0, 1.5], \"axis\": [0, 0, -1],"
         " \"roll_rad\": -0.5, \"pressure_pa\": 200000, \"flow_l_min\": 30}]}]}",
         &count, &error);
     assert_non_null(figures);
@@ -63,6 +64,8 @@ static void reads_what_design_says(void **state)
     assert_int_equal(figures[1].shadows[1].reachable, -1);
     assert_true(figures[1].shadows[0].centroid.z == 3);
     assert_string_equal(figures[1].nozzles[0].type, "t");
+    assert_string_equal(figures[1].nozzles[0].order_code, "c");
+    assert_string_equal(figures[1].nozzles[0].url, "http://u");
     assert_true(isnan(figures[1].nozzles[0].angle));
     assert_true(figures[1].nozzles[0].position.z == 1.5);
     assert_true(fabs(figures[1].flux_mean - 1e-4) < 1e-18);
@@ -104,6 +107,9 @@ static void rejects_bad_input(void **state)
     rejects(HEAD "[{\"name\": \"a\", \"water_l_min\": \"1\", \"coverage\": 1, \"nozzles\": []}]}", "found a text");
     rejects(HEAD "[{\"name\": \"a\", \"coverage\": 1, \"nozzles\": []}]}", "water_l_min: missing");
     rejects(HEAD "[{\"name\": \"a\", \"water_l_min\": 1, \"coverage\": 1}]}", "nozzles: missing");
+    rejects(HEAD "[{\"name\": \"a\", \"water_l_min\": 1, \"covered_area_m2\": 1, \"coverage\": 1, \"nozzles\": "
+                 "[{\"name\": \"N\", \"type\": \"t\", \"url\": \"javascript:alert(1)\"}]}]}",
+            "layouts[0].nozzles[0].url: found a text, expected an http or https address");
     rejects(HEAD "[{" LAYOUT ", \"shadows\": 1}]}", "layouts[0].shadows");
     rejects(HEAD "[{" LAYOUT ", \"shadows\": [{}, 4]}]}", "layouts[0].shadows[1]: found 4");
     rejects(HEAD "[{" LAYOUT ", \"shadows\": [{\"centroid_m\": [1, 2]}]}]}", "shadows[0].centroid_m");

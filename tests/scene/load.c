@@ -163,6 +163,43 @@ static void nozzles_and_simulation(void **state)
     sp_scene_destroy(scene);
 }
 
+/* Types that the scene does not name are read all the same. */
+static void where_to_buy(void **state)
+{
+    (void)state;
+    scratch_write("sold.yaml", "geometry:\n  - {file: tank.obj, unit: m}\ncatalogue: catalogue.yaml\nnozzles:\n"
+                               "  - {name: N1, type: ring, position: [0, 0, 0], axis: [0, 0, 1], pressure: 2 bar}\n"
+                               "  - {name: N2, type: cone, position: [0, 0, 0], axis: [0, 0, 1], pressure: 2 bar}\n");
+    sp_error error = {0};
+    sp_scene *scene = sp_scene_load("sold.yaml", &error);
+    assert_non_null(scene);
+    const sp_nozzle *nozzles = sp_scene_layout(scene)->nozzles;
+    assert_string_equal(nozzles[0].type->order_code, "R-80");
+    assert_string_equal(nozzles[0].type->url, "https://example.com/r?a=1&b=2");
+    assert_true(!nozzles[1].type->order_code[0] && !nozzles[1].type->url[0]);
+    sp_scene_destroy(scene);
+}
+
+static void only_addresses_are_linked(void **state)
+{
+    (void)state;
+    static const char *const good[] = {"http://a", "https://example.com/r?a=1&b=%20#x"};
+    static const char *const bad[] = {"",           "a",          "https://",   "javascript:alert(1)",
+                                      "HTTPS ://a", "http://a b", "http://\"a", "http://<a>",
+                                      "ftp://a",    "http://a\n"};
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++)
+        assert_true(sp_is_url(good[i]));
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        assert_false(sp_is_url(bad[i]));
+    char long_one[SP_URL + 1];
+    memset(long_one, 'a', sizeof long_one);
+    memcpy(long_one, "https://", 8);
+    long_one[SP_URL] = 0;
+    assert_false(sp_is_url(long_one));
+    long_one[SP_URL - 1] = 0;
+    assert_true(sp_is_url(long_one));
+}
+
 static void mounts(void **state)
 {
     (void)state;
@@ -281,6 +318,8 @@ int main(void)
         cmocka_unit_test(place_defaults),
         cmocka_unit_test(surfaces_and_physics),
         cmocka_unit_test(nozzles_and_simulation),
+        cmocka_unit_test(where_to_buy),
+        cmocka_unit_test(only_addresses_are_linked),
         cmocka_unit_test(mounts),
         cmocka_unit_test(types),
         cmocka_unit_test(overrides),
