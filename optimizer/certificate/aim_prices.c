@@ -8,7 +8,9 @@
 
 #define UPWARDS (1 + 1e-4) /* more than a sweep's sum may lie off, see sweep.h */
 #define CLOSE 1.01         /* a cell's bound over the best known aim's price, that is not worth a split */
-#define CELLS_MOST 80000   /* that one pricing looks at, about */
+#define CELLS_EACH 20      /* for each candidate, that one pricing looks at, about, and more where these are few */
+#define CELLS_MORE 10000
+#define CELLS_MOST 80000
 #define ROWS_AT_A_TIME 200
 #define CULLS 16                      /* kept by each thread */
 #define KEY_FIRST (UINT64_C(1) << 62) /* of rows for aims, which have no number */
@@ -65,6 +67,7 @@ struct sp_aim_prices {
     double *fair; /* [tiers], worth of a nozzle that does not raise the bound; INFINITY: it takes too much */
     cell_list open, next;
     size_t looked_at; /* cells, by this pricing */
+    size_t enough;    /* of these */
     uint64_t keys;    /* given out so far */
 };
 
@@ -95,6 +98,8 @@ sp_aim_prices *sp_aim_prices_create(const sp_search *search, const sp_cover *cov
     prices->known = calloc((cover->port_count + 1) * cover->tier_count, sizeof *prices->known);
     prices->field = malloc((search->patch_count + 1) * sizeof *prices->field);
     prices->fair = malloc((cover->tier_count + 1) * sizeof *prices->fair);
+    size_t enough = CELLS_MORE + CELLS_EACH * search->candidates->pose_start[search->sites->count];
+    prices->enough = enough < CELLS_MOST ? enough : CELLS_MOST;
     bool done =
         (prices->scratches && prices->best && prices->known && prices->field && prices->fair) || sp_fail_memory(error);
     done = done && sp_knapsack_create(cover->nozzles, cover->water, &prices->knapsack, error);
@@ -333,7 +338,7 @@ static bool split_open(sp_aim_prices *prices, sp_offers *offers)
         double tilt = tilt_of(prices, cell->site);
         sp_aim_cell children[SP_AIM_CHILDREN];
         size_t count = 0;
-        if (open->items[i].excess > 0 && prices->looked_at + next->count < CELLS_MOST &&
+        if (open->items[i].excess > 0 && prices->looked_at + next->count < prices->enough &&
             sp_aim_cell_splits(cell, kind, site, tilt))
             count = sp_aim_cell_split(cell, kind, site, tilt, children);
         else

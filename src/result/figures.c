@@ -49,6 +49,13 @@ bool sp_figures_make_missing(sp_figures *figures, size_t count)
     return figures->missing != NULL;
 }
 
+/* A borrowed text becomes one's own; NULL where memory runs out. */
+static bool own(char **text)
+{
+    *text = sp_text_utf8(*text);
+    return *text != NULL;
+}
+
 static bool copy_missing(sp_figures *to, const sp_figures *from)
 {
     if (!sp_figures_make_missing(to, from->missing_count))
@@ -56,7 +63,7 @@ static bool copy_missing(sp_figures *to, const sp_figures *from)
     bool copied = true;
     for (size_t i = 0; i < to->missing_count; ++i) {
         to->missing[i] = from->missing[i];
-        copied &= (to->missing[i].part = sp_text_utf8(from->missing[i].part)) != NULL;
+        copied &= own(&to->missing[i].part);
     }
     return copied;
 }
@@ -74,12 +81,15 @@ bool sp_figures_copy(sp_figures *to, const sp_figures *from)
     bool copied = true;
     for (size_t i = 0; i < to->shadow_count; ++i) {
         to->shadows[i] = from->shadows[i];
-        copied &= (to->shadows[i].part = sp_text_utf8(from->shadows[i].part)) != NULL;
+        copied &= own(&to->shadows[i].part);
     }
     for (size_t i = 0; i < to->nozzle_count; ++i) {
         to->nozzles[i] = from->nozzles[i];
-        copied &= (to->nozzles[i].name = sp_text_utf8(from->nozzles[i].name)) != NULL;
-        copied &= (to->nozzles[i].type = sp_text_utf8(from->nozzles[i].type)) != NULL;
+        sp_nozzle_figures *nozzle = &to->nozzles[i];
+        copied &= own(&nozzle->name);
+        copied &= own(&nozzle->type);
+        copied &= own(&nozzle->order_code);
+        copied &= own(&nozzle->url);
     }
     return copied;
 }

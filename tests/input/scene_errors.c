@@ -401,9 +401,9 @@ static const slip catalogue_slips[] = {
      "members, "
      "rotation"},
     {"https://example.com/r", "javascript:alert(1)//",
-     "catalogue.yaml:3:130: url: found 'javascript:alert(1)//?a=1&b=2', expected an address such as "
+     "catalogue.yaml:3:133: url: found 'javascript:alert(1)//?a=1&b=2', expected an address such as "
      "https://example.com/nozzle"},
-    {"order_code: R-80", "order_code: [R]", "catalogue.yaml:3:121: order_code: found a list of 1, expected a name"},
+    {"order_code: R-80", "order_code: [R]", "catalogue.yaml:3:122: order_code: found a list of 1, expected a name"},
     {"[60 deg, 120 deg]", "[60 deg]",
      "catalogue.yaml:7:19: angle_range: found a list of 1, expected a list of two values such as [30 deg, ...]"},
     {"[60 deg, 120 deg]", "60 deg",
