@@ -401,7 +401,7 @@ static const slip catalogue_slips[] = {
      "members, "
      "rotation"},
     {"https://example.com/r", "javascript:alert(1)//",
-     "catalogue.yaml:3:133: url: found 'javascript:alert(1)//?a=1&b=2', expected an address such as "
+     "catalogue.yaml:3:133: url: found 'javascript:alert(1)//?a=x&b=y', expected an address such as "
      "https://example.com/nozzle"},
     {"order_code: R-80", "order_code: [R]", "catalogue.yaml:3:122: order_code: found a list of 1, expected a name"},
     {"[60 deg, 120 deg]", "[60 deg]",

@@ -175,7 +175,7 @@ static void where_to_buy(void **state)
     assert_non_null(scene);
     const sp_nozzle *nozzles = sp_scene_layout(scene)->nozzles;
     assert_string_equal(nozzles[0].type->order_code, "R-80");
-    assert_string_equal(nozzles[0].type->url, "https://example.com/r?a=1&b=2");
+    assert_string_equal(nozzles[0].type->url, "https://example.com/r?a=x&b=y");
     assert_true(!nozzles[1].type->order_code[0] && !nozzles[1].type->url[0]);
     sp_scene_destroy(scene);
 }

@@ -31,7 +31,7 @@ static const char catalogue[] =
     "nozzles:\n"
     "  - {name: cone, pattern: full_cone, angle: 90 deg, flow: 12 L/min, at: 2 bar}\n"
     "  - {name: ring, pattern: hollow_cone, angle: 80 deg, hollow: 0.7, flow: 8 L/min, at: 3 bar, exponent: 0.46, "
-    "order_code: R-80, url: 'https://example.com/r?a=1&b=2'}\n"
+    "order_code: R-80, url: 'https://example.com/r?a=x&b=y'}\n"
     "  - {name: fan, pattern: flat_fan, angle: 60 deg, thickness: 8 deg, flow: 2 gpm, at: 40 psi, cv: 0.9, drop: 2 "
     "mm}\n"
     "  - {name: jet, pattern: solid_stream, flow: 5 L/min, at: 2 bar}\n"
