@@ -96,12 +96,12 @@ static bool carry_out(sp_refining *refining, sp_trials *trials, sp_draft *best)
 }
 
 /* Every draft of the front once more. */
-static bool try_front(sp_refining *refining, sp_trials *trials, sp_trial_kind kind)
+static bool try_front(sp_refining *refining, sp_trials *trials)
 {
     const sp_front *front = refining->front;
     for (size_t i = 0; i < front->by_water.count; i++)
-        if (sp_front_counts(front, i) &&
-            !try_also(refining, trials, &front->by_water.entries[i].draft, front->by_water.entries[i].point.flow, kind))
+        if (sp_front_counts(front, i) && !try_also(refining, trials, &front->by_water.entries[i].draft,
+                                                   front->by_water.entries[i].point.flow, SP_TRIAL_POLISH))
             return false;
     return true;
 }
@@ -228,9 +228,8 @@ static void drop_others(sp_trials *trials)
 static bool polish_front(sp_refining *refining)
 {
     sp_trials trials = {0};
-    bool done = ask_others(refining, &trials, true) && find_others(refining, &trials) &&
-                try_front(refining, &trials, SP_TRIAL_POLISH) && try_fewest(refining, &trials) &&
-                carry_out(refining, &trials, NULL);
+    bool done = ask_others(refining, &trials, true) && find_others(refining, &trials) && try_front(refining, &trials) &&
+                try_fewest(refining, &trials) && carry_out(refining, &trials, NULL);
     trials_free(&trials);
     return done;
 }
@@ -382,8 +381,8 @@ static bool refine_all(sp_refining *refining)
     if (!polish_front(refining))
         return false;
     bool saves = front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
-    return recombine_front(refining) && (!saves || save_water(refining)) &&
-           recombine_front(refining) && sharpen_often(refining, saves);
+    return recombine_front(refining) && (!saves || save_water(refining)) && recombine_front(refining) &&
+           sharpen_often(refining, saves);
 }
 
 bool sp_refine_asked(const sp_refine *refine)

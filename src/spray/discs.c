@@ -9,7 +9,6 @@ typedef struct {
     const sp_patches *cells;
     double radius;   /* m */
     uint32_t *queue; /* [cells] */
-    size_t count;    /* of the queue */
     uint32_t *seen;  /* [cells], the last disc that each was looked at for, its middle + 1 */
     double *share;   /* [cells], by queue */
 } disc;
@@ -29,19 +28,19 @@ static void spread(disc *own, uint32_t middle, double flow, double *arriving)
     double all = own->share[0] = cells->area[middle];
     own->queue[0] = middle;
     own->seen[middle] = middle + 1;
-    own->count = 1;
-    for (size_t i = 0; i < own->count; i++)
+    size_t count = 1;
+    for (size_t i = 0; i < count; i++)
         for (size_t k = cells->neighbour_start[own->queue[i]]; k < cells->neighbour_start[own->queue[i] + 1]; k++) {
             uint32_t cell = cells->neighbours[k];
             double part = own->seen[cell] == middle + 1 ? 0 : part_of(own, middle, cell);
             own->seen[cell] = middle + 1;
             if (!(part > 0))
                 continue;
-            own->queue[own->count] = cell;
-            own->share[own->count++] = part;
+            own->queue[count] = cell;
+            own->share[count++] = part;
             all += part;
         }
-    for (size_t i = 0; i < own->count; i++)
+    for (size_t i = 0; i < count; i++)
         arriving[own->queue[i]] += flow * own->share[i] / all;
 }
 
