@@ -126,10 +126,11 @@ bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_layout *layout
     const sp_patches *patches = &evaluator->patches;
     sp_deposits *deposits = &coverage->deposits;
     double threshold = evaluator->setup.criterion.flux;
-    coverage->area = patches->total_area;
     if (evaluator->rundown && !sp_rundown_find(evaluator->rundown, layout, coverage, error))
         return false;
-    for (size_t i = 0; i < patches->count; i++) {
+    for (uint32_t i = 0; i < patches->count; i++) {
+        double area = sp_evaluator_counted(evaluator, i);
+        coverage->area += area;
         if (deposits->flux[i] > 0) {
             deposits->speed[i] /= deposits->flux[i];
             deposits->incidence[i] /= deposits->flux[i];
@@ -137,12 +138,12 @@ bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_layout *layout
         }
         deposits->share[i] = sp_wetting_share(&(sp_wetting){deposits->even[i], deposits->dry[i], 0}, threshold);
         if (evaluator->rundown && deposits->film[i] >= evaluator->setup.criterion.film) {
-            coverage->film.area += (1 - deposits->share[i]) * patches->area[i];
+            coverage->film.area += (1 - deposits->share[i]) * area;
             deposits->by_film[i] = deposits->share[i] < 0.5;
             deposits->share[i] = 1;
         }
         deposits->covered[i] = deposits->share[i] >= 0.5;
-        coverage->covered_area += deposits->share[i] * patches->area[i];
+        coverage->covered_area += deposits->share[i] * area;
     }
     coverage->fraction = coverage->area > 0 ? coverage->covered_area / coverage->area : 0;
     coverage->flow = sp_layout_flow(layout, &evaluator->setup.liquid);

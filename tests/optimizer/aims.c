@@ -150,7 +150,7 @@ static void stage_open(stage *s, sp_trajectory trajectory, bool sparse, uint64_t
     set_prices(s, sparse, random);
     assert_true(sp_aim_kinds_create(&s->search, &s->kinds, &error));
     assert_int_equal(s->kinds.count, TYPES);
-    s->poses = sp_pose_prices_create(&s->search, &s->cover, s->tier, s->need, s->ports, &error);
+    s->poses = sp_pose_prices_create(&s->search, &s->cover, s->tier, s->need, NULL, s->ports, &error);
     s->aims = sp_aim_prices_create(&s->search, &s->cover, &s->kinds, s->tiers, s->ports, s->poses, &error);
     assert_true(s->poses && s->aims);
 }
