@@ -44,7 +44,7 @@ static bool takes_types(const sp_nozzle_type *const *types, size_t count, sp_err
     for (size_t i = 0; i < count; i++)
         if (types[i]->pattern == SP_PATTERN_CLUSTER)
             return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                           "place: types: found '%s', a cluster, expected types of one pattern each; simulate and "
+                           "types: found '%s', a cluster, expected types of one pattern each; simulate and "
                            "compare take clusters",
                            types[i]->name);
     return true;
@@ -59,8 +59,8 @@ bool sp_place_takes(const sp_place_options *options, sp_error *error)
         const sp_nozzle *nozzle = &options->kept->nozzles[i];
         if (nozzle->keep && nozzle->type->pattern == SP_PATTERN_CLUSTER)
             return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                           "nozzles: %s is to be kept and its type '%s' is a cluster; place expects kept nozzles of "
-                           "one pattern each",
+                           "nozzles: %s, of type '%s', is a cluster to be kept; expected kept nozzles of one pattern "
+                           "each, until place aims clusters",
                            nozzle->name, nozzle->type->name);
     }
     return takes_types(options->types, options->type_count, error);

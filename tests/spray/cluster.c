@@ -346,7 +346,7 @@ static void placement_refuses_clusters(void **state)
     options.mount_count = options.type_count = options.pressure_count = 1;
     options.pressures = &pressure;
     options.types = clusters;
-    static const char message[] = "place: types: found 'type', a cluster, expected types of one pattern each; simulate "
+    static const char message[] = "types: found 'type', a cluster, expected types of one pattern each; simulate "
                                   "and compare take clusters";
     assert_refused(&r, &options, &own, message);
     options.types = cones;
@@ -359,8 +359,8 @@ static void placement_refuses_clusters(void **state)
     assert_true(sp_place_takes(&options, &error)); /* to compare with */
     whole.keep = true;
     assert_refused(&r, &options, &own,
-                   "nozzles: N1 is to be kept and its type 'type' is a cluster; place expects kept nozzles of one "
-                   "pattern each");
+                   "nozzles: N1, of type 'type', is a cluster to be kept; expected kept nozzles of one pattern each, "
+                   "until place aims clusters");
     room_close(&r);
 }
 
