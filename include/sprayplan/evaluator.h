@@ -122,7 +122,7 @@ void sp_runoff_find(sp_runoff *runoff, const sp_nozzle_type *type, double flow, 
 bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point);
 /* False, with an error that names the nozzle, where it cannot stand: in a wall (nearer to a surface than 1e-6 of the
  * geometry's diagonal), or not in the space that the wet sides face (by lines of sight as above, and none to the
- * cavity's point). */
+ * cavity's point). Of a cluster that is asked of each pattern. */
 bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle, sp_error *error);
 /* g, m/s²; zero for trajectory line. */
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator);
@@ -134,8 +134,8 @@ sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout,
 sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
 sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, uint64_t jets,
                                  sp_error *error);
-/* Works out coverage->balance of this layout where it is not known: 20,000 jets of each nozzle are flown to their first
- * impact, evenly spread, which tells shares of the liquid to about 0.1 %. */
+/* Works out coverage->balance of this layout where it is not known: 20,000 jets of each nozzle (which a cluster's
+ * patterns share) are flown to their first impact, evenly spread, which tells shares of the liquid to about 0.1 %. */
 bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
                          sp_error *error);
 

@@ -5,17 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const pattern_names[] = {"full_cone", "hollow_cone", "flat_fan", "solid_stream", NULL};
+static const char *const pattern_names[] = {"full_cone", "hollow_cone", "flat_fan", "solid_stream", "cluster", NULL};
 
-static bool read_pattern(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+bool sp_scene_read_pattern(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
-    static const char *const later[] = {"measured", "cluster", "rotating"};
-    static const char *const later_keys[] = {"image", "members", "rotation"};
+    static const char *const later[] = {"measured", "rotating"};
+    static const char *const later_keys[] = {"image", "rotation"};
     const sp_yaml *name = sp_yaml_get(node, "pattern");
     int pattern = 0;
     for (size_t i = 0; i < sizeof later / sizeof *later; i++)
         if (sp_text_is(name, later[i]))
-            return sp_read_unsupported(reader, name, "pattern", "full_cone, hollow_cone, flat_fan or solid_stream");
+            return sp_read_unsupported(reader, name, "pattern",
+                                       "full_cone, hollow_cone, flat_fan, solid_stream or cluster");
     for (size_t i = 0; i < sizeof later_keys / sizeof *later_keys; i++) {
         const sp_yaml *child = sp_yaml_get(node, later_keys[i]);
         if (child)
@@ -63,17 +64,32 @@ static bool read_adjustable(const sp_reader *reader, const sp_yaml *node, const 
     return true;
 }
 
-static bool read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+/* A cluster has the angles of its members. */
+static bool check_angles(const sp_reader *reader, const sp_yaml *node, const sp_nozzle_type *type)
+{
+    static const char *const angles[] = {"angle", "angle_range"};
+    for (int i = 0; i < 2 && type->pattern == SP_PATTERN_CLUSTER; i++) {
+        const sp_yaml *child = sp_yaml_get(node, angles[i]);
+        if (child)
+            return sp_read_message(reader, child, angles[i], "found in a cluster, expected angles in its members only");
+    }
+    return true;
+}
+
+bool sp_scene_read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
     const double pi = acos(-1);
     double limits[2];
+    if (!check_angles(reader, node, type))
+        return false;
     if (type->pattern == SP_PATTERN_SOLID_STREAM)
         type->angle = pi / 180;
-    else if (!sp_yaml_get(node, "angle"))
+    else if (type->pattern != SP_PATTERN_CLUSTER && !sp_yaml_get(node, "angle"))
         return sp_read_message(reader, node, "angle", "found nothing, expected this key in a %s",
                                pattern_names[type->pattern]);
     if (!check_pattern_key(reader, node, type, "hollow", SP_PATTERN_HOLLOW_CONE) ||
         !check_pattern_key(reader, node, type, "thickness", SP_PATTERN_FLAT_FAN) ||
+        !check_pattern_key(reader, node, type, "members", SP_PATTERN_CLUSTER) ||
         !sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_above_to(0, 2 * pi), &type->angle) ||
         !sp_read_quantity(reader, node, "hollow", &sp_share_unit, sp_from_below(0, 1), &type->hollow) ||
         !sp_read_quantity(reader, node, "thickness", &sp_angle_unit, sp_above_to(0, pi), &type->thickness) ||
@@ -127,10 +143,11 @@ static bool read_type(const sp_reader *reader, const sp_yaml *node, sp_nozzle_ty
         {"members", false},     {"rotation", false},   {NULL, false}};
     *type = (sp_nozzle_type){0};
     /* What is not built yet is said before what such a type may lack. */
-    return (node->kind != SP_YAML_MAP || read_pattern(reader, node, type)) &&
+    return (node->kind != SP_YAML_MAP || sp_scene_read_pattern(reader, node, type)) &&
            sp_read_keys(reader, node, "nozzles", "a catalogue type", keys) &&
-           sp_read_name(reader, node, "name", type->name) && read_shape(reader, node, type) &&
-           read_flow(reader, node, type) && read_source(reader, node, type);
+           sp_read_name(reader, node, "name", type->name) && sp_scene_read_shape(reader, node, type) &&
+           read_flow(reader, node, type) && read_source(reader, node, type) &&
+           sp_scene_read_members(reader, node, type);
 }
 
 static bool read_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *list)
@@ -144,13 +161,13 @@ static bool read_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *
     if (!scene->types)
         return sp_fail_memory(reader->error);
     for (const sp_yaml *node = list->first; node; node = node->next) {
-        sp_nozzle_type *type = &scene->types[scene->type_count];
+        /* Counted even when it fails: its members are then freed with the others'. */
+        sp_nozzle_type *type = &scene->types[scene->type_count++];
         if (!read_type(reader, node, type))
             return false;
-        for (size_t i = 0; i < scene->type_count; i++)
+        for (size_t i = 0; i + 1 < scene->type_count; i++)
             if (strcmp(scene->types[i].name, type->name) == 0)
                 return sp_read_fail(reader, sp_yaml_get(node, "name"), "name", "a name that no other type has");
-        scene->type_count++;
     }
     return true;
 }

@@ -18,8 +18,8 @@ typedef struct sp_rundown {
 bool sp_rundown_create(sp_evaluator *evaluator, sp_error *error);
 /* Of the evaluator, which may have none. */
 void sp_rundown_destroy(sp_evaluator *evaluator);
-/* Fills in the film of every patch, and where it ends, for what arrives on the walls from the layout at the first
- * impact: what a wall throws back is taken to run down it all the same. */
+/* Fills in the film of every patch, and where it ends, for what arrives on the walls from a layout of nozzles of one
+ * pattern each at the first impact: what a wall throws back is taken to run down it all the same. */
 bool sp_rundown_find(const sp_rundown *rundown, const sp_layout *layout, sp_coverage *coverage, sp_error *error);
 
 #endif
