@@ -110,7 +110,7 @@ typedef struct {
     bool computed; /* false: there was no time, and nothing below means anything */
     size_t texels; /* patches that both count on */
     uint64_t jets;
-    double coverage;   /* by the jets, as a fraction */
+    double coverage;   /* by the jets, as a fraction: what is hit, without film */
     double difference; /* that less the inverse evaluation's, points as a fraction */
     double tolerance;  /* the accuracy asked for, or what so many jets can tell where that is more */
     bool agrees;       /* the difference is no more than that */

@@ -16,7 +16,8 @@ sp_posed_spray sp_posed_spray_of(const sp_search *search, const sp_nozzle *nozzl
     return posed;
 }
 
-float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 d, double breadth, double transfer)
+/* What one arrival comes to. */
+static float value_of(const sp_posed_spray *posed, sp_vec3 d, double breadth, double transfer)
 {
     const sp_frame *frame = &posed->frame;
     double flux = transfer > 0 ? posed->strength * transfer : 0;
@@ -50,7 +51,7 @@ void sp_field_add(const sp_field_making *making, uint32_t patch, bool passes, sp
         making->arriving[patch] += share * (double)part * making->intensity * fmax(0, transfer);
     }
     if (passes)
-        *value = sp_field_join(*value, sp_posed_spray_value(posed, direction, breadth, transfer), part);
+        *value = sp_field_join(*value, value_of(posed, direction, breadth, transfer), part);
 }
 
 void sp_field_end(const sp_field_making *making)

@@ -25,8 +25,7 @@ typedef struct {
 } sp_posed_spray;
 
 sp_posed_spray sp_posed_spray_of(const sp_search *search, const sp_nozzle *nozzle);
-/* What one arrival comes to in a field. */
-float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 direction, double breadth, double transfer);
+
 /* A field (see sp_placed) in the making, arrival by arrival. */
 typedef struct {
     const sp_search *search;
@@ -68,7 +67,6 @@ double sp_make_strength(const sp_search *search, const sp_make *make);
 /* What a field adds to a draft, where film is asked for. */
 sp_score sp_field_score(const sp_search *search, const sp_draft *draft, const float *field);
 /* What it gains, whatever is asked for. */
-
 double sp_field_gain(const sp_search *search, const sp_draft *draft, const float *field);
 
 #endif

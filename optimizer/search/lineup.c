@@ -119,13 +119,24 @@ static inline float more_worth(bool single, float credit, float had, float dry, 
     return dry * (more < 0 ? -more * lack : plenty);
 }
 
-/* The same where film counts, too: of a field's value and film. */
-static inline float more_worth_of_both(const sp_lineup *lineup, float credit, size_t p, float field, float film)
+/* A patch as a line-up leaves it, where film counts, too. */
+typedef struct {
+    float hit, film, dry;
+    float lack; /* worth per m² that it has still to gain */
+} left_over;
+
+static left_over left_at(const sp_lineup *lineup, float credit, size_t p)
 {
-    float hit = lineup->hit[p], dry = lineup->dry[p], lack = dry * (1 - credit * lineup->wet[p]);
-    sp_pour(lineup->table->search, field, &hit, &dry);
-    float wet = fmaxf(hit, lineup->film[p] + film);
-    return wet >= SP_ENOUGH ? lack : lack - dry * (1 - credit * wet);
+    float dry = lineup->dry[p];
+    return (left_over){lineup->hit[p], lineup->film[p], dry, dry * (1 - credit * lineup->wet[p])};
+}
+
+/* As more_worth, of a field's value and its film. */
+static inline float more_worth_of_both(bool single, float credit, left_over at, float field, float film)
+{
+    float more = field > 0 ? field : 0, edge = field < 0 ? 1 + field : 1, sum = at.hit + more;
+    float hit = !single ? sum : more > at.hit ? more : at.hit, runs = at.film + film, wet = hit > runs ? hit : runs;
+    return at.lack - (wet >= SP_ENOUGH ? 0 : at.dry * edge * (1 - credit * wet));
 }
 
 static double gain_of(const sp_lineup *lineup, size_t row, float credit)
@@ -136,9 +147,10 @@ static double gain_of(const sp_lineup *lineup, size_t row, float credit)
         uint32_t p = table->patch[i];
         if (lineup->wet[p] >= SP_ENOUGH)
             continue;
-        float worth = table->film
-                          ? more_worth_of_both(lineup, credit, p, table->field[i], table->film[i])
-                          : more_worth(table->search->single, credit, lineup->wet[p], lineup->dry[p], table->field[i]);
+        bool single = table->search->single;
+        float worth = table->film ? more_worth_of_both(single, credit, left_at(lineup, credit, p), table->field[i],
+                                                       table->film[i])
+                                  : more_worth(single, credit, lineup->wet[p], lineup->dry[p], table->field[i]);
         gain += (double)(table->area[p] * worth);
     }
     return gain * table->search->all;
@@ -161,6 +173,7 @@ static void set_gains(sp_lineup *lineup, float credit)
     memset(lineup->gain, 0, table->row_count * sizeof *lineup->gain);
     for (size_t p = 0; p < table->patch_count; p++) {
         float had = lineup->wet[p], dry = lineup->dry[p], area = table->area[p];
+        left_over at = table->film ? left_at(lineup, credit, p) : (left_over){0};
         size_t end = table->column_start[p + 1];
         for (size_t i = table->column_start[p]; had < SP_ENOUGH && i < end; i += WORTHS) {
             size_t count = end - i < WORTHS ? end - i : WORTHS;
@@ -168,8 +181,8 @@ static void set_gains(sp_lineup *lineup, float credit)
             for (size_t k = 0; !table->film && k < count; k++)
                 worth[k] = area * more_worth(single, credit, had, dry, table->column_field[i + k]);
             for (size_t k = 0; table->film && k < count; k++)
-                worth[k] =
-                    area * more_worth_of_both(lineup, credit, p, table->column_field[i + k], table->column_film[i + k]);
+                worth[k] = area * more_worth_of_both(single, credit, at, table->column_field[i + k],
+                                                     table->column_film[i + k]);
             for (size_t k = 0; k < count; k++)
                 lineup->gain[row[k]] += (double)worth[k];
         }

@@ -194,14 +194,14 @@ static void print_forward_check(const sp_forward_check *check)
         return;
     double inverse = 100 * (check->coverage - check->difference), forward = 100 * check->coverage;
     if (check->agrees)
-        printf("\nCounted again by %.3g million jets, on %zu texels: %.1f %%, where the inverse evaluation finds %.1f "
-               "%%.\n",
+        printf("\nCounted again by %.3g million jets, on %zu texels: %.1f %% are hit as asked for, where the inverse "
+               "evaluation finds %.1f %%.\n",
                1e-6 * (double)check->jets, check->texels, forward, inverse);
     else
-        printf("\nwarning: the proposal's coverage is in doubt. Counted by %.3g million jets, on %zu texels, it is "
-               "%.1f %%, by "
-               "the inverse evaluation %.1f %%;\nthat is more apart than the accuracy of %.2g %%.\n",
-               1e-6 * (double)check->jets, check->texels, forward, inverse, 100 * check->tolerance);
+        printf(
+            "\nwarning: the proposal's coverage is in doubt. Counted by %.3g million jets, on %zu texels, %.1f %% are "
+            "hit as asked for, by the inverse evaluation %.1f %%;\nthat is more apart than the accuracy of %.2g %%.\n",
+            1e-6 * (double)check->jets, check->texels, forward, inverse, 100 * check->tolerance);
 }
 
 static void print_certificate(const sp_proposal *proposal)

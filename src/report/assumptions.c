@@ -151,8 +151,10 @@ static void add_scene(sp_text *text, const sp_setup *setup)
 static void add_check(sp_text *text, const sp_forward_check *check)
 {
     add_item(text, "Checked");
-    sp_text_add(text, "counted again by %.3g million jets, on %zu texels, the proposal covers ",
-                1e-6 * (double)check->jets, check->texels);
+    sp_text_add(
+        text,
+        "counted again by %.3g million jets, on %zu texels, the proposal hits as much as the criterion asks for on ",
+        1e-6 * (double)check->jets, check->texels);
     sp_markup_decimals(text, 100 * check->coverage, 1);
     sp_text_add(text, "&nbsp;%%, where the inverse evaluation finds ");
     sp_markup_decimals(text, 100 * (check->coverage - check->difference), 1);

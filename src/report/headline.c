@@ -69,7 +69,7 @@ static void add_shortfall(const sp_figures *proposed, const sp_proposal *proposa
 static void add_doubt(const sp_forward_check *check, sp_text *text)
 {
     sp_text_add(text, "<p class=\"warning\" id=\"doubt\"><strong>The proposal&#39;s coverage is in doubt.</strong> "
-                      "Counted again by jets flown from its nozzles it is ");
+                      "Counted again by jets flown from its nozzles, what is hit as asked for is ");
     sp_markup_decimals(text, 100 * check->coverage, 1);
     sp_text_add(text, "&nbsp;%%, by the inverse evaluation, which the search uses, ");
     sp_markup_decimals(text, 100 * (check->coverage - check->difference), 1);

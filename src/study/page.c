@@ -113,7 +113,8 @@ static void add_notes(sp_text *text, const sp_study *study)
                 "is tree, wet sides and atlas, evaluating is one layout.</dd>\n"
                 "<dt>Memory</dt><dd>The most that the program and its library held at a time, beyond the "
                 "geometry; what libraries beneath it take for themselves is not counted.</dd>\n"
-                "<dt>Left out</dt><dd>Air drag and film on walls, which this version does not model.</dd>\n"
+                "<dt>Left out</dt><dd>Air drag, which this version does not model, and film on walls, of which "
+                "points tell nothing.</dd>\n"
                 "<dt>What varies</dt><dd>What the scene sets is not varied: a texel that it sets is the only "
                 "one.</dd></dl></section>\n");
 }

@@ -319,6 +319,24 @@ static inline void film_over_boxes(recount_scene *s, double texel)
     scene_open(s, &b, fmax(texel, FILM_TEXEL));
 }
 
+/* So few poses that every layout can be tried. */
+static inline void film_of_few(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    room_box(&b, sp_v(-0.2, -0.3, 0), sp_v(0.2, 0.1, 0.5), "box", "top");
+    scene_type(s, SP_PATTERN_FULL_CONE, 70, 0, 9);
+    scene_type(s, SP_PATTERN_HOLLOW_CONE, 100, 0.7, 6.4);
+    scene_type(s, SP_PATTERN_SOLID_STREAM, 3, 0, 4);
+    s->room.setup.criterion = (sp_criterion){.flux = 6 * LITRES_PER_MINUTE, .film = 4 * LITRES_PER_MINUTE};
+    s->room.setup.gravity = 9.81;
+    s->mounts[0].tilt = 0;
+    s->mounts[0].axis = sp_unit(sp_v(0.6, 0.5, 0.2));
+    s->mounts[0].spacing = 0.2;
+    s->options.max_nozzles = 3;
+    scene_open(s, &b, fmax(texel, FILM_TEXEL));
+}
+
 /* Where one nozzle alone must hit, films still add up; one is kept. */
 static inline void film_and_one_alone(recount_scene *s, double texel)
 {
@@ -367,6 +385,7 @@ static const recount_case recount_cases[] = {
     {"film over boxes", false, false, true, film_over_boxes},
     {"film over boxes, refined", false, true, false, film_over_boxes},
     {"film and one alone", false, false, false, film_and_one_alone},
+    {"film of few, every layout", false, false, true, film_of_few},
 };
 #define RECOUNT_CASES (sizeof recount_cases / sizeof *recount_cases)
 

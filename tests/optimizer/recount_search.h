@@ -13,6 +13,7 @@
 
 #define RECOUNT_MOST 24       /* nozzles of a layout */
 #define RECOUNT_ROOM 40000000 /* patches that are remembered, of all nozzles */
+#define RECOUNT_FEW 40        /* poses */
 #define RECOUNT_STEPS 1500    /* of one annealing */
 #define RECOUNT_ROUNDING 1e-6 /* of a bound, that areas in single precision may lie above it */
 
@@ -381,10 +382,25 @@ static inline void recount_anneal(recount *r, double until, bool aimed)
         assert_true(fabs(recount_truly(r, &best) - best_area) <= 1e-9 * whole);
 }
 
-/* Spends so many seconds on each way. */
+/* Every layout that goes on from this one with poses no lower in number. */
+static inline void recount_every(recount *r, recount_layout layout, size_t first)
+{
+    for (size_t item = first; item < r->poses + r->own; item++) {
+        recount_layout more = layout;
+        if (!recount_admits(r, &layout, item, INFINITY))
+            continue;
+        more.item[more.count++] = item;
+        recount_judge(r, &more, recount_area(r, &more), RECOUNT_RANDOM);
+        recount_every(r, more, item);
+    }
+}
+
+/* Tries every layout where poses are few, then spends so many seconds on each way. */
 static inline void recount_search(recount *r, double seconds)
 {
     double begun = recount_clock();
+    if (r->poses <= RECOUNT_FEW && r->scene->options.max_nozzles && r->scene->options.max_nozzles <= 3)
+        recount_every(r, (recount_layout){0}, 0);
     for (size_t tried = 0; recount_clock() < begun + 0.25 * seconds; tried++) {
         recount_layout layout = recount_at_random(r, recount_some_water(r));
         double area = tried % 8 ? recount_area(r, &layout) : recount_truly(r, &layout);
