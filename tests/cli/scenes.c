@@ -631,8 +631,8 @@ static void film_is_placed_for(void **state)
 {
     (void)state;
     write_room_with("film.yaml", "{flux: 1 L/min/m2}", "{flux: 20 L/min/m2, film: 3 L/min/m}");
-    json_t *one = expect_json("place film.yaml --set simulate.texel=60mm -o proposed --json --threads 1", 4);
-    json_t *three = expect_json("place film.yaml --set simulate.texel=60mm --json --threads 3", 4);
+    json_t *one = expect_json("place film.yaml -o proposed --json --threads 1", 4);
+    json_t *three = expect_json("place film.yaml --json --threads 3", 4);
     json_t *layout = layout_named(one, "proposed"), *certificate = json_object_get(one, "certificate");
     assert_true(number(json_object_get(layout, "film"), "covered_area_m2") > 0);
     assert_true(number(certificate, "coverage_bound_same_water") >= number(certificate, "coverage"));
