@@ -242,11 +242,13 @@ static void weigh(const bounding *b, const spraying *s, uint32_t patch, const wo
     if (fast < criterion->impact_speed || flights.incidence_least > limit + SLACK ||
         (margin < -reach && share[0] == 0 && share[1] == 0))
         return;
+    /* of what rotates that is the most, and of the least it is told only that there is some */
     double transfer[2], flux = s->flow / s->straight.spray.solid_angle;
+    bool told = sp_spray_is_uniform(&s->straight.spray) || !(criterion->flux > 0);
     transfer_of(b, v, &flights, &transfer[0], &transfer[1]);
     *most = flux * transfer[1];
     if (slow >= criterion->impact_speed && flights.incidence_most < limit - SLACK && margin > reach && share[0] == 1 &&
-        share[1] == 1)
+        share[1] == 1 && told)
         *least = flux * transfer[0];
 }
 
