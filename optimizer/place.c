@@ -45,6 +45,8 @@ static bool check(const sp_evaluator *evaluator, const sp_place_options *options
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: no mounts");
     if (!(options->coverage >= 0 && options->coverage <= 1))
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: coverage: %g, expected 0 to 1", options->coverage);
+    if (!sp_place_takes(options, error))
+        return false;
     if (sp_evaluator_setup(evaluator)->criterion.film > 0)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "film: found, expected none: place counts what hits, not yet what runs down; "

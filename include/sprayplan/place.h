@@ -67,6 +67,9 @@ typedef struct {
 
 /* DESIGN §3's defaults, with no mounts, types or pressures. */
 sp_place_options sp_place_options_default(void);
+/* False, with an error that names it, where a type to choose from, or of a nozzle to keep, rotates: the search reckons
+ * with liquid that is as dense all over a pattern. */
+bool sp_place_takes(const sp_place_options *options, sp_error *error);
 
 typedef struct {
     double flow; /* m³/s */
