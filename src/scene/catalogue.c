@@ -5,23 +5,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const pattern_names[] = {"full_cone", "hollow_cone", "flat_fan", "solid_stream", NULL};
+static const char *const pattern_names[] = {"full_cone", "hollow_cone", "flat_fan", "solid_stream", "rotating", NULL};
+/* of what turns in a rotating type */
+static const char *const jet_names[] = {"full_cone", "hollow_cone", "flat_fan", "solid_stream", NULL};
 
-static bool read_pattern(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+static bool read_pattern(const sp_reader *reader, const sp_yaml *node, const char *const *names, sp_nozzle_type *type)
 {
-    static const char *const later[] = {"measured", "cluster", "rotating"};
-    static const char *const later_keys[] = {"image", "members", "rotation"};
+    static const char *const later[] = {"measured", "cluster"};
+    static const char *const later_keys[] = {"image", "members"};
     const sp_yaml *name = sp_yaml_get(node, "pattern");
     int pattern = 0;
     for (size_t i = 0; i < sizeof later / sizeof *later; i++)
         if (sp_text_is(name, later[i]))
-            return sp_read_unsupported(reader, name, "pattern", "full_cone, hollow_cone, flat_fan or solid_stream");
+            return sp_read_unsupported(reader, name, "pattern",
+                                       names == jet_names
+                                           ? "full_cone, hollow_cone, flat_fan or solid_stream"
+                                           : "full_cone, hollow_cone, flat_fan, solid_stream or rotating");
     for (size_t i = 0; i < sizeof later_keys / sizeof *later_keys; i++) {
         const sp_yaml *child = sp_yaml_get(node, later_keys[i]);
         if (child)
             return sp_read_unsupported(reader, child, later_keys[i], "a type without this key");
     }
-    if (!sp_read_choice(reader, node, "pattern", pattern_names, &pattern))
+    if (!sp_read_choice(reader, node, "pattern", names, &pattern))
         return false;
     type->pattern = (sp_pattern)pattern;
     return true;
@@ -72,7 +77,8 @@ static bool read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_t
     else if (!sp_yaml_get(node, "angle"))
         return sp_read_message(reader, node, "angle", "found nothing, expected this key in a %s",
                                pattern_names[type->pattern]);
-    if (!check_pattern_key(reader, node, type, "hollow", SP_PATTERN_HOLLOW_CONE) ||
+    if (!check_pattern_key(reader, node, type, "rotation", SP_PATTERN_ROTATING) ||
+        !check_pattern_key(reader, node, type, "hollow", SP_PATTERN_HOLLOW_CONE) ||
         !check_pattern_key(reader, node, type, "thickness", SP_PATTERN_FLAT_FAN) ||
         !sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_above_to(0, 2 * pi), &type->angle) ||
         !sp_read_quantity(reader, node, "hollow", &sp_share_unit, sp_from_below(0, 1), &type->hollow) ||
@@ -82,6 +88,45 @@ static bool read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_t
     type->angle_min = limits[0];
     type->angle_max = limits[1];
     return true;
+}
+
+/* The pattern that turns: its angles become the type's. */
+static bool read_jet(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+{
+    static const sp_key keys[] = {{"pattern", true}, {"angle", false}, {"hollow", false}, {"thickness", false},
+                                  {"tilt", false},   {"roll", false},  {NULL, false}};
+    const double pi = acos(-1);
+    sp_rotation *rotation = &type->rotation;
+    sp_nozzle_type jet = {0};
+    if ((node->kind == SP_YAML_MAP && !read_pattern(reader, node, jet_names, &jet)) ||
+        !sp_read_keys(reader, node, "jet", "a jet", keys) || !read_shape(reader, node, &jet) ||
+        !sp_read_quantity(reader, node, "tilt", &sp_angle_unit, sp_between(0, pi), &rotation->tilt) ||
+        !sp_read_quantity(reader, node, "roll", &sp_angle_unit, sp_any(), &rotation->roll))
+        return false;
+    rotation->jet = jet.pattern;
+    type->angle = type->angle_min = type->angle_max = jet.angle;
+    type->hollow = jet.hollow;
+    type->thickness = jet.thickness;
+    return true;
+}
+
+static bool read_turning(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+{
+    static const sp_key keys[] = {{"jet", true},    {"jets", false},  {"gears", false},
+                                  {"speed", false}, {"turns", false}, {NULL, false}};
+    static const char *const jets_own[] = {"angle", "hollow", "thickness", "angle_range"};
+    for (size_t i = 0; i < sizeof jets_own / sizeof *jets_own; i++) {
+        const sp_yaml *child = sp_yaml_get(node, jets_own[i]);
+        if (child)
+            return sp_read_message(reader, child, jets_own[i],
+                                   i < 3 ? "found in a rotating, expected in its jet"
+                                         : "found in a rotating, expected in another pattern only");
+    }
+    if (!check_pattern_key(reader, node, type, "rotation", SP_PATTERN_ROTATING))
+        return false;
+    const sp_yaml *rotation = sp_yaml_get(node, "rotation");
+    return sp_read_keys(reader, rotation, "rotation", "a rotation", keys) &&
+           read_jet(reader, sp_yaml_get(rotation, "jet"), type) && sp_scene_read_gears(reader, rotation, type);
 }
 
 static bool read_flow(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
@@ -127,9 +172,10 @@ static bool read_type(const sp_reader *reader, const sp_yaml *node, sp_nozzle_ty
         {"members", false},     {"rotation", false},   {NULL, false}};
     *type = (sp_nozzle_type){0};
     /* What is not built yet is said before what such a type may lack. */
-    return (node->kind != SP_YAML_MAP || read_pattern(reader, node, type)) &&
+    return (node->kind != SP_YAML_MAP || read_pattern(reader, node, pattern_names, type)) &&
            sp_read_keys(reader, node, "nozzles", "a catalogue type", keys) &&
-           sp_read_name(reader, node, "name", type->name) && read_shape(reader, node, type) &&
+           sp_read_name(reader, node, "name", type->name) &&
+           (type->pattern == SP_PATTERN_ROTATING ? read_turning(reader, node, type) : read_shape(reader, node, type)) &&
            read_flow(reader, node, type) && read_source(reader, node, type);
 }
 
