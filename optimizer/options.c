@@ -15,8 +15,8 @@ sp_place_options sp_place_options_default(void)
 static bool takes(const sp_nozzle_type *type, const char *expected, sp_error *error)
 {
     return type->pattern != SP_PATTERN_ROTATING ||
-           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                   "place: type %s rotates, which is not supported yet; expected %s", type->name, expected);
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: type %s rotates, which is not supported yet; expected %s",
+                   type->name, expected);
 }
 
 bool sp_place_takes(const sp_place_options *options, sp_error *error)

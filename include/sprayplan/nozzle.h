@@ -23,9 +23,9 @@ typedef enum {
     SP_PATTERN_ROTATING, /* one of these turned, averaged over time */
 } sp_pattern;
 
-/* How the jet of a rotating type turns. Its pattern is given about an axis of its own. That of one which turns about one
- * axis leans by `tilt` from the body's, which is the nozzle's z; at roll 0 the jet's x, along which a fan is wide, lies
- * in the plane of both, and `roll` turns it out of that. In a two-axis head `jets` of them, evenly spread, point
+/* How the jet of a rotating type turns. Its pattern is given about an axis of its own. That of one which turns about
+ * one axis leans by `tilt` from the body's, which is the nozzle's z; at roll 0 the jet's x, along which a fan is wide,
+ * lies in the plane of both, and `roll` turns it out of that. In a two-axis head `jets` of them, evenly spread, point
  * outwards from a hub that turns about an axis across the body's, gears[0]/gears[1] times for every turn of the body;
  * when it starts the first points along z, and the hub turns it towards x. */
 typedef struct {

@@ -20,10 +20,10 @@ double sp_track_angle(const sp_rotation *rotation, unsigned turns, sp_vec3 direc
 /* How far patches that a head reaches are from the nearest track: the angle times the distance to the patch (m). Walls
  * that are met at a slant are not stretched. */
 typedef struct {
-    bool known;      /* false of any nozzle but a two-axis head, and where it reaches nothing */
-    unsigned turns;  /* of the body */
-    double duration; /* s, of these; 0 where the type does not say how fast it turns */
-    double area;     /* m², of the patches reached */
+    bool known;                 /* false of any nozzle but a two-axis head, and where it reaches nothing */
+    size_t turns;               /* of the body */
+    double duration;            /* s, of these; NAN where the type does not say how fast it turns */
+    double area;                /* m², of the patches reached */
     double mean, p95, greatest; /* m, by area: mean, what 95 % lie within, greatest */
 } sp_track_gaps;
 /* Of one nozzle after the turns that its type asks for; flights as the evaluator's, first impact only. */

@@ -68,7 +68,7 @@ bool sp_find_track_gaps(const sp_evaluator *evaluator, const sp_nozzle *nozzle, 
     bool done = shares || (reach && sp_fail_memory(error));
     if (done) {
         gaps->turns = rotation->turns ? rotation->turns : sp_track_turns(rotation);
-        gaps->duration = rotation->speed > 0 ? 2 * M_PI * gaps->turns / rotation->speed : 0;
+        gaps->duration = rotation->speed > 0 ? 2 * M_PI * gaps->turns / rotation->speed : NAN;
         draw_figures(shares, list_shares(&emitter, reach, rotation, shares), gaps);
     }
     free(shares);
