@@ -7,7 +7,7 @@
 #include "caps.h"
 #include "turned.h"
 
-#define NUDGE 1e-8 /* rad off the fan's own y axis: on it the cap's rim is a parallel, and crosses nothing */
+#define ON_AXIS 1e-9 /* rad off the fan's own y axis: there the cap's rim is a parallel, and crosses nothing */
 
 typedef struct {
     double polar, cosine; /* of the cap's rim */
@@ -77,6 +77,14 @@ static void add_band(const cap *own, double low, double high, double *solid_angl
     *arc += slope * (sp_cap_arc(own->polar, above[0], own->apart) - sp_cap_arc(own->polar, above[1], own->apart));
 }
 
+/* Both where the cap is about the fan's y axis, either way. */
+static void turn_on_axis(const sp_spray *spray, double polar, double *solid_angle, double *share)
+{
+    double height = cos(polar), below = fmax(-spray->height, fmin(spray->height, height));
+    *solid_angle = 2 * spray->half_width * (spray->height - below);
+    *share = fabs(height) <= spray->height ? spray->half_width / M_PI : 0;
+}
+
 void sp_turned_fan(const sp_spray *spray, double polar, double *solid_angle, double *share)
 {
     sp_vec3 a = spray->spindle;
@@ -84,8 +92,12 @@ void sp_turned_fan(const sp_spray *spray, double polar, double *solid_angle, dou
                .cosine = cos(polar),
                .longitude = fabs(atan2(a.x, a.z)),
                .height = a.y,
-               .level = fmax(hypot(a.x, a.z), NUDGE),
+               .level = hypot(a.x, a.z),
                .half_width = spray->half_width};
+    if (own.level < ON_AXIS) {
+        turn_on_axis(spray, polar, solid_angle, share);
+        return;
+    }
     own.apart = atan2(own.level, own.height);
     double heights[6] = {-spray->height}, arc = 0;
     int count = 1;
