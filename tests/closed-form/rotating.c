@@ -146,8 +146,8 @@ static void jets_and_closed_form_agree(void **state)
             liquid += closed->deposits.flux[i] * patches->area[i];
         print_message("type %zu: %.2f %% covered, by jets %.2f %%; %.2f %% of the liquid arrives\n", t,
                       100 * closed->fraction, 100 * jets->fraction, 100 * liquid / types[t].flow);
-        assert_true(fabs(closed->fraction - jets->fraction) < 0.01 * COARSER);
-        assert_true(fabs(liquid / types[t].flow - 1) < 0.01 * COARSER);
+        assert_true(fabs(closed->fraction - jets->fraction) < 0.01 * COARSER * COARSER);
+        assert_true(fabs(liquid / types[t].flow - 1) < 0.01 * COARSER * COARSER);
         assert_true(fabs(jets->balance.clean / types[t].flow - 1) < 1e-6);
         sp_coverage_destroy(closed);
         sp_coverage_destroy(jets);
