@@ -94,6 +94,27 @@ double sp_spray_within(const sp_spray *spray, double polar)
     return fmin(1, fmax(0, within(spray, polar)));
 }
 
+/* Where a narrow cone that turns is densest: towards either side its circles' share in it falls. */
+static double densest(const sp_spray *spray)
+{
+    return acos(fmax(-1, fmin(1, cos(tilt_of(spray)) / cos(spray->outer))));
+}
+
+void sp_spray_densities(const sp_spray *spray, double from, double to, double *least, double *most)
+{
+    bool narrow = spray->jet != SP_PATTERN_FLAT_FAN && !(spray->inner > 0) && spray->outer < 0.499 * M_PI;
+    *least = 0;
+    *most = 1 / spray->solid_angle;
+    if (!narrow)
+        return;
+    /* on a hub a full cone is densest at the poles, and the less dense the farther from both */
+    double turning = spray->two_axes ? M_PI / 2 : densest(spray);
+    double ends[2] = {sp_turned_density(spray, from), sp_turned_density(spray, to)};
+    double peak = from <= turning && turning <= to ? sp_turned_density(spray, turning) : ends[0];
+    *least = fmin(peak, fmin(ends[0], ends[1]));
+    *most = fmax(peak, fmax(ends[0], ends[1]));
+}
+
 /* Newton's method, within bounds that close in on the angle. */
 double sp_turned_polar(const sp_spray *spray, double share)
 {

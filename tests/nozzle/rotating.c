@@ -150,6 +150,30 @@ static void intensity_adds_up(void **state)
     }
 }
 
+/* Bounds hold at every angle between, and tell something where they are said to. */
+static void densities_are_bounds(void **state)
+{
+    (void)state;
+    for (size_t t = 0; t < TURNINGS; t++) {
+        sp_spray spray = spray_of(&turnings[t]);
+        bool told = turnings[t].thickness == 0 && turnings[t].hollow == 0 && turnings[t].angle < 179;
+        for (double from = 0; from < 3.1; from += 0.07)
+            for (double width = 0.001; width < 1; width *= 3) {
+                double to = fmin(M_PI, from + width), least, most, lowest = INFINITY, highest = 0;
+                sp_spray_densities(&spray, from, to, &least, &most);
+                for (int i = 0; i <= 20; i++) {
+                    double density = sp_spray_intensity(&spray, at_polar(from + (to - from) * i / 20, 1));
+                    lowest = fmin(lowest, density);
+                    highest = fmax(highest, density);
+                }
+                if (!(least <= lowest * (1 + 1e-9) && most >= highest * (1 - 1e-9)))
+                    fail_msg("turning %zu, %g to %g: bounds %g to %g, found %g to %g", t, from, to, least, most, lowest,
+                             highest);
+                assert_true(!told || least >= 0.99 * lowest);
+            }
+    }
+}
+
 /* Jets are spread over the polar angle as the liquid is. */
 static void jets_follow_the_liquid(void **state)
 {
@@ -226,6 +250,7 @@ int main(void)
         cmocka_unit_test(averages_hold_all_liquid),
         cmocka_unit_test(intensity_is_the_mean_over_a_turn),
         cmocka_unit_test(intensity_adds_up),
+        cmocka_unit_test(densities_are_bounds),
         cmocka_unit_test(jets_follow_the_liquid),
         cmocka_unit_test(two_axes_are_the_mean_over_time),
         cmocka_unit_test(turning_about_its_own_axis_changes_nothing),
