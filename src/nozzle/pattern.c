@@ -2,6 +2,9 @@
  * study (3.1.2): polar angles about z for cones, longitude atan2(x, z) and latitude asin(y) for fans. */
 #include "turned.h"
 
+#define THINNEST 1e-6 /* rad, half of a jet that turns: thinner ones spray as this one, whose solid angle is still told   \
+                       */
+
 /* 1 - cos(angle) without cancellation. */
 static double versine(double angle)
 {
@@ -53,11 +56,12 @@ sp_spray sp_spray_create(const sp_nozzle_type *type, double angle)
         spray.two_axes = rotation->jets > 0;
         spray.spindle = sp_v(-sine * cos(rotation->roll), sine * sin(rotation->roll), cos(rotation->tilt));
     }
+    double thinnest = pattern == spray.kind ? 0 : THINNEST;
     if (pattern == SP_PATTERN_FLAT_FAN) {
-        spray.half_width = 0.5 * angle;
-        spray.half_thickness = 0.5 * type->thickness;
+        spray.half_width = fmax(0.5 * angle, thinnest);
+        spray.half_thickness = fmax(0.5 * type->thickness, thinnest);
     } else {
-        spray.outer = 0.5 * angle;
+        spray.outer = fmax(0.5 * angle, thinnest);
         spray.inner = pattern == SP_PATTERN_HOLLOW_CONE ? type->hollow * spray.outer : 0;
     }
     sp_spray_settle(&spray);

@@ -71,6 +71,7 @@ static double polar_angle(const sp_frame *frame, sp_vec3 direction)
  * less than it, by chance. */
 static const double ring_breadths[3] = {1.0 / 3, 1, 5.0 / 3}; /* of a patch's */
 static const double ring_weights[3] = {1.0 / 9, 3.0 / 9, 5.0 / 9};
+static const double cap_radii[3] = {1.0, 1.4, 1.8}; /* of the same, about the axis: the middles of several patches */
 
 /* By how much the rings lie in the region, as solid angle. */
 static double ring_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)
@@ -80,7 +81,7 @@ static double ring_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 d
         return polar >= spray->low && polar <= spray->high;
     for (int i = 0; i < 3; i++) {
         double ring[2];
-        sp_turned_ring(polar, ring_breadths[i] * breadth, ring);
+        sp_turned_ring(polar, ring_breadths[i] * breadth, cap_radii[i] * breadth, ring);
         double low = fmax(ring[0], spray->low), high = fmin(ring[1], spray->high);
         share += high > low ? ring_weights[i] * sp_cap_height(low, high) / sp_cap_height(ring[0], ring[1]) : 0;
     }
@@ -96,7 +97,7 @@ double sp_spray_density(const sp_spray *spray, const sp_frame *frame, sp_vec3 di
         return sp_turned_density(spray, polar);
     for (int i = 0; i < 3; i++) {
         double ring[2];
-        sp_turned_ring(polar, ring_breadths[i] * breadth, ring);
+        sp_turned_ring(polar, ring_breadths[i] * breadth, cap_radii[i] * breadth, ring);
         double liquid = sp_spray_within(spray, ring[1]) - sp_spray_within(spray, ring[0]);
         density += ring_weights[i] * fmax(0, liquid) / (2 * M_PI * sp_cap_height(ring[0], ring[1]));
     }

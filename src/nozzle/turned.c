@@ -130,9 +130,8 @@ double sp_turned_polar(const sp_spray *spray, double share)
     return polar;
 }
 
-void sp_turned_ring(double polar, double breadth, double ring[2])
+void sp_turned_ring(double polar, double breadth, double cap, double ring[2])
 {
-    double cap = breadth / sqrt(M_PI);
     ring[0] = polar < cap ? 0 : polar > M_PI - cap ? M_PI - cap : polar - 0.5 * breadth;
     ring[1] = polar < cap ? cap : polar > M_PI - cap ? M_PI : polar + 0.5 * breadth;
 }

@@ -13,9 +13,9 @@ void sp_turned_settle(sp_spray *spray);
 double sp_turned_density(const sp_spray *spray, double polar);
 /* The polar angle within which this share of the liquid leaves. */
 double sp_turned_polar(const sp_spray *spray, double share);
-/* The polar angles, low and high, of what is `breadth` broad about a direction at a polar angle: a ring or, about
- * either pole, a cap as large as a square of that breadth. */
-void sp_turned_ring(double polar, double breadth, double ring[2]);
+/* The polar angles, low and high, of what is `breadth` broad about a direction at a polar angle: a ring or, less than
+ * `cap` from either pole, the cap of that radius about it, which is no less than half the breadth. */
+void sp_turned_ring(double polar, double breadth, double cap, double ring[2]);
 
 /* turned_fan.c. The solid angle (sr) of what of a fan lies within a polar angle, and the share of the circle of that
  * angle that lies in the fan. */

@@ -83,7 +83,7 @@ static void no_liquid_is_lost(void **state)
     }
 }
 
-/* Whatever the breadth over which it is averaged, also where the jet is much thinner: within 2 %, since about the axis
+/* Whatever the breadth over which it is averaged, also where the jet is much thinner: within 6 %, since about the axis
  * what is broad is a cap, and not told finer. */
 static void averages_hold_all_liquid(void **state)
 {
@@ -104,7 +104,7 @@ static void averages_hold_all_liquid(void **state)
                 assert_true(share >= 0 && share <= 1 && density >= 0 && (share > 0 || density == 0));
                 sum += density * 2 * M_PI * sin(polar) * width;
             }
-            if (fabs(sum - 1) > 0.02)
+            if (fabs(sum - 1) > 0.06)
                 fail_msg("turning %zu over %g rad: %.5f of the liquid", t, breadths[b], sum);
         }
     }
