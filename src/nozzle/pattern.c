@@ -2,8 +2,7 @@
  * study (3.1.2): polar angles about z for cones, longitude atan2(x, z) and latitude asin(y) for fans. */
 #include "turned.h"
 
-#define THINNEST 1e-6 /* rad, half of a jet that turns: thinner ones spray as this one, whose solid angle is still told   \
-                       */
+#define THINNEST 1e-6 /* rad, half of a jet that turns: of thinner ones the solid angle is round-off in a cap's */
 
 /* 1 - cos(angle) without cancellation. */
 static double versine(double angle)
