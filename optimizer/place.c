@@ -39,6 +39,44 @@ static void placement_free(sp_placement *placement)
     free(placement->watch.stages);
 }
 
+static bool takes_types(const sp_nozzle_type *const *types, size_t count, sp_error *error)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (types[i]->pattern == SP_PATTERN_CLUSTER)
+            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                           "types: found '%s', a cluster, expected types of one pattern each; simulate and "
+                           "compare take clusters",
+                           types[i]->name);
+        if (types[i]->pattern == SP_PATTERN_ROTATING)
+            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                           "types: found '%s', which rotates, expected types that do not; simulate and compare take "
+                           "such types",
+                           types[i]->name);
+    }
+    return true;
+}
+
+bool sp_place_takes(const sp_place_options *options, sp_error *error)
+{
+    for (size_t i = 0; i < options->mount_count; i++)
+        if (!takes_types(options->mounts[i].types, options->mounts[i].type_count, error))
+            return false;
+    for (size_t i = 0; options->kept && i < options->kept->count; i++) {
+        const sp_nozzle *nozzle = &options->kept->nozzles[i];
+        if (nozzle->keep && nozzle->type->pattern == SP_PATTERN_CLUSTER)
+            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                           "nozzles: %s, of type '%s', is a cluster to be kept; expected kept nozzles of one pattern "
+                           "each, until place aims clusters",
+                           nozzle->name, nozzle->type->name);
+        if (nozzle->keep && nozzle->type->pattern == SP_PATTERN_ROTATING)
+            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                           "nozzles: %s, of type '%s', rotates and is to be kept; expected kept nozzles that do not, "
+                           "until place reckons with those that do",
+                           nozzle->name, nozzle->type->name);
+    }
+    return takes_types(options->types, options->type_count, error);
+}
+
 static bool check(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error)
 {
     if (!options->mount_count)
@@ -47,10 +85,6 @@ static bool check(const sp_evaluator *evaluator, const sp_place_options *options
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: coverage: %g, expected 0 to 1", options->coverage);
     if (!sp_place_takes(options, error))
         return false;
-    if (sp_evaluator_setup(evaluator)->criterion.film > 0)
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                       "film: found, expected none: place counts what hits, not yet what runs down; "
-                       "simulate and compare count both");
     for (size_t i = 0; options->kept && i < options->kept->count; i++)
         if (options->kept->nozzles[i].keep && !sp_evaluator_admits(evaluator, &options->kept->nozzles[i], error))
             return false;

@@ -33,9 +33,9 @@ typedef struct {
     bool *by_film; /* covered, and less than half of it by impact */
 } sp_deposits;
 
-/* What one nozzle's passing arrivals bring to a patch that may lie across the edge of its spray. An arrival that meets
+/* What one pattern's passing arrivals bring to a patch that may lie across the edge of its spray. An arrival that meets
  * the criterion alone covers the share of the patch that lies inside the spray; one that does not may still do so with
- * others', and counts where the patch's point lies inside. The shares that several nozzles cover are taken to lie
+ * others', and counts where the patch's point lies inside. The shares that several patterns cover are taken to lie
  * anywhere: together they leave dry the product of what each leaves dry. Of a patch that is cut into cells (see
  * sp_arrival) each covers a share of its own part, or brings its part of what falls on all of the patch. Starts as
  * {0, 1, 0}. */
@@ -56,7 +56,7 @@ static inline void sp_wetting_add(sp_wetting *wetting, double flux, double thres
     else if (alone || holds)
         wetting->even += part * flux;
 }
-/* What one nozzle's arrivals come to: all of the patch, or what its edge covers; what falls short besides is nothing.
+/* What one pattern's arrivals come to: all of the patch, or what its edge covers; what falls short besides is nothing.
  */
 static inline sp_wetting sp_wetting_settle(sp_wetting wetting, double threshold)
 {

@@ -33,7 +33,9 @@ sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error);
 sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *layout, sp_error *error);
 /* A second evaluator on the same geometry with another texel size (m), sharing accelerator, charts and wet sides with
  * `fine`, which must outlive it. On thin parts and on what is not cleaned its texels differ from `texel` in proportion
- * to those of `fine`. Inverse, whatever the setup asks, and without film: for searching. */
+ * to those of `fine`. Inverse, whatever the setup asks: for searching. Where the criterion asks for film, its
+ * patches are of all wet sides, cleaned or not, and film runs from one to the next: see sp_evaluator_counted and
+ * sp_runoff. */
 sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_error *error);
 /* A third on the same geometry, by the scene's own method, to count on again what was found on `evaluator`, which must
  * outlive it: by parabolas where auto took lines, and with `shorter` on texels half as long where auto chose them. NULL
@@ -58,6 +60,8 @@ double sp_evaluator_jets_wanted(const sp_evaluator *evaluator);
 double sp_evaluator_jets_met(const sp_evaluator *evaluator);
 const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator);
 const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator);
+/* m² of a patch that is to be cleaned: all of it, or none where it is only run over. */
+double sp_evaluator_counted(const sp_evaluator *evaluator, uint32_t patch);
 const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator);
 /* On which sides some of a triangle faces the liquid: bit 0 front, bit 1 back. Both where no cavity is named. A
  * triangle that others cross or touch may face it in parts. */
@@ -98,13 +102,27 @@ typedef struct {
 /* Those that do not drain, then the others, those of most area first. Owned by the evaluator. None where the criterion
  * does not ask for film. */
 const sp_hollow *sp_evaluator_hollows(const sp_evaluator *evaluator, size_t *count);
+/* One thread's memory for what runs down the walls of an evaluator, borrowed, that sp_evaluator_resample made where the
+ * criterion asks for film. */
+typedef struct sp_runoff sp_runoff;
+/* NULL on error, also where film does not run from patch to patch. */
+sp_runoff *sp_runoff_create(const sp_evaluator *walls, sp_error *error);
+/* Accepts NULL. */
+void sp_runoff_destroy(sp_runoff *runoff);
+/* Where to write what one nozzle brings to each patch, m³/s, [patches]: the runoff's, all 0 at first. */
+double *sp_runoff_arriving(sp_runoff *runoff);
+/* What comes of it: the film on every patch [patches], in flow per width over what the criterion asks for. A solid
+ * stream's liquid, all of `flow` (m³/s), spreads over a disc first. What arrives is 0 again then. Films of several
+ * nozzles add up. */
+void sp_runoff_find(sp_runoff *runoff, const sp_nozzle_type *type, double flow, float *film);
+
 /* True where the point lies in the space that the wet sides face (no cavity: everywhere). Never in a solid; else by
  * lines of sight in at least 16 directions: what most of them first meet is a wet side (or, with the cavity outside,
  * nothing). */
 bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point);
 /* False, with an error that names the nozzle, where it cannot stand: in a wall (nearer to a surface than 1e-6 of the
  * geometry's diagonal), or not in the space that the wet sides face (by lines of sight as above, and none to the
- * cavity's point). */
+ * cavity's point). Of a cluster that is asked of each pattern. */
 bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle, sp_error *error);
 /* g, m/s²; zero for trajectory line. */
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator);
@@ -116,8 +134,8 @@ sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout,
 sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
 sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, uint64_t jets,
                                  sp_error *error);
-/* Works out coverage->balance of this layout where it is not known: 20,000 jets of each nozzle are flown to their first
- * impact, evenly spread, which tells shares of the liquid to about 0.1 %. */
+/* Works out coverage->balance of this layout where it is not known: 20,000 jets of each nozzle (which a cluster's
+ * patterns share) are flown to their first impact, evenly spread, which tells shares of the liquid to about 0.1 %. */
 bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
                          sp_error *error);
 
@@ -168,10 +186,10 @@ sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, do
  * holds, all where it is NULL: less is traced. */
 sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                                      double half_angle, const bool *among, sp_error *error);
-/* The same of the patches first to end alone, for callers with little memory: it takes no more than SP_REACH_WORK bytes
- * for each of these patches and for each arrival of a cell, the answer included. `known` is NULL, or holds the answer
- * of an earlier call, bit 2 patch + arc (least bits first) set for every arrival: then the same is told again, and
- * nothing is traced but the way to cells. */
+/* The same of the patches first to end alone, and where film runs from patch to patch of all arrivals, for callers with
+ * little memory: it takes no more than SP_REACH_WORK bytes for each of these patches and for each arrival of a cell,
+ * the answer included. `known` is NULL, or holds the answer of an earlier call, bit 2 patch + arc (least bits first)
+ * set for every arrival: then the same is told again, and nothing is traced but the way to cells. */
 #define SP_REACH_WORK 1024
 sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                                   double half_angle, size_t first, size_t end, const uint8_t *known, sp_error *error);

@@ -20,7 +20,8 @@ typedef enum {
     SP_PATTERN_HOLLOW_CONE,
     SP_PATTERN_FLAT_FAN,
     SP_PATTERN_SOLID_STREAM,
-    SP_PATTERN_ROTATING, /* one of these turned, averaged over time */
+    SP_PATTERN_CLUSTER,  /* several of these on one body */
+    SP_PATTERN_ROTATING, /* one of the first four turned, averaged over time */
 } sp_pattern;
 
 /* How the jet of a rotating type turns. Its pattern is given about an axis of its own. That of one which turns about
@@ -48,7 +49,7 @@ typedef struct {
     char name[SP_NAME];
     sp_pattern pattern;
     sp_rotation rotation;        /* rotating types only, of which angle, hollow and thickness are their jet's */
-    double angle;                /* rad, (0, 2π] for cones, (0, 2π] for fans */
+    double angle;                /* rad, (0, 2π] for cones, (0, 2π] for fans; 0 for clusters */
     double hollow;               /* share of the angle that is empty, [0, 1); hollow cones only */
     double thickness;            /* rad, (0, π]; flat fans only */
     double flow;                 /* m³/s of water (1000 kg/m³) at pressure `at` */
@@ -60,7 +61,20 @@ typedef struct {
     double flow_min, flow_max;   /* m³/s of water at `at`; equal to flow where not adjustable */
     char order_code[SP_NAME];    /* by which its maker sells it; "" where it has none */
     char url[SP_URL];            /* of its page; "" where it has none, else as sp_is_url */
+    size_t member_count;         /* clusters only, 1 to SP_MEMBERS */
+    struct sp_member *members;   /* [member_count], owned by whoever made the type: of a scene's, the scene */
 } sp_nozzle_type;
+
+#define SP_MEMBERS 1000 /* of a cluster at most */
+
+/* One pattern of a cluster, such as a hole of a spray ball, in the frame of its body (sp_nozzle_frame). */
+typedef struct sp_member {
+    sp_nozzle_type type; /* its pattern and angles, no cluster; flow and exit speed are the body's */
+    sp_vec3 offset;      /* m, from the body's position */
+    sp_vec3 axis;        /* unit */
+    double roll;         /* rad; its own frame follows from axis and roll as a nozzle's does, the body's z being up */
+    double share;        /* of the body's flow, in proportion to the other members'; > 0 */
+} sp_member;
 
 /* True of an http or https address that fits and has neither spaces nor control characters nor quotes: a page may link
  * it. */
@@ -99,7 +113,8 @@ double sp_nozzle_flow(const sp_nozzle *nozzle, const sp_fluid *liquid);
 double sp_type_flow(const sp_nozzle_type *type, double rated_flow, double pressure, const sp_fluid *liquid);
 /* v0 = Cv √(2 dp/rho), m/s (Bernoulli), unless the nozzle sets its own. */
 double sp_nozzle_speed(const sp_nozzle *nozzle, const sp_fluid *liquid);
-/* The opening angle in force, rad. */
+/* The opening angle in force, rad; of a cluster that of the smallest cone about the body's axis that would hold all its
+ * patterns if they had no offsets. */
 double sp_nozzle_angle(const sp_nozzle *nozzle);
 
 /* The nozzle's frame in world coordinates, right-handed and orthonormal. */
@@ -109,6 +124,18 @@ typedef struct {
 /* z along axis; x = unit(up × axis), or where the axis is within 1e-6 rad of vertical world y × axis (with y up:
  * world z × axis); y = z × x; then roll turns x, y about z. `up` is (0,0,1) or (0,1,0). */
 sp_frame sp_nozzle_frame(sp_vec3 axis, double roll, sp_vec3 up);
+
+/* How many patterns a nozzle has: its cluster's members, else 1. */
+size_t sp_nozzle_pattern_count(const sp_nozzle *nozzle);
+/* Nozzles of one pattern each that together spray what this one does: its members, in their order, or itself. They have
+ * the body's name and exit speed, their shares of its flow, and of its jets, where it sets their number, at least one
+ * each. patterns: [sp_nozzle_pattern_count], the caller's; their types are borrowed from the nozzle's. A member along
+ * the body's axis, without offset, that has all the flow is to the bit the plain nozzle. `up` as for sp_nozzle_frame.
+ */
+void sp_nozzle_patterns(const sp_nozzle *nozzle, const sp_fluid *liquid, sp_vec3 up, sp_nozzle *patterns);
+/* False, with an error that names the type, of a cluster without members, with more than SP_MEMBERS, or with a member
+ * that is a cluster or whose share is not above 0. */
+bool sp_type_is_whole(const sp_nozzle_type *type, sp_error *error);
 
 /* A pattern ready for use: liquid per solid angle, uniform inside its region unless it rotates. The region of each kind
  * is DESIGN §2's: cones by polar angle about z, fans by longitude atan2(x, z) and latitude asin(y), what rotates by the

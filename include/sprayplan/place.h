@@ -67,9 +67,6 @@ typedef struct {
 
 /* DESIGN §3's defaults, with no mounts, types or pressures. */
 sp_place_options sp_place_options_default(void);
-/* False, with an error that names it, where a type to choose from, or of a nozzle to keep, rotates: the search reckons
- * with liquid that is as dense all over a pattern. */
-bool sp_place_takes(const sp_place_options *options, sp_error *error);
 
 typedef struct {
     double flow; /* m³/s */
@@ -151,11 +148,15 @@ typedef struct {
     sp_stage *stages;
 } sp_proposal;
 
+/* False, with SP_ERROR_INPUT that names it, where a type that may be chosen, or that of a nozzle to be kept, is a
+ * cluster or rotates: placement aims one pattern at a time, whose liquid is as dense all over. Either is fine in what a
+ * proposal is compared with. */
+bool sp_place_takes(const sp_place_options *options, sp_error *error);
 /* Greedy next-best-view placement by the inverse evaluator, then refinement with Ceres accepted only where the
  * re-traced objective improves. The error of the proposal's coverage is measured; where it is above the accuracy, and
  * auto chose the settings, everything found is counted again by dearer ones. Deterministic. Returns NULL on error,
  * never for a target that cannot be reached. Fails with SP_ERROR_INPUT where no mount, type or pressure is given, no
- * mounting point is inside and clear or a kept nozzle is in a wall or outside. */
+ * mounting point is inside and clear, a kept nozzle is in a wall or outside, or sp_place_takes says no. */
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error);
 void sp_proposal_destroy(sp_proposal *proposal);
 

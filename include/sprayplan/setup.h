@@ -56,7 +56,7 @@ typedef struct {
     sp_trajectory trajectory;
     sp_method method;
     int reflections; /* -1: auto */
-    uint64_t jets;   /* per nozzle; 0: auto */
+    uint64_t jets;   /* per nozzle, whose patterns share them; 0: auto */
     double texel;    /* m; 0: auto. Shorter on thin parts: at most an eighth of their girth */
     sp_splat splat;
     double accuracy; /* points of coverage, as a fraction */

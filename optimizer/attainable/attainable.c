@@ -1,23 +1,12 @@
 #include "attainable/attainable.h"
 
 #include "attainable/bounce.h"
+#include "attainable/runs.h"
 
 #include <omp.h>
 #include <stdlib.h>
 
 #define CHUNK 256 /* patches a thread does in a row: neighbours are reached from the same sites */
-
-/* The best that one mounting place can do for one patch. */
-typedef struct {
-    double ratio;     /* flux per flow, 1/m² */
-    double low, high; /* flow, m³/s */
-} sp_offer;
-
-/* A type at a pressure with what refinement may make of it. */
-typedef struct {
-    double angle_low, angle_high; /* rad */
-    double flow_low, flow_high;   /* m³/s */
-} sp_scope;
 
 typedef struct {
     const sp_evaluator *fine;
@@ -27,13 +16,6 @@ typedef struct {
     size_t nozzles_left;
     double water_left; /* m³/s */
 } sp_reckoning;
-
-/* Offers for one patch: of each port, and of all other mounting points together, the ones of most flux and of most flux
- * per flow. */
-typedef struct {
-    sp_offer *strongest, *thriftiest; /* [mount_count + 1], the last for mounts without ports; ratio 0: none */
-    size_t count;
-} sp_offers;
 
 /* Flux per flow and transfer (1/sr) in a direction that lies `away` (rad) from the mount's axis, at best over the axes
  * within the tilt and the angles allowed; 0: not at all. */
@@ -55,7 +37,7 @@ static double best_intensity(const sp_make *make, const sp_scope *scope, double 
 
 /* Adds what one arrival offers; true where something got better. */
 static bool offer(const sp_reckoning *reckoning, const sp_site *site, size_t speed, sp_vec3 direction, double transfer,
-                  double area, sp_offers *offers)
+                  double area, sp_place_offers *offers)
 {
     const sp_search *search = reckoning->search;
     const sp_mount *mount = &search->options->mounts[site->mount];
@@ -73,60 +55,12 @@ static bool offer(const sp_reckoning *reckoning, const sp_site *site, size_t spe
         if (ratio <= 0)
             continue;
         sp_offer new = {ratio, scope->flow_low, fmin(scope->flow_high, reckoning->water_left)};
-        if (new.ratio *new.high > offers->strongest[place].ratio * offers->strongest[place].high) {
-            offers->strongest[place] = new;
-            better = true;
-        }
-        if (new.ratio > offers->thriftiest[place].ratio) {
-            offers->thriftiest[place] = new;
-            better = true;
-        }
+        better |= sp_place_offers_take(offers, place, new);
     }
     return better;
 }
 
-/* Whether the offers, best first by flux or by flux per flow, bring `need` within number and water. */
-static bool suffices(const sp_reckoning *reckoning, const sp_offer *offers, size_t count, bool by_flux, double need)
-{
-    double water = reckoning->water_left, flux = 0;
-    size_t nozzles = reckoning->nozzles_left;
-    double before = INFINITY; /* key of the offer taken last */
-    size_t before_at = SIZE_MAX;
-    while (nozzles > 0) {
-        size_t best = SIZE_MAX;
-        double best_key = 0;
-        for (size_t i = 0; i < count; i++) {
-            double key = by_flux ? offers[i].ratio * offers[i].high : offers[i].ratio;
-            bool later = key < before || (key == before && (before_at == SIZE_MAX || i > before_at));
-            if (key > best_key && later) {
-                best = i;
-                best_key = key;
-            }
-        }
-        if (best == SIZE_MAX)
-            return false;
-        before = best_key;
-        before_at = best;
-        /* a port holds one nozzle, the other mounting points together as many as are left */
-        size_t times = best == count - 1 ? nozzles : 1;
-        if (isinf(water)) {
-            flux += times == SIZE_MAX ? INFINITY : (double)times * offers[best].ratio * offers[best].high;
-            nozzles -= times;
-        }
-        for (; !isinf(water) && times > 0 && nozzles > 0 && water >= offers[best].low; times--, nozzles--) {
-            double flow = fmin(offers[best].high, water);
-            flux += offers[best].ratio * flow;
-            water -= flow;
-            if (flux >= need)
-                return true;
-        }
-        if (flux >= need)
-            return true;
-    }
-    return false;
-}
-
-static bool enough(const sp_reckoning *reckoning, const sp_offers *offers, size_t patch)
+static bool enough(const sp_reckoning *reckoning, const sp_place_offers *offers, size_t patch)
 {
     const sp_search *search = reckoning->search;
     if (!reckoning->nozzles_left)
@@ -140,8 +74,7 @@ static bool enough(const sp_reckoning *reckoning, const sp_offers *offers, size_
         return false;
     }
     double need = search->threshold - reckoning->kept[patch];
-    return suffices(reckoning, offers->strongest, offers->count, true, need) ||
-           suffices(reckoning, offers->thriftiest, offers->count, false, need);
+    return sp_place_offers_suffice(offers, reckoning->nozzles_left, reckoning->water_left, need);
 }
 
 /* How near one flight brings the patch if its way is free; NO_LINE where it comes from behind. Its transfer where it
@@ -178,7 +111,7 @@ static bool aimable(const sp_reckoning *reckoning, const sp_site *site, size_t s
 }
 
 /* What one site offers to a patch; true where something got better. *reason rises to how near it is brought. */
-static bool site_offers(const sp_reckoning *reckoning, const sp_site *site, size_t patch, sp_offers *offers,
+static bool site_offers(const sp_reckoning *reckoning, const sp_site *site, size_t patch, sp_place_offers *offers,
                         sp_reason *reason)
 {
     const sp_search *search = reckoning->search;
@@ -207,7 +140,7 @@ static bool site_offers(const sp_reckoning *reckoning, const sp_site *site, size
 }
 
 /* Asks the sites in turn, the one that served the last patch first. */
-static sp_reason patch_reason(const sp_reckoning *reckoning, size_t patch, sp_offers *offers, size_t *hint)
+static sp_reason patch_reason(const sp_reckoning *reckoning, size_t patch, sp_place_offers *offers, size_t *hint)
 {
     size_t sites = reckoning->search->sites->count;
     sp_reason reason = SP_REASON_NO_LINE;
@@ -241,7 +174,7 @@ static bool reckon(const sp_reckoning *reckoning, sp_watch *watch, sp_reason *re
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
         for (size_t chunk = first; chunk < end; chunk += CHUNK) {
             sp_offer *mine = &offers[(size_t)omp_get_thread_num() * 2 * places];
-            sp_offers own = {mine, mine + places, places};
+            sp_place_offers own = {mine, mine + places, places};
             size_t hint = 0;
             for (size_t p = chunk; p < chunk + CHUNK && p < end; p++)
                 if (reasons[p] != SP_REASON_ATTAINABLE)
@@ -285,8 +218,9 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *
         reckoning.kept = kept->deposits.even;
         for (size_t p = 0; p < kept->deposits.count; p++)
             reasons[p] = kept->deposits.covered[p] ? SP_REASON_ATTAINABLE : SP_REASON_UNKNOWN;
-        done =
-            reckon(&reckoning, watch, reasons, error) && (watch->cancelled || sp_bounces(fine, search, reasons, error));
+        done = reckon(&reckoning, watch, reasons, error) &&
+               (watch->cancelled ||
+                (sp_runs(fine, search, scopes, reasons, error) && sp_bounces(fine, search, reasons, error)));
     }
     free(scopes);
     sp_coverage_destroy(kept);

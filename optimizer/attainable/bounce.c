@@ -1,5 +1,7 @@
 #include "attainable/bounce.h"
 
+#include "attainable/coarse_patch.h"
+
 #include <stdlib.h>
 
 #define JETS 1048576.0   /* all together */
@@ -7,25 +9,6 @@
 #define JETS_MOST 16384.0
 #define BOUNCES 3
 #define MOUTH 1e-7 /* texels that a jet flies off a wall before anything stops it */
-
-/* The patch of `evaluator` on a triangle's side; SP_NONE where that is not counted. */
-static uint32_t patch_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v, bool back)
-{
-    const sp_patches *patches = sp_evaluator_patches(evaluator);
-    uint32_t texel = sp_atlas_texel(sp_evaluator_atlas(evaluator), triangle, u, v);
-    size_t low = 0, high = patches->count;
-    while (low < high) {
-        size_t middle = low + (high - low) / 2;
-        if (patches->texel[middle] < texel)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    for (; low < patches->count && patches->texel[low] == texel; low++)
-        if (patches->side[low] == SP_SIDE_BOTH || (patches->side[low] == SP_SIDE_BACK) == back)
-            return (uint32_t)low;
-    return SP_NONE;
-}
 
 /* One jet, from wall to wall; marks the patches that it meets after its first reflection. */
 static void follow(const sp_evaluator *coarse, sp_ray ray, bool *met)
@@ -39,7 +22,7 @@ static void follow(const sp_evaluator *coarse, sp_ray ray, bool *met)
         sp_vec3 velocity = sp_ray_velocity(&ray, gravity, hit.t),
                 normal = sp_triangle_normal(setup->mesh, hit.triangle);
         double across = sp_dot(velocity, normal);
-        uint32_t patch = bounce ? patch_at(coarse, hit.triangle, hit.u, hit.v, across > 0) : SP_NONE;
+        uint32_t patch = bounce ? sp_patch_of(coarse, hit.triangle, hit.u, hit.v, across > 0) : SP_NONE;
         if (patch != SP_NONE) {
 #pragma omp atomic write
             met[patch] = true;
@@ -84,22 +67,6 @@ static bool anything_reflects(const sp_setup *setup)
     return false;
 }
 
-/* The coarse patch in which a fine one lies. */
-static uint32_t coarse_patch(const sp_evaluator *fine, const sp_evaluator *coarse, size_t patch)
-{
-    const sp_patches *patches = sp_evaluator_patches(fine);
-    const sp_mesh *mesh = sp_evaluator_setup(fine)->mesh;
-    uint32_t triangle = patches->triangle[patch];
-    const uint32_t *corner = mesh->triangles[triangle];
-    sp_vec3 a = mesh->vertices[corner[0]], ab = sp_sub(mesh->vertices[corner[1]], a),
-            ac = sp_sub(mesh->vertices[corner[2]], a), ap = sp_sub(patches->point[patch], a), area = sp_cross(ab, ac);
-    double area2 = sp_dot(area, area);
-    if (!(area2 > 0))
-        return SP_NONE;
-    double u = sp_dot(sp_cross(ap, ac), area) / area2, v = sp_dot(sp_cross(ab, ap), area) / area2;
-    return patch_at(coarse, triangle, u, v, patches->side[patch] == SP_SIDE_BACK);
-}
-
 bool sp_bounces(const sp_evaluator *fine, const sp_search *search, sp_reason *reasons, sp_error *error)
 {
     size_t patches = sp_evaluator_patches(fine)->count, views = search->sites->count * search->candidates->speed_count;
@@ -118,7 +85,7 @@ bool sp_bounces(const sp_evaluator *fine, const sp_search *search, sp_reason *re
         follow_site(search, &search->sites->items[i / search->candidates->speed_count],
                     i % search->candidates->speed_count, jets, met);
     for (size_t p = 0; p < patches; p++) {
-        uint32_t patch = reasons[p] == SP_REASON_NO_LINE ? coarse_patch(fine, search->coarse, p) : SP_NONE;
+        uint32_t patch = reasons[p] == SP_REASON_NO_LINE ? sp_coarse_patch(fine, search->coarse, p) : SP_NONE;
         if (patch != SP_NONE && met[patch])
             reasons[p] = SP_REASON_REFLECTION;
     }

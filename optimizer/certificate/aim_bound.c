@@ -146,7 +146,7 @@ static bool prepare(aiming *a, sp_error *error)
     const sp_aim_task *task = a->task;
     if (!set_tiers(a, error))
         return false;
-    a->poses = sp_pose_prices_create(task->search, &a->cover, a->none, task->need, task->ports, error);
+    a->poses = sp_pose_prices_create(task->search, &a->cover, a->none, task->need, NULL, task->ports, error);
     if (!a->poses)
         return false;
     a->prices = sp_aim_prices_create(task->search, &a->cover, &a->kinds, (const uint32_t *const *)a->tier_of,

@@ -401,11 +401,12 @@ static bool hand_out_one(sp_aim_prices *prices, const sp_aim_cell *cell, sp_rows
     const sp_site *site = &search->sites->items[cell->site];
     sp_aim_cell middle = sp_aim_cell_middle(cell, kind);
     sp_aim_disc disc = {sp_aim_cell_disc(cell, site, tilt_of(prices, cell->site)).axis, 0};
-    sp_spray spray = sp_aim_cell_spray(&middle, kind, 0);
-    sp_frame frame = sp_aim_cell_frame(&middle, &disc, sp_evaluator_setup(search->coarse)->up);
+    sp_posed_spray posed = {.spray = sp_aim_cell_spray(&middle, kind, 0),
+                            .frame = sp_aim_cell_frame(&middle, &disc, sp_evaluator_setup(search->coarse)->up),
+                            .strength = strength_of(prices, cell)};
     sp_desk *desk = NULL;
     const sp_view *view = sp_visibility_look(search->visibility, cell->site, kind->speed_class, &desk);
-    sp_field_view(search, view, &spray, &frame, strength_of(prices, cell), prices->field);
+    sp_field_view(search, view, &posed, prices->field);
     sp_visibility_leave(search->visibility, &desk);
     return sp_pose_prices_row(prices->poses, prices->field, KEY_FIRST + prices->keys++, prices->ports[site->mount],
                               tier_of(prices, cell), rows, error);

@@ -12,6 +12,7 @@
 #define SLACK 1e-6         /* more than single precision puts an edge, or a flux over its threshold, wrong */
 #define SURELY (1 + 1e-5f) /* flux over threshold, from which a cell covers its part and brings others nothing */
 #define HARDLY (1 - 1e-5f) /* the same, up to which it does not cover */
+#define SWEPT_MORE 1e-5f   /* more than single precision puts a swept share, or flux, wrong */
 #define PART_MORE 5e-5f    /* more than single precision puts a share at an edge wrong */
 #define ROWS_AT_A_TIME 300
 #define TOLD_LEAST 0.5 /* of what a pose must be worth to matter: below this trees need no more than an upper bound */
@@ -25,17 +26,22 @@ typedef struct {
 
 /* One thread's own. */
 typedef struct {
-    float *worth; /* [arrivals of a view + SP_LANES], price that it brings to a make */
+    float *worth; /* [2 x (arrivals of a view + 2 SP_LANES)], price that it brings to a make */
     float total[SP_BINS];
     sp_cull cull;
     sp_desk *desk;
+    const sp_prices *prices; /* of now */
+    sp_field_sweeper fields; /* where film is asked for, of which `worth` holds the arrays */
+    float *field;            /* [field_count] */
+    uint32_t *texels;        /* [2 texels], of the row of a field */
+    float *shares;
 } scratch;
 
 struct sp_pose_prices {
     const sp_search *search;
     const sp_cover *cover;
     const uint32_t *tier_of;
-    const float *need;
+    const float *need, *film_need;
     const size_t *ports;
     const sp_pose_order *order; /* NULL until a line is asked for */
     float *last;                /* [order->line.count], see sp_pose_prices_last */
@@ -44,32 +50,35 @@ struct sp_pose_prices {
     scratch *scratches; /* [threads] */
     float upwards;      /* more than a share may lie off */
     bool bent;          /* flights are, so that two arcs may come to a cell */
-    float *field;       /* [texels] */
-    uint32_t *texels;
-    float *shares;
 };
 
 static bool allocate(sp_pose_prices *prices)
 {
     const sp_search *search = prices->search;
-    size_t texels = search->patch_count + 1;
+    size_t texels = search->field_count + 1, room = search->visibility->largest + 2 * SP_LANES;
     prices->bests = calloc(search->sites->count + 1, search->candidates->make_count * sizeof *prices->bests);
     prices->scratches = calloc((size_t)prices->threads, sizeof *prices->scratches);
-    prices->field = malloc(texels * sizeof *prices->field);
-    prices->texels = malloc(texels * sizeof *prices->texels);
-    prices->shares = malloc(texels * sizeof *prices->shares);
-    if (!prices->bests || !prices->scratches || !prices->field || !prices->texels || !prices->shares)
+    if (!prices->bests || !prices->scratches)
         return false;
     for (int i = 0; i < prices->threads; i++) {
-        prices->scratches[i].worth = calloc(search->visibility->largest + SP_LANES, sizeof *prices->scratches[i].worth);
-        if (!prices->scratches[i].worth)
+        scratch *own = &prices->scratches[i];
+        own->worth = calloc(2 * room, sizeof *own->worth);
+        own->fields = (sp_field_sweeper){.cull = &own->cull,
+                                         .more = SWEPT_MORE,
+                                         .share = own->worth,
+                                         .counts = own->worth + room,
+                                         .runs = malloc(SP_BINS * sizeof *own->fields.runs)};
+        own->field = malloc(texels * sizeof *own->field);
+        own->texels = malloc(texels * sizeof *own->texels);
+        own->shares = malloc(texels * sizeof *own->shares);
+        if (!own->worth || !own->fields.runs || !own->field || !own->texels || !own->shares)
             return false;
     }
     return true;
 }
 
 sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of,
-                                      const float *need, const size_t *ports, sp_error *error)
+                                      const float *need, const float *film_need, const size_t *ports, sp_error *error)
 {
     sp_pose_prices *prices = malloc(sizeof *prices);
     if (!prices)
@@ -78,6 +87,7 @@ sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *c
                                .cover = cover,
                                .tier_of = tier_of,
                                .need = need,
+                               .film_need = film_need,
                                .ports = ports,
                                .upwards = (float)(1 + sp_field_margin(search->kept_count + cover->nozzles)),
                                .bent = sp_length(sp_evaluator_gravity(search->coarse)) > 0,
@@ -92,14 +102,16 @@ void sp_pose_prices_destroy(sp_pose_prices *prices)
 {
     if (!prices)
         return;
-    for (int i = 0; prices->scratches && i < prices->threads; i++)
+    for (int i = 0; prices->scratches && i < prices->threads; i++) {
         free(prices->scratches[i].worth);
+        free(prices->scratches[i].fields.runs);
+        free(prices->scratches[i].field);
+        free(prices->scratches[i].texels);
+        free(prices->scratches[i].shares);
+    }
     free(prices->bests);
     free(prices->last);
     free(prices->scratches);
-    free(prices->field);
-    free(prices->texels);
-    free(prices->shares);
     free(prices);
 }
 
@@ -143,15 +155,73 @@ void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, flo
     prices->search->sweeps->total(view, worth, total);
 }
 
+/* The share of what a texel needs that a film brings, rounded upwards. */
+static inline float film_share_of(const sp_pose_prices *prices, uint32_t texel, float film)
+{
+    return fminf(1, film / prices->film_need[texel] * prices->upwards);
+}
+
+/* Writes a field as a row; returns how many entries it has. A texel is covered by what hits it, or by its film, never
+ * by both together, so that where many nozzles suffice one way, the greater of either way's shares come to 1 as well.
+ * Where a spray ends, what it covers by itself and its film are two entries: lifts make of them what they make of each.
+ */
+static size_t write_row(const sp_pose_prices *prices, const float *field, uint32_t *texels, float *shares)
+{
+    size_t count = 0, patches = prices->search->patch_count;
+    for (uint32_t t = 0; t < patches; t++) {
+        float film = prices->film_need ? field[patches + t] : 0;
+        if ((field[t] == 0 && !(film > 0)) || !(prices->need[t] > 0))
+            continue;
+        float share = field[t] < 0 ? fmaxf(field[t] - PART_MORE, -1) : share_of(prices, t, field[t], false);
+        float runs = film > 0 ? film_share_of(prices, t, film) : 0;
+        float both[] = {share < 0 ? share : fmaxf(share, runs), share < 0 ? runs : 0};
+        for (int i = 0; i < 2; i++)
+            if (both[i] != 0) {
+                texels[count] = t;
+                shares[count++] = both[i];
+            }
+    }
+    return count;
+}
+
+bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t tier,
+                        sp_rows *rows, sp_error *error)
+{
+    const scratch *own = &prices->scratches[0];
+    size_t count = write_row(prices, field, own->texels, own->shares);
+    return sp_rows_add(rows, key, port, tier, own->texels, own->shares, count, error);
+}
+
+bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *rows, sp_error *error)
+{
+    float *field = prices->scratches[0].field;
+    sp_field_pose(prices->search, pose, field);
+    return sp_pose_prices_row(prices, field, sp_pose_order_position(prices->order, pose),
+                              prices->ports[prices->search->sites->items[pose.site].mount], prices->tier_of[pose.make],
+                              rows, error);
+}
+
 /* What each arrival of a view brings to a make; returns the make's region about the site's axis. */
 static sp_region prepare_worth(const sp_pose_prices *prices, scratch *own, const sp_view *view, const sp_make *make,
                                const sp_frame *frame, const sp_prices *u)
 {
-    double plenty = prices->search->plenty;
-    double strength = plenty > 0 ? make->flow / (make->spray.solid_angle * plenty) : INFINITY;
-    sp_pose_prices_worth(prices, view, (float)strength, (float)strength, u, own->worth, own->total);
+    double strength = sp_make_strength(prices->search, make);
+    own->prices = u;
+    own->fields.view = view;
+    if (!prices->film_need)
+        sp_pose_prices_worth(prices, view, (float)strength, (float)strength, u, own->worth, own->total);
     sp_cull_create(&prices->search->visibility->bins, view, &make->spray, SP_COUNT_SHARE, &own->cull);
     return sp_region_create(&make->spray, frame, strength, SLACK);
+}
+
+/* The price of the pose's own row: what runs down comes from everywhere above, which no bin knows. */
+static double field_price_of(const sp_pose_prices *prices, const scratch *own, const sp_make *make,
+                             const sp_region *region)
+{
+    sp_field_sweep(prices->search, &own->fields, make, region, own->field);
+    size_t start[] = {0, write_row(prices, own->field, own->texels, own->shares)};
+    sp_rows row = {.count = 1, .start = start, .texel = own->texels, .share = own->shares};
+    return sp_rows_price(&row, 0, own->prices) * UPWARDS;
 }
 
 /* The pose's price, rounded upwards, by more where it is less than `least`. */
@@ -165,6 +235,8 @@ static double price_of(const sp_pose_prices *prices, const scratch *own, const s
     const sp_weight weight = {own->worth, own->total};
     double price;
     sp_region_turn(region, &frame);
+    if (prices->film_need)
+        return field_price_of(prices, own, &search->candidates->makes[pose.make], region);
     search->sweeps->sum(&search->visibility->bins, &own->cull, region, view, &weight, 1, least / UPWARDS, &price);
     return price * UPWARDS;
 }
@@ -196,7 +268,7 @@ static best price_make(sp_pose_prices *prices, scratch *own, const sp_view *view
     const sp_make *make = &candidates->makes[k];
     size_t axes = sp_candidates_axes(candidates, prices->search->sites->items[site].mount, k)->count;
     best found = {.price = 0};
-    double all = all_bins(own);
+    double all = prices->film_need ? INFINITY : all_bins(own);
     double told = stride == 1 ? TOLD_LEAST * needed : INFINITY; /* below it no price need be exact to be told */
     for (uint32_t a = 0; a < axes; a++)
         for (uint32_t r = 0; r < make->roll_count; r++) {
@@ -234,30 +306,6 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
         sp_region region = prepare_worth(prices, own, view, make, &frame, u);
         *found = price_make(prices, own, view, site, k, &region, stride, least, needed[prices->tier_of[k]]);
     }
-}
-
-bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t tier,
-                        sp_rows *rows, sp_error *error)
-{
-    size_t count = 0;
-    for (uint32_t t = 0; t < prices->search->patch_count; t++) {
-        if (field[t] == 0 || !(prices->need[t] > 0))
-            continue;
-        float share = field[t] < 0 ? fmaxf(field[t] - PART_MORE, -1) : share_of(prices, t, field[t], false);
-        if (share != 0) {
-            prices->texels[count] = t;
-            prices->shares[count++] = share;
-        }
-    }
-    return sp_rows_add(rows, key, port, tier, prices->texels, prices->shares, count, error);
-}
-
-bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *rows, sp_error *error)
-{
-    sp_field_pose(prices->search, pose, prices->field);
-    return sp_pose_prices_row(prices, prices->field, sp_pose_order_position(prices->order, pose),
-                              prices->ports[prices->search->sites->items[pose.site].mount], prices->tier_of[pose.make],
-                              rows, error);
 }
 
 /* Appends the best of the bests that are worth more than needed. */

@@ -19,10 +19,11 @@ static inline double sp_field_margin(size_t nozzles)
 typedef struct sp_pose_prices sp_pose_prices;
 
 /* For the cover of `search`, its texels the coarse patches: tier_of[make], the tier of each make's water; need
- * [texels], flux over threshold that a texel lacks, 0 where it is not to be counted; ports [mounts], the port that a
+ * [texels], flux over threshold that a texel lacks, 0 where it is not to be counted; film_need the same of film, NULL
+ * where that is not asked for; ports [mounts], the port that a
  * mount is, SP_NO_PORT where it is none. All borrowed. */
 sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of,
-                                      const float *need, const size_t *ports, sp_error *error);
+                                      const float *need, const float *film_need, const size_t *ports, sp_error *error);
 void sp_pose_prices_destroy(sp_pose_prices *prices);
 /* The line of all poses and of order->own, whose arrays stay the order's, which is borrowed. Goes before the pricer:
  * the keys of rows are positions. */
@@ -35,7 +36,7 @@ const float *sp_pose_prices_last(const sp_pose_prices *prices);
  * `most`, rounded upwards (worth, [view->count]); and each bin in all (total, [SP_BINS]). */
 void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, float least, float most,
                           const sp_prices *u, float *worth, float *total);
-/* Appends a field (flux over threshold) as a row. */
+/* Appends a field (see sp_placed) as a row. */
 bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t tier,
                         sp_rows *rows, sp_error *error);
 /* Appends the row of a pose. */

@@ -85,12 +85,18 @@ static bool set_texels(sp_problem *p, sp_error *error)
     p->area = malloc((search->patch_count + 1) * sizeof *p->area);
     p->need = malloc((search->patch_count + 1) * sizeof *p->need);
     double margin = sp_field_margin(search->kept_count + p->cover.nozzles);
-    if (!p->area || !p->need)
+    p->film_need = search->kept_film ? malloc((search->patch_count + 1) * sizeof *p->film_need) : NULL;
+    if (!p->area || !p->need || (search->kept_film && !p->film_need))
         return sp_fail_memory(error);
     for (size_t t = 0; t < search->patch_count; t++) {
-        double had = (double)search->kept_wet[t] * (1 + margin);
+        double had = (double)search->kept_hit[t] * (1 + margin);
         double need = had >= 1 ? 0 : search->single ? 1 : 1 - had;
         p->need[t] = need > margin ? (float)need : 0;
+        if (p->film_need) {
+            double lacks = 1 - (double)search->kept_film[t] * (1 + margin);
+            p->film_need[t] = (float)lacks;
+            p->need[t] = lacks > margin ? p->need[t] : 0;
+        }
         /* of what their edges leave dry, other edges cover as large a part as of all of it */
         double whole = (double)search->area[t] * search->all;
         p->area[t] = p->need[t] > 0 ? (float)whole * search->kept_dry[t] : 0;
@@ -100,7 +106,7 @@ static bool set_texels(sp_problem *p, sp_error *error)
     p->cover.area = p->area;
     p->cover.weight = p->weight;
     p->cover.repeats = true;
-    p->cover.whole = search->single || search->threshold <= 0;
+    p->cover.whole = !search->kept_film && (search->single || search->threshold <= 0);
     p->cover.threads = sp_threads(&search->options->run);
     return true;
 }
@@ -143,7 +149,7 @@ static bool prepare(sp_problem *p, sp_error *error)
 {
     if (!set_tiers(p, error) || !set_texels(p, error))
         return false;
-    p->prices = sp_pose_prices_create(p->search, &p->cover, p->tier_of, p->need, p->ports, error);
+    p->prices = sp_pose_prices_create(p->search, &p->cover, p->tier_of, p->need, p->film_need, p->ports, error);
     if (!p->prices)
         return false;
     p->pricer = sp_pose_pricer(p->prices);
@@ -170,6 +176,7 @@ void sp_problem_free(sp_problem *p)
     sp_pose_prices_destroy(p->prices);
     free(p->area);
     free(p->need);
+    free(p->film_need);
     free(p->weight);
     free(p->tier_of);
     free(p->ports);

@@ -13,6 +13,7 @@ typedef struct {
     sp_cover cover;
     sp_water_units units;
     float *area, *need; /* [patches] */
+    float *film_need;   /* [patches], NULL where film is not asked for */
     uint32_t *weight;   /* [tiers] */
     uint32_t *tier_of;  /* [makes] */
     size_t *ports;      /* [mounts] */

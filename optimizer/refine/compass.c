@@ -18,13 +18,13 @@ typedef struct {
     double budget, least;
     sp_placed placed;
     double gain;  /* of its field, exact, m² */
-    float *trial; /* [patch_count] */
+    float *trial; /* [field_count] */
     sp_error *error;
 } sp_needle;
 
 /* Whether a new place is worth all that can be seen from it: first as though what the old one sees were in sight, and
- * no more, then by what else the draft has left dry. Of 5,500 places on the example vessel 38 % fail the first, of those
- * that prove better 9 %. */
+ * no more, then by what else the draft has left dry. Of 5,500 places on the example vessel 38 % fail the first, of
+ * those that prove better 9 %. */
 static bool is_promising(sp_needle *needle, const sp_placed *trial, bool *promising)
 {
     const sp_sight *sight = sp_sights_look(needle->sights, &needle->placed, needle->error);
@@ -86,7 +86,7 @@ static bool try_nozzle(const sp_search *search, sp_sights *sights, double budget
                         .error = error,
                         .least = GAIN_LEAST * search->all};
     needle.placed = sp_draft_take(search, draft, 0);
-    needle.trial = malloc(search->patch_count * sizeof *needle.trial);
+    needle.trial = malloc((search->field_count + 1) * sizeof *needle.trial);
     bool done = needle.trial || sp_fail_memory(error);
     if (done)
         needle.gain = sp_field_gain(search, draft, needle.placed.field);

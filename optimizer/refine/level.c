@@ -182,6 +182,30 @@ static double level_of(const sp_posed *posed, const sp_borne *borne, double part
     return part * cover;
 }
 
+/* The liquid that an arrival brings its patch, m³/s, and by how much that changes with every unknown. */
+static void bring(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, size_t i,
+                  const sp_brought *brought)
+{
+    const sp_patches *patches = sp_evaluator_patches(posed->search->coarse);
+    size_t count = posed->sight->count;
+    double area = patches->area[seen->patch];
+    double flow = sp_nozzle_flow(&posed->nozzle, &sp_evaluator_setup(posed->search->coarse)->liquid);
+    sp_borne all = *borne;
+    all.by_flux = true;
+    brought->amount[i] = flow / posed->spray.solid_angle * borne->transfer * borne->inside * seen->part * area;
+    for (size_t k = 0; brought->slope && k < posed->freedom->count; k++) {
+        double by_k = brought->amount[i] * log_slope(posed, &all, seen, k);
+        brought->slope[k * count + i] = isfinite(by_k) ? by_k : 0;
+    }
+}
+
+static void bring_nothing(const sp_freedom *freedom, size_t count, size_t i, const sp_brought *brought)
+{
+    brought->amount[i] = 0;
+    for (size_t k = 0; brought->slope && k < freedom->count; k++)
+        brought->slope[k * count + i] = 0;
+}
+
 static bool has_place(const sp_freedom *freedom)
 {
     for (size_t k = 0; k < freedom->count; k++)
@@ -191,7 +215,7 @@ static bool has_place(const sp_freedom *freedom)
 }
 
 void sp_levels(const sp_search *search, const sp_freedom *freedom, const sp_sight *sight, sp_width width,
-               const double *values, double *level, double *slope)
+               const double *values, double *level, double *slope, const sp_brought *brought)
 {
     sp_posed posed = pose(search, freedom, sight, width, values, slope != NULL);
     bool flies = posed.moved || (slope && has_place(freedom));
@@ -200,7 +224,11 @@ void sp_levels(const sp_search *search, const sp_freedom *freedom, const sp_sigh
         sp_borne borne = {0};
         double rise = 0;
         bool borne_there = bear(&posed, seen, flies, slope != NULL, &borne);
-        level[i] = borne_there ? level_of(&posed, &borne, seen->part, &rise) : 0;
+        level[i] = borne_there && seen->passes ? level_of(&posed, &borne, seen->part, &rise) : 0;
+        if (brought && borne_there)
+            bring(&posed, &borne, seen, i, brought);
+        else if (brought)
+            bring_nothing(freedom, sight->count, i, brought);
         if (!slope)
             continue;
         for (size_t k = 0; k < freedom->count; k++) {

@@ -19,10 +19,16 @@ static inline bool sp_levels_sum(const sp_search *search)
     return !search->single && search->threshold > 0;
 }
 
+/* The liquid that each arrival brings its patch, m³/s, [sight->count], and its derivatives, as slopes of levels;
+ * `slope` may be NULL. Softened at the pattern's edge alone. */
+typedef struct {
+    double *amount, *slope;
+} sp_brought;
+
 /* At the freedom's values [SP_UNKNOWNS], visibility as in `sight`: level [sight->count] and, where `slope` is not NULL,
- * its derivatives by each value, [freedom->count][sight->count]. */
+ * its derivatives by each value, [freedom->count][sight->count]. And what is brought, where that is asked for. */
 void sp_levels(const sp_search *search, const sp_freedom *freedom, const sp_sight *sight, sp_width width,
-               const double *values, double *level, double *slope);
+               const double *values, double *level, double *slope, const sp_brought *brought);
 
 /* Logistic function. */
 static inline double sp_soft_step(double x)

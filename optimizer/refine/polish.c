@@ -9,6 +9,7 @@
 
 #define ROUGH_PATCHES 4000.0  /* most of the polishing sees no more than these show */
 #define SHARP_PATCHES 60000.0 /* the last of it sees the final patches, or so many */
+#define FILM_PATCHES 20000.0  /* or where film is asked for so many */
 #define SIGHTS 24             /* kept for each thread */
 #define STEP_FIRST 0.25       /* of half an unknown's range, of the compass */
 #define STEP_SHARP 0.12
@@ -60,11 +61,11 @@ void sp_polishing_free(sp_polishing *polishing)
 static bool create_sharp(sp_polishing *polishing, const sp_evaluator *fine, sp_error *error)
 {
     const sp_search *search = polishing->search;
-    double count = (double)sp_evaluator_patches(fine)->count;
+    double texel = sp_evaluator_fidelity(fine)->texel, most = search->runoffs ? FILM_PATCHES : SHARP_PATCHES;
+    double coarser = sqrt((double)sp_evaluator_patches(fine)->count / most);
     const sp_evaluator *sharp = fine;
-    if (count > 1.5 * SHARP_PATCHES)
-        sharp = polishing->sharp_evaluator =
-            sp_evaluator_resample(fine, sp_evaluator_fidelity(fine)->texel * sqrt(count / SHARP_PATCHES), error);
+    if (search->runoffs || coarser > sqrt(1.5))
+        sharp = polishing->sharp_evaluator = sp_evaluator_resample(fine, texel * fmax(1, coarser), error);
     return sharp &&
            sp_search_create(sharp, search->options, search->sites, search->candidates, search->visibility,
                             &polishing->sharp, error) &&
@@ -101,7 +102,7 @@ static bool transfer(sp_sights *sights, const sp_draft *from, sp_draft *to, sp_e
     bool done = true;
     for (size_t i = 0; done && i < from->count; i++) {
         sp_placed placed = from->items[i];
-        placed.field = malloc(sights->search->patch_count * sizeof *placed.field);
+        placed.field = malloc((sights->search->field_count + 1) * sizeof *placed.field);
         if (!placed.field)
             done = sp_fail_memory(error);
         else if (sp_sights_field(sights, &placed, NULL, placed.field, error))

@@ -1,6 +1,6 @@
 #include "refine/sight.h"
 
-#include "scoring/scoring.h"
+#include "scoring/field.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -60,14 +60,17 @@ static bool equal(sp_vec3 a, sp_vec3 b)
 
 static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
 {
-    sp_reach *reach = sp_evaluator_reach_passing(search->coarse, sight->position, sight->speed, sight->axis,
-                                                 sight->half_angle, NULL, error);
+    sp_reach *reach = search->runoffs ? sp_evaluator_reach(search->coarse, sight->position, sight->speed, sight->axis,
+                                                           sight->half_angle, error)
+                                      : sp_evaluator_reach_passing(search->coarse, sight->position, sight->speed,
+                                                                   sight->axis, sight->half_angle, NULL, error);
     if (!reach)
         return false;
     sight->seen = malloc((reach->count ? reach->count : 1) * sizeof *sight->seen);
     for (size_t i = 0; sight->seen && i < reach->count; i++) {
         const sp_arrival *arrival = &reach->arrivals[i];
         sight->seen[sight->count++] = (sp_seen){.patch = arrival->patch,
+                                                .passes = arrival->passes,
                                                 .arc = arrival->arc,
                                                 .part = arrival->part,
                                                 .point = arrival->point,
@@ -146,10 +149,10 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
     const sp_nozzle *nozzle = &placed->nozzle;
     sp_posed_spray posed = sp_posed_spray_of(search, nozzle);
     bool moved = !equal(nozzle->position, sight->position);
-    memset(field, 0, search->patch_count * sizeof *field);
+    sp_field_making making = sp_field_begin(search, &posed, 1, field);
     for (size_t i = 0; i < sight->count; i++) {
         const sp_seen *seen = &sight->seen[i];
-        if (draft && draft->wet[seen->patch] >= SP_ENOUGH)
+        if (draft && draft->wet[seen->patch] >= SP_ENOUGH && !search->runoffs)
             continue;
         sp_flight flight = {.direction = seen->direction};
         double transfer = seen->transfer, breadth = seen->breadth;
@@ -158,10 +161,9 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
                 continue;
             breadth = sp_flight_breadth(&flight, sight->speed, patches->length[seen->patch]);
         }
-        float *value = &field[seen->patch];
-        *value =
-            sp_field_join(*value, sp_posed_spray_value(&posed, flight.direction, breadth, transfer), (float)seen->part);
+        sp_field_add(&making, seen->patch, seen->passes, flight.direction, breadth, transfer, (float)seen->part);
     }
+    sp_field_end(&making);
 }
 
 bool sp_sights_field(sp_sights *sights, const sp_placed *placed, const sp_draft *draft, float *field, sp_error *error)

@@ -4,9 +4,10 @@
 
 #include "scoring/draft.h"
 
-/* An arrival that passes the criterion's speed and incidence. */
+/* An arrival that passes the criterion's speed and incidence; where film is asked for, any. */
 typedef struct {
     uint32_t patch;
+    bool passes;
     uint32_t arc; /* 0: low arc or line, 1: high arc */
     double part;  /* of the patch, that the arrival is of */
     sp_vec3 point, normal;

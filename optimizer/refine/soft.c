@@ -1,6 +1,7 @@
 #include "refine/soft.h"
 
 #include "refine/least_squares.h"
+#include "refine/soft_film.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -34,6 +35,7 @@ typedef struct {
     sp_soft_nozzle *nozzles;
     size_t *start; /* [patch_count + 1] */
     sp_link *links;
+    sp_soft_film film;                                  /* of no nozzles where film is not asked for */
     double *chunk_cost, *chunk_gradient, *chunk_normal; /* [CHUNKS][1], [][unknowns], [][unknowns²] */
 } sp_soft;
 
@@ -58,12 +60,19 @@ static void set_levels(sp_soft *soft, const double *x, bool slopes)
         const sp_freedom *freedom = own->freedom;
         double values[SP_UNKNOWNS];
         values_at(own, x, values);
-        sp_levels(soft->search, freedom, own->sight, soft->width, values, own->level, slopes ? own->slope : NULL);
+        double chain[SP_UNKNOWNS];
+        sp_brought brought = {0};
+        if (soft->film.count)
+            brought = (sp_brought){soft->film.runs[i].brought.amount, slopes ? soft->film.runs[i].brought.slope : NULL};
+        sp_levels(soft->search, freedom, own->sight, soft->width, values, own->level, slopes ? own->slope : NULL,
+                  soft->film.count ? &brought : NULL);
         for (size_t k = 0; slopes && k < freedom->count; k++) {
-            double chain = 0.5 * (freedom->high[k] - freedom->low[k]) * cos(x[own->first + k]);
+            chain[k] = 0.5 * (freedom->high[k] - freedom->low[k]) * cos(x[own->first + k]);
             for (size_t a = 0; a < own->sight->count; a++)
-                own->slope[k * own->sight->count + a] *= chain;
+                own->slope[k * own->sight->count + a] *= chain[k];
         }
+        if (soft->film.count)
+            sp_soft_film_set(&soft->film, i, slopes ? chain : NULL);
     }
 }
 
@@ -71,7 +80,7 @@ static void set_levels(sp_soft *soft, const double *x, bool slopes)
  * the slope of the miss, for levels that add up. */
 static double miss_of_sum(const sp_soft *soft, size_t patch, double *factor)
 {
-    double sum = (double)soft->search->kept_wet[patch];
+    double sum = (double)soft->search->kept_hit[patch];
     for (size_t l = soft->start[patch]; l < soft->start[patch + 1]; l++)
         sum += soft->nozzles[soft->links[l].nozzle].level[soft->links[l].arrival];
     *factor = 0;
@@ -84,6 +93,15 @@ static double miss_of_sum(const sp_soft *soft, size_t patch, double *factor)
     *factor = -cover * (1 - cover) / (soft->width.level * sum);
     return 1 - cover;
 }
+
+/* What is missing at a patch: the product of what hits and what films leave dry. */
+typedef struct {
+    double weight;    /* root of the patch's area, as a share of all: the solver's tolerances are absolute, and must not
+                       * know the unit of length */
+    double hit, film; /* each 1 where the other is all that counts */
+    double by_level;  /* how `hit` changes per level, where these add up */
+    double by_film;   /* how `film` changes per film of all nozzles */
+} sp_soft_miss;
 
 static bool is_cell(const sp_soft *soft, size_t link)
 {
@@ -103,7 +121,7 @@ static size_t end_of_group(const sp_soft *soft, size_t patch, size_t first)
  * what link `but` (SIZE_MAX: none) belongs to. */
 static double miss_of_any(const sp_soft *soft, size_t patch, size_t but)
 {
-    double miss = soft->search->kept_wet[patch] >= 1 ? 0 : (double)soft->search->kept_dry[patch];
+    double miss = soft->search->kept_hit[patch] >= 1 ? 0 : (double)soft->search->kept_dry[patch];
     for (size_t l = soft->start[patch], end; l < soft->start[patch + 1]; l = end) {
         double cover = 0;
         end = end_of_group(soft, patch, l);
@@ -115,25 +133,49 @@ static double miss_of_any(const sp_soft *soft, size_t patch, size_t but)
     return miss;
 }
 
-/* Adds a patch's row of the Jacobian, which is never held, to the normal matrix and the gradient. */
-static void add_row(const sp_soft *soft, size_t patch, double weight, double miss, double factor, double *row,
-                    size_t *columns, double *gradient, double *normal)
+/* A patch's row of the Jacobian in the making, all zero but for the columns that are listed. */
+typedef struct {
+    double *row;
+    size_t *columns, used;
+} sp_soft_row;
+
+static void add_slope(sp_soft_row *row, size_t column, double slope)
 {
-    size_t n = soft->unknowns, used = 0;
+    if (slope == 0)
+        return;
+    if (row->row[column] == 0)
+        row->columns[row->used++] = column;
+    row->row[column] += slope;
+}
+
+/* Adds what the films' slopes make of the miss, `by_film` that of all films together. */
+static void add_film(const sp_soft *soft, size_t patch, double by_film, sp_soft_row *row)
+{
+    for (size_t i = 0; by_film != 0 && i < soft->film.count; i++) {
+        const sp_soft_runs *runs = &soft->film.runs[i];
+        for (size_t k = 0; k < runs->freedom->count; k++)
+            add_slope(row, runs->first + k, by_film * (double)runs->slope[k * soft->search->patch_count + patch]);
+    }
+}
+
+/* Adds a patch's row of the Jacobian, which is never held, to the normal matrix and the gradient. */
+static void add_row(const sp_soft *soft, size_t patch, const sp_soft_miss *at, double *row, size_t *columns,
+                    double *gradient, double *normal)
+{
+    size_t n = soft->unknowns;
+    sp_soft_row own_row = {row, columns, 0};
+    double weight = at->weight, miss = at->hit * at->film;
     for (size_t l = soft->start[patch]; l < soft->start[patch + 1]; l++) {
         const sp_soft_nozzle *own = &soft->nozzles[soft->links[l].nozzle];
         if (own->level[soft->links[l].arrival] <= 0)
             continue;
-        double by_level = soft->sums ? factor : -miss_of_any(soft, patch, l);
-        for (size_t k = 0; k < own->freedom->count; k++) {
-            double slope = weight * by_level * own->slope[k * own->sight->count + soft->links[l].arrival];
-            if (slope == 0)
-                continue;
-            if (row[own->first + k] == 0)
-                columns[used++] = own->first + k;
-            row[own->first + k] += slope;
-        }
+        double by_level = at->film * (soft->sums ? at->by_level : -miss_of_any(soft, patch, l));
+        for (size_t k = 0; k < own->freedom->count; k++)
+            add_slope(&own_row, own->first + k,
+                      weight * by_level * own->slope[k * own->sight->count + soft->links[l].arrival]);
     }
+    add_film(soft, patch, weight * at->hit * at->by_film, &own_row);
+    size_t used = own_row.used;
     for (size_t i = 0; i < used; i++) {
         gradient[columns[i]] += row[columns[i]] * weight * miss;
         for (size_t j = 0; j < used; j++)
@@ -142,6 +184,17 @@ static void add_row(const sp_soft *soft, size_t patch, double weight, double mis
     }
     for (size_t i = 0; i < used; i++)
         row[columns[i]] = 0;
+}
+
+static sp_soft_miss miss_at(const sp_soft *soft, size_t patch)
+{
+    sp_soft_miss at = {.weight = sqrt((double)soft->search->area[patch]), .film = 1};
+    at.hit = soft->sums ? miss_of_sum(soft, patch, &at.by_level) : miss_of_any(soft, patch, SIZE_MAX);
+    if (!soft->film.count)
+        return at;
+    at.film = 1 - sp_soft_film_cover(&soft->film, patch, &at.by_film);
+    at.by_film = -at.by_film;
+    return at;
 }
 
 /* Sums one chunk of the patches. `row` (all zero) and `columns` are the chunk's own scratch. */
@@ -154,14 +207,13 @@ static void sum_chunk(sp_soft *soft, size_t chunk, bool slopes, double *row, siz
         memset(normal, 0, n * n * sizeof *normal);
     }
     for (size_t p = patches * chunk / CHUNKS; p < patches * (chunk + 1) / CHUNKS; p++) {
-        if (soft->start[p] == soft->start[p + 1])
+        if ((soft->start[p] == soft->start[p + 1] && !soft->film.count) || soft->search->area[p] <= 0)
             continue;
-        /* as a share of all: the solver's tolerances are absolute, and must not know the unit of length */
-        double weight = sqrt((double)soft->search->area[p]), factor = 0;
-        double miss = soft->sums ? miss_of_sum(soft, p, &factor) : miss_of_any(soft, p, SIZE_MAX);
-        cost += weight * weight * miss * miss;
+        sp_soft_miss at = miss_at(soft, p);
+        double miss = at.hit * at.film;
+        cost += at.weight * at.weight * miss * miss;
         if (slopes && miss > 0)
-            add_row(soft, p, weight, miss, factor, row, columns, gradient, normal);
+            add_row(soft, p, &at, row, columns, gradient, normal);
     }
     soft->chunk_cost[chunk] = cost;
 }
@@ -332,6 +384,7 @@ static void soft_free(sp_soft *soft)
         free(soft->nozzles[i].slope);
     }
     free(soft->nozzles);
+    sp_soft_film_free(&soft->film);
     free(soft->start);
     free(soft->links);
     free(soft->chunk_cost);
@@ -375,7 +428,10 @@ bool sp_soft_solve(const sp_search *search, const sp_freedom *freedoms, const sp
         soft.unknowns += freedoms[i].count;
     if (!soft.unknowns)
         return true;
-    bool done = soft_create(&soft, freedoms, sights, error) && solve(&soft, values, error);
+    bool done =
+        soft_create(&soft, freedoms, sights, error) &&
+        (!search->runoffs || sp_soft_film_create(search, freedoms, sights, count, width.level, &soft.film, error)) &&
+        solve(&soft, values, error);
     soft_free(&soft);
     return done;
 }

@@ -2,20 +2,21 @@
 
 #include "mesh/grow.h"
 
-#include "scoring/scoring.h"
+#include "scoring/field.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define CREDIT 0.2f /* of a patch that has almost the flux it needs: a saturating surrogate misleads the search */
-#define PORT_TOLERANCE 4e-4 /* of the geometry's diagonal: a kept nozzle this near to a port's lance sits in the port  \
-                             */
+#define PORT_TOLERANCE                                                                                                 \
+    4e-4 /* of the geometry's diagonal: a kept nozzle this near to a port's lance sits in the port                     \
+          */
 
 static bool kept_create(sp_search *search, sp_error *error)
 {
     const sp_layout *layout = search->options->kept;
-    float *field = malloc(search->patch_count * sizeof *field);
+    float *field = malloc(search->field_count * sizeof *field);
     search->kept = calloc(layout->count ? layout->count : 1, sizeof *search->kept);
     bool done = field && search->kept;
     if (!done)
@@ -27,10 +28,37 @@ static bool kept_create(sp_search *search, sp_error *error)
         search->kept_flow += sp_nozzle_flow(&layout->nozzles[i], &sp_evaluator_setup(search->coarse)->liquid);
         done = sp_field_nozzle(search, &layout->nozzles[i], NULL, field, error);
         for (size_t p = 0; done && p < search->patch_count; p++)
-            sp_pour(search, field[p], &search->kept_wet[p], &search->kept_dry[p]);
+            sp_pour(search, field[p], &search->kept_hit[p], &search->kept_dry[p]);
+        for (size_t p = 0; done && search->kept_film && p < search->patch_count; p++)
+            search->kept_film[p] += field[search->patch_count + p];
     }
     free(field);
     return done;
+}
+
+/* What is to be cleaned of the patches, and what runs over them. */
+static bool set_patches(sp_search *search, sp_error *error)
+{
+    size_t threads = (size_t)sp_threads(&search->options->run);
+    bool film = sp_evaluator_setup(search->coarse)->criterion.film > 0;
+    search->field_count = (film ? 2 : 1) * search->patch_count;
+    search->area = malloc((search->patch_count + 1) * sizeof *search->area);
+    search->kept_hit = calloc(search->patch_count + 1, sizeof *search->kept_hit);
+    search->kept_dry = malloc((search->patch_count + 1) * sizeof *search->kept_dry);
+    search->kept_film = film ? calloc(search->patch_count + 1, sizeof *search->kept_film) : NULL;
+    search->runoffs = film ? calloc(threads + 1, sizeof *search->runoffs) : NULL;
+    if (!search->area || !search->kept_hit || !search->kept_dry || (film && (!search->kept_film || !search->runoffs)))
+        return sp_fail_memory(error);
+    for (uint32_t p = 0; p < search->patch_count; p++)
+        search->all += sp_evaluator_counted(search->coarse, p);
+    for (uint32_t p = 0; p < search->patch_count; p++) {
+        search->area[p] = (float)(sp_evaluator_counted(search->coarse, p) / search->all);
+        search->kept_dry[p] = 1;
+    }
+    for (size_t i = 0; film && i < threads; i++)
+        if (!(search->runoffs[i] = sp_runoff_create(search->coarse, error)))
+            return false;
+    return true;
 }
 
 static bool sits_in(const sp_nozzle *nozzle, const sp_mount *mount, double tolerance)
@@ -44,7 +72,6 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
                       const sp_candidates *candidates, const sp_visibility *visibility, sp_search *search,
                       sp_error *error)
 {
-    const sp_patches *patches = sp_evaluator_patches(coarse);
     const sp_criterion *criterion = &sp_evaluator_setup(coarse)->criterion;
     *search = (sp_search){.options = options,
                           .sites = sites,
@@ -52,25 +79,16 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
                           .visibility = visibility,
                           .sweeps = sp_sweep_best(),
                           .coarse = coarse,
-                          .patch_count = patches->count,
-                          .all = patches->total_area,
+                          .patch_count = sp_evaluator_patches(coarse)->count,
                           .threshold = criterion->flux,
+                          .view_area = sp_evaluator_patches(visibility->evaluator)->total_area,
                           .plenty = criterion->flux * sp_evaluator_patches(visibility->evaluator)->total_area,
                           .single = criterion->combine == SP_COMBINE_SINGLE,
                           .credit = criterion->combine == SP_COMBINE_SINGLE ? 0 : CREDIT};
-    search->area = malloc(patches->count * sizeof *search->area);
-    search->kept_wet = calloc(patches->count, sizeof *search->kept_wet);
-    search->kept_dry = malloc(patches->count * sizeof *search->kept_dry);
     search->port_taken = calloc(options->mount_count, sizeof *search->port_taken);
-    if (!search->area || !search->kept_wet || !search->kept_dry || !search->port_taken) {
-        sp_search_free(search);
-        return sp_fail_memory(error);
-    }
-    for (size_t p = 0; p < patches->count; p++) {
-        search->area[p] = (float)(patches->area[p] / patches->total_area);
-        search->kept_dry[p] = 1;
-    }
-    if (options->kept && !kept_create(search, error)) {
+    bool done = (search->port_taken || sp_fail_memory(error)) && set_patches(search, error) &&
+                (!options->kept || kept_create(search, error));
+    if (!done) {
         sp_search_free(search);
         return false;
     }
@@ -85,26 +103,34 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
 void sp_search_free(sp_search *search)
 {
     free(search->area);
-    free(search->kept_wet);
+    for (int i = 0; search->runoffs && search->runoffs[i]; i++)
+        sp_runoff_destroy(search->runoffs[i]);
+    free(search->runoffs);
+    free(search->kept_hit);
+    free(search->kept_film);
     free(search->kept_dry);
     free(search->port_taken);
     free(search->kept);
     *search = (sp_search){0};
 }
 
-/* Adds item i to what is wet and dry. */
+/* Adds item i to what hits and runs, and to what is dry. */
 static void pour_item(const sp_search *search, sp_draft *draft, size_t i)
 {
-    const float *field = draft->items[i].field;
-    float *restrict wet = draft->wet, *restrict dry = draft->dry;
+    const float *field = draft->items[i].field, *more = field + search->patch_count;
+    float *restrict hit = draft->hit, *restrict dry = draft->dry, *restrict film = draft->film;
     draft->flow += draft->items[i].flow;
     for (size_t p = 0; p < search->patch_count; p++)
-        sp_pour(search, field[p], &wet[p], &dry[p]);
+        sp_pour(search, field[p], &hit[p], &dry[p]);
+    for (size_t p = 0; film && p < search->patch_count; p++)
+        film[p] += more[p];
 }
 
-/* Draws covered and value from what is wet and dry. */
+/* Draws covered and value from what hits and runs, and what is dry. */
 static void count_up(const sp_search *search, sp_draft *draft)
 {
+    for (size_t p = 0; draft->film && p < search->patch_count; p++)
+        draft->wet[p] = fmaxf(draft->hit[p], draft->film[p]);
     draft->covered = draft->value = 0;
     for (size_t p = 0; p < search->patch_count; p++) {
         draft->value += (double)(search->area[p] * sp_worth(search, draft->wet[p], draft->dry[p]));
@@ -116,7 +142,9 @@ static void count_up(const sp_search *search, sp_draft *draft)
 
 void sp_draft_refresh(const sp_search *search, sp_draft *draft)
 {
-    memcpy(draft->wet, search->kept_wet, search->patch_count * sizeof *draft->wet);
+    memcpy(draft->hit, search->kept_hit, search->patch_count * sizeof *draft->hit);
+    if (draft->film)
+        memcpy(draft->film, search->kept_film, search->patch_count * sizeof *draft->film);
     memcpy(draft->dry, search->kept_dry, search->patch_count * sizeof *draft->dry);
     draft->flow = search->kept_flow;
     for (size_t i = 0; i < draft->count; i++)
@@ -124,13 +152,15 @@ void sp_draft_refresh(const sp_search *search, sp_draft *draft)
     count_up(search, draft);
 }
 
-/* Room for what is wet and dry. */
+/* Room for what hits, runs and is dry. */
 static bool reserve(const sp_search *search, sp_draft *draft, sp_error *error)
 {
     *draft = (sp_draft){0};
-    draft->wet = malloc(search->patch_count * sizeof *draft->wet);
-    draft->dry = malloc(search->patch_count * sizeof *draft->dry);
-    if (draft->wet && draft->dry)
+    draft->hit = malloc((search->patch_count + 1) * sizeof *draft->hit);
+    draft->dry = malloc((search->patch_count + 1) * sizeof *draft->dry);
+    draft->film = search->kept_film ? malloc((search->patch_count + 1) * sizeof *draft->film) : NULL;
+    draft->wet = search->kept_film ? malloc((search->patch_count + 1) * sizeof *draft->wet) : draft->hit;
+    if (draft->hit && draft->dry && draft->wet && (draft->film || !search->kept_film))
         return true;
     sp_draft_free(draft);
     return sp_fail_memory(error);
@@ -149,7 +179,10 @@ void sp_draft_free(sp_draft *draft)
     for (size_t i = 0; i < draft->count; i++)
         free(draft->items[i].field);
     free(draft->items);
-    free(draft->wet);
+    if (draft->wet != draft->hit)
+        free(draft->wet);
+    free(draft->hit);
+    free(draft->film);
     free(draft->dry);
     *draft = (sp_draft){0};
 }
@@ -170,9 +203,9 @@ bool sp_draft_copy(const sp_search *search, const sp_draft *from, sp_draft *to, 
         return false;
     for (size_t i = 0; i < from->count; i++) {
         sp_placed placed = from->items[i];
-        placed.field = malloc(search->patch_count * sizeof *placed.field);
+        placed.field = malloc((search->field_count + 1) * sizeof *placed.field);
         if (placed.field)
-            memcpy(placed.field, from->items[i].field, search->patch_count * sizeof *placed.field);
+            memcpy(placed.field, from->items[i].field, search->field_count * sizeof *placed.field);
         else
             sp_fail_memory(error);
         if (!placed.field || !append(to, placed, error)) {
@@ -200,7 +233,7 @@ bool sp_draft_add_pose(const sp_search *search, sp_draft *draft, sp_pose pose, s
                         .origin = nozzle,
                         .site = search->sites->items[pose.site],
                         .flow = search->candidates->makes[pose.make].flow,
-                        .field = malloc(search->patch_count * sizeof *placed.field)};
+                        .field = malloc((search->field_count + 1) * sizeof *placed.field)};
     if (!placed.field)
         return sp_fail_memory(error);
     sp_field_pose(search, pose, placed.field);

@@ -4,6 +4,8 @@
 
 #include "scoring/sweep.h"
 
+#include <omp.h>
+
 #define SP_ROUNDING 1e-9 /* share of the water by which a sum of flows may lie above what is allowed */
 /* Flux over threshold that covers: so much more than 1 that what was rounded up to it in single precision is no less
  * than the threshold. Refinement would else stop where the search sees a patch covered and the evaluator does not. */
@@ -22,17 +24,22 @@ typedef struct {
     const sp_visibility *visibility;
     const sp_evaluator *coarse;
     size_t patch_count;
-    double all;       /* m² of all patches */
-    float *area;      /* [patch_count], share of all: what is rounded to single precision has no unit of length */
+    size_t field_count;  /* of a nozzle's field: one for each patch, and where film is asked for as many for that */
+    sp_runoff **runoffs; /* [threads], by sp_search_runoff; NULL: film is not asked for */
+    double all;          /* m² of all patches that are cleaned */
+    float *area; /* [patch_count], share of all, 0 of what is only run over: what is rounded to single precision has
+                  * no unit of length */
     double threshold; /* m³/s per m² that cover; 0: any liquid */
     double plenty;    /* m³/s that cover all that the views show, spread evenly; 0: any liquid */
+    double view_area; /* m² of all patches that the views show: of a unit of their transfers */
     bool single;      /* one nozzle alone must cover */
     float credit;     /* worth of an uncovered patch per share of the threshold that it has */
     const sp_sweep_set *sweeps;
     size_t kept_count;
     sp_nozzle *kept; /* the nozzles that every layout contains */
     double kept_flow;
-    float *kept_wet;  /* [patch_count], flux over threshold on all of a patch */
+    float *kept_hit;  /* [patch_count], flux over threshold on all of a patch */
+    float *kept_film; /* [patch_count], film over what is asked for; NULL where none is */
     float *kept_dry;  /* [patch_count], share of a patch that their edges do not cover */
     bool *port_taken; /* [mount_count], by a kept nozzle */
 } sp_search;
@@ -42,8 +49,9 @@ typedef struct {
     sp_nozzle origin; /* the candidate that it was, from which refinement's limits count */
     sp_site site;     /* where it is now: a surface's axis changes along it */
     double flow;      /* m³/s */
-    /* [patch_count], what it brings to a patch (see sp_wetting): flux over threshold on all of it, INFINITY where any
-     * liquid covers; or, below 0, less the share that it covers by itself at its spray's edge */
+    /* [field_count], what it brings to a patch (see sp_wetting): flux over threshold on all of it, INFINITY where any
+     * liquid covers; or, below 0, less the share that it covers by itself at its spray's edge. Behind these, where film
+     * is asked for, the film that comes of it over what is asked for. */
     float *field;
 } sp_placed;
 
@@ -64,7 +72,9 @@ static inline float sp_field_join(float a, float b, float part)
 typedef struct {
     size_t count, capacity;
     sp_placed *items; /* besides the kept nozzles */
-    float *wet;       /* [patch_count], all nozzles together, flux over threshold on all of a patch */
+    float *hit;       /* [patch_count], all nozzles together, flux over threshold on all of a patch */
+    float *film;      /* [patch_count], film over what is asked for; NULL where none is */
+    float *wet;       /* [patch_count], the greater of both; `hit` itself where there is but that */
     float *dry;       /* [patch_count], share of a patch that no edge covers */
     double flow;      /* m³/s, kept nozzles included */
     double covered;   /* m² of coarse patches */
@@ -76,6 +86,17 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
                       sp_error *error);
 void sp_search_free(sp_search *search);
 
+/* The calling thread's own. */
+static inline sp_runoff *sp_search_runoff(const sp_search *search)
+{
+    return search->runoffs[omp_get_level() ? omp_get_ancestor_thread_num(1) : 0];
+}
+/* How wet the kept nozzles leave a patch: it is covered from SP_ENOUGH. */
+static inline float sp_kept_wet(const sp_search *search, size_t patch)
+{
+    return search->kept_film ? fmaxf(search->kept_hit[patch], search->kept_film[patch]) : search->kept_hit[patch];
+}
+
 /* A draft of the kept nozzles alone. */
 bool sp_draft_create(const sp_search *search, sp_draft *draft, sp_error *error);
 bool sp_draft_copy(const sp_search *search, const sp_draft *from, sp_draft *to, sp_error *error);
@@ -86,13 +107,13 @@ bool sp_draft_add_pose(const sp_search *search, sp_draft *draft, sp_pose pose, s
 void sp_draft_remove(const sp_search *search, sp_draft *draft, size_t i);
 /* Removes item i and hands it over. */
 sp_placed sp_draft_take(const sp_search *search, sp_draft *draft, size_t i);
-/* Adds a nozzle's field value to what is wet and dry of a patch; without a branch, so that loops over patches can take
- * several at a time. */
-static inline void sp_pour(const sp_search *search, float field, float *wet, float *dry)
+/* Adds a nozzle's field value to what hits a patch and what is left dry of it; without a branch, so that loops over
+ * patches can take several at a time. */
+static inline void sp_pour(const sp_search *search, float field, float *hit, float *dry)
 {
-    float more = field > 0 ? field : 0, edge = field < 0 ? 1 + field : 1, sum = *wet + more;
+    float more = field > 0 ? field : 0, edge = field < 0 ? 1 + field : 1, sum = *hit + more;
     *dry *= edge;
-    *wet = !search->single ? sum : more > *wet ? more : *wet;
+    *hit = !search->single ? sum : more > *hit ? more : *hit;
 }
 /* The share of a patch that is covered. */
 static inline float sp_covered(float wet, float dry)

@@ -2,18 +2,7 @@
 #ifndef OPTIMIZER_SCORING_H
 #define OPTIMIZER_SCORING_H
 
-#include "scoring/draft.h"
-
-typedef struct {
-    double gain; /* m² by which the draft's value would rise */
-    double room; /* m² by which it could rise at most, whatever the flow: never grows while a draft only grows */
-} sp_score;
-
-/* The worth of a patch per m² at this flux over threshold on all of it, `dry` of it being beyond what edges cover. */
-static inline float sp_worth(const sp_search *search, float wet, float dry)
-{
-    return wet >= SP_ENOUGH ? 1 : 1 - dry * (1 - search->credit * wet);
-}
+#include "scoring/field.h"
 
 /* What scores many poses one after the other, those of one mounting point together: what an arrival is worth to a make
  * does not depend on where the nozzle points, so that it is found once and then only summed. One thread's own. The
@@ -21,6 +10,9 @@ static inline float sp_worth(const sp_search *search, float wet, float dry)
 typedef struct {
     float *block;                    /* holds the four */
     float *had, *area, *room, *gain; /* [largest view + SP_LANES], by arrival */
+    float *field;                    /* [field_count], where film is asked for: of the pose in hand */
+    sp_field_sweeper fields;         /* the same, which takes `had` and `area` for its own */
+    const sp_draft *draft;
     float room_total[SP_BINS], gain_total[SP_BINS];
     const sp_search *search; /* what it looks at, NULL: nothing */
     const sp_view *view;
@@ -48,32 +40,12 @@ void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draf
 void sp_sweeper_take(sp_sweeper *sweeper, size_t make);
 /* Then to its poses; where the gain is less than `least`, m², either may come out higher, the gain still below that. */
 sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll, double least);
+/* Or to a pose's field, as swept, where film is asked for: the sweeper's, until the next. */
+const float *sp_sweeper_field(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll);
 /* All three at once. */
 sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose, double least);
 
 /* The region of a pose at the site that the sweeper looks at, of the make that it took. */
 sp_region sp_sweeper_region(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll);
-
-/* A nozzle's spray in the world. */
-typedef struct {
-    sp_spray spray;
-    sp_frame frame;
-    double strength; /* flux over threshold per transfer, m²; INFINITY where any liquid covers */
-} sp_posed_spray;
-
-sp_posed_spray sp_posed_spray_of(const sp_search *search, const sp_nozzle *nozzle);
-/* What one arrival comes to in a field. */
-float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 direction, double breadth, double transfer);
-/* Field [patch_count] (see sp_placed) of a spray at a view's mounting point, of so much flux over threshold per
- * transfer, as the view has it. */
-void sp_field_view(const sp_search *search, const sp_view *view, const sp_spray *spray, const sp_frame *frame,
-                   double strength, float *field);
-/* The same of a candidate pose; of any nozzle, traced anew, where a draft is given only on the patches that it leaves
- * dry: what the nozzle adds to it is the same. */
-void sp_field_pose(const sp_search *search, sp_pose pose, float *field);
-bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, const sp_draft *draft, float *field,
-                     sp_error *error);
-/* What a field adds to a draft. */
-double sp_field_gain(const sp_search *search, const sp_draft *draft, const float *field);
 
 #endif

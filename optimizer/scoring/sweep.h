@@ -57,6 +57,17 @@ typedef struct {
     float strength; /* flux over threshold per unit transfer */
 } sp_credit;
 
+/* Patches as a draft leaves them, [patch_count] each (see sp_draft), for `score`. */
+typedef struct {
+    size_t count;
+    const float *area, *hit, *film, *wet, *dry;
+} sp_wetted;
+
+/* Neighbours in a view. */
+typedef struct {
+    uint32_t first, end;
+} sp_run_of_arrivals;
+
 /* The loops, compiled for one instruction set. Every sum is made in SP_LANES lanes, in single precision over at most 64
  * vectors and the run of neighbouring bins that ends them, in double precision between these, in the same order on
  * every instruction set: relative to the sum of magnitudes its error is below 2^-24 (68 + n / SP_LANES), n being the
@@ -69,6 +80,10 @@ typedef struct {
      * are not negative; where bins alone tell that sums[0] is less than `least`, sums are no less than these. */
     void (*sum)(const sp_bins *bins, const sp_cull *cull, const sp_region *region, const sp_view *view,
                 const sp_weight *weights, size_t weight_count, double least, double *sums);
+    /* Lists what the region may hold as at most SP_BINS runs, and returns how many. Of all that is in them: share, the
+     * patch's in the region; counts, what sum() takes it for. Both [view->count + SP_LANES]; the rest is undefined. */
+    size_t (*shares)(const sp_bins *bins, const sp_cull *cull, const sp_region *region, const sp_view *view,
+                     float *share, float *counts, sp_run_of_arrivals *runs);
     /* totals[bin] = Σ items */
     void (*total)(const sp_view *view, const float *items, float *totals);
     /* gain[i] = what an arrival adds per DESIGN's worth to a patch of `area` that has `had`; room[i] = what it could
@@ -76,6 +91,10 @@ typedef struct {
     void (*gain)(const sp_credit *credit, size_t count, const float *had, const float *area, const float *transfer,
                  float *gain);
     void (*room)(const sp_credit *credit, size_t count, const float *had, const float *area, float *room);
+    /* What a field and its film add to a draft: sums[0]; and could add if others helped, where it is worth hoping for:
+     * sums[1]. */
+    void (*score)(const sp_credit *credit, const sp_wetted *wetted, const float *field, const float *film,
+                  double sums[2]);
 } sp_sweep_set;
 
 /* All that were compiled, the widest first; the last, which every processor runs, ends the list. */

@@ -7,6 +7,7 @@ static bool available(void)
     return __builtin_cpu_supports("avx2");
 }
 
-const sp_sweep_set sp_sweep_avx2 = {"avx2", available, kernel_sum, kernel_total, kernel_gain, kernel_room};
+const sp_sweep_set sp_sweep_avx2 = {"avx2",       available,   kernel_sum,  kernel_shares,
+                                    kernel_total, kernel_gain, kernel_room, kernel_score};
 
 #endif

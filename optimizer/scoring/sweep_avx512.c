@@ -8,6 +8,7 @@ static bool available(void)
            __builtin_cpu_supports("avx512vl");
 }
 
-const sp_sweep_set sp_sweep_avx512 = {"avx512", available, kernel_sum, kernel_total, kernel_gain, kernel_room};
+const sp_sweep_set sp_sweep_avx512 = {"avx512",     available,   kernel_sum,  kernel_shares,
+                                      kernel_total, kernel_gain, kernel_room, kernel_score};
 
 #endif

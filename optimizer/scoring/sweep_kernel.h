@@ -20,8 +20,10 @@
 #define WIDTH 4
 #endif
 #define PARTS (SP_LANES / WIDTH)
-#define OPEN_MORE (1 + 1e-4) /* more than single precision puts a sum of totals wrong */
-#define FLUSH 64             /* vectors of lanes after which single precision goes into double */
+#define HELPS 0.05f           /* film over what is asked for, below which no other's is hoped to make up for the rest */
+#define ENOUGH (1 + 0x1p-20f) /* SP_ENOUGH */
+#define OPEN_MORE (1 + 1e-4)  /* more than single precision puts a sum of totals wrong */
+#define FLUSH 64              /* vectors of lanes after which single precision goes into double */
 
 typedef float floats __attribute__((vector_size(4 * WIDTH)));
 typedef int32_t integers __attribute__((vector_size(4 * WIDTH)));
@@ -363,9 +365,10 @@ INLINE void sum_run(const sp_region *region, bool fan, sp_count count, const sp_
 
 /* What the bins have that a pattern may hold. */
 typedef struct {
-    unsigned cut[SP_BINS / SP_LANES]; /* bit i of each: bin i of these lanes, which the pattern's edge crosses */
-    lanes whole[SP_WEIGHTS];          /* of the bins that are wholly inside */
-    lanes open[SP_WEIGHTS];           /* of those that are cut */
+    unsigned cut[SP_BINS / SP_LANES];    /* bit i of each: bin i of these lanes, which the pattern's edge crosses */
+    unsigned inside[SP_BINS / SP_LANES]; /* the same: which is wholly inside */
+    lanes whole[SP_WEIGHTS];             /* of the bins that are wholly inside */
+    lanes open[SP_WEIGHTS];              /* of those that are cut */
 } binned;
 
 INLINE void look_at_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *region, bool fan,
@@ -382,6 +385,7 @@ INLINE void look_at_bins(const sp_bins *bins, const sp_cull *cull, const sp_regi
             for (size_t k = 0; k < weight_count; k++)
                 found->whole[k] = add(found->whole[k], keep(load(&weights[k].total[b]), inside));
             cut = but(cut, inside);
+            found->inside[b / SP_LANES] = bits_of(inside);
         }
         for (size_t k = 0; k < weight_count; k++)
             found->open[k] = add(found->open[k], keep(load(&weights[k].total[b]), cut));
@@ -416,6 +420,46 @@ INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *
     flush(&tally, weight_count);
     for (size_t k = 0; k < weight_count; k++)
         sums[k] = sum_of(add_narrow(tally.flushed[k], found.whole[k]));
+}
+
+/* The shares of one run of arrivals, and what each counts for. */
+INLINE void share_run(const sp_region *region, bool fan, const sp_view *view, size_t first, size_t end, float *share,
+                      float *counts)
+{
+    for (size_t i = first; i < end; i += SP_LANES) {
+        lanes x = load(&view->x[i]), y = load(&view->y[i]), z = load(&view->z[i]), sharp = load(&view->sharp[i]);
+        shares s = fan ? fan_shares(region, x, y, z, sharp) : cone_shares(region, x, y, z, sharp);
+        store(s.share, &share[i]);
+        store(counting(region, fan, SP_COUNT_SHARE, view, i), &counts[i]);
+    }
+}
+
+INLINE size_t share_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *region, bool fan,
+                         const sp_view *view, float *share, float *counts, sp_run_of_arrivals *runs)
+{
+    binned found = {.cut = {0}};
+    size_t count = 0;
+    look_at_bins(bins, cull, region, fan, NULL, 0, &found);
+    for (size_t b = 0; b < SP_BINS; b += SP_LANES)
+        for (unsigned bits = found.cut[b / SP_LANES] | found.inside[b / SP_LANES]; bits; bits &= bits - 1) {
+            size_t bin = b + (size_t)__builtin_ctz(bits);
+            uint32_t first = view->start[bin], end = view->start[bin + 1];
+            if (count && runs[count - 1].end == first)
+                runs[count - 1].end = end;
+            else if (first < end)
+                runs[count++] = (sp_run_of_arrivals){first, end};
+        }
+    /* rising, so that what a run writes behind its end the next one puts right */
+    for (size_t r = 0; r < count; r++)
+        share_run(region, fan, view, runs[r].first, runs[r].end, share, counts);
+    return count;
+}
+
+static size_t kernel_shares(const sp_bins *bins, const sp_cull *cull, const sp_region *region, const sp_view *view,
+                            float *share, float *counts, sp_run_of_arrivals *runs)
+{
+    return region->fan ? share_bins(bins, cull, region, true, view, share, counts, runs)
+                       : share_bins(bins, cull, region, false, view, share, counts, runs);
 }
 
 /* One loop for every kind of pattern, of counting and number of weights. */
@@ -478,6 +522,46 @@ static void kernel_room(const sp_credit *credit, size_t count, const float *had,
         lanes before = load(&had[i]), worth = subtract(one, scale(before, credit->credit));
         store(keep(multiply(load(&area[i]), worth), below(before, one)), &room[i]);
     }
+}
+
+/* The worth per m² that a patch has still to gain. */
+INLINE lanes lacking(const sp_credit *credit, lanes wet, lanes dry)
+{
+    lanes worth = multiply(dry, subtract(all(1), scale(wet, credit->credit)));
+    return keep(worth, below(wet, all(ENOUGH)));
+}
+
+/* As sp_pour and sp_worth have it, of as many patches as there are lanes. */
+INLINE void score_lanes(const sp_credit *credit, const float *const at[7], wide_lanes *gain, wide_lanes *room)
+{
+    lanes none = all(0), area = load(at[0]), had = load(at[1]), ran = load(at[2]), dry = load(at[4]),
+          brings = load(at[5]), runs = load(at[6]);
+    lanes more = greater(brings, none), hit = credit->single ? greater(more, had) : add(had, more);
+    lanes before = lacking(credit, load(at[3]), dry);
+    lanes after = lacking(credit, greater(hit, add(ran, runs)), multiply(dry, add(all(1), lesser(brings, none))));
+    mask any = either(either(below(brings, none), below(none, brings)), below(all(HELPS), runs));
+    *gain = add_narrow(*gain, multiply(area, subtract(before, after)));
+    *room = add_narrow(*room, keep(multiply(area, before), any));
+}
+
+static void kernel_score(const sp_credit *credit, const sp_wetted *wetted, const float *field, const float *film,
+                         double sums[2])
+{
+    const float *columns[7] = {wetted->area, wetted->hit, wetted->film, wetted->wet, wetted->dry, field, film};
+    wide_lanes gain = {0}, room = {0};
+    float tail[7][SP_LANES] = {0};
+    size_t whole = wetted->count / SP_LANES * SP_LANES;
+    for (size_t p = 0; p < wetted->count; p += SP_LANES) {
+        const float *at[7];
+        for (int k = 0; k < 7; k++) {
+            at[k] = p < whole ? columns[k] + p : tail[k];
+            if (p == whole)
+                memcpy(tail[k], columns[k] + p, (wetted->count - p) * sizeof(float));
+        }
+        score_lanes(credit, at, &gain, &room);
+    }
+    sums[0] = sum_of(gain);
+    sums[1] = sum_of(room);
 }
 
 #endif

@@ -6,4 +6,5 @@ static bool available(void)
     return true;
 }
 
-const sp_sweep_set sp_sweep_plain = {"plain", available, kernel_sum, kernel_total, kernel_gain, kernel_room};
+const sp_sweep_set sp_sweep_plain = {"plain",      available,   kernel_sum,  kernel_shares,
+                                     kernel_total, kernel_gain, kernel_room, kernel_score};

@@ -81,12 +81,14 @@ static bool take(const sp_reach *reach, double all, sp_sightings *sightings)
                                 .part = (float)arrival->part,
                                 .patch = arrival->patch,
                                 .bin = bin_of(d),
-                                .arc = arrival->arc};
+                                .arc = arrival->arc,
+                                .fails = !arrival->passes};
         cells += arrival->part < 1;
+        sightings->any_marked |= part[i].fails;
         if (i && part[i - 1].patch == part[i].patch)
-            part[i - 1].twice = part[i].twice = sightings->any_twice = true;
+            part[i - 1].twice = part[i].twice = sightings->any_marked = true;
     }
-    sightings->any_twice |= cells > 0;
+    sightings->any_marked |= cells > 0;
     sightings->cells = cells > sightings->cells ? cells : sightings->cells;
     sightings->size[at] = reach->count;
     sightings->count += reach->count;
@@ -134,14 +136,14 @@ void sp_sightings_free(sp_sightings *sightings)
     *sightings = (sp_sightings){0};
 }
 
-size_t sp_view_bytes(size_t count, bool any_twice)
+size_t sp_view_bytes(size_t count, bool any_marked)
 {
     return (SP_BINS + 1 + count) * sizeof(uint32_t) + (3 * SP_BINS + COLUMNS * (count + SP_LANES)) * sizeof(float) +
-           (any_twice ? count * (sizeof(float) + sizeof(uint8_t)) : 0);
+           (any_marked ? count * (sizeof(float) + 2 * sizeof(uint8_t)) : 0);
 }
 
 /* The bins' starts first, then the arrays. */
-static void lay_out(void *block, size_t count, bool any_twice, sp_view *view)
+static void lay_out(void *block, size_t count, bool any_marked, sp_view *view)
 {
     size_t padded = count + SP_LANES;
     *view = (sp_view){.count = (uint32_t)count, .start = block};
@@ -156,13 +158,14 @@ static void lay_out(void *block, size_t count, bool any_twice, sp_view *view)
         for (size_t k = count; k < padded; k++)
             (*column[i])[k] = 0;
     }
-    view->part = any_twice ? columns + COLUMNS * padded : NULL;
-    view->twice = any_twice ? (uint8_t *)(view->part + count) : NULL;
+    view->part = any_marked ? columns + COLUMNS * padded : NULL;
+    view->twice = any_marked ? (uint8_t *)(view->part + count) : NULL;
+    view->fails = any_marked ? view->twice + count : NULL;
 }
 
 void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *block, sp_view *view)
 {
-    lay_out(block, sightings->count, sightings->any_twice, view);
+    lay_out(block, sightings->count, sightings->any_marked, view);
     uint32_t *start = view->start, next[SP_BINS];
     for (size_t b = 0; b <= SP_BINS; b++)
         start[b] = 0;
@@ -190,6 +193,7 @@ void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *blo
             if (view->twice) {
                 view->part[at] = from->part;
                 view->twice[at] = from->twice;
+                view->fails[at] = from->fails;
             }
         }
     for (size_t b = 0; b < SP_BINS; b++) {

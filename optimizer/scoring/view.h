@@ -15,8 +15,8 @@
 #define SP_VIEW_SPOT (1.004 * SP_SPRAY_BLUR)
 #define SP_LANES 16 /* floats that a sweep takes at a time: views have as many more, all 0, behind their last */
 
-/* Arrivals that pass the criterion's speed and incidence, sorted by the octahedral bin of their direction, then by
- * patch. */
+/* Arrivals that pass the criterion's speed and incidence, or where film is asked for all, sorted by the octahedral bin
+ * of their direction, then by patch. */
 typedef struct {
     uint32_t count;
     float most;           /* rad, the greatest breadth of a patch */
@@ -29,6 +29,8 @@ typedef struct {
     uint32_t *patch;      /* [count] */
     float *part;          /* [count], share of the patch that the arrival is of; NULL: 1, and none twice */
     uint8_t *twice;       /* [count], whether the patch has other arrivals, by its other arc or cells; NULL: none has */
+    uint8_t *fails; /* [count], whether speed or incidence fail the criterion, so that it only feeds the film; NULL:
+                     * none does */
 } sp_view;
 
 static inline float sp_view_part(const sp_view *view, uint32_t i)
@@ -52,7 +54,7 @@ typedef struct {
     uint32_t patch;
     uint16_t bin;
     uint8_t arc;
-    bool twice;
+    bool twice, fails;
 } sp_sighting;
 
 /* What was traced, patches ascending, in parts of their own so that none has to be moved. */
@@ -61,7 +63,7 @@ typedef struct {
     size_t *size;                    /* [most_parts] */
     sp_sighting **part;              /* [most_parts] */
     size_t cells;                    /* most arrivals of cells in a part */
-    bool any_twice;                  /* or of a cell */
+    bool any_marked;                 /* some is of a cell, of a patch that has others, or fails */
 } sp_sightings;
 
 /* Traces what `site` can reach at `speed` (m/s) within half_angle (rad) about its axis; or, where `known` is not NULL,
@@ -75,7 +77,7 @@ void sp_sightings_free(sp_sightings *sightings);
 size_t sp_sightings_work(size_t cells);
 
 /* Bytes of a view's block. */
-size_t sp_view_bytes(size_t count, bool any_twice);
+size_t sp_view_bytes(size_t count, bool any_marked);
 /* Writes the sightings as a view into the block, of sp_view_bytes, that then is view->start. */
 void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *block, sp_view *view);
 

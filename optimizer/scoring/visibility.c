@@ -8,7 +8,9 @@
 #define SAME 1.2           /* times longer texels are not worth patches of the search's own */
 #define RAYS_MOST 1e8      /* patches times views */
 #define SWEEPS_MOST 1.2e10 /* patches times poses */
-#define MEMORY 1e9         /* bytes, for all views, where the options do not say */
+#define FILM_PATCHES_MOST 8000.0
+#define FILM_SWEEPS_MOST 2e9 /* the same, where film runs down */
+#define MEMORY 1e9           /* bytes, for all views, where the options do not say */
 #define CELLS                                                                                                          \
     4000               /* arrivals of cells in a view that has not been traced yet: nearer to a wall than a hundredth  \
                         * of a texel there may be more */
@@ -39,9 +41,9 @@ double sp_visibility_needed(const sp_place_options *options, const sp_candidates
 }
 
 /* Bytes that one desk takes for views of so many arrivals: the view, its sightings and the tracing. */
-static double desk_bytes(size_t arrivals, size_t cells, bool any_twice)
+static double desk_bytes(size_t arrivals, size_t cells, bool any_marked)
 {
-    return (double)sp_view_bytes(arrivals, any_twice) + (double)arrivals * sizeof(sp_sighting) +
+    return (double)sp_view_bytes(arrivals, any_marked) + (double)arrivals * sizeof(sp_sighting) +
            (double)sp_sightings_work(cells);
 }
 
@@ -83,7 +85,7 @@ typedef struct {
     sp_visibility *visibility;
     size_t *sizes;     /* [views], arrivals */
     size_t *cells;     /* [views], the same of cells, see sp_sightings */
-    bool *any_twice;   /* [views] */
+    bool *any_marked;  /* [views] */
     bool twice_at_all; /* in some view */
     int threads;
     double kept; /* bytes of views, and of what is known of all */
@@ -105,11 +107,11 @@ static void survey_view(sp_survey *survey, size_t at, bool keep)
     if (trace(visibility, at, &sightings, &error)) {
         survey->sizes[at] = sightings.count;
         survey->cells[at] = sightings.cells;
-        survey->any_twice[at] = sightings.any_twice;
+        survey->any_marked[at] = sightings.any_marked;
         if (!visibility->known[at])
             sp_sightings_note(&sightings, sights_of(visibility, at));
         visibility->known[at] = true;
-        void *block = keep ? malloc(sp_view_bytes(sightings.count, sightings.any_twice)) : NULL;
+        void *block = keep ? malloc(sp_view_bytes(sightings.count, sightings.any_marked)) : NULL;
         if (block)
             sp_view_write(&sightings, &visibility->bins, block, &visibility->views[at]);
         else if (keep)
@@ -139,9 +141,9 @@ static bool survey_batch(sp_survey *survey, size_t first, size_t end, bool keep,
         size_t at = strided(i / speeds, sites) * speeds + i % speeds;
         visibility->largest = survey->sizes[at] > visibility->largest ? survey->sizes[at] : visibility->largest;
         visibility->cells = survey->cells[at] > visibility->cells ? survey->cells[at] : visibility->cells;
-        survey->twice_at_all |= survey->any_twice[at];
+        survey->twice_at_all |= survey->any_marked[at];
         if (visibility->views[at].start)
-            survey->kept += (double)sp_view_bytes(survey->sizes[at], survey->any_twice[at]);
+            survey->kept += (double)sp_view_bytes(survey->sizes[at], survey->any_marked[at]);
     }
     return pass_on(&survey->failure, error);
 }
@@ -187,7 +189,7 @@ static bool fill(sp_survey *survey, double room, sp_error *error)
         bool chosen[BATCH] = {0};
         end = first + BATCH < views ? first + BATCH : views;
         for (size_t at = first; at < end; at++) {
-            double bytes = (double)sp_view_bytes(survey->sizes[at], survey->any_twice[at]);
+            double bytes = (double)sp_view_bytes(survey->sizes[at], survey->any_marked[at]);
             chosen[at - first] = visibility->known[at] && !visibility->views[at].start && survey->kept + bytes <= room;
             survey->kept += chosen[at - first] ? bytes : 0;
         }
@@ -199,7 +201,7 @@ static bool fill(sp_survey *survey, double room, sp_error *error)
     return pass_on(&survey->failure, error);
 }
 
-static bool desks_create(sp_visibility *visibility, bool any_twice, sp_error *error)
+static bool desks_create(sp_visibility *visibility, bool any_marked, sp_error *error)
 {
     sp_desks *desks = visibility->desks = calloc(1, sizeof *desks);
     if (!desks)
@@ -210,7 +212,7 @@ static bool desks_create(sp_visibility *visibility, bool any_twice, sp_error *er
     for (int i = 0; desks->items && i < visibility->desk_count; i++) {
         sp_desk *desk = &desks->items[i];
         *desk = (sp_desk){
-            .block = malloc(sp_view_bytes(visibility->largest, any_twice)), .at = SIZE_MAX, .next = desks->idle};
+            .block = malloc(sp_view_bytes(visibility->largest, any_marked)), .at = SIZE_MAX, .next = desks->idle};
         if (!desk->block)
             return sp_fail_memory(error);
         desks->idle = desk;
@@ -259,14 +261,14 @@ bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *op
     visibility->sights = calloc(views + 1, visibility->sight_bytes);
     survey.sizes = calloc(views + 1, sizeof *survey.sizes);
     survey.cells = calloc(views + 1, sizeof *survey.cells);
-    survey.any_twice = calloc(views + 1, sizeof *survey.any_twice);
+    survey.any_marked = calloc(views + 1, sizeof *survey.any_marked);
     bool done = visibility->views && visibility->known && visibility->sights && survey.sizes && survey.cells &&
-                survey.any_twice;
+                survey.any_marked;
     done = done || sp_fail_memory(error);
     done = done && survey_all(&survey, watch, error) && furnish(&survey, error);
     free(survey.sizes);
     free(survey.cells);
-    free(survey.any_twice);
+    free(survey.any_marked);
     if (!done)
         sp_visibility_free(visibility);
     return done;
@@ -278,12 +280,14 @@ bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options
 {
     double views = (double)sites->count * (double)candidates->speed_count;
     double poses = (double)candidates->pose_start[sites->count];
-    double patches = fmax(PATCHES_LEAST, fmin(PATCHES_MOST, fmin(RAYS_MOST / views, SWEEPS_MOST / poses)));
+    bool film = sp_evaluator_setup(fine)->criterion.film > 0;
+    double most = film ? FILM_PATCHES_MOST : PATCHES_MOST, sweeps = film ? FILM_SWEEPS_MOST : SWEEPS_MOST;
+    double patches = fmax(PATCHES_LEAST, fmin(most, fmin(RAYS_MOST / views, sweeps / poses)));
     double finer = sp_evaluator_fidelity(fine)->texel,
            texel = finer * sqrt((double)sp_evaluator_patches(fine)->count / patches);
     *resampled = NULL;
-    if (texel > SAME * finer) {
-        *resampled = sp_evaluator_resample(fine, texel, error);
+    if (film || texel > SAME * finer) {
+        *resampled = sp_evaluator_resample(fine, fmax(texel, finer), error);
         if (!*resampled)
             return false;
     }

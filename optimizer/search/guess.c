@@ -235,10 +235,10 @@ bool sp_guess(const sp_table *table, const double *budgets, size_t count, sp_wat
 static bool add_copy(const sp_search *search, const sp_placed *from, sp_draft *draft, sp_error *error)
 {
     sp_placed placed = *from;
-    placed.field = malloc((search->patch_count + 1) * sizeof *placed.field);
+    placed.field = malloc((search->field_count + 1) * sizeof *placed.field);
     if (!placed.field)
         return sp_fail_memory(error);
-    memcpy(placed.field, from->field, search->patch_count * sizeof *placed.field);
+    memcpy(placed.field, from->field, search->field_count * sizeof *placed.field);
     return sp_draft_add(search, draft, placed, error);
 }
 

@@ -11,10 +11,12 @@
 bool sp_lineup_create(const sp_table *table, sp_lineup *lineup, sp_error *error)
 {
     *lineup = (sp_lineup){.table = table,
-                          .wet = malloc((table->patch_count + 1) * sizeof *lineup->wet),
+                          .hit = malloc((table->patch_count + 1) * sizeof *lineup->hit),
                           .dry = malloc((table->patch_count + 1) * sizeof *lineup->dry),
                           .gain = malloc((table->row_count + 1) * sizeof *lineup->gain)};
-    if (!lineup->wet || !lineup->dry || !lineup->gain) {
+    lineup->film = table->kept_film ? malloc((table->patch_count + 1) * sizeof *lineup->film) : NULL;
+    lineup->wet = table->kept_film ? malloc((table->patch_count + 1) * sizeof *lineup->wet) : lineup->hit;
+    if (!lineup->hit || !lineup->wet || !lineup->dry || !lineup->gain || (table->kept_film && !lineup->film)) {
         sp_lineup_free(lineup);
         return sp_fail_memory(error);
     }
@@ -24,7 +26,10 @@ bool sp_lineup_create(const sp_table *table, sp_lineup *lineup, sp_error *error)
 
 void sp_lineup_free(sp_lineup *lineup)
 {
-    free(lineup->wet);
+    if (lineup->wet != lineup->hit)
+        free(lineup->wet);
+    free(lineup->hit);
+    free(lineup->film);
     free(lineup->dry);
     free(lineup->gain);
     *lineup = (sp_lineup){0};
@@ -43,13 +48,22 @@ static void pour(sp_lineup *lineup, uint32_t row)
     const sp_table *table = lineup->table;
     lineup->flow += sp_table_flow(table, row);
     for (size_t i = table->start[row]; i < table->start[row + 1]; i++)
-        sp_pour(table->search, table->field[i], &lineup->wet[table->patch[i]], &lineup->dry[table->patch[i]]);
+        sp_pour(table->search, table->field[i], &lineup->hit[table->patch[i]], &lineup->dry[table->patch[i]]);
+    for (size_t i = table->start[row]; table->film && i < table->start[row + 1]; i++) {
+        uint32_t p = table->patch[i];
+        lineup->film[p] += table->film[i];
+        lineup->wet[p] = fmaxf(lineup->hit[p], lineup->film[p]);
+    }
 }
 
 void sp_lineup_set(sp_lineup *lineup, const uint32_t *rows, size_t count)
 {
     const sp_table *table = lineup->table;
-    memcpy(lineup->wet, table->kept_wet, table->patch_count * sizeof *lineup->wet);
+    memcpy(lineup->hit, table->kept_hit, table->patch_count * sizeof *lineup->hit);
+    for (size_t p = 0; table->kept_film && p < table->patch_count; p++) {
+        lineup->film[p] = table->kept_film[p];
+        lineup->wet[p] = fmaxf(lineup->hit[p], lineup->film[p]);
+    }
     memcpy(lineup->dry, table->kept_dry, table->patch_count * sizeof *lineup->dry);
     lineup->flow = table->search->kept_flow;
     lineup->count = count;
@@ -105,15 +119,27 @@ static inline float more_worth(bool single, float credit, float had, float dry, 
     return dry * (more < 0 ? -more * lack : plenty);
 }
 
+/* The same where film counts, too: of a field's value and film. */
+static inline float more_worth_of_both(const sp_lineup *lineup, float credit, size_t p, float field, float film)
+{
+    float hit = lineup->hit[p], dry = lineup->dry[p], lack = dry * (1 - credit * lineup->wet[p]);
+    sp_pour(lineup->table->search, field, &hit, &dry);
+    float wet = fmaxf(hit, lineup->film[p] + film);
+    return wet >= SP_ENOUGH ? lack : lack - dry * (1 - credit * wet);
+}
+
 static double gain_of(const sp_lineup *lineup, size_t row, float credit)
 {
     const sp_table *table = lineup->table;
     double gain = 0;
     for (size_t i = table->start[row]; i < table->start[row + 1]; i++) {
         uint32_t p = table->patch[i];
-        if (lineup->wet[p] < SP_ENOUGH)
-            gain += (double)(table->area[p] * more_worth(table->search->single, credit, lineup->wet[p], lineup->dry[p],
-                                                         table->field[i]));
+        if (lineup->wet[p] >= SP_ENOUGH)
+            continue;
+        float worth = table->film
+                          ? more_worth_of_both(lineup, credit, p, table->field[i], table->film[i])
+                          : more_worth(table->search->single, credit, lineup->wet[p], lineup->dry[p], table->field[i]);
+        gain += (double)(table->area[p] * worth);
     }
     return gain * table->search->all;
 }
@@ -139,8 +165,11 @@ static void set_gains(sp_lineup *lineup, float credit)
         for (size_t i = table->column_start[p]; had < SP_ENOUGH && i < end; i += WORTHS) {
             size_t count = end - i < WORTHS ? end - i : WORTHS;
             const uint32_t *row = &table->column_row[i];
-            for (size_t k = 0; k < count; k++)
+            for (size_t k = 0; !table->film && k < count; k++)
                 worth[k] = area * more_worth(single, credit, had, dry, table->column_field[i + k]);
+            for (size_t k = 0; table->film && k < count; k++)
+                worth[k] =
+                    area * more_worth_of_both(lineup, credit, p, table->column_field[i + k], table->column_film[i + k]);
             for (size_t k = 0; k < count; k++)
                 lineup->gain[row[k]] += (double)worth[k];
         }
@@ -234,7 +263,14 @@ bool sp_lineup_merge(sp_lineup *lineup, size_t a, size_t b, double budget)
     return gain > 0;
 }
 
-/* The row whose liquid falls most where row i's does. */
+/* How much of what a patch needs an entry brings. */
+static float amount(const sp_table *table, size_t entry)
+{
+    float field = fabsf(table->field[entry]);
+    return table->film ? fmaxf(field, table->film[entry]) : field;
+}
+
+/* The row whose liquid falls, or runs, most where row i's does. */
 static size_t nearest(const sp_lineup *lineup, size_t i)
 {
     const sp_table *table = lineup->table;
@@ -246,7 +282,7 @@ static size_t nearest(const sp_lineup *lineup, size_t i)
         while (k != i && a < table->start[lineup->row[i] + 1] && b < table->start[lineup->row[k] + 1]) {
             uint32_t p = table->patch[a], q = table->patch[b];
             if (p == q)
-                shared += (double)(table->area[p] * fminf(1, fminf(fabsf(table->field[a]), fabsf(table->field[b]))));
+                shared += (double)(table->area[p] * fminf(1, fminf(amount(table, a), amount(table, b))));
             a += p <= q;
             b += q <= p;
         }

@@ -11,10 +11,10 @@ typedef struct {
     const sp_table *table;
     size_t count;
     uint32_t row[SP_LINEUP_MOST];
-    double flow;      /* m³/s, kept nozzles included */
-    double covered;   /* m² of the sample */
-    float *wet, *dry; /* [table->patch_count], as sp_draft's */
-    double *gain;     /* [table->row_count], scratch */
+    double flow;                   /* m³/s, kept nozzles included */
+    double covered;                /* m² of the sample */
+    float *hit, *film, *wet, *dry; /* [table->patch_count], as sp_draft's */
+    double *gain;                  /* [table->row_count], scratch */
 } sp_lineup;
 
 bool sp_lineup_create(const sp_table *table, sp_lineup *lineup, sp_error *error);

@@ -9,16 +9,16 @@ typedef struct {
     const sp_search *search;
     const sp_pool *pool; /* row i is its pose i */
     size_t row_count;
-    const sp_placed *const *others; /* the rows behind the pool's */
-    size_t patch_count;             /* of the sample */
-    float *area;                    /* [patch_count], share of all: each stands for its neighbours, too */
-    float *kept_wet, *kept_dry;     /* [patch_count] */
-    size_t *start;                  /* [row_count + 1] */
+    const sp_placed *const *others;         /* the rows behind the pool's */
+    size_t patch_count;                     /* of the sample */
+    float *area;                            /* [patch_count], share of all: each stands for its neighbours, too */
+    float *kept_hit, *kept_film, *kept_dry; /* [patch_count]; kept_film, as `film`, NULL where film is not asked for */
+    size_t *start;                          /* [row_count + 1] */
     uint32_t *patch;
-    float *field;         /* as sp_placed's */
+    float *field, *film;  /* as sp_placed's */
     size_t *column_start; /* [patch_count + 1]; the same by patch */
     uint32_t *column_row;
-    float *column_field;
+    float *column_field, *column_film;
 } sp_table;
 
 /* Borrows all; `others` are nozzles of drafts of the same search, or NULL. */

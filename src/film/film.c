@@ -3,47 +3,105 @@
 #include "atlas/order.h"
 
 #include <stdlib.h>
+#include <string.h>
 
+/* What flows on a cell, or in a pool, has a slot each, in the order in which liquid comes down them, then what ends in
+ * each way. A slot draws from those before it: to hand on instead would wait for what was just written. */
 struct sp_film {
     size_t count;      /* of cells */
-    uint32_t *of;      /* [cells], see sp_film_basins */
-    double *per_metre; /* [cells], 1/m, of what stands for itself or a pool */
-    size_t step_count;
-    uint32_t *steps; /* [step_count], the cells that stand for themselves or a pool, falling by rank */
-    size_t *start;   /* [step_count + 1], of to and share */
-    uint32_t *to;    /* as in sp_film_share */
-    double *share;   /* of what runs there; a step's come to 1 */
+    uint32_t *slot;    /* [cells], of the cell or the pool that it is in */
+    size_t steps;      /* slots but the ends' */
+    double *per_metre; /* [steps], 1/m */
+    size_t *start;     /* [steps + ENDS + 1], of from and share: always even, so that two at a time need no question */
+    uint32_t *from;    /* slots */
+    double *share;     /* of what runs there; those from a step come to 1 */
     size_t pool_count;
     sp_film_pool *pools;
 };
 
-/* The steps in the order in which liquid comes down them, each with its shares. */
-static bool line_up(sp_film *film, const sp_film_shares *shares, const sp_film_order *order)
+enum { LEFT, HELD, ASTRAY, ENDS };
+
+/* Shares on their way into slots. */
+typedef struct {
+    const sp_film_shares *shares;
+    uint32_t *by_rank; /* [shares], numbers of the shares in the order of where they come from */
+    uint32_t *step_of; /* [cells], of those that stand for themselves or a pool */
+} sorting;
+
+static uint32_t target(const sp_film *film, const sorting *s, uint32_t to)
+{
+    uint32_t end = to == SP_FILM_LEFT ? LEFT : to == SP_FILM_HELD ? HELD : ASTRAY;
+    return sp_film_is_cell(to) ? s->step_of[to] : (uint32_t)film->steps + end;
+}
+
+/* Numbers the steps, and sets what each is wide. */
+static void number_steps(sp_film *film, const sorting *s, const sp_film_basins *basins)
+{
+    const sp_film_share *items = s->shares->items;
+    for (size_t i = 0; i < s->shares->count; i++) {
+        const sp_film_share *share = &items[s->by_rank[i]];
+        if (i && items[s->by_rank[i - 1]].from == share->from)
+            continue;
+        s->step_of[share->from] = (uint32_t)film->steps;
+        /* what stands is not what runs by: it counts as nothing */
+        film->per_metre[film->steps++] = share->to == SP_FILM_HELD ? 0 : 1 / s->shares->width[share->from];
+    }
+    for (size_t i = 0; i < film->count; i++)
+        film->slot[i] = s->step_of[basins->of[i]];
+}
+
+/* Every slot's sources, by falling rank. */
+static void draw_links(sp_film *film, const sorting *s)
+{
+    const sp_film_share *items = s->shares->items;
+    size_t slots = film->steps + ENDS, *start = film->start;
+    for (size_t i = 0; i < s->shares->count; i++)
+        start[target(film, s, items[i].to) + 1]++;
+    for (size_t k = 0; k < slots; k++)
+        start[k + 1] = start[k] + (start[k + 1] + 1) / 2 * 2;
+    for (size_t i = 0; i < start[slots]; i++)
+        film->share[i] = film->from[i] = 0;
+    for (size_t i = 0, end; i < s->shares->count; i = end) {
+        uint32_t from = items[s->by_rank[i]].from;
+        double width = 0;
+        for (end = i; end < s->shares->count && items[s->by_rank[end]].from == from; end++)
+            width += items[s->by_rank[end]].width;
+        for (size_t k = i; k < end; k++) {
+            size_t at = start[target(film, s, items[s->by_rank[k]].to)]++;
+            film->from[at] = s->step_of[from];
+            film->share[at] = items[s->by_rank[k]].width / width;
+        }
+    }
+}
+
+/* Starts that filling has moved to where each slot's sources end, an odd number of them without its spare. */
+static void put_back(sp_film *film)
+{
+    size_t first = 0;
+    for (size_t k = 0; k <= film->steps + ENDS; k++) {
+        size_t end = (film->start[k] + 1) / 2 * 2;
+        film->start[k] = first;
+        first = end;
+    }
+}
+
+static bool line_up(sp_film *film, const sp_film_shares *shares, const sp_film_basins *basins,
+                    const sp_film_order *order)
 {
     uint64_t *keys = malloc((shares->count + 1) * sizeof *keys);
-    uint32_t *by_rank = malloc((shares->count + 1) * sizeof *by_rank);
-    bool done = keys && by_rank;
+    sorting s = {shares, malloc((shares->count + 1) * sizeof(uint32_t)), calloc(film->count + 1, sizeof(uint32_t))};
+    bool done = keys && s.by_rank && s.step_of;
     for (size_t i = 0; done && i < shares->count; i++)
         keys[i] = film->count - order->rank[shares->items[i].from];
-    done = done && sp_order_by_key(keys, shares->count, by_rank);
-    for (size_t i = 0, end; done && i < shares->count; i = end) {
-        uint32_t from = shares->items[by_rank[i]].from;
-        for (end = i; end < shares->count && shares->items[by_rank[end]].from == from; end++) {
-            film->to[end] = shares->items[by_rank[end]].to;
-            film->share[end] = shares->items[by_rank[end]].width;
-        }
-        double width = 0;
-        for (size_t k = i; k < end; k++)
-            width += film->share[k];
-        for (size_t k = i; k < end; k++)
-            film->share[k] /= width;
-        film->steps[film->step_count++] = from;
-        film->start[film->step_count] = end;
-        /* what stands is not what runs by: it counts as nothing */
-        film->per_metre[from] = film->to[i] == SP_FILM_HELD ? 0 : 1 / shares->width[from];
+    done = done && sp_order_by_key(keys, shares->count, s.by_rank);
+    if (done) {
+        number_steps(film, &s, basins);
+        draw_links(film, &s);
+        put_back(film);
     }
     free(keys);
-    free(by_rank);
+    free(s.by_rank);
+    free(s.step_of);
     return done;
 }
 
@@ -75,21 +133,18 @@ static bool list_pools(sp_film *film, const sp_film_surface *surface, const sp_f
     return true;
 }
 
-static bool assemble(sp_film *film, const sp_film_surface *surface, sp_film_basins *basins, const sp_film_order *order,
-                     const sp_film_shares *shares)
+static bool assemble(sp_film *film, const sp_film_surface *surface, const sp_film_basins *basins,
+                     const sp_film_order *order, const sp_film_shares *shares)
 {
-    size_t room = film->count + 1;
-    film->per_metre = calloc(room, sizeof *film->per_metre);
-    film->steps = malloc(room * sizeof *film->steps);
+    size_t room = film->count + ENDS + 1, links = shares->count + room;
+    film->slot = malloc(room * sizeof *film->slot);
+    film->per_metre = malloc(room * sizeof *film->per_metre);
     film->start = calloc(room, sizeof *film->start);
-    film->to = malloc((shares->count + 1) * sizeof *film->to);
-    film->share = malloc((shares->count + 1) * sizeof *film->share);
+    film->from = malloc(links * sizeof *film->from);
+    film->share = malloc(links * sizeof *film->share);
     film->pools = malloc(room * sizeof *film->pools);
-    bool done = film->per_metre && film->steps && film->start && film->to && film->share && film->pools &&
-                line_up(film, shares, order) && list_pools(film, surface, basins, shares);
-    film->of = basins->of;
-    basins->of = NULL;
-    return done;
+    return film->slot && film->per_metre && film->start && film->from && film->share && film->pools &&
+           line_up(film, shares, basins, order) && list_pools(film, surface, basins, shares);
 }
 
 sp_film *sp_film_create(const sp_film_surface *surface, sp_error *error)
@@ -124,58 +179,62 @@ void sp_film_destroy(sp_film *film)
 {
     if (!film)
         return;
-    free(film->of);
+    free(film->slot);
     free(film->per_metre);
-    free(film->steps);
     free(film->start);
-    free(film->to);
+    free(film->from);
     free(film->share);
     free(film->pools);
     free(film);
 }
 
-static void end(sp_film_ends *ends, uint32_t to, double flow)
+size_t sp_film_flows(const sp_film *film)
 {
-    *(to == SP_FILM_LEFT ? &ends->left : to == SP_FILM_HELD ? &ends->held : &ends->astray) += flow;
+    return film->steps + ENDS;
+}
+
+void sp_film_run_in(const sp_film *film, const double *arriving, double *flow, double *per_width, sp_film_ends *ends)
+{
+    memset(flow, 0, sp_film_flows(film) * sizeof *flow);
+    for (size_t i = 0; i < film->count; i++)
+        flow[film->slot[i]] += arriving[i];
+    for (size_t s = 0; s < film->steps + ENDS; s++) {
+        double sum = flow[s];
+        for (size_t k = film->start[s]; k < film->start[s + 1]; k += 2) {
+            sum += film->share[k] * flow[film->from[k]];
+            sum += film->share[k + 1] * flow[film->from[k + 1]];
+        }
+        flow[s] = sum;
+    }
+    for (size_t i = 0; i < film->count; i++)
+        per_width[i] = flow[film->slot[i]] * film->per_metre[film->slot[i]];
+    if (ends)
+        *ends = (sp_film_ends){
+            .left = flow[film->steps + LEFT], .astray = flow[film->steps + ASTRAY], .held = flow[film->steps + HELD]};
 }
 
 bool sp_film_run(const sp_film *film, const double *arriving, double *per_width, sp_film_ends *ends, sp_error *error)
 {
-    double *flow = calloc(film->count + 1, sizeof *flow);
-    sp_film_ends found = {0};
+    double *flow = malloc(sp_film_flows(film) * sizeof *flow);
     if (!flow)
         return sp_fail_memory(error);
-    for (size_t i = 0; i < film->count; i++)
-        flow[film->of[i]] += arriving[i];
-    for (size_t s = 0; s < film->step_count; s++) {
-        double own = flow[film->steps[s]];
-        for (size_t k = film->start[s]; k < film->start[s + 1]; k++)
-            if (sp_film_is_cell(film->to[k]))
-                flow[film->to[k]] += film->share[k] * own;
-            else
-                end(&found, film->to[k], film->share[k] * own);
-    }
-    for (size_t i = 0; i < film->count; i++)
-        per_width[i] = flow[film->of[i]] * film->per_metre[film->of[i]];
-    if (ends)
-        *ends = found;
+    sp_film_run_in(film, arriving, flow, per_width, ends);
     free(flow);
     return true;
 }
 
 bool sp_film_adjoint(const sp_film *film, const double *weight, double *worth, sp_error *error)
 {
-    double *own = calloc(film->count + 1, sizeof *own);
+    double *own = calloc(sp_film_flows(film), sizeof *own);
     if (!own)
         return sp_fail_memory(error);
     for (size_t i = 0; i < film->count; i++)
-        own[film->of[i]] += weight[i] * film->per_metre[film->of[i]];
-    for (size_t s = film->step_count; s-- > 0;)
+        own[film->slot[i]] += weight[i] * film->per_metre[film->slot[i]];
+    for (size_t s = film->steps; s-- > 0;)
         for (size_t k = film->start[s]; k < film->start[s + 1]; k++)
-            if (sp_film_is_cell(film->to[k]))
-                own[film->steps[s]] += film->share[k] * own[film->to[k]];
+            own[film->from[k]] += film->share[k] * own[s];
     for (size_t i = 0; i < film->count; i++)
-        worth[i] = own[film->of[i]];
+        worth[i] = own[film->slot[i]];
     free(own);
     return true;
 }

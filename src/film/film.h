@@ -36,8 +36,12 @@ sp_film *sp_film_create(const sp_film_surface *surface, sp_error *error);
 void sp_film_destroy(sp_film *film);
 
 /* The flow per width (m²/s) on every cell from what arrives on each (m³/s), both [cells]; of a pool, what leaves it
- * per length of its rim; 0 where it stands. *ends may be NULL; its parts come to what arrives. False where memory ran out. */
+ * per length of its rim; 0 where it stands. *ends may be NULL; its parts come to what arrives. False where memory ran
+ * out. */
 bool sp_film_run(const sp_film *film, const double *arriving, double *per_width, sp_film_ends *ends, sp_error *error);
+/* The same without memory of its own: `flow` [sp_film_flows] is the caller's. */
+size_t sp_film_flows(const sp_film *film);
+void sp_film_run_in(const sp_film *film, const double *arriving, double *flow, double *per_width, sp_film_ends *ends);
 /* The transpose of that: what a unit (m³/s) that arrives on each cell adds to Σ weight per_width. [cells] */
 bool sp_film_adjoint(const sp_film *film, const double *weight, double *worth, sp_error *error);
 

@@ -21,8 +21,3 @@ double sp_nozzle_speed(const sp_nozzle *nozzle, const sp_fluid *liquid)
         return nozzle->speed;
     return nozzle->type->cv * sqrt(2 * nozzle->pressure / liquid->density);
 }
-
-double sp_nozzle_angle(const sp_nozzle *nozzle)
-{
-    return nozzle->angle > 0 ? nozzle->angle : nozzle->type->angle;
-}

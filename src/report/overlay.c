@@ -65,38 +65,52 @@ static void add_path(sp_text *text, const char *class_name, const spot *spots, s
 }
 
 /* So far that it stays clear of what the axis meets. */
-static double outline_length(const sp_camera *camera, const sp_evaluator *evaluator, const sp_nozzle *nozzle)
+static double outline_length(const sp_camera *camera, const sp_evaluator *evaluator, const sp_nozzle *pattern)
 {
-    sp_ray ray = {nozzle->position, nozzle->axis, 0, INFINITY, SP_NONE};
+    sp_ray ray = {pattern->position, pattern->axis, 0, INFINITY, SP_NONE};
     sp_hit hit = sp_trace_nearest(sp_evaluator_tracer(evaluator), &ray, sp_v(0, 0, 0));
     return fmin(LENGTH * camera->size, 0.8 * hit.t);
 }
 
-static void add_outline(sp_text *text, const sp_camera *camera, const sp_evaluator *evaluator, const sp_nozzle *nozzle)
+static void add_outline(sp_text *text, const sp_camera *camera, const sp_evaluator *evaluator, const sp_nozzle *pattern)
 {
     spot spots[RIM + 1], rim[RIM], hull[RIM + 3];
-    double xy[2], length = outline_length(camera, evaluator, nozzle);
-    sp_frame frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, sp_evaluator_setup(evaluator)->up);
-    sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
+    double xy[2], length = outline_length(camera, evaluator, pattern);
+    sp_frame frame = sp_nozzle_frame(pattern->axis, pattern->roll, sp_evaluator_setup(evaluator)->up);
+    sp_spray spray = sp_spray_create(pattern->type, sp_nozzle_angle(pattern));
     for (int i = 0; i < RIM; ++i) {
         sp_vec3 d = rim_direction(&spray, i);
         sp_vec3 world = sp_add(sp_add(sp_scale(frame.x, d.x), sp_scale(frame.y, d.y)), sp_scale(frame.z, d.z));
-        if (!sp_camera_project(camera, sp_along(nozzle->position, length, world), xy))
+        if (!sp_camera_project(camera, sp_along(pattern->position, length, world), xy))
             return;
         spots[i] = rim[i] = (spot){xy[0], xy[1]};
     }
-    if (!sp_camera_shows(camera, nozzle->position, xy))
+    if (!sp_camera_shows(camera, pattern->position, xy))
         return;
     spots[RIM] = (spot){xy[0], xy[1]};
     add_path(text, "spray", hull, convex_hull(spots, RIM + 1, hull));
     add_path(text, "rim", rim, RIM);
 }
 
+/* Of each of its patterns. */
+static void add_outlines(sp_text *text, const sp_camera *camera, const sp_evaluator *evaluator, const sp_nozzle *nozzle)
+{
+    const sp_setup *setup = sp_evaluator_setup(evaluator);
+    size_t count = sp_nozzle_pattern_count(nozzle);
+    sp_nozzle *patterns = malloc(count * sizeof *patterns);
+    if (patterns)
+        sp_nozzle_patterns(nozzle, &setup->liquid, setup->up, patterns);
+    for (size_t i = 0; patterns && i < count; i++)
+        add_outline(text, camera, evaluator, &patterns[i]);
+    text->failed |= !patterns;
+    free(patterns);
+}
+
 void sp_overlay_nozzles(sp_text *text, const sp_camera *camera, const sp_evaluator *evaluator, const sp_layout *layout)
 {
     double xy[2];
     for (size_t i = 0; i < layout->count; ++i)
-        add_outline(text, camera, evaluator, &layout->nozzles[i]);
+        add_outlines(text, camera, evaluator, &layout->nozzles[i]);
     for (size_t i = 0; i < layout->count; ++i) {
         if (!sp_camera_shows(camera, layout->nozzles[i].position, xy))
             continue;

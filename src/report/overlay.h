@@ -5,7 +5,7 @@
 #include "camera.h"
 #include "markup.h"
 
-/* Every nozzle: a dot, its name and the outline of its spray, a little way along. */
+/* Every nozzle: a dot, its name and the outline of its spray, a little way along; of a cluster that of each pattern. */
 void sp_overlay_nozzles(sp_text *text, const sp_camera *camera, const sp_evaluator *evaluator, const sp_layout *layout);
 
 #endif

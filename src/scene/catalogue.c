@@ -5,28 +5,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const pattern_names[] = {"full_cone", "hollow_cone", "flat_fan", "solid_stream", "rotating", NULL};
-/* of what turns in a rotating type */
-static const char *const jet_names[] = {"full_cone", "hollow_cone", "flat_fan", "solid_stream", NULL};
+static const char *const pattern_names[] = {"full_cone", "hollow_cone", "flat_fan", "solid_stream",
+                                            "cluster",   "rotating",    NULL};
 
-static bool read_pattern(const sp_reader *reader, const sp_yaml *node, const char *const *names, sp_nozzle_type *type)
+bool sp_scene_read_pattern(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
-    static const char *const later[] = {"measured", "cluster"};
-    static const char *const later_keys[] = {"image", "members"};
+    static const char *const later[] = {"measured"};
+    static const char *const later_keys[] = {"image"};
     const sp_yaml *name = sp_yaml_get(node, "pattern");
     int pattern = 0;
     for (size_t i = 0; i < sizeof later / sizeof *later; i++)
         if (sp_text_is(name, later[i]))
             return sp_read_unsupported(reader, name, "pattern",
-                                       names == jet_names
-                                           ? "full_cone, hollow_cone, flat_fan or solid_stream"
-                                           : "full_cone, hollow_cone, flat_fan, solid_stream or rotating");
+                                       "full_cone, hollow_cone, flat_fan, solid_stream, cluster or rotating");
     for (size_t i = 0; i < sizeof later_keys / sizeof *later_keys; i++) {
         const sp_yaml *child = sp_yaml_get(node, later_keys[i]);
         if (child)
             return sp_read_unsupported(reader, child, later_keys[i], "a type without this key");
     }
-    if (!sp_read_choice(reader, node, "pattern", names, &pattern))
+    if (!sp_read_choice(reader, node, "pattern", pattern_names, &pattern))
         return false;
     type->pattern = (sp_pattern)pattern;
     return true;
@@ -68,18 +65,37 @@ static bool read_adjustable(const sp_reader *reader, const sp_yaml *node, const 
     return true;
 }
 
-static bool read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+static bool read_turning(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
+
+/* A cluster has the angles of its members. */
+static bool check_angles(const sp_reader *reader, const sp_yaml *node, const sp_nozzle_type *type)
+{
+    static const char *const angles[] = {"angle", "angle_range"};
+    for (int i = 0; i < 2 && type->pattern == SP_PATTERN_CLUSTER; i++) {
+        const sp_yaml *child = sp_yaml_get(node, angles[i]);
+        if (child)
+            return sp_read_message(reader, child, angles[i], "found in a cluster, expected angles in its members only");
+    }
+    return true;
+}
+
+bool sp_scene_read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
     const double pi = acos(-1);
     double limits[2];
+    if (type->pattern == SP_PATTERN_ROTATING)
+        return read_turning(reader, node, type);
+    if (!check_angles(reader, node, type))
+        return false;
     if (type->pattern == SP_PATTERN_SOLID_STREAM)
         type->angle = pi / 180;
-    else if (!sp_yaml_get(node, "angle"))
+    else if (type->pattern != SP_PATTERN_CLUSTER && !sp_yaml_get(node, "angle"))
         return sp_read_message(reader, node, "angle", "found nothing, expected this key in a %s",
                                pattern_names[type->pattern]);
     if (!check_pattern_key(reader, node, type, "rotation", SP_PATTERN_ROTATING) ||
         !check_pattern_key(reader, node, type, "hollow", SP_PATTERN_HOLLOW_CONE) ||
         !check_pattern_key(reader, node, type, "thickness", SP_PATTERN_FLAT_FAN) ||
+        !check_pattern_key(reader, node, type, "members", SP_PATTERN_CLUSTER) ||
         !sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_above_to(0, 2 * pi), &type->angle) ||
         !sp_read_quantity(reader, node, "hollow", &sp_share_unit, sp_from_below(0, 1), &type->hollow) ||
         !sp_read_quantity(reader, node, "thickness", &sp_angle_unit, sp_above_to(0, pi), &type->thickness) ||
@@ -98,8 +114,11 @@ static bool read_jet(const sp_reader *reader, const sp_yaml *node, sp_nozzle_typ
     const double pi = acos(-1);
     sp_rotation *rotation = &type->rotation;
     sp_nozzle_type jet = {0};
-    if ((node->kind == SP_YAML_MAP && !read_pattern(reader, node, jet_names, &jet)) ||
-        !sp_read_keys(reader, node, "jet", "a jet", keys) || !read_shape(reader, node, &jet) ||
+    const sp_yaml *pattern = sp_yaml_get(node, "pattern");
+    if (sp_text_is(pattern, "rotating") || sp_text_is(pattern, "cluster"))
+        return sp_read_fail(reader, pattern, "pattern", "full_cone, hollow_cone, flat_fan or solid_stream in a jet");
+    if ((node->kind == SP_YAML_MAP && !sp_scene_read_pattern(reader, node, &jet)) ||
+        !sp_read_keys(reader, node, "jet", "a jet", keys) || !sp_scene_read_shape(reader, node, &jet) ||
         !sp_read_quantity(reader, node, "tilt", &sp_angle_unit, sp_between(0, pi), &rotation->tilt) ||
         !sp_read_quantity(reader, node, "roll", &sp_angle_unit, sp_any(), &rotation->roll))
         return false;
@@ -122,7 +141,8 @@ static bool read_turning(const sp_reader *reader, const sp_yaml *node, sp_nozzle
                                    i < 3 ? "found in a rotating, expected in its jet"
                                          : "found in a rotating, expected in another pattern only");
     }
-    if (!check_pattern_key(reader, node, type, "rotation", SP_PATTERN_ROTATING))
+    if (!check_pattern_key(reader, node, type, "members", SP_PATTERN_CLUSTER) ||
+        !check_pattern_key(reader, node, type, "rotation", SP_PATTERN_ROTATING))
         return false;
     const sp_yaml *rotation = sp_yaml_get(node, "rotation");
     return sp_read_keys(reader, rotation, "rotation", "a rotation", keys) &&
@@ -172,11 +192,11 @@ static bool read_type(const sp_reader *reader, const sp_yaml *node, sp_nozzle_ty
         {"members", false},     {"rotation", false},   {NULL, false}};
     *type = (sp_nozzle_type){0};
     /* What is not built yet is said before what such a type may lack. */
-    return (node->kind != SP_YAML_MAP || read_pattern(reader, node, pattern_names, type)) &&
+    return (node->kind != SP_YAML_MAP || sp_scene_read_pattern(reader, node, type)) &&
            sp_read_keys(reader, node, "nozzles", "a catalogue type", keys) &&
-           sp_read_name(reader, node, "name", type->name) &&
-           (type->pattern == SP_PATTERN_ROTATING ? read_turning(reader, node, type) : read_shape(reader, node, type)) &&
-           read_flow(reader, node, type) && read_source(reader, node, type);
+           sp_read_name(reader, node, "name", type->name) && sp_scene_read_shape(reader, node, type) &&
+           read_flow(reader, node, type) && read_source(reader, node, type) &&
+           sp_scene_read_members(reader, node, type);
 }
 
 static bool read_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *list)
@@ -190,13 +210,13 @@ static bool read_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *
     if (!scene->types)
         return sp_fail_memory(reader->error);
     for (const sp_yaml *node = list->first; node; node = node->next) {
-        sp_nozzle_type *type = &scene->types[scene->type_count];
+        /* Counted even when it fails: its members are then freed with the others'. */
+        sp_nozzle_type *type = &scene->types[scene->type_count++];
         if (!read_type(reader, node, type))
             return false;
-        for (size_t i = 0; i < scene->type_count; i++)
+        for (size_t i = 0; i + 1 < scene->type_count; i++)
             if (strcmp(scene->types[i].name, type->name) == 0)
                 return sp_read_fail(reader, sp_yaml_get(node, "name"), "name", "a name that no other type has");
-        scene->type_count++;
     }
     return true;
 }

@@ -236,7 +236,7 @@ static bool read_aims(const sp_reader *reader, const sp_yaml *node, sp_place_opt
     return true;
 }
 
-/* All types of the catalogue where the block names none. */
+/* All types of the catalogue that placement takes where the block names none. */
 static bool read_place_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *node)
 {
     size_t *count = &scene->place.type_count;
@@ -245,8 +245,9 @@ static bool read_place_types(sp_scene *scene, const sp_reader *reader, const sp_
     scene->place_types = calloc(scene->type_count + 1, sizeof *scene->place_types);
     if (!scene->place_types)
         return sp_fail_memory(reader->error);
-    for (; *count < scene->type_count; (*count)++)
-        scene->place_types[*count] = &scene->types[*count];
+    for (size_t i = 0; i < scene->type_count; i++)
+        if (scene->types[i].pattern != SP_PATTERN_CLUSTER && scene->types[i].pattern != SP_PATTERN_ROTATING)
+            scene->place_types[(*count)++] = &scene->types[i];
     return true;
 }
 
@@ -267,7 +268,8 @@ bool sp_scene_read_place(sp_scene *scene, const sp_reader *reader)
     if (scene->mount_count > 0 && place->pressure_count == 0)
         return sp_read_message(reader, node, "pressure", "found nothing, expected this key beside mounts");
     if (scene->mount_count > 0 && place->type_count == 0)
-        return sp_read_message(reader, node, "types", "found no types, expected a catalogue to choose from");
+        return sp_read_message(reader, node, "types",
+                               "found no types, expected a catalogue with types to choose from that are no clusters");
     place->types = scene->place_types;
     place->pressures = scene->pressures;
     place->mounts = scene->mounts;

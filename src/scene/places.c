@@ -28,16 +28,39 @@ char *sp_scene_file_path(const sp_scene *scene, size_t index, sp_error *error)
     return sp_path_join(scene->directory, file->text, error);
 }
 
-/* The nozzle that a message "nozzles: NAME at [..." speaks of; the list where there is none. */
+/* The nozzle that a message "nozzles: NAME at [..." or "nozzles: NAME, of type '..." speaks of; the list where there is
+ * none. */
 static const sp_yaml *find_nozzle(const sp_yaml *list, const char *text)
 {
     for (const sp_yaml *entry = list->first; entry; entry = entry->next) {
         const sp_yaml *name = sp_yaml_get(entry, "name");
         size_t size = name && name->text ? strlen(name->text) : 0;
-        if (size && !strncmp(text, name->text, size) && !strncmp(text + size, " at [", 5))
+        if (size && !strncmp(text, name->text, size) &&
+            (!strncmp(text + size, " at [", 5) || !strncmp(text + size, ", of type '", 11)))
             return entry;
     }
     return list;
+}
+
+/* The entry of a list of types that a message "types: found 'NAME', ..." speaks of; NULL where there is none. */
+static const sp_yaml *find_type(const sp_yaml *list, const char *message)
+{
+    for (const sp_yaml *entry = list ? list->first : NULL; entry; entry = entry->next) {
+        char start[SP_NAME + 20];
+        snprintf(start, sizeof start, "types: found '%.*s',", SP_NAME, entry->text);
+        if (!strncmp(message, start, strlen(start)))
+            return entry;
+    }
+    return NULL;
+}
+
+/* The same, of the types that may be placed, or of a port. */
+static const sp_yaml *find_placed_type(const sp_yaml *place, const char *message)
+{
+    const sp_yaml *mounts = sp_yaml_get(place, "mounts"), *found = find_type(sp_yaml_get(place, "types"), message);
+    for (const sp_yaml *mount = mounts ? mounts->first : NULL; mount && !found; mount = mount->next)
+        found = find_type(sp_yaml_get(mount->first, "types"), message);
+    return found;
 }
 
 /* The setting that a message "key: ..." speaks of, the scene as a whole where there is none. */
@@ -52,6 +75,8 @@ static const sp_yaml *find_setting(const sp_yaml *tree, const char *message)
     const sp_yaml *found = sp_yaml_get(tree, key);
     if (found && !strcmp(key, "nozzles") && !strncmp(message + size, ": ", 2))
         found = find_nozzle(found, message + size + 2);
+    if (!strcmp(key, "types"))
+        found = find_placed_type(sp_yaml_get(tree, "place"), message);
     static const char *const blocks[] = {"criterion", "simulate", "place"};
     for (size_t i = 0; !found && i < sizeof blocks / sizeof *blocks; i++)
         found = sp_yaml_get(sp_yaml_get(tree, blocks[i]), key);

@@ -81,6 +81,8 @@ void sp_scene_destroy(sp_scene *scene)
     free(scene->pressures);
     free(scene->place_types);
     sp_layout_destroy(scene->layout);
+    for (size_t i = 0; i < scene->type_count; i++)
+        free(scene->types[i].members);
     free(scene->types);
     free(scene->caps);
     sp_mesh_destroy(scene->mesh);

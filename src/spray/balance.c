@@ -1,9 +1,10 @@
 /* Where the liquid ends: on what is to be cleaned, on other surface, outside, or on a way that is not followed. */
+#include "bodies.h"
 #include "emitter.h"
 
 #include <stdlib.h>
 
-#define JETS 20000 /* of each nozzle; their number is part of the answer */
+#define JETS 20000 /* of each nozzle, shared by its patterns; their number is part of the answer */
 
 void sp_balance_add(sp_balance *balance, bool hit, bool clean, double arrived, double onward)
 {
@@ -34,29 +35,39 @@ static void end_jet(const sp_evaluator *evaluator, const sp_ray *ray, const sp_h
     balance->unfollowed += onward;
 }
 
+/* Room for JETS rays and hits is the caller's: no pattern has more. */
+static void end_pattern(const sp_evaluator *evaluator, const sp_nozzle *pattern, sp_ray *rays, sp_hit *hits,
+                        sp_balance *balance)
+{
+    sp_emitter emitter = sp_emitter_of(evaluator, pattern);
+    double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
+    size_t jets = (size_t)pattern->jets;
+    if (!(emitter.source.speed > 0) || !(flow > 0))
+        return;
+    for (size_t i = 0; i < jets; i++)
+        rays[i] = sp_emitter_jet(&emitter, i, jets);
+    sp_trace_nearest_many(evaluator->tracer, rays, jets, evaluator->gravity, evaluator->setup.run.threads, hits);
+    for (size_t i = 0; i < jets; i++)
+        end_jet(evaluator, &rays[i], &hits[i], flow / (double)jets, balance);
+}
+
 bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
 {
     if (!evaluator || !layout || !coverage)
         return false;
     if (coverage->balance.known)
         return true;
+    sp_bodies bodies;
     sp_ray *rays = malloc(JETS * sizeof *rays);
     sp_hit *hits = malloc(JETS * sizeof *hits);
-    bool done = rays && hits;
+    bool done =
+        sp_bodies_create_with(evaluator, layout, JETS, &bodies, error) && ((rays && hits) || sp_fail_memory(error));
     sp_balance balance = {.known = true};
-    for (size_t n = 0; done && n < layout->count; n++) {
-        sp_emitter emitter = sp_emitter_of(evaluator, &layout->nozzles[n]);
-        double flow = sp_nozzle_flow(&layout->nozzles[n], &evaluator->setup.liquid);
-        if (!(emitter.source.speed > 0) || !(flow > 0))
-            continue;
-        for (size_t i = 0; i < JETS; i++)
-            rays[i] = sp_emitter_jet(&emitter, i, JETS);
-        sp_trace_nearest_many(evaluator->tracer, rays, JETS, evaluator->gravity, evaluator->setup.run.threads, hits);
-        for (size_t i = 0; i < JETS; i++)
-            end_jet(evaluator, &rays[i], &hits[i], flow / JETS, &balance);
-    }
+    for (size_t n = 0; done && n < bodies.patterns->count; n++)
+        end_pattern(evaluator, &bodies.patterns->nozzles[n], rays, hits, &balance);
+    sp_bodies_free(&bodies);
     free(rays);
     free(hits);
     coverage->balance = done ? balance : coverage->balance;
-    return done || sp_fail_memory(error);
+    return done;
 }

@@ -1,4 +1,5 @@
 /* What of the surface round-off could judge otherwise. */
+#include "bodies.h"
 #include "reach.h"
 
 #include <stdlib.h>
@@ -11,7 +12,7 @@ static bool is_close(double value, double criterion)
     return criterion > 0 && fabs(value - criterion) <= CLOSE * criterion;
 }
 
-/* One nozzle while what it puts in doubt is found. */
+/* One pattern while what it puts in doubt is found. */
 typedef struct {
     const sp_emitter *emitter;
     double flow;           /* m³/s */
@@ -132,12 +133,15 @@ bool sp_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, 
     *borderline = (sp_borderline){.known = false};
     size_t count = evaluator->patches.count;
     bool *found = calloc(count + 1, sizeof *found);
-    bool done = found || sp_fail_memory(error);
-    for (size_t i = 0; done && i < layout->count; i++) {
-        sp_emitter emitter = sp_emitter_of(evaluator, &layout->nozzles[i]);
-        double flow = sp_nozzle_flow(&layout->nozzles[i], &evaluator->setup.liquid);
+    sp_bodies bodies;
+    bool done = sp_bodies_create(evaluator, layout, &bodies, error) && (found || sp_fail_memory(error));
+    for (size_t i = 0; done && i < bodies.patterns->count; i++) {
+        const sp_nozzle *pattern = &bodies.patterns->nozzles[i];
+        sp_emitter emitter = sp_emitter_of(evaluator, pattern);
+        double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
         done = !(flow > 0) || inquire(&emitter, flow, found, error);
     }
+    sp_bodies_free(&bodies);
     double area = 0;
     for (size_t p = 0; done && p < count; p++) {
         found[p] = found[p] || is_close(coverage->deposits.even[p], evaluator->setup.criterion.flux);

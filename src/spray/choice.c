@@ -12,7 +12,7 @@
 #define SOLVE_LINE 0.08
 #define RAY 0.27 /* traced as a parabola */
 #define RAY_LINE 0.25
-#define JUDGE 0.26      /* a point under one nozzle, by parabolas */
+#define JUDGE 0.26      /* a point under one pattern, by parabolas */
 #define POINTS 150000   /* that are judged in the end */
 #define TRIANGLE 20     /* accelerator, charts and wet sides */
 #define TRIANGLE_OPEN 5 /* the same where no cavity is named */
@@ -73,13 +73,21 @@ static double evaluating(const sp_work *work, bool lines)
     return (double)work->places * (lines ? SOLVE_LINE : SOLVE) + (double)work->rays * (lines ? RAY_LINE : RAY);
 }
 
+static size_t pattern_count(const sp_layout *layout)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < layout->count; i++)
+        count += sp_nozzle_pattern_count(&layout->nozzles[i]);
+    return count;
+}
+
 /* The same of all that a simulation does besides. */
 static double besides(const sp_trial *trial)
 {
     const sp_evaluator *evaluator = trial->evaluator;
     double triangle = evaluator->setup.cavity == SP_CAVITY_NONE ? TRIANGLE_OPEN : TRIANGLE;
     return triangle * (double)evaluator->setup.mesh->triangle_count + PATCH * (double)evaluator->patches.count +
-           JUDGE * POINTS * (double)trial->layout->count;
+           JUDGE * POINTS * (double)pattern_count(trial->layout);
 }
 
 static void fly(sp_evaluator *evaluator, sp_trajectory trajectory)
@@ -91,7 +99,7 @@ static void fly(sp_evaluator *evaluator, sp_trajectory trajectory)
 /* The share of the run that lines save at the very most. */
 static double most_saved(const sp_trial *trial)
 {
-    size_t places = trial->layout->count * trial->evaluator->patches.count;
+    size_t places = pattern_count(trial->layout) * trial->evaluator->patches.count;
     const sp_work parabolas = {places, places}, lines = {places, 0};
     double evaluation = evaluating(&parabolas, false);
     return (evaluation - evaluating(&lines, true)) / (evaluation + besides(trial));

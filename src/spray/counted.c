@@ -11,6 +11,14 @@ bool sp_side_is_counted(const sp_evaluator *evaluator, uint32_t triangle, unsign
     return setup->cavity == SP_CAVITY_NONE ? side == 0 : (evaluator->wet->sides[triangle] >> side) & 1;
 }
 
+double sp_evaluator_counted(const sp_evaluator *evaluator, uint32_t patch)
+{
+    const sp_patches *patches = &evaluator->patches;
+    const sp_setup *setup = &evaluator->setup;
+    bool clean = setup->surfaces[setup->mesh->part[patches->triangle[patch]]].clean;
+    return evaluator->everything && !clean ? 0 : patches->area[patch];
+}
+
 double sp_counted_area(const sp_evaluator *evaluator, uint32_t triangle)
 {
     int sides = sp_side_is_counted(evaluator, triangle, 0) + sp_side_is_counted(evaluator, triangle, 1);

@@ -1,4 +1,5 @@
 /* Deposits and the figures drawn from them. */
+#include "bodies.h"
 #include "rundown.h"
 
 #include <stdlib.h>
@@ -70,17 +71,6 @@ void sp_deposit(sp_deposits *deposits, uint32_t patch, double flux, double jets,
         deposits->incidence_min[patch] = incidence;
 }
 
-void sp_count_wetting(const sp_evaluator *evaluator, sp_deposits *deposits, uint32_t patch, double counted,
-                      const sp_wetting *wetting)
-{
-    sp_wetting settled = sp_wetting_settle(*wetting, evaluator->setup.criterion.flux);
-    bool single = evaluator->setup.criterion.combine == SP_COMBINE_SINGLE;
-    double *before = &deposits->counted[patch], *even = &deposits->even[patch];
-    *before = single ? fmax(*before, counted) : *before + counted;
-    *even = single ? fmax(*even, settled.even) : *even + settled.even;
-    deposits->dry[patch] *= settled.dry;
-}
-
 /* A patch's flux and area, to be sorted. */
 typedef struct {
     double flux, area;
@@ -120,16 +110,17 @@ static bool draw_flux_figures(const sp_patches *patches, sp_coverage *coverage, 
     return true;
 }
 
-bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
+bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_bodies *bodies, sp_coverage *coverage,
                           sp_error *error)
 {
     const sp_patches *patches = &evaluator->patches;
     sp_deposits *deposits = &coverage->deposits;
     double threshold = evaluator->setup.criterion.flux;
-    coverage->area = patches->total_area;
-    if (evaluator->rundown && !sp_rundown_find(evaluator->rundown, layout, coverage, error))
+    if (evaluator->rundown && !sp_rundown_find(evaluator->rundown, bodies->patterns, coverage, error))
         return false;
-    for (size_t i = 0; i < patches->count; i++) {
+    for (uint32_t i = 0; i < patches->count; i++) {
+        double area = sp_evaluator_counted(evaluator, i);
+        coverage->area += area;
         if (deposits->flux[i] > 0) {
             deposits->speed[i] /= deposits->flux[i];
             deposits->incidence[i] /= deposits->flux[i];
@@ -137,15 +128,15 @@ bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_layout *layout
         }
         deposits->share[i] = sp_wetting_share(&(sp_wetting){deposits->even[i], deposits->dry[i], 0}, threshold);
         if (evaluator->rundown && deposits->film[i] >= evaluator->setup.criterion.film) {
-            coverage->film.area += (1 - deposits->share[i]) * patches->area[i];
+            coverage->film.area += (1 - deposits->share[i]) * area;
             deposits->by_film[i] = deposits->share[i] < 0.5;
             deposits->share[i] = 1;
         }
         deposits->covered[i] = deposits->share[i] >= 0.5;
-        coverage->covered_area += deposits->share[i] * patches->area[i];
+        coverage->covered_area += deposits->share[i] * area;
     }
     coverage->fraction = coverage->area > 0 ? coverage->covered_area / coverage->area : 0;
-    coverage->flow = sp_layout_flow(layout, &evaluator->setup.liquid);
+    coverage->flow = sp_layout_flow(bodies->layout, &evaluator->setup.liquid);
     coverage->area_per_water = coverage->flow > 0 ? coverage->covered_area / coverage->flow : 0;
     return draw_flux_figures(patches, coverage, error);
 }

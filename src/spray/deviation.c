@@ -13,6 +13,7 @@
  * or to end at a roof. */
 #include <sprayplan/deviation.h>
 
+#include "bodies.h"
 #include "emitter.h"
 #include "near.h"
 #include "shaft.h"
@@ -40,10 +41,11 @@ double sp_line_deviation(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity
     return half < INFINITY ? asin(fmin(1, half * sp_length(sp_cross(way, gravity)) / (g * distance))) : INFINITY;
 }
 
-/* A nozzle with its liquid flying either way. */
+/* A pattern with its liquid flying either way. */
 typedef struct {
     sp_emitter straight, falling;
     double flow;
+    size_t body; /* the nozzle that it is part of */
     bool roofed; /* no high arc comes down anywhere */
 } spraying;
 
@@ -271,9 +273,11 @@ static void weigh(const bounding *b, const spraying *s, uint32_t patch, const wo
 static double combined(const bounding *b, const double *each)
 {
     bool single = b->straight.setup.criterion.combine == SP_COMBINE_SINGLE;
-    double all = 0;
-    for (size_t n = 0; n < b->count; n++)
-        all = single ? fmax(all, each[n]) : all + each[n];
+    double all = 0, own = 0; /* of the nozzle in hand */
+    for (size_t n = 0; n < b->count; n++) {
+        own = n && b->sprayings[n].body == b->sprayings[n - 1].body ? own + each[n] : each[n];
+        all = single ? fmax(all, own) : all + each[n];
+    }
     return all;
 }
 
@@ -368,7 +372,7 @@ static bool is_roofed(const bounding *b, const spraying *s)
     return half < INFINITY && sp_shaft_is_blocked(&shaft);
 }
 
-static bool bounding_create(bounding *b, const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
+static bool bounding_create(bounding *b, const sp_evaluator *evaluator, const sp_bodies *bodies, sp_error *error)
 {
     const sp_mesh *mesh = evaluator->setup.mesh;
     sp_vec3 low, high, gravity = sp_gravity_for(&evaluator->setup, SP_TRAJECTORY_PARABOLA);
@@ -377,17 +381,19 @@ static bool bounding_create(bounding *b, const sp_evaluator *evaluator, const sp
     b->falling.gravity = gravity;
     sp_mesh_box(mesh, &low, &high);
     b->round_off = ROUND_OFF * (sp_length(low) + sp_length(high));
-    b->sprayings = calloc(layout->count + 1, sizeof *b->sprayings);
+    b->sprayings = calloc(bodies->patterns->count + 1, sizeof *b->sprayings);
     if (!b->sprayings)
         return sp_fail_memory(error);
     if (!sp_half_edges_create(mesh, &b->edges, error))
         return false;
-    for (size_t i = 0; i < layout->count; i++) {
-        const sp_nozzle *nozzle = &layout->nozzles[i];
+    for (size_t i = 0, body = 0; i < bodies->patterns->count; i++) {
+        const sp_nozzle *pattern = &bodies->patterns->nozzles[i];
         spraying *s = &b->sprayings[b->count];
-        s->flow = sp_nozzle_flow(nozzle, &evaluator->setup.liquid);
-        s->straight = sp_emitter_of(&b->straight, nozzle);
-        s->falling = sp_emitter_of(&b->falling, nozzle);
+        body += i == bodies->first[body + 1];
+        s->body = body;
+        s->flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
+        s->straight = sp_emitter_of(&b->straight, pattern);
+        s->falling = sp_emitter_of(&b->falling, pattern);
         s->roofed = s->flow > 0 && is_roofed(b, s);
         b->count += s->flow > 0;
     }
@@ -426,20 +432,22 @@ static bool decide(const bounding *b, bool *decided)
 bool sp_bound_lines(const sp_evaluator *evaluator, const sp_layout *layout, double *bound, bool *decided,
                     sp_error *error)
 {
-    if (!evaluator || !layout || !sp_evaluator_takes(evaluator, layout, error))
+    if (!evaluator || !layout)
         return false;
     const sp_patches *patches = &evaluator->patches;
     bounding b = {0};
-    bool *marks = malloc(patches->count + 1), done = marks != NULL;
-    if (!done)
-        return sp_fail_memory(error);
-    memset(marks, evaluator->setup.gravity == 0, patches->count);
-    if (evaluator->setup.gravity > 0) {
-        done = bounding_create(&b, evaluator, layout, error) && (decide(&b, marks) || sp_fail_memory(error));
+    sp_bodies bodies;
+    bool *marks = malloc(patches->count + 1);
+    bool done = sp_bodies_create(evaluator, layout, &bodies, error) && (marks || sp_fail_memory(error));
+    if (done)
+        memset(marks, evaluator->setup.gravity == 0, patches->count);
+    if (done && evaluator->setup.gravity > 0) {
+        done = bounding_create(&b, evaluator, &bodies, error) && (decide(&b, marks) || sp_fail_memory(error));
         bounding_free(&b);
     }
+    sp_bodies_free(&bodies);
     double undecided = 0;
-    for (size_t i = 0; i < patches->count; i++)
+    for (size_t i = 0; done && i < patches->count; i++)
         undecided += marks[i] ? 0 : patches->area[i];
     if (done && decided)
         memcpy(decided, marks, patches->count);

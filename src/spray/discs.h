@@ -4,8 +4,20 @@
 
 #include "state.h"
 
-/* Adds to `arriving` (m³/s, [patches]) what a layout of one solid stream brings, as much on every m² of a disc about
- * each place that it hits, as far as that is wall. `walls` counts all wet sides. */
-bool sp_discs_add(const sp_evaluator *walls, const sp_layout *stream, double *arriving, sp_error *error);
+/* One thread's memory for laying discs on cells. */
+typedef struct {
+    const sp_patches *cells; /* borrowed */
+    uint32_t *queue;         /* [cells] */
+    uint64_t *seen;          /* [cells], the last disc that each was looked at for */
+    double *share;           /* [cells], by queue, m² */
+    uint64_t laid;           /* discs so far */
+} sp_discs;
+
+/* `cells` of all wet sides. Freed in any case. */
+bool sp_discs_create(const sp_patches *cells, sp_discs *discs, sp_error *error);
+void sp_discs_free(sp_discs *discs);
+/* Adds to `arriving` (m³/s, [cells]) what a solid stream of this flow (m³/s) brings, of which `hits` (m³/s, [cells])
+ * arrive on each cell: as much on every m² of a disc about each place that it hits, as far as that is wall. */
+void sp_discs_add(sp_discs *discs, const sp_fluid *liquid, double flow, const double *hits, double *arriving);
 
 #endif

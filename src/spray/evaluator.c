@@ -204,14 +204,14 @@ sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_e
     sp_evaluator *evaluator = sp_evaluator_share(fine, texel, error);
     if (!evaluator)
         return NULL;
+    evaluator->everything = fine->setup.criterion.film > 0;
     evaluator->fidelity.method = SP_METHOD_INVERSE;
     evaluator->fidelity.reflections = 0;
     evaluator->fidelity.splat = SP_SPLAT_NEAREST;
-    if (!sp_texels_create(evaluator, fine, error)) {
-        sp_evaluator_destroy(evaluator);
-        return NULL;
-    }
-    return evaluator;
+    if (sp_texels_create(evaluator, fine, error) && sp_rundown_create(evaluator, error))
+        return evaluator;
+    sp_evaluator_destroy(evaluator);
+    return NULL;
 }
 
 bool sp_evaluator_again(const sp_evaluator *evaluator, bool shorter, sp_evaluator **again, sp_error *error)
@@ -252,7 +252,7 @@ void sp_evaluator_destroy(sp_evaluator *evaluator)
         sp_wet_destroy(evaluator->wet);
     }
     sp_texels_free(evaluator);
-    sp_rundown_destroy(evaluator->rundown);
+    sp_rundown_destroy(evaluator);
     free(evaluator);
 }
 

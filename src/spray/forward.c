@@ -1,8 +1,10 @@
 /* The forward evaluator: jets are traced from the nozzles through their reflections, and leave their liquid on the
  * patches that they hit (study 3.2.3 and 3.3.1). */
+#include "bodies.h"
 #include "emitter.h"
 #include "lit.h"
 #include "splat.h"
+#include "tally.h"
 
 #include <stdlib.h>
 
@@ -24,8 +26,9 @@ typedef struct {
 typedef struct {
     const sp_evaluator *evaluator;
     sp_deposits *deposits;
-    double *counted;     /* [patches], m³/s per m² of the nozzle in hand */
-    sp_lit lit;          /* by the nozzle in hand */
+    sp_tally tally;
+    double *counted;     /* [patches], m³/s per m² of the pattern in hand */
+    sp_lit lit;          /* by the pattern in hand */
     sp_balance *balance; /* of all */
     sp_work *work;
     double lowest;       /* g · x, m²/s², of the geometry's lowest point */
@@ -36,7 +39,7 @@ typedef struct {
     jet_impact *impacts; /* [BATCH] */
     int threads;
     int reflections;
-    double per_jet; /* m³/s that a jet carries; 0: each nozzle has jets of its own number */
+    double per_jet; /* m³/s that a jet carries; 0: each pattern has jets of its own number */
 } jet_flight;
 
 /* What flies on starts a little before the wall, on the way that has been free so far: the impact itself may be rounded
@@ -174,20 +177,19 @@ static void fly(jet_flight *flight, size_t count)
     }
 }
 
-static uint64_t nozzle_jets(const jet_flight *flight, const sp_nozzle *nozzle)
+static uint64_t pattern_jets(const jet_flight *flight, const sp_nozzle *pattern)
 {
-    const sp_evaluator *evaluator = flight->evaluator;
     if (flight->per_jet > 0)
-        return (uint64_t)ceil(sp_nozzle_flow(nozzle, &evaluator->setup.liquid) / flight->per_jet);
-    return nozzle->jets ? nozzle->jets : evaluator->fidelity.jets;
+        return (uint64_t)ceil(sp_nozzle_flow(pattern, &flight->evaluator->setup.liquid) / flight->per_jet);
+    return pattern->jets;
 }
 
-/* Starts jets [first, first + count) of a nozzle. */
-static void spray_jets(jet_flight *flight, const sp_nozzle *nozzle, uint64_t first, size_t count)
+/* Starts jets [first, first + count) of a pattern. */
+static void spray_jets(jet_flight *flight, const sp_nozzle *pattern, uint64_t first, size_t count)
 {
-    uint64_t jets = nozzle_jets(flight, nozzle);
-    double flow = sp_nozzle_flow(nozzle, &flight->evaluator->setup.liquid);
-    sp_emitter emitter = sp_emitter_of(flight->evaluator, nozzle);
+    uint64_t jets = pattern_jets(flight, pattern);
+    double flow = sp_nozzle_flow(pattern, &flight->evaluator->setup.liquid);
+    sp_emitter emitter = sp_emitter_of(flight->evaluator, pattern);
 #pragma omp parallel for num_threads(flight->threads)
     for (size_t i = 0; i < count; i++) {
         flight->rays[i] = sp_emitter_jet(&emitter, first + i, jets);
@@ -196,15 +198,15 @@ static void spray_jets(jet_flight *flight, const sp_nozzle *nozzle, uint64_t fir
 }
 
 /* `done` and `all` count the layout's jets, for the progress. */
-static bool fly_nozzle(jet_flight *flight, const sp_nozzle *nozzle, double *done, double all, sp_error *error)
+static bool fly_pattern(jet_flight *flight, const sp_nozzle *pattern, double *done, double all, sp_error *error)
 {
     const sp_setup *setup = &flight->evaluator->setup;
-    uint64_t jets = nozzle_jets(flight, nozzle);
-    if (!(sp_nozzle_speed(nozzle, &setup->liquid) > 0) || !(sp_nozzle_flow(nozzle, &setup->liquid) > 0))
+    uint64_t jets = pattern_jets(flight, pattern);
+    if (!(sp_nozzle_speed(pattern, &setup->liquid) > 0) || !(sp_nozzle_flow(pattern, &setup->liquid) > 0))
         return true;
     for (uint64_t first = 0; first < jets; first += BATCH) {
         size_t count = jets - first < BATCH ? (size_t)(jets - first) : BATCH;
-        spray_jets(flight, nozzle, first, count);
+        spray_jets(flight, pattern, first, count);
         fly(flight, count);
         *done += (double)count;
         if (!sp_evaluator_progress(setup, "jets", *done / all, error))
@@ -213,8 +215,8 @@ static bool fly_nozzle(jet_flight *flight, const sp_nozzle *nozzle, double *done
     return true;
 }
 
-/* Counts what the nozzle in hand has brought. What a linear splat spreads it spreads over whole patches. */
-static void count_nozzle(jet_flight *flight)
+/* Counts what the pattern in hand has brought. What a linear splat spreads it spreads over whole patches. */
+static void count_pattern(jet_flight *flight)
 {
     const sp_evaluator *evaluator = flight->evaluator;
     bool spread = evaluator->fidelity.splat == SP_SPLAT_LINEAR;
@@ -224,21 +226,25 @@ static void count_nozzle(jet_flight *flight)
                share = flux > 0 && !spread ? sp_lit_share(evaluator, &flight->lit, (uint32_t)i) : 1;
         sp_wetting wetting = {0, 1, 0};
         sp_wetting_add(&wetting, flux / share, evaluator->setup.criterion.flux, 1, share, share >= 0.5);
-        sp_count_wetting(evaluator, flight->deposits, (uint32_t)i, flux, &wetting);
+        sp_tally_add(&flight->tally, (uint32_t)i, flux, &wetting);
         flight->counted[i] = 0;
     }
     sp_lit_clear(evaluator, &flight->lit);
 }
 
-static bool fly_layout(jet_flight *flight, const sp_layout *layout, sp_error *error)
+static bool fly_bodies(jet_flight *flight, const sp_bodies *bodies, sp_error *error)
 {
+    const sp_layout *patterns = bodies->patterns;
     double done = 0, all = 0;
-    for (size_t n = 0; n < layout->count; n++)
-        all += (double)nozzle_jets(flight, &layout->nozzles[n]);
-    for (size_t n = 0; n < layout->count; n++) {
-        if (!fly_nozzle(flight, &layout->nozzles[n], &done, all, error))
-            return false;
-        count_nozzle(flight);
+    for (size_t n = 0; n < patterns->count; n++)
+        all += (double)pattern_jets(flight, &patterns->nozzles[n]);
+    for (size_t b = 0; b < bodies->layout->count; b++) {
+        for (size_t n = bodies->first[b]; n < bodies->first[b + 1]; n++) {
+            if (!fly_pattern(flight, &patterns->nozzles[n], &done, all, error))
+                return false;
+            count_pattern(flight);
+        }
+        sp_tally_end_nozzle(&flight->tally);
     }
     return true;
 }
@@ -252,12 +258,20 @@ static double lowest_point(const sp_evaluator *evaluator)
     return lowest;
 }
 
-static sp_coverage *evaluate(const sp_evaluator *evaluator, const sp_layout *layout, int reflections, double per_jet,
-                             double *able, sp_error *error)
+static void flight_free(jet_flight *flight)
 {
-    sp_coverage *coverage = sp_evaluator_takes(evaluator, layout, error) ? sp_coverage_create(evaluator, error) : NULL;
-    if (!coverage)
-        return NULL;
+    sp_tally_free(&flight->tally);
+    sp_lit_free(&flight->lit);
+    free(flight->counted);
+    free(flight->rays);
+    free(flight->flow);
+    free(flight->hits);
+    free(flight->impacts);
+}
+
+static bool evaluate_bodies(const sp_evaluator *evaluator, const sp_bodies *bodies, int reflections, double per_jet,
+                            double *able, sp_coverage *coverage, sp_error *error)
+{
     jet_flight flight = {.evaluator = evaluator,
                          .deposits = &coverage->deposits,
                          .counted = calloc(coverage->deposits.count + 1, sizeof *flight.counted),
@@ -271,20 +285,26 @@ static sp_coverage *evaluate(const sp_evaluator *evaluator, const sp_layout *lay
                          .reflections = reflections,
                          .lowest = lowest_point(evaluator),
                          .per_jet = per_jet};
-    bool done = flight.rays && flight.flow && flight.hits && flight.impacts && flight.counted;
-    if (!done)
-        sp_fail_memory(error);
-    done = done && sp_lit_create(evaluator, &flight.lit, error) && fly_layout(&flight, layout, error) &&
-           sp_coverage_conclude(evaluator, layout, coverage, error);
-    sp_lit_free(&flight.lit);
-    free(flight.counted);
-    free(flight.rays);
-    free(flight.flow);
-    free(flight.hits);
-    free(flight.impacts);
+    bool room = flight.rays && flight.flow && flight.hits && flight.impacts && flight.counted;
+    bool done = (room || sp_fail_memory(error)) &&
+                sp_tally_create(evaluator, &coverage->deposits, &flight.tally, error) &&
+                sp_lit_create(evaluator, &flight.lit, error) && fly_bodies(&flight, bodies, error) &&
+                sp_coverage_conclude(evaluator, bodies, coverage, error);
+    flight_free(&flight);
     coverage->balance.known = done;
     if (able)
         *able = flight.able;
+    return done;
+}
+
+static sp_coverage *evaluate(const sp_evaluator *evaluator, const sp_layout *layout, int reflections, double per_jet,
+                             double *able, sp_error *error)
+{
+    sp_bodies bodies;
+    sp_coverage *coverage =
+        sp_bodies_create(evaluator, layout, &bodies, error) ? sp_coverage_create(evaluator, error) : NULL;
+    bool done = coverage && evaluate_bodies(evaluator, &bodies, reflections, per_jet, able, coverage, error);
+    sp_bodies_free(&bodies);
     if (done)
         return coverage;
     sp_coverage_destroy(coverage);

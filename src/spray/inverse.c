@@ -1,12 +1,14 @@
 /* The inverse evaluator: for every patch, the closed-form flights that reach it, the share of it that lies inside the
  * spray and the pattern's density there. */
+#include "bodies.h"
 #include "reach.h"
+#include "tally.h"
 
 #include <stdlib.h>
 
-/* All arrivals of one nozzle at one patch, `first` to `end`. */
+/* All arrivals of one pattern at one patch, `first` to `end`. */
 static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *first, const sp_arrival *end,
-                      sp_deposits *deposits)
+                      sp_tally *tally)
 {
     const sp_setup *setup = &emitter->source.evaluator->setup;
     sp_wetting wetting = {0, 1, 0};
@@ -17,7 +19,7 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
         double mean = fmin(arrival->part * share * flux, left);
         left -= mean;
         if (share > 0)
-            sp_deposit(deposits, first->patch, mean, arrival->part, arrival->speed, arrival->incidence,
+            sp_deposit(tally->deposits, first->patch, mean, arrival->part, arrival->speed, arrival->incidence,
                        setup->liquid.density);
         if (!arrival->passes)
             continue;
@@ -25,10 +27,10 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
         sp_wetting_add(&wetting, flux, setup->criterion.flux, arrival->part, share,
                        sp_emitter_holds(emitter, arrival->direction));
     }
-    sp_count_wetting(emitter->source.evaluator, deposits, first->patch, counted, &wetting);
+    sp_tally_add(tally, first->patch, counted, &wetting);
 }
 
-static bool lay_nozzle(const sp_emitter *emitter, double flow, sp_coverage *coverage, sp_error *error)
+static bool lay_pattern(const sp_emitter *emitter, double flow, sp_tally *tally, sp_work *work, sp_error *error)
 {
     sp_aim aim = sp_aim_at(emitter->frame.z, sp_spray_reach(&emitter->spray));
     aim.emitter = emitter;
@@ -38,30 +40,45 @@ static bool lay_nozzle(const sp_emitter *emitter, double flow, sp_coverage *cove
     for (size_t i = 0, end; i < reach->count; i = end) {
         for (end = i + 1; end < reach->count && reach->arrivals[end].patch == reach->arrivals[i].patch;)
             end++;
-        lay_patch(emitter, flow, &reach->arrivals[i], &reach->arrivals[end], &coverage->deposits);
+        lay_patch(emitter, flow, &reach->arrivals[i], &reach->arrivals[end], tally);
     }
-    coverage->work.places += reach->work.places;
-    coverage->work.rays += reach->work.rays;
+    work->places += reach->work.places;
+    work->rays += reach->work.rays;
     sp_reach_destroy(reach);
+    return true;
+}
+
+static bool lay_bodies(const sp_evaluator *evaluator, const sp_bodies *bodies, sp_tally *tally, sp_work *work,
+                       sp_error *error)
+{
+    for (size_t b = 0; b < bodies->layout->count; b++) {
+        for (size_t i = bodies->first[b]; i < bodies->first[b + 1]; i++) {
+            const sp_nozzle *pattern = &bodies->patterns->nozzles[i];
+            sp_emitter emitter = sp_emitter_of(evaluator, pattern);
+            double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
+            if (flow > 0 && !lay_pattern(&emitter, flow, tally, work, error))
+                return false;
+        }
+        sp_tally_end_nozzle(tally);
+    }
     return true;
 }
 
 sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
 {
-    if (!evaluator || !layout || !sp_evaluator_takes(evaluator, layout, error))
+    if (!evaluator || !layout)
         return NULL;
-    sp_coverage *coverage = sp_coverage_create(evaluator, error);
-    if (!coverage)
-        return NULL;
-    bool done = true;
-    for (size_t i = 0; done && i < layout->count; i++) {
-        sp_emitter emitter = sp_emitter_of(evaluator, &layout->nozzles[i]);
-        double flow = sp_nozzle_flow(&layout->nozzles[i], &evaluator->setup.liquid);
-        done = !(flow > 0) || lay_nozzle(&emitter, flow, coverage, error);
-    }
-    if (!done || !sp_coverage_conclude(evaluator, layout, coverage, error)) {
-        sp_coverage_destroy(coverage);
-        return NULL;
-    }
-    return coverage;
+    sp_bodies bodies;
+    sp_tally tally = {0};
+    sp_coverage *coverage =
+        sp_bodies_create(evaluator, layout, &bodies, error) ? sp_coverage_create(evaluator, error) : NULL;
+    bool done = coverage && sp_tally_create(evaluator, &coverage->deposits, &tally, error) &&
+                lay_bodies(evaluator, &bodies, &tally, &coverage->work, error) &&
+                sp_coverage_conclude(evaluator, &bodies, coverage, error);
+    sp_tally_free(&tally);
+    sp_bodies_free(&bodies);
+    if (done)
+        return coverage;
+    sp_coverage_destroy(coverage);
+    return NULL;
 }

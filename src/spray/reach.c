@@ -247,7 +247,7 @@ sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 positio
 {
     sp_source source = {evaluator, position, speed};
     sp_aim aim = sp_aim_at(axis, half_angle);
-    aim.passing = true;
+    aim.passing = evaluator && !evaluator->everything;
     aim.first = first;
     aim.end = end;
     aim.known = known;

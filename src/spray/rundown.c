@@ -132,7 +132,7 @@ bool sp_rundown_create(sp_evaluator *evaluator, sp_error *error)
     rundown->cell = malloc((evaluator->patches.count + 1) * sizeof *rundown->cell);
     if (!rundown->cell)
         return sp_fail_memory(error);
-    rundown->walls = create_walls(evaluator, error);
+    rundown->walls = evaluator->everything ? evaluator : create_walls(evaluator, error);
     if (!rundown->walls)
         return false;
     const sp_evaluator *walls = rundown->walls;
@@ -150,11 +150,13 @@ bool sp_rundown_create(sp_evaluator *evaluator, sp_error *error)
     return measure_girth(walls, &rundown->girth) || sp_fail_memory(error);
 }
 
-void sp_rundown_destroy(sp_rundown *rundown)
+void sp_rundown_destroy(sp_evaluator *evaluator)
 {
+    sp_rundown *rundown = evaluator->rundown;
     if (!rundown)
         return;
-    sp_evaluator_destroy(rundown->walls);
+    if (rundown->walls != evaluator)
+        sp_evaluator_destroy(rundown->walls);
     sp_film_destroy(rundown->film);
     free(rundown->cell);
     free(rundown);
@@ -170,20 +172,43 @@ static sp_layout *part_of_layout(const sp_layout *layout, bool streams, sp_error
     return part;
 }
 
-/* What comes to every cell (m³/s) before it runs down. */
-static bool find_arriving(const sp_evaluator *walls, const sp_layout *layout, double *arriving, sp_error *error)
+/* What arrives (m³/s) on every cell. */
+static bool add_hits(const sp_evaluator *walls, const sp_layout *layout, double *hits, sp_error *error)
 {
-    sp_layout *streams = part_of_layout(layout, true, error);
-    sp_layout *sprays = streams ? part_of_layout(layout, false, error) : NULL;
-    sp_coverage *sprayed = sprays ? sp_evaluate_inverse(walls, sprays, error) : NULL;
-    bool done = sprayed != NULL;
-    for (size_t i = 0; done && i < walls->patches.count; i++)
-        arriving[i] = sprayed->deposits.flux[i] * walls->patches.area[i];
+    sp_coverage *hit = sp_evaluate_inverse(walls, layout, error);
+    for (size_t i = 0; hit && i < walls->patches.count; i++)
+        hits[i] = hit->deposits.flux[i] * walls->patches.area[i];
+    sp_coverage_destroy(hit);
+    return hit;
+}
+
+/* The same of solid streams, each spread over its disc. */
+static bool add_streams(const sp_evaluator *walls, const sp_layout *streams, double *arriving, sp_error *error)
+{
+    const sp_fluid *liquid = &walls->setup.liquid;
+    sp_discs discs;
+    double *hits = malloc((walls->patches.count + 1) * sizeof *hits);
+    bool done = sp_discs_create(&walls->patches, &discs, error) && (hits || sp_fail_memory(error));
     for (size_t i = 0; done && i < streams->count; i++) {
         sp_layout one = {.count = 1, .nozzles = &streams->nozzles[i]};
-        done = sp_discs_add(walls, &one, arriving, error);
+        done = add_hits(walls, &one, hits, error);
+        if (done)
+            sp_discs_add(&discs, liquid, sp_nozzle_flow(one.nozzles, liquid), hits, arriving);
     }
-    sp_coverage_destroy(sprayed);
+    sp_discs_free(&discs);
+    free(hits);
+    return done;
+}
+
+/* What comes to every cell (m³/s) before it runs down. */
+static bool find_arriving(const sp_rundown *rundown, const sp_layout *layout, double *arriving, sp_error *error)
+{
+    sp_evaluator walls = *rundown->walls; /* as the liquid hits them, before it runs down */
+    walls.rundown = NULL;
+    sp_layout *streams = part_of_layout(layout, true, error);
+    sp_layout *sprays = streams ? part_of_layout(layout, false, error) : NULL;
+    bool done = sprays && add_hits(&walls, sprays, arriving, error) &&
+                (!streams->count || add_streams(&walls, streams, arriving, error));
     sp_layout_destroy(sprays);
     sp_layout_destroy(streams);
     return done;
@@ -196,7 +221,7 @@ bool sp_rundown_find(const sp_rundown *rundown, const sp_layout *layout, sp_cove
     sp_film_balance *balance = &coverage->film;
     sp_film_ends ends = {0};
     *balance = (sp_film_balance){.known = true};
-    bool done = ((flow && film) || sp_fail_memory(error)) && find_arriving(rundown->walls, layout, flow, error) &&
+    bool done = ((flow && film) || sp_fail_memory(error)) && find_arriving(rundown, layout, flow, error) &&
                 sp_film_run(rundown->film, flow, film, &ends, error);
     for (size_t i = 0; done && i < count; i++)
         balance->arriving += flow[i];

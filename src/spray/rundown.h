@@ -6,7 +6,7 @@
 #include "state.h"
 
 typedef struct sp_rundown {
-    sp_evaluator *walls; /* owned: all wet sides, cleaned or not, in cells */
+    sp_evaluator *walls; /* all wet sides, cleaned or not, in cells: owned, or the evaluator itself */
     sp_film *film;       /* on them */
     uint32_t *cell;      /* [patches of the evaluator], the cell that holds each patch's point */
     double girth;        /* m, around all walls, seen from above */
@@ -16,10 +16,10 @@ typedef struct sp_rundown {
 
 /* The evaluator's rundown, where its criterion asks for film. True where it does not. */
 bool sp_rundown_create(sp_evaluator *evaluator, sp_error *error);
-/* Accepts NULL. */
-void sp_rundown_destroy(sp_rundown *rundown);
-/* Fills in the film of every patch, and where it ends, for what arrives on the walls from the layout at the first
- * impact: what a wall throws back is taken to run down it all the same. */
+/* Of the evaluator, which may have none. */
+void sp_rundown_destroy(sp_evaluator *evaluator);
+/* Fills in the film of every patch, and where it ends, for what arrives on the walls from a layout of nozzles of one
+ * pattern each at the first impact: what a wall throws back is taken to run down it all the same. */
 bool sp_rundown_find(const sp_rundown *rundown, const sp_layout *layout, sp_coverage *coverage, sp_error *error);
 
 #endif

@@ -1,5 +1,5 @@
 /* Whether a nozzle can stand where a layout puts it. */
-#include "state.h"
+#include "bodies.h"
 
 #include "mesh/distance.h"
 
@@ -14,10 +14,11 @@ static bool sees_cavity(const sp_evaluator *evaluator, sp_vec3 point)
            (!(sp_length(sight.velocity) > 0) || !sp_trace_occluded(evaluator->tracer, &sight, sp_v(0, 0, 0)));
 }
 
-bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle, sp_error *error)
+/* Where liquid leaves a nozzle. */
+static bool admits_exit(const sp_evaluator *evaluator, const sp_nozzle *exit, sp_error *error)
 {
     const sp_mesh *mesh = evaluator->setup.mesh;
-    sp_vec3 p = nozzle->position, told = sp_setup_outside(&evaluator->setup, p);
+    sp_vec3 p = exit->position, told = sp_setup_outside(&evaluator->setup, p);
     sp_vec3 low, high;
     double touch = TOUCH * sp_mesh_box(mesh, &low, &high);
     if (!sp_is_clear(mesh, p, touch, SP_NONE)) {
@@ -25,12 +26,23 @@ bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle,
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "nozzles: %s at [%.6g m, %.6g m, %.6g m] is in a wall, part \"%s\"; expected a place clear of "
                        "all surfaces",
-                       nozzle->name, told.x, told.y, told.z, mesh->parts[mesh->part[triangle]].name);
+                       exit->name, told.x, told.y, told.z, mesh->parts[mesh->part[triangle]].name);
     }
     if (sp_evaluator_inside(evaluator, p) || sees_cavity(evaluator, p))
         return true;
     return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "nozzles: %s at [%.6g m, %.6g m, %.6g m] is not inside the cavity; expected a place in the space "
                    "where the liquid flies",
-                   nozzle->name, told.x, told.y, told.z);
+                   exit->name, told.x, told.y, told.z);
+}
+
+bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle, sp_error *error)
+{
+    sp_layout one = {.count = 1, .nozzles = (sp_nozzle[]){*nozzle}};
+    sp_bodies bodies;
+    bool done = sp_bodies_create(evaluator, &one, &bodies, error);
+    for (size_t i = 0; done && i < bodies.patterns->count; i++)
+        done = admits_exit(evaluator, &bodies.patterns->nozzles[i], error);
+    sp_bodies_free(&bodies);
+    return done;
 }

@@ -94,11 +94,9 @@ sp_coverage *sp_coverage_create(const sp_evaluator *evaluator, sp_error *error);
  * until sp_coverage_conclude divides. Does not touch `counted`. */
 void sp_deposit(sp_deposits *deposits, uint32_t patch, double flux, double jets, double speed, double incidence,
                 double density);
-/* Adds to what the criterion counts what one nozzle brings to a patch: flux, m³/s per m², and where it falls. */
-void sp_count_wetting(const sp_evaluator *evaluator, sp_deposits *deposits, uint32_t patch, double counted,
-                      const sp_wetting *wetting);
 /* Divides the means, applies the criterion to `counted`, and draws the figures. */
-bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
+struct sp_bodies;
+bool sp_coverage_conclude(const sp_evaluator *evaluator, const struct sp_bodies *bodies, sp_coverage *coverage,
                           sp_error *error);
 
 #endif

@@ -1,4 +1,5 @@
 /* Verdicts: whether a layout covers a point, by closed form at the point itself. */
+#include "bodies.h"
 #include "emitter.h"
 
 #include <sprayplan/points.h>
@@ -8,7 +9,7 @@
 
 #define CHUNK 4096 /* points whose flights from a nozzle are traced together */
 
-/* The flights of one nozzle to a chunk of points, and what the points have received. */
+/* The flights of one pattern to a chunk of points, and what the points have received. */
 typedef struct {
     size_t count;
     uint32_t *point; /* [2 CHUNK], as what follows: of the chunk */
@@ -56,7 +57,7 @@ static void gather(const sp_emitter *emitter, double flow, const sp_point *point
     }
 }
 
-/* What one nozzle adds. Who is covered already stays so. */
+/* What one pattern adds. Who is covered already stays so. */
 static void spray(const sp_emitter *emitter, double flow, const sp_point *points, size_t count, flights *f,
                   bool *covered)
 {
@@ -67,8 +68,6 @@ static void spray(const sp_emitter *emitter, double flow, const sp_point *points
         if (!covered[i])
             gather(emitter, flow, &points[i], (uint32_t)i, f);
     sp_trace_occluded_many(evaluator->tracer, f->rays, f->count, evaluator->gravity, 1, f->blocked);
-    if (evaluator->setup.criterion.combine == SP_COMBINE_SINGLE)
-        memset(f->received, 0, count * sizeof *f->received);
     for (size_t i = 0; i < f->count; i++) {
         double *received = &f->received[f->point[i]];
         *received += f->blocked[i] ? 0 : f->flux[i];
@@ -76,29 +75,31 @@ static void spray(const sp_emitter *emitter, double flow, const sp_point *points
     }
 }
 
-static void judge(const sp_evaluator *evaluator, const sp_layout *layout, const sp_point *points, size_t count,
+static void judge(const sp_evaluator *evaluator, const sp_bodies *bodies, const sp_point *points, size_t count,
                   flights *f, bool *covered)
 {
     memset(covered, 0, count * sizeof *covered);
     memset(f->received, 0, count * sizeof *f->received);
-    for (size_t n = 0; n < layout->count; n++) {
-        sp_emitter emitter = sp_emitter_of(evaluator, &layout->nozzles[n]);
-        double flow = sp_nozzle_flow(&layout->nozzles[n], &evaluator->setup.liquid);
-        if (flow > 0)
-            spray(&emitter, flow, points, count, f, covered);
+    for (size_t b = 0; b < bodies->layout->count; b++) {
+        if (evaluator->setup.criterion.combine == SP_COMBINE_SINGLE)
+            memset(f->received, 0, count * sizeof *f->received);
+        for (size_t n = bodies->first[b]; n < bodies->first[b + 1]; n++) {
+            const sp_nozzle *pattern = &bodies->patterns->nozzles[n];
+            sp_emitter emitter = sp_emitter_of(evaluator, pattern);
+            double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
+            if (flow > 0)
+                spray(&emitter, flow, points, count, f, covered);
+        }
     }
 }
 
-bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_trajectory trajectory,
-                     const sp_point *points, size_t count, bool *covered, sp_error *error)
+/* False where memory ran out. */
+static bool judge_all(const sp_evaluator *truth, const sp_bodies *bodies, const sp_point *points, size_t count,
+                      bool *covered)
 {
-    if (!evaluator || !layout || !points || !sp_evaluator_takes(evaluator, layout, error))
-        return false;
-    sp_evaluator truth = *evaluator; /* the same but for how liquid flies */
-    truth.gravity = sp_gravity_for(&evaluator->setup, trajectory);
     bool done = true;
     size_t chunks = (count + CHUNK - 1) / CHUNK;
-    int threads = omp_in_parallel() ? 1 : sp_thread_count(evaluator->setup.run.threads);
+    int threads = omp_in_parallel() ? 1 : sp_thread_count(truth->setup.run.threads);
 #pragma omp parallel num_threads(threads) reduction(&& : done)
     {
         flights f;
@@ -107,9 +108,23 @@ bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_
         for (size_t c = 0; c < chunks; c++) {
             size_t first = c * CHUNK, part = count - first < CHUNK ? count - first : CHUNK;
             if (done)
-                judge(&truth, layout, points + first, part, &f, covered + first);
+                judge(truth, bodies, points + first, part, &f, covered + first);
         }
         flights_free(&f);
     }
-    return done || sp_fail_memory(error);
+    return done;
+}
+
+bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_trajectory trajectory,
+                     const sp_point *points, size_t count, bool *covered, sp_error *error)
+{
+    if (!evaluator || !layout || !points)
+        return false;
+    sp_evaluator truth = *evaluator; /* the same but for how liquid flies */
+    truth.gravity = sp_gravity_for(&evaluator->setup, trajectory);
+    sp_bodies bodies;
+    bool done = sp_bodies_create(evaluator, layout, &bodies, error) &&
+                (judge_all(&truth, &bodies, points, count, covered) || sp_fail_memory(error));
+    sp_bodies_free(&bodies);
+    return done;
 }

@@ -625,12 +625,31 @@ static void refused(const char *arguments, const char *complaint)
     forget(&result);
 }
 
+/* A proposal counts film as simulate does, with fewer nozzles or more coverage than without, and the same bytes for any
+ * number of threads; its bound holds. */
+static void film_is_placed_for(void **state)
+{
+    (void)state;
+    write_room_with("film.yaml", "{flux: 1 L/min/m2}", "{flux: 20 L/min/m2, film: 3 L/min/m}");
+    json_t *one = expect_json("place film.yaml --set simulate.texel=60mm -o proposed --json --threads 1", 4);
+    json_t *three = expect_json("place film.yaml --set simulate.texel=60mm --json --threads 3", 4);
+    json_t *layout = layout_named(one, "proposed"), *certificate = json_object_get(one, "certificate");
+    assert_true(number(json_object_get(layout, "film"), "covered_area_m2") > 0);
+    assert_true(number(certificate, "coverage_bound_same_water") >= number(certificate, "coverage"));
+    assert_true(json_equal(json_object_get(one, "layouts"), json_object_get(three, "layouts")));
+    assert_true(json_equal(json_object_get(one, "front"), json_object_get(three, "front")));
+    json_t *again = expect_json("simulate proposed/layout.yaml --json", 0);
+    assert_true(number(layout_named(again, "manual"), "coverage") == number(layout, "coverage"));
+    json_decref(one);
+    json_decref(three);
+    json_decref(again);
+}
+
 /* Where film is not counted, or cannot be, it is refused. */
 static void film_is_refused_where_it_is_not_counted(void **state)
 {
     (void)state;
     write_room_with("film.yaml", "flux: 1 L/min/m2", "film: 2 L/min/m");
-    refused("place film.yaml", "film: found, expected none");
     refused("study film.yaml", "film: found, expected none");
     write_file("nowhere.yaml", "geometry:\n  - file: room.obj\ncriterion: {film: 2 L/min/m}\n");
     refused("check nowhere.yaml", "nowhere.yaml:3:19: film: found without a cavity");
@@ -798,6 +817,7 @@ int main(void)
         cmocka_unit_test(simulate_says_where_the_liquid_goes),
         cmocka_unit_test(film_runs_down_the_walls),
         cmocka_unit_test(check_says_where_liquid_stands),
+        cmocka_unit_test(film_is_placed_for),
         cmocka_unit_test(film_is_refused_where_it_is_not_counted),
         cmocka_unit_test(atlas_keeps_every_triangle),
         cmocka_unit_test(out_of_time_place_writes_the_best_so_far),

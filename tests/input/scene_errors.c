@@ -365,7 +365,8 @@ static const slip catalogue_slips[] = {
     {"name: ring", "name: cone", "catalogue.yaml:3:12: name: found 'cone', expected a name that no other type has"},
     {"pattern: hollow_cone, ", "", "catalogue.yaml:3:5: pattern: found nothing, expected this key in a catalogue type"},
     {"pattern: hollow_cone", "pattern: spiral",
-     "catalogue.yaml:3:27: pattern: found 'spiral', expected full_cone, hollow_cone, flat_fan, solid_stream or "
+     "catalogue.yaml:3:27: pattern: found 'spiral', expected full_cone, hollow_cone, flat_fan, solid_stream, cluster "
+     "or "
      "rotating"},
     {"angle: 90 deg, flow", "flow", "catalogue.yaml:2:5: angle: found nothing, expected this key in a full_cone"},
     {"angle: 90 deg, flow", "angle: 400 deg, flow",
@@ -424,7 +425,11 @@ static const slip catalogue_slips[] = {
     {"pattern: solid_stream", "pattern: rotating, rotation: {}",
      "catalogue.yaml:5:46: jet: found nothing, expected this key in a rotation"},
     {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: rotating}}",
-     "catalogue.yaml:5:62: pattern: found 'rotating', expected full_cone, hollow_cone, flat_fan or solid_stream"},
+     "catalogue.yaml:5:62: pattern: found 'rotating', expected full_cone, hollow_cone, flat_fan or solid_stream "
+     "in a jet"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: cluster, members: []}}",
+     "catalogue.yaml:5:62: pattern: found 'cluster', expected full_cone, hollow_cone, flat_fan or solid_stream "
+     "in a jet"},
     {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: flat_fan, angle: 60 deg}}",
      "catalogue.yaml:5:52: thickness: found nothing, expected this key in a flat_fan"},
     {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: full_cone}}",
@@ -488,17 +493,77 @@ static const slip catalogue_slips[] = {
     {"nozzles:\n", "nozzles:\n  -\n", "catalogue.yaml:2:3: name: found nothing, expected this key in a catalogue type"},
 };
 
+/* Clusters and their members. */
+static const slip clusters[] = {
+    {"flow: 40 L/min", "flow: 40 L/min\n    angle: 360 deg",
+     "catalogue.yaml:11:12: angle: found in a cluster, expected angles in its members only"},
+    {"flow: 40 L/min", "flow: 40 L/min\n    angle_range: [10 deg, 20 deg]",
+     "catalogue.yaml:11:18: angle_range: found in a cluster, expected angles in its members only"},
+    {"flow: 40 L/min", "flow: 40 L/min\n    thickness: 8 deg",
+     "catalogue.yaml:11:16: thickness: found in a cluster, expected in a flat_fan only"},
+    {"pattern: cluster", "pattern: solid_stream",
+     "catalogue.yaml:13:7: members: found in a solid_stream, expected in a cluster only"},
+    {"pattern: full_cone, angle: 90 deg, flow: 12 L/min", "pattern: cluster, flow: 12 L/min",
+     "catalogue.yaml:2:5: members: found nothing, expected this key in a cluster"},
+    {"pattern: full_cone, angle: 90 deg, flow: 12 L/min", "pattern: cluster, members: [], flow: 12 L/min",
+     "catalogue.yaml:2:45: members: found an empty list, expected a list of patterns such as [{pattern: solid_stream, "
+     "axis: [0, 0, 1]}, ...]"},
+    {"pattern: full_cone, angle: 90 deg, flow: 12 L/min", "pattern: cluster, members: 12, flow: 12 L/min",
+     "catalogue.yaml:2:45: members: found '12', expected a list of patterns such as [{pattern: solid_stream, "
+     "axis: [0, 0, 1]}, ...]"},
+    {"{pattern: solid_stream, offset: [0, 0, 14 mm], share: 2}", "ball",
+     "catalogue.yaml:13:9: members: found 'ball', expected the keys of a member of a cluster"},
+    {"{pattern: solid_stream, offset", "{offset",
+     "catalogue.yaml:13:9: pattern: found nothing, expected this key in a member of a cluster"},
+    {"{pattern: solid_stream, offset", "{pattern: cluster, offset",
+     "catalogue.yaml:13:19: pattern: found 'cluster', expected full_cone, hollow_cone, flat_fan or solid_stream in a "
+     "cluster"},
+    {"{pattern: solid_stream, offset", "{pattern: spiral, offset",
+     "catalogue.yaml:13:19: pattern: found 'spiral', expected full_cone, hollow_cone, flat_fan, solid_stream, cluster "
+     "or "
+     "rotating"},
+    {"share: 2}", "flow: 2 L/min}",
+     "catalogue.yaml:13:56: flow: found a key that a member of a cluster does not have, expected one of pattern, "
+     "angle, hollow, thickness, axis, offset, roll, share, ring"},
+    {"share: 2}", "share: 0}",
+     "catalogue.yaml:13:63: share: found '0', expected a number without unit above 0 to 1e+06 such as 0.5"},
+    {"share: 2}", "share: 2 L/min}",
+     "catalogue.yaml:13:63: share: found '2 L/min', expected a number without unit above 0 to 1e+06 such as 0.5 "
+     "('L/min' measures something else)"},
+    {"[0, 0, 14 mm]", "14 mm",
+     "catalogue.yaml:13:41: offset: found '14 mm', expected a list of three values such as [0, 0, 1]"},
+    {"[0, 0, 14 mm]", "[0, 0, 14 deg]",
+     "catalogue.yaml:13:48: offset: found '14 deg', expected a length such as 250 mm ('deg' measures something else)"},
+    {"angle: 60 deg, thickness: 8 deg, axis", "angle: 60 deg, axis",
+     "catalogue.yaml:14:9: thickness: found nothing, expected this key in a flat_fan"},
+    {"[3, 0, 4]", "[0, 0, 0]",
+     "catalogue.yaml:14:68: axis: found a vector of length 0, expected a direction such as [0, 0, -1]"},
+    {"roll: 90 deg", "roll: 90",
+     "catalogue.yaml:14:85: roll: found '90', expected an angle such as 30 deg (it has no unit)"},
+    {"roll: 90 deg", "angle_range: [50 deg, 70 deg]",
+     "catalogue.yaml:14:79: angle_range: found a key that a member of a cluster does not have, expected one of "
+     "pattern, "
+     "angle, hollow, thickness, axis, offset, roll, share, ring"},
+    {"angle: 3 deg, ring", "axis: [0, 0, 1], ring",
+     "catalogue.yaml:15:39: axis: found beside a ring, expected one of them"},
+    {"count: 12, ", "", "catalogue.yaml:15:53: count: found nothing, expected this key in a ring"},
+    {"count: 12", "count: 0", "catalogue.yaml:15:61: count: found '0', expected a whole number from 1 to 1000"},
+    {"count: 12", "count: 999",
+     "catalogue.yaml:15:9: members: found more than 1000 patterns, expected at most as many"},
+    {"polar: 60 deg, ", "", "catalogue.yaml:15:53: polar: found nothing, expected this key in a ring"},
+    {"polar: 60 deg", "polar: 181 deg",
+     "catalogue.yaml:15:72: polar: found '181 deg', expected an angle from 0 to 180 deg such as 30 deg"},
+    {"radius: 14 mm", "radius: -14 mm",
+     "catalogue.yaml:15:88: radius: found '-14 mm', expected a length of at least 0 such as 250 mm"},
+    {"phase: 10 deg", "turn: 10 deg",
+     "catalogue.yaml:15:95: turn: found a key that a ring does not have, expected one of count, polar, radius, phase"},
+};
+
 /* Types that are not built yet. */
 static const slip catalogue_later[] = {
     {"pattern: full_cone, angle: 90 deg, flow: 12 L/min, at: 2 bar", "pattern: measured, image: a.png",
      "catalogue.yaml:2:27: pattern: found 'measured', which is not supported yet, expected full_cone, hollow_cone, "
-     "flat_fan, solid_stream or rotating"},
-    {"pattern: full_cone, angle: 90 deg, flow: 12 L/min, at: 2 bar", "pattern: cluster, members: []",
-     "catalogue.yaml:2:27: pattern: found 'cluster', which is not supported yet, expected full_cone, hollow_cone, "
-     "flat_fan, solid_stream or rotating"},
-    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: cluster}}",
-     "catalogue.yaml:5:62: pattern: found 'cluster', which is not supported yet, expected full_cone, hollow_cone, "
-     "flat_fan or solid_stream"},
+     "flat_fan, solid_stream, cluster or rotating"},
     {"drop: 2 mm", "image: a.png",
      "catalogue.yaml:4:110: image: found 'a.png', which is not supported yet, expected a type without this key"},
 };
@@ -593,6 +658,7 @@ static void catalogues(void **state)
 {
     (void)state;
     try_catalogues(catalogue_slips, COUNT(catalogue_slips), SP_ERROR_INPUT);
+    try_catalogues(clusters, COUNT(clusters), SP_ERROR_INPUT);
     try_catalogues(catalogue_later, COUNT(catalogue_later), SP_ERROR_UNSUPPORTED);
 }
 

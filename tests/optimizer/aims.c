@@ -150,7 +150,7 @@ static void stage_open(stage *s, sp_trajectory trajectory, bool sparse, uint64_t
     set_prices(s, sparse, random);
     assert_true(sp_aim_kinds_create(&s->search, &s->kinds, &error));
     assert_int_equal(s->kinds.count, TYPES);
-    s->poses = sp_pose_prices_create(&s->search, &s->cover, s->tier, s->need, s->ports, &error);
+    s->poses = sp_pose_prices_create(&s->search, &s->cover, s->tier, s->need, NULL, s->ports, &error);
     s->aims = sp_aim_prices_create(&s->search, &s->cover, &s->kinds, s->tiers, s->ports, s->poses, &error);
     assert_true(s->poses && s->aims);
 }
@@ -178,7 +178,9 @@ static double worth(const stage *s, uint32_t site, size_t speed, const sp_spray 
     float *field = calloc(s->search.patch_count, sizeof *field);
     double price = 0;
     assert_non_null(field);
-    sp_field_view(&s->search, view, spray, frame, flow / (spray->solid_angle * s->search.plenty), field);
+    sp_posed_spray posed = {
+        .spray = *spray, .frame = *frame, .strength = flow / (spray->solid_angle * s->search.plenty)};
+    sp_field_view(&s->search, view, &posed, field);
     for (size_t t = 0; t < s->search.patch_count; t++) {
         float share = field[t] < 0 ? -field[t] : fminf(1, field[t] / s->need[t]);
         float lifted = field[t] < 0 ? share : sp_lift(&s->lifts, s->prices.kind[t], share);

@@ -83,33 +83,69 @@ static void bench_close(bench *b)
     room_close(&b->room);
 }
 
-/* Largest difference between slopes and central differences over the largest slope, for one unknown. */
-static double worst_error(const bench *b, const sp_freedom *freedom, const sp_sight *sight, const double *values,
-                          size_t k, const double *slope)
+/* Levels of arrivals, and what they bring. */
+typedef struct {
+    double *level, *level_slope;
+    sp_brought brought;
+} looks;
+
+static looks looks_create(const sp_sight *sight)
 {
-    const sp_width width = {0.3, 0.1};
-    double step = 1e-5 * (freedom->high[k] - freedom->low[k]), worst = 0, largest = 0;
-    double *ahead = malloc(sight->count * sizeof *ahead), *behind = malloc(sight->count * sizeof *behind);
-    assert_true(ahead && behind);
-    double moved[SP_UNKNOWNS];
-    memcpy(moved, values, sizeof moved);
-    moved[k] = values[k] + step;
-    sp_levels(&b->search, freedom, sight, width, moved, ahead, NULL);
-    moved[k] = values[k] - step;
-    sp_levels(&b->search, freedom, sight, width, moved, behind, NULL);
+    looks l;
+    double **columns[] = {&l.level, &l.level_slope, &l.brought.amount, &l.brought.slope};
+    for (int i = 0; i < 4; i++) {
+        *columns[i] = malloc((sight->count + 1) * (i % 2 ? SP_UNKNOWNS : 1) * sizeof(double));
+        assert_non_null(*columns[i]);
+    }
+    return l;
+}
+
+static void looks_free(looks *l)
+{
+    free(l->level);
+    free(l->level_slope);
+    free(l->brought.amount);
+    free(l->brought.slope);
+}
+
+/* Largest difference between slopes and central differences over the largest slope, for one unknown. */
+static double worst_error(const double *ahead, const double *behind, const double *slope, size_t count, double step)
+{
+    double worst = 0, largest = 0;
     size_t off = 0;
-    for (size_t i = 0; i < sight->count; i++)
-        largest = fmax(largest, fabs(slope[k * sight->count + i]));
-    for (size_t i = 0; i < sight->count; i++) {
-        double miss = fabs((ahead[i] - behind[i]) / (2 * step) - slope[k * sight->count + i]) / largest;
+    for (size_t i = 0; i < count; i++)
+        largest = fmax(largest, fabs(slope[i]));
+    for (size_t i = 0; i < count; i++) {
+        double miss = fabs((ahead[i] - behind[i]) / (2 * step) - slope[i]) / largest;
         off += miss > 1e-4;
         worst = fmax(worst, miss);
     }
-    free(ahead);
-    free(behind);
     assert_true(largest > 0);
     /* where two edges of a pattern are equally near, or nothing is left of it, the slope has a corner */
-    return off > sight->count / 100 ? worst : 0;
+    return off > count / 100 ? worst : 0;
+}
+
+/* The same of levels, `by_level`, and of what is brought. */
+static double worst_of_unknown(const bench *b, const sp_freedom *freedom, const sp_sight *sight, const double *values,
+                               size_t k, const looks *here, bool by_level)
+{
+    const sp_width width = {0.3, 0.1};
+    double step = 1e-5 * (freedom->high[k] - freedom->low[k]), moved[SP_UNKNOWNS];
+    looks at[2] = {looks_create(sight), looks_create(sight)};
+    memcpy(moved, values, sizeof moved);
+    for (int i = 0; i < 2; i++) {
+        moved[k] = values[k] + (i ? -step : step);
+        sp_levels(&b->search, freedom, sight, width, moved, at[i].level, NULL,
+                  &(sp_brought){at[i].brought.amount, NULL});
+    }
+    size_t first = k * sight->count;
+    double worst =
+        worst_error(at[0].brought.amount, at[1].brought.amount, here->brought.slope + first, sight->count, step);
+    if (by_level)
+        worst = fmax(worst, worst_error(at[0].level, at[1].level, here->level_slope + first, sight->count, step));
+    looks_free(&at[0]);
+    looks_free(&at[1]);
+    return worst;
 }
 
 static void slopes_are_differences(void **state)
@@ -130,19 +166,16 @@ static void slopes_are_differences(void **state)
         double values[SP_UNKNOWNS];
         for (size_t k = 0; k < freedom.count; k++)
             values[k] = 0.4 * freedom.low[k] + 0.6 * freedom.high[k];
-        double *level = malloc(sight->count * sizeof *level);
-        double *slope = malloc(SP_UNKNOWNS * sight->count * sizeof *slope);
-        assert_true(level && slope);
-        sp_levels(&b.search, &freedom, sight, (sp_width){0.3, 0.1}, values, level, slope);
+        looks here = looks_create(sight);
+        sp_levels(&b.search, &freedom, sight, (sp_width){0.3, 0.1}, values, here.level, here.level_slope,
+                  &here.brought);
         for (size_t k = 0; k < freedom.count; k++) {
-            if (flux == 0 && freedom.kind[k] == SP_UNKNOWN_FLOW)
-                continue;
-            double worst = worst_error(&b, &freedom, sight, values, k, slope);
+            bool by_level = flux > 0 || freedom.kind[k] != SP_UNKNOWN_FLOW;
+            double worst = worst_of_unknown(&b, &freedom, sight, values, k, &here, by_level);
             if (worst > 0)
                 fail_msg("case %d, unknown %zu of kind %d: off by %g", i, k, (int)freedom.kind[k], worst);
         }
-        free(level);
-        free(slope);
+        looks_free(&here);
         bench_close(&b);
     }
 }

@@ -297,6 +297,50 @@ static inline void feeble_off_the_wall(recount_scene *s, double texel)
     scene_open(s, &b, texel);
 }
 
+#define FILM_TEXEL 0.08 /* the shortest of which a search with film takes as many as there are, soon enough */
+
+/* Film that runs down from several nozzles together, over boxes that stand on the floor; on the lid and the floor none
+ * runs. */
+static inline void film_over_boxes(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    room_box(&b, sp_v(-0.5, -0.3, 0), sp_v(-0.1, 0.1, 0.5), "box", "top");
+    room_box(&b, sp_v(0.3, 0, 0), sp_v(0.6, 0.4, 0.3), "other", "other top");
+    scene_type(s, SP_PATTERN_FULL_CONE, 110, 0, 12);
+    scene_type(s, SP_PATTERN_FLAT_FAN, 80, 6, 5.2);
+    scene_type(s, SP_PATTERN_SOLID_STREAM, 2, 0, 6.1);
+    s->room.setup.criterion =
+        (sp_criterion){.flux = 8 * LITRES_PER_MINUTE, .incidence = 60 * DEGREE, .film = 5 * LITRES_PER_MINUTE};
+    s->room.setup.gravity = 9.81;
+    s->mounts[0].tilt = 100 * DEGREE;
+    s->options.max_nozzles = 4;
+    s->options.max_water = 40 * LITRES_PER_MINUTE;
+    scene_open(s, &b, fmax(texel, FILM_TEXEL));
+}
+
+/* Where one nozzle alone must hit, films still add up; one is kept. */
+static inline void film_and_one_alone(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_type(s, SP_PATTERN_FULL_CONE, 120, 0, 9);
+    scene_type(s, SP_PATTERN_HOLLOW_CONE, 100, 0.8, 7);
+    s->room.setup.criterion =
+        (sp_criterion){.flux = 12 * LITRES_PER_MINUTE, .combine = SP_COMBINE_SINGLE, .film = 4 * LITRES_PER_MINUTE};
+    s->room.setup.gravity = 9.81;
+    s->mounts[0].tilt = 120 * DEGREE;
+    s->options.max_nozzles = 4;
+    s->kept[0] = (sp_nozzle){.name = "first",
+                             .type = &s->types[0],
+                             .position = sp_v(-0.5, 0, 0.8),
+                             .axis = sp_unit(sp_v(-1, 0.2, 0.4)),
+                             .pressure = 2e5,
+                             .keep = true};
+    s->kept_count = 1;
+    scene_open(s, &b, fmax(texel, FILM_TEXEL));
+}
+
 typedef struct {
     const char *name;
     bool hall;
@@ -320,6 +364,9 @@ static const recount_case recount_cases[] = {
     {"off the wall", false, false, true, off_the_wall},
     {"off the wall, refined", false, true, false, off_the_wall},
     {"feeble, off the wall", false, false, false, feeble_off_the_wall},
+    {"film over boxes", false, false, true, film_over_boxes},
+    {"film over boxes, refined", false, true, false, film_over_boxes},
+    {"film and one alone", false, false, false, film_and_one_alone},
 };
 #define RECOUNT_CASES (sizeof recount_cases / sizeof *recount_cases)
 

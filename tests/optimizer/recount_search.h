@@ -18,7 +18,7 @@
 
 typedef struct {
     uint32_t patch;
-    double even, dry;
+    double even, dry, film;
 } recount_mark;
 
 /* A nozzle that may be chosen. */
@@ -47,7 +47,7 @@ typedef struct {
     recount_choice *choices;
     recount_choice kept[2];
     size_t remembered;
-    double *even, *dry; /* [patches] */
+    double *even, *dry, *film; /* [patches] */
     uint64_t random;
     double best[RECOUNT_WAYS]; /* m² at the proposal's water */
     double least_water;        /* that covered as much as the proposal; INFINITY */
@@ -97,14 +97,14 @@ static inline void recount_know(recount *r, recount_choice *choice)
     assert_non_null(coverage);
     const sp_deposits *deposits = &coverage->deposits;
     for (size_t p = 0; p < deposits->count; p++)
-        choice->count += deposits->even[p] > 0 || deposits->dry[p] < 1;
+        choice->count += deposits->even[p] > 0 || deposits->dry[p] < 1 || deposits->film[p] > 0;
     choice->marks = malloc((choice->count + 1) * sizeof *choice->marks);
     assert_non_null(choice->marks);
     size_t count = 0;
     for (size_t p = 0; p < deposits->count; p++)
-        if (deposits->even[p] > 0 || deposits->dry[p] < 1)
-            choice->marks[count++] =
-                (recount_mark){.patch = (uint32_t)p, .even = deposits->even[p], .dry = deposits->dry[p]};
+        if (deposits->even[p] > 0 || deposits->dry[p] < 1 || deposits->film[p] > 0)
+            choice->marks[count++] = (recount_mark){
+                .patch = (uint32_t)p, .even = deposits->even[p], .dry = deposits->dry[p], .film = deposits->film[p]};
     r->remembered += count;
     choice->known = true;
     choice->flow = coverage->flow;
@@ -120,13 +120,15 @@ static inline void recount_pour(recount *r, recount_choice *choice)
         double *even = &r->even[mark->patch];
         *even = single ? fmax(*even, mark->even) : *even + mark->even;
         r->dry[mark->patch] *= mark->dry;
+        r->film[mark->patch] += mark->film;
     }
 }
 
 /* The area that a layout covers, kept nozzles included, m². */
 static inline double recount_area(recount *r, const recount_layout *layout)
 {
-    double threshold = r->scene->room.setup.criterion.flux, area = 0;
+    const sp_criterion *criterion = &r->scene->room.setup.criterion;
+    double area = 0;
     for (size_t i = 0; i < r->scene->kept_count; i++)
         recount_know(r, &r->kept[i]);
     for (size_t i = 0; i < layout->count; i++)
@@ -137,13 +139,16 @@ static inline double recount_area(recount *r, const recount_layout *layout)
     for (size_t p = 0; p < r->patches->count; p++) {
         r->even[p] = 0;
         r->dry[p] = 1;
+        r->film[p] = 0;
     }
     for (size_t i = 0; i < r->scene->kept_count; i++)
         recount_pour(r, &r->kept[i]);
     for (size_t i = 0; i < layout->count; i++)
         recount_pour(r, &r->choices[layout->item[i]]);
     for (size_t p = 0; p < r->patches->count; p++)
-        area += sp_wetting_share(&(sp_wetting){r->even[p], r->dry[p], 0}, threshold) * r->patches->area[p];
+        area += criterion->film > 0 && r->film[p] >= criterion->film
+                    ? r->patches->area[p]
+                    : sp_wetting_share(&(sp_wetting){r->even[p], r->dry[p], 0}, criterion->flux) * r->patches->area[p];
     r->tried++;
     return area;
 }
@@ -448,7 +453,8 @@ static inline void recount_open(recount *r, const recount_scene *scene, const sp
                    .aim_margin = INFINITY};
     r->even = malloc(r->patches->count * sizeof *r->even);
     r->dry = malloc(r->patches->count * sizeof *r->dry);
-    assert_true(r->even && r->dry);
+    r->film = malloc(r->patches->count * sizeof *r->film);
+    assert_true(r->even && r->dry && r->film);
     assert_true(sp_sites_create(scene->room.evaluator, &scene->options, &r->sites, &error));
     assert_true(sp_candidates_create(scene->room.evaluator, &scene->options, &r->sites, &r->candidates, &error));
     recount_list_poses(r);
@@ -467,6 +473,7 @@ static inline void recount_close(recount *r)
         recount_forget(r, &r->kept[i]);
     free(r->choices);
     free(r->even);
+    free(r->film);
     free(r->dry);
     sp_candidates_free(&r->candidates);
     sp_sites_free(&r->sites);

@@ -1,5 +1,5 @@
 /* What the report's pictures show. */
-#include "report/camera.h"
+#include "report/overlay.h"
 
 #include "tank.h"
 
@@ -42,10 +42,53 @@ static void nozzles_around_a_machine_are_in_the_picture(void **state)
     sp_mesh_destroy(mesh);
 }
 
+static size_t count(const char *text, const char *part)
+{
+    size_t found = 0;
+    for (const char *at = text; (at = strstr(at, part)); at++)
+        found++;
+    return found;
+}
+
+/* One dot and one name, with an outline for each pattern. */
+static void a_cluster_is_one_nozzle_that_sprays_several_ways(void **state)
+{
+    (void)state;
+    sp_error error = {0};
+    sp_mesh *mesh = tank_mesh(24, &error);
+    sp_setup setup = tank_setup(mesh, 0.05);
+    sp_evaluator *evaluator = sp_evaluator_create(&setup, &error);
+    assert_non_null(evaluator);
+    sp_member members[3];
+    for (int i = 0; i < 3; i++)
+        members[i] =
+            (sp_member){.type = tank_types[i % 2], .axis = sp_v(sin(i), 0, cos(i)), .offset = {0, 0, 0.01}, .share = 1};
+    sp_nozzle_type type = tank_types[0];
+    type.pattern = SP_PATTERN_CLUSTER;
+    type.member_count = 3;
+    type.members = members;
+    sp_nozzle nozzle = tank_manual[0];
+    nozzle.type = &type;
+    sp_layout layout = {1, &nozzle};
+    sp_camera camera = sp_camera_create(evaluator, &(sp_result){0}, &sp_views[0], 900);
+    sp_text text = {0};
+    sp_overlay_nozzles(&text, &camera, evaluator, &layout);
+    char *markup = sp_text_finish(&text, &error), *csv = sp_nozzles_csv(&layout, &setup, &error);
+    assert_int_equal(count(markup, "class=\"nozzle\""), 1);
+    assert_int_equal(count(markup, "class=\"name\""), 1);
+    assert_int_equal(count(markup, "class=\"spray\""), 3);
+    assert_int_equal(count(csv, "\n"), 2);
+    free(markup);
+    free(csv);
+    sp_evaluator_destroy(evaluator);
+    sp_mesh_destroy(mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nozzles_around_a_machine_are_in_the_picture),
+        cmocka_unit_test(a_cluster_is_one_nozzle_that_sprays_several_ways),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

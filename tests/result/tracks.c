@@ -32,6 +32,7 @@ static const char turning_scene[] =
     "  - {name: C, type: slow, position: [0.1, 0.2, 0.3], axis: [0, 1, 0], pressure: 4 bar}\n"
     "place:\n"
     "  pressure: 3 bar\n"
+    "  types: [plain, fan]\n"
     "  mounts: [{port: {name: P, position: [0.2, 0.2, 0.3], axis: [0, 0, -1]}}]\n";
 
 static int make(void **state)
@@ -125,16 +126,16 @@ static void placement_refuses_what_rotates(void **state)
     sp_place_options options = sp_scene_place_options(scene);
     assert_null(sp_place(evaluator, &options, &by_type));
     assert_int_equal(by_type.kind, SP_ERROR_INPUT);
-    assert_non_null(strstr(by_type.message, "type fan rotates"));
+    assert_non_null(strstr(by_type.message, "'fan', which rotates"));
     assert_null(sp_study_create(setup, layout, &options, NULL, &by_study));
-    assert_non_null(strstr(by_study.message, "type fan rotates"));
+    assert_non_null(strstr(by_study.message, "'fan', which rotates"));
     options.type_count = 1; /* plain */
     assert_true(sp_place_takes(&options, &none));
     sp_layout *kept = sp_layout_create(layout->nozzles, layout->count, &none);
     kept->nozzles[2].keep = true;
     options.kept = kept;
     assert_false(sp_place_takes(&options, &by_kept));
-    assert_non_null(strstr(by_kept.message, "type slow rotates"));
+    assert_non_null(strstr(by_kept.message, "'slow', rotates"));
     sp_layout_destroy(kept);
     sp_evaluator_destroy(evaluator);
     sp_scene_destroy(scene);

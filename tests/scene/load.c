@@ -267,6 +267,40 @@ static void types(void **state)
     sp_scene_destroy(scene);
 }
 
+/* 2 + 1 + 12 shares; place does not take it without being told so. */
+static void clusters(void **state)
+{
+    (void)state;
+    sp_scene *scene =
+        load("geometry: [{file: tank.obj}]\ncatalogue: catalogue.yaml\n"
+             "nozzles: [{name: N1, type: ball, position: [0, 0, 0], axis: [0, 0, 1], pressure: 6 bar}]\n");
+    assert_int_equal(sp_scene_place_options(scene).type_count, 5);
+    const sp_nozzle *nozzle = &sp_scene_layout(scene)->nozzles[0];
+    const sp_nozzle_type *ball = nozzle->type;
+    assert_int_equal(ball->pattern, SP_PATTERN_CLUSTER);
+    assert_int_equal(ball->member_count, 14);
+    assert_true(ball->angle == 0 && ball->angle_max == 0);
+    assert_true(fabs(sp_nozzle_flow(nozzle, &sp_scene_setup(scene)->liquid) - 2 * 40e-3 / 60) < 1e-16);
+    const sp_member *members = ball->members, *last = &members[13];
+    assert_int_equal(members[0].type.pattern, SP_PATTERN_SOLID_STREAM);
+    assert_string_equal(members[0].type.name, "ball");
+    near(members[0].type.angle, M_PI / 180);
+    near_vector(members[0].axis, 0, 0, 1);
+    near_vector(members[0].offset, 0, 0, 0.014);
+    near(members[0].share, 2);
+    near(members[1].type.thickness, 8 * M_PI / 180);
+    near_vector(members[1].axis, 0.6, 0, 0.8);
+    near(members[1].roll, M_PI / 2);
+    near(members[1].share, 1);
+    double longitude = (10 + 330) * M_PI / 180, level = sqrt(0.75);
+    sp_vec3 outwards = sp_v(level * cos(longitude), level * sin(longitude), 0.5);
+    assert_true(sp_distance(last->axis, outwards) < 1e-14);
+    assert_true(sp_distance(last->offset, sp_scale(outwards, 0.014)) < 1e-16);
+    near(last->type.angle, M_PI / 60);
+    assert_true(fabs(sp_nozzle_angle(nozzle) - 2 * (acos(0.8) + acos(cos(M_PI / 6) * cos(M_PI / 45)))) < 1e-13);
+    sp_scene_destroy(scene);
+}
+
 static void overrides(void **state)
 {
     (void)state;
@@ -322,6 +356,7 @@ int main(void)
         cmocka_unit_test(only_addresses_are_linked),
         cmocka_unit_test(mounts),
         cmocka_unit_test(types),
+        cmocka_unit_test(clusters),
         cmocka_unit_test(overrides),
         cmocka_unit_test(nothing),
     };

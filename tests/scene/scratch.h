@@ -36,7 +36,15 @@ static const char catalogue[] =
     "mm}\n"
     "  - {name: jet, pattern: solid_stream, flow: 5 L/min, at: 2 bar}\n"
     "  - {name: set, pattern: full_cone, angle: 90 deg, flow: 20 L/min, at: 2 bar,\n"
-    "     angle_range: [60 deg, 120 deg], flow_range: [10 L/min, 30 L/min]}\n";
+    "     angle_range: [60 deg, 120 deg], flow_range: [10 L/min, 30 L/min]}\n"
+    "  - name: ball\n"
+    "    pattern: cluster\n"
+    "    flow: 40 L/min\n"
+    "    at: 1.5 bar\n"
+    "    members:\n"
+    "      - {pattern: solid_stream, offset: [0, 0, 14 mm], share: 2}\n"
+    "      - {pattern: flat_fan, angle: 60 deg, thickness: 8 deg, axis: [3, 0, 4], roll: 90 deg}\n"
+    "      - {pattern: solid_stream, angle: 3 deg, ring: {count: 12, polar: 60 deg, radius: 14 mm, phase: 10 deg}}\n";
 
 static inline int scratch_make(void **state)
 {

@@ -68,7 +68,10 @@ static void same_type(const sp_nozzle_type *a, const sp_nozzle_type *b)
 {
     assert_string_equal(a->name, b->name);
     assert_int_equal(a->pattern, b->pattern);
-    assert_memory_equal(&a->angle, &b->angle, sizeof *a - offsetof(sp_nozzle_type, angle));
+    assert_memory_equal(&a->angle, &b->angle, offsetof(sp_nozzle_type, members) - offsetof(sp_nozzle_type, angle));
+    for (size_t i = 0; i < a->member_count; i++)
+        assert_memory_equal(&a->members[i].offset, &b->members[i].offset,
+                            sizeof *a->members - offsetof(sp_member, offset));
 }
 
 static void same_layout(const sp_layout *a, const sp_layout *b)
@@ -244,6 +247,18 @@ static void overridden(void **state)
     sp_scene_destroy(scene);
 }
 
+static void clusters(void **state)
+{
+    (void)state;
+    char *text = with(full_scene, "type: cone", "type: ball");
+    scratch_write("scene.yaml", text);
+    free(text);
+    sp_scene *scene = load("scene.yaml");
+    assert_int_equal(sp_scene_layout(scene)->nozzles[0].type->member_count, 14);
+    check_in(scene, sp_scene_layout(scene), ".", "ball.yaml");
+    sp_scene_destroy(scene);
+}
+
 static void refused(const sp_scene *scene, const sp_layout *layout, const sp_fidelity *fidelity, const char *message)
 {
     sp_error error = {0};
@@ -301,7 +316,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(elsewhere), cmocka_unit_test(paths),   cmocka_unit_test(overridden),
-        cmocka_unit_test(refusals),  cmocka_unit_test(no_text),
+        cmocka_unit_test(refusals),  cmocka_unit_test(no_text), cmocka_unit_test(clusters),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

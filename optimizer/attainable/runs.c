@@ -1,0 +1,143 @@
+#include "attainable/runs.h"
+
+#include "attainable/coarse_patch.h"
+#include "scoring/scoring.h"
+
+#include <omp.h>
+#include <stdlib.h>
+
+typedef struct {
+    const sp_search *search;
+    const sp_scope *scopes;
+    size_t count;    /* of patches that are asked about */
+    uint32_t *asked; /* [count], coarse */
+    size_t places;   /* offers for each */
+    int threads;
+    sp_offer *offers; /* [threads][count][2][places] */
+    sp_sweeper *sweepers;
+    double water_left; /* m³/s */
+} running;
+
+static sp_place_offers offers_of(const running *r, int thread, size_t i)
+{
+    sp_offer *first = &r->offers[((size_t)thread * r->count + i) * 2 * r->places];
+    return (sp_place_offers){first, first + r->places, r->places};
+}
+
+/* Coarse patches in which something is not attained yet. */
+static bool list_asked(running *r, const sp_evaluator *fine, const sp_reason *reasons)
+{
+    const sp_evaluator *coarse = r->search->coarse;
+    bool *wanted = calloc(r->search->patch_count + 1, sizeof *wanted);
+    r->asked = malloc((r->search->patch_count + 1) * sizeof *r->asked);
+    for (size_t p = 0; wanted && p < sp_evaluator_patches(fine)->count; p++) {
+        uint32_t patch = reasons[p] == SP_REASON_ATTAINABLE ? SP_NONE : sp_coarse_patch(fine, coarse, p);
+        if (patch != SP_NONE)
+            wanted[patch] = true;
+    }
+    for (uint32_t p = 0; wanted && r->asked && p < r->search->patch_count; p++)
+        if (wanted[p])
+            r->asked[r->count++] = p;
+    bool done = wanted && r->asked;
+    free(wanted);
+    return done;
+}
+
+/* All that a make at a site offers. */
+static void look_at_make(const running *r, int thread, uint32_t site, uint32_t make)
+{
+    const sp_search *search = r->search;
+    const sp_make *own = &search->candidates->makes[make];
+    const sp_scope *scope = &r->scopes[make];
+    sp_sweeper *sweeper = &r->sweepers[thread];
+    uint32_t mount = search->sites->items[site].mount;
+    size_t place = search->options->mounts[mount].kind == SP_MOUNT_PORT ? mount : search->options->mount_count;
+    size_t axes = sp_candidates_axes(search->candidates, mount, make)->count;
+    if (scope->flow_low > r->water_left || search->port_taken[mount])
+        return;
+    for (uint32_t a = 0; a < axes; a++)
+        for (uint32_t roll = 0; roll < own->roll_count; roll++) {
+            const float *film = sp_sweeper_field(sweeper, a, roll) + search->patch_count;
+            for (size_t i = 0; i < r->count; i++) {
+                double ratio = (double)film[r->asked[i]] / own->flow;
+                sp_place_offers offers = offers_of(r, thread, i);
+                if (ratio > 0)
+                    sp_place_offers_take(&offers, place,
+                                         (sp_offer){ratio, scope->flow_low, fmin(scope->flow_high, r->water_left)});
+            }
+        }
+}
+
+static void look_at_sites(const running *r, const sp_draft *nothing)
+{
+    const sp_candidates *candidates = r->search->candidates;
+#pragma omp parallel for num_threads(r->threads) schedule(dynamic, 1)
+    for (size_t site = 0; site < r->search->sites->count; site++)
+        for (uint32_t k = 0; k < candidates->make_count; k++) {
+            int thread = omp_get_thread_num();
+            sp_sweeper_look(&r->sweepers[thread], r->search, nothing, (uint32_t)site, candidates->makes[k].speed_class);
+            if (!r->sweepers[thread].view->start)
+                continue;
+            sp_sweeper_take(&r->sweepers[thread], k);
+            look_at_make(r, thread, (uint32_t)site, k);
+        }
+    sp_sweepers_forget(r->sweepers, r->threads);
+}
+
+/* Whether all threads' offers suffice for what is asked about i-th. */
+static bool suffice(const running *r, size_t i)
+{
+    const sp_search *search = r->search;
+    sp_place_offers all = offers_of(r, 0, i);
+    size_t most = search->options->max_nozzles, left = most > search->kept_count ? most - search->kept_count : 0;
+    for (int t = 1; t < r->threads; t++) {
+        sp_place_offers more = offers_of(r, t, i);
+        for (size_t place = 0; place < r->places; place++) {
+            sp_place_offers_take(&all, place, more.strongest[place]);
+            sp_place_offers_take(&all, place, more.thriftiest[place]);
+        }
+    }
+    return sp_place_offers_suffice(&all, most ? left : SIZE_MAX, r->water_left,
+                                   1 - (double)search->kept_film[r->asked[i]]);
+}
+
+static void note(const running *r, const sp_evaluator *fine, const bool *attained, sp_reason *reasons)
+{
+    for (size_t p = 0; p < sp_evaluator_patches(fine)->count; p++) {
+        uint32_t patch = reasons[p] == SP_REASON_ATTAINABLE ? SP_NONE : sp_coarse_patch(fine, r->search->coarse, p);
+        if (patch != SP_NONE && attained[patch])
+            reasons[p] = SP_REASON_ATTAINABLE;
+    }
+}
+
+bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_reason *reasons,
+             sp_error *error)
+{
+    running r = {.search = search,
+                 .scopes = scopes,
+                 .places = search->options->mount_count + 1,
+                 .threads = sp_sweeper_threads(search),
+                 .water_left = search->options->max_water - search->kept_flow};
+    sp_draft nothing = {0};
+    if (!search->runoffs)
+        return true;
+    bool *attained = calloc(search->patch_count + 1, sizeof *attained);
+    bool done = (attained && list_asked(&r, fine, reasons)) || sp_fail_memory(error);
+    if (done && r.count) {
+        r.offers = calloc((size_t)r.threads * r.count, 2 * r.places * sizeof *r.offers);
+        r.sweepers = r.offers ? sp_sweepers_create(search, r.threads, error) : sp_fail_memory(error);
+        done = r.sweepers && sp_draft_create(search, &nothing, error);
+        if (done)
+            look_at_sites(&r, &nothing);
+        for (size_t i = 0; done && i < r.count; i++)
+            attained[r.asked[i]] = suffice(&r, i);
+        if (done)
+            note(&r, fine, attained, reasons);
+    }
+    sp_draft_free(&nothing);
+    sp_sweepers_destroy(r.sweepers, r.threads);
+    free(r.offers);
+    free(r.asked);
+    free(attained);
+    return done;
+}

@@ -1,0 +1,203 @@
+#include "scoring/field.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+sp_posed_spray sp_posed_spray_of(const sp_search *search, const sp_nozzle *nozzle)
+{
+    const sp_setup *setup = sp_evaluator_setup(search->coarse);
+    sp_posed_spray posed = {.spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle)),
+                            .frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up),
+                            .strength = INFINITY,
+                            .type = nozzle->type,
+                            .flow = sp_nozzle_flow(nozzle, &setup->liquid)};
+    if (search->threshold > 0)
+        posed.strength = posed.flow / (posed.spray.solid_angle * search->threshold);
+    return posed;
+}
+
+float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 d, double breadth, double transfer)
+{
+    const sp_frame *frame = &posed->frame;
+    double flux = transfer > 0 ? posed->strength * transfer : 0;
+    if (flux >= 1) {
+        float share = (float)sp_spray_share(&posed->spray, frame, d, breadth);
+        return share < 1 ? -share : (float)flux;
+    }
+    sp_vec3 local = sp_v(sp_dot(d, frame->x), sp_dot(d, frame->y), sp_dot(d, frame->z));
+    return sp_spray_intensity(&posed->spray, local) > 0 ? (float)flux : 0;
+}
+
+sp_field_making sp_field_begin(const sp_search *search, const sp_posed_spray *posed, double scale, float *field)
+{
+    sp_field_making making = {.search = search, .posed = *posed, .field = field};
+    memset(field, 0, search->field_count * sizeof *field);
+    if (search->runoffs) {
+        making.runoff = sp_search_runoff(search);
+        making.arriving = sp_runoff_arriving(making.runoff);
+        making.intensity = posed->flow / (posed->spray.solid_angle * scale);
+    }
+    return making;
+}
+
+void sp_field_add(const sp_field_making *making, uint32_t patch, bool passes, sp_vec3 direction, double breadth,
+                  double transfer, float part)
+{
+    const sp_posed_spray *posed = &making->posed;
+    float *value = &making->field[patch];
+    if (making->runoff) {
+        double share = sp_spray_share(&posed->spray, &posed->frame, direction, breadth);
+        making->arriving[patch] += share * (double)part * making->intensity * fmax(0, transfer);
+    }
+    if (passes)
+        *value = sp_field_join(*value, sp_posed_spray_value(posed, direction, breadth, transfer), part);
+}
+
+void sp_field_end(const sp_field_making *making)
+{
+    const sp_search *search = making->search;
+    if (!making->runoff)
+        return;
+    /* no patch receives more than there is, however dense the flights are at its points */
+    const double *area = sp_evaluator_patches(search->coarse)->area;
+    for (size_t p = 0; p < search->patch_count; p++) {
+        double all = making->arriving[p] * area[p], flow = making->posed.flow;
+        making->arriving[p] = all < flow ? all : flow;
+    }
+    sp_runoff_find(making->runoff, making->posed.type, making->posed.flow, making->field + search->patch_count);
+}
+
+void sp_field_view(const sp_search *search, const sp_view *view, const sp_posed_spray *posed, float *field)
+{
+    const sp_bins *bins = &search->visibility->bins;
+    float z[3] = {(float)posed->frame.z.x, (float)posed->frame.z.y, (float)posed->frame.z.z};
+    sp_field_making making = sp_field_begin(search, posed, search->view_area, field);
+    sp_cull cull;
+    if (!view->start)
+        return;
+    sp_cull_create(bins, view, &posed->spray, SP_COUNT_SHARE, &cull);
+    for (size_t b = 0; b < SP_BINS; b++) {
+        if (bins->x[b] * z[0] + bins->y[b] * z[1] + bins->z[b] * z[2] < cull.outside[b])
+            continue;
+        for (uint32_t i = view->start[b]; i < view->start[b + 1]; i++) {
+            sp_vec3 d = sp_unit(sp_v((double)view->x[i], (double)view->y[i], (double)view->z[i]));
+            sp_field_add(&making, view->patch[i], !(view->fails && view->fails[i]), d, 1 / (double)view->sharp[i],
+                         (double)view->transfer[i], sp_view_part(view, i));
+        }
+    }
+    sp_field_end(&making);
+}
+
+/* What one swept arrival comes to; `count` is its share where it meets the criterion alone, else whether the spray
+ * holds it. */
+static inline float swept_value(float flux, float count)
+{
+    float alone = count < 1 ? -count : flux;
+    return flux >= 1 ? alone : count > 0 ? flux : 0;
+}
+
+void sp_field_sweep(const sp_search *search, const sp_field_sweeper *sweeper, const sp_make *make,
+                    const sp_region *region, float *field)
+{
+    const sp_view *view = sweeper->view;
+    sp_posed_spray posed = {.spray = make->spray, .type = make->type, .flow = make->flow};
+    sp_field_making making = sp_field_begin(search, &posed, search->view_area, field);
+    float strength = (float)sp_make_strength(search, make) * (1 + sweeper->more);
+    float intensity = (float)making.intensity * (1 + sweeper->more);
+    size_t runs = search->sweeps->shares(&search->visibility->bins, sweeper->cull, region, view, sweeper->share,
+                                         sweeper->counts, sweeper->runs);
+    for (size_t r = 0; r < runs; r++)
+        for (uint32_t i = sweeper->runs[r].first; i < sweeper->runs[r].end; i++) {
+            uint32_t p = view->patch[i];
+            float share = sweeper->share[i], part = sp_view_part(view, i),
+                  flux = view->transfer[i] > 0 ? strength * view->transfer[i] : 0;
+            if (share > 0)
+                making.arriving[p] += (double)((share + sweeper->more) * part * view->transfer[i] * intensity);
+            if (sweeper->counts[i] > 0 && !(view->fails && view->fails[i]))
+                field[p] = sp_field_join(field[p], swept_value(flux, sweeper->counts[i]), part);
+        }
+    sp_field_end(&making);
+}
+
+double sp_make_strength(const sp_search *search, const sp_make *make)
+{
+    return search->plenty > 0 ? make->flow / (make->spray.solid_angle * search->plenty) : INFINITY;
+}
+
+void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
+{
+    const sp_make *make = &search->candidates->makes[pose.make];
+    sp_desk *desk = NULL;
+    const sp_view *view = sp_visibility_look(search->visibility, pose.site, make->speed_class, &desk);
+    sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
+    sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
+    sp_posed_spray posed = {.spray = make->spray,
+                            .frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, up),
+                            .strength = sp_make_strength(search, make),
+                            .type = make->type,
+                            .flow = make->flow};
+    sp_field_view(search, view, &posed, field);
+    sp_visibility_leave(search->visibility, &desk);
+}
+
+/* What is in reach of a nozzle, where a draft is given only on the patches that it leaves dry, unless film runs from
+ * one to the next. */
+static sp_reach *reach_of(const sp_search *search, const sp_nozzle *nozzle, const sp_draft *draft, sp_error *error)
+{
+    sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
+    double speed = sp_nozzle_speed(nozzle, &sp_evaluator_setup(search->coarse)->liquid);
+    double half_angle = fmin(M_PI, sp_spray_reach(&spray) + 1e-6);
+    if (search->runoffs)
+        return sp_evaluator_reach(search->coarse, nozzle->position, speed, nozzle->axis, half_angle, error);
+    bool *dry = draft ? malloc((search->patch_count + 1) * sizeof *dry) : NULL;
+    if (draft && !dry)
+        return sp_fail_memory(error);
+    for (size_t p = 0; dry && p < search->patch_count; p++)
+        dry[p] = draft->wet[p] < SP_ENOUGH;
+    sp_reach *reach =
+        sp_evaluator_reach_passing(search->coarse, nozzle->position, speed, nozzle->axis, half_angle, dry, error);
+    free(dry);
+    return reach;
+}
+
+bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, const sp_draft *draft, float *field,
+                     sp_error *error)
+{
+    sp_reach *reach = reach_of(search, nozzle, draft, error);
+    if (!reach)
+        return false;
+    sp_posed_spray posed = sp_posed_spray_of(search, nozzle);
+    sp_field_making making = sp_field_begin(search, &posed, 1, field);
+    for (size_t i = 0; i < reach->count; i++) {
+        const sp_arrival *arrival = &reach->arrivals[i];
+        sp_field_add(&making, arrival->patch, arrival->passes, arrival->direction, arrival->breadth, arrival->transfer,
+                     (float)arrival->part);
+    }
+    sp_field_end(&making);
+    sp_reach_destroy(reach);
+    return true;
+}
+
+double sp_field_gain(const sp_search *search, const sp_draft *draft, const float *field)
+{
+    double gain = 0;
+    if (draft->film)
+        return sp_field_score(search, draft, field).gain;
+    for (size_t p = 0; p < search->patch_count; p++)
+        if (field[p] != 0 && draft->wet[p] < SP_ENOUGH) {
+            float wet = draft->wet[p], dry = draft->dry[p];
+            sp_pour(search, field[p], &wet, &dry);
+            gain += (double)(search->area[p] *
+                             (sp_worth(search, wet, dry) - sp_worth(search, draft->wet[p], draft->dry[p])));
+        }
+    return gain * search->all;
+}
+
+sp_score sp_field_score(const sp_search *search, const sp_draft *draft, const float *field)
+{
+    sp_credit credit = {search->single, search->credit, 0};
+    sp_wetted wetted = {search->patch_count, search->area, draft->hit, draft->film, draft->wet, draft->dry};
+    double sums[2];
+    search->sweeps->score(&credit, &wetted, field, field + search->patch_count, sums);
+    return (sp_score){sums[0] * search->all, sums[1] * search->all};
+}

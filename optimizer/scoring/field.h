@@ -1,0 +1,74 @@
+/* Fields: what one nozzle brings to every patch, and what that adds to a draft. */
+#ifndef OPTIMIZER_FIELD_H
+#define OPTIMIZER_FIELD_H
+
+#include "scoring/draft.h"
+
+typedef struct {
+    double gain; /* m² by which the draft's value would rise */
+    double room; /* m² by which it could rise at most, whatever the flow: never grows while a draft only grows */
+} sp_score;
+
+/* The worth of a patch per m² at this flux over threshold on all of it, `dry` of it being beyond what edges cover. */
+static inline float sp_worth(const sp_search *search, float wet, float dry)
+{
+    return wet >= SP_ENOUGH ? 1 : 1 - dry * (1 - search->credit * wet);
+}
+
+/* A nozzle's spray in the world. */
+typedef struct {
+    sp_spray spray;
+    sp_frame frame;
+    double strength; /* flux over threshold per transfer, m²; INFINITY where any liquid covers */
+    const sp_nozzle_type *type;
+    double flow; /* m³/s */
+} sp_posed_spray;
+
+sp_posed_spray sp_posed_spray_of(const sp_search *search, const sp_nozzle *nozzle);
+/* What one arrival comes to in a field. */
+float sp_posed_spray_value(const sp_posed_spray *posed, sp_vec3 direction, double breadth, double transfer);
+/* A field (see sp_placed) in the making, arrival by arrival. */
+typedef struct {
+    const sp_search *search;
+    sp_posed_spray posed;
+    sp_runoff *runoff; /* NULL: film is not asked for */
+    double *arriving;  /* [patch_count], m³/s, the runoff's */
+    double intensity;  /* m³/s per steradian, in units of the transfers that it will hear of */
+    float *field;
+} sp_field_making;
+
+/* `scale`: of a unit of transfer, m². `field` [field_count] is the caller's. */
+sp_field_making sp_field_begin(const sp_search *search, const sp_posed_spray *posed, double scale, float *field);
+/* An arrival at `part` of a patch; one that does not pass the criterion's speed and incidence feeds the film alone. */
+void sp_field_add(const sp_field_making *making, uint32_t patch, bool passes, sp_vec3 direction, double breadth,
+                  double transfer, float part);
+void sp_field_end(const sp_field_making *making);
+
+/* Field of a spray at a view's mounting point; its strength is per transfer as the view has it. */
+void sp_field_view(const sp_search *search, const sp_view *view, const sp_posed_spray *posed, float *field);
+/* The same of a candidate pose; of any nozzle, traced anew, where a draft is given only on the patches that it leaves
+ * dry: what the nozzle adds to it is the same. */
+void sp_field_pose(const sp_search *search, sp_pose pose, float *field);
+bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, const sp_draft *draft, float *field,
+                     sp_error *error);
+/* One thread's memory for fields by sweeps, which are a little less exact and made much faster. */
+typedef struct {
+    const sp_view *view;
+    const sp_cull *cull;      /* of the view and the make's spray */
+    float more;               /* share by which all is rounded upwards */
+    float *share, *counts;    /* [largest view + 2 SP_LANES] */
+    sp_run_of_arrivals *runs; /* [SP_BINS] */
+} sp_field_sweeper;
+/* Where film is asked for, of a make in a region that was turned to the pose. */
+void sp_field_sweep(const sp_search *search, const sp_field_sweeper *sweeper, const sp_make *make,
+                    const sp_region *region, float *field);
+
+/* Flux over threshold per transfer of a view. */
+double sp_make_strength(const sp_search *search, const sp_make *make);
+/* What a field adds to a draft, where film is asked for. */
+sp_score sp_field_score(const sp_search *search, const sp_draft *draft, const float *field);
+/* What it gains, whatever is asked for. */
+
+double sp_field_gain(const sp_search *search, const sp_draft *draft, const float *field);
+
+#endif

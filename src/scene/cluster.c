@@ -1,0 +1,92 @@
+/* The members of a cluster in the catalogue. */
+#include "scene/state.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Equal patterns around the body's axis, as spray balls are drilled: their axes from the ball's middle outwards. */
+typedef struct {
+    uint64_t count;
+    double polar, phase; /* rad: from the body's axis; of the first one's longitude */
+    double radius;       /* m, of the ball */
+} ring;
+
+static bool read_ring(const sp_reader *reader, const sp_yaml *node, ring *ring)
+{
+    static const sp_key keys[] = {{"count", true}, {"polar", true}, {"radius", false}, {"phase", false}, {NULL, false}};
+    const sp_yaml *map = sp_yaml_get(node, "ring"), *axis = sp_yaml_get(node, "axis");
+    if (!map)
+        return true;
+    if (axis)
+        return sp_read_message(reader, axis, "axis", "found beside a ring, expected one of them");
+    return sp_read_keys(reader, map, "ring", "a ring", keys) &&
+           sp_read_count(reader, map, "count", 1, SP_MEMBERS, &ring->count) &&
+           sp_read_quantity(reader, map, "polar", &sp_angle_unit, sp_between(0, acos(-1)), &ring->polar) &&
+           sp_read_quantity(reader, map, "radius", &sp_length_unit, sp_from(0), &ring->radius) &&
+           sp_read_quantity(reader, map, "phase", &sp_angle_unit, sp_any(), &ring->phase);
+}
+
+static bool read_member(const sp_reader *reader, const sp_yaml *node, sp_member *member, ring *ring)
+{
+    static const sp_key keys[] = {{"pattern", true}, {"angle", false},  {"hollow", false}, {"thickness", false},
+                                  {"axis", false},   {"offset", false}, {"roll", false},   {"share", false},
+                                  {"ring", false},   {NULL, false}};
+    if (!sp_read_keys(reader, node, "members", "a member of a cluster", keys))
+        return false;
+    const sp_yaml *pattern = sp_yaml_get(node, "pattern");
+    if (sp_text_is(pattern, "cluster") || sp_text_is(pattern, "rotating"))
+        return sp_read_fail(reader, pattern, "pattern",
+                            "full_cone, hollow_cone, flat_fan or solid_stream in a cluster");
+    return sp_scene_read_pattern(reader, node, &member->type) && sp_scene_read_shape(reader, node, &member->type) &&
+           sp_read_axis(reader, node, "axis", &member->axis) &&
+           sp_read_vector(reader, node, "offset", &sp_length_unit, &member->offset) &&
+           sp_read_quantity(reader, node, "roll", &sp_angle_unit, sp_any(), &member->roll) &&
+           sp_read_quantity(reader, node, "share", &sp_ratio_unit, sp_above_to(0, 1e6), &member->share) &&
+           read_ring(reader, node, ring);
+}
+
+/* Member `i` of a ring, in the place of one that stands in its middle. */
+static void drill(const ring *ring, uint64_t i, sp_member *member)
+{
+    double longitude = ring->phase + 2 * acos(-1) * (double)i / (double)ring->count;
+    member->axis = sp_v(sin(ring->polar) * cos(longitude), sin(ring->polar) * sin(longitude), cos(ring->polar));
+    member->offset = sp_along(member->offset, ring->radius, member->axis);
+}
+
+static bool add_members(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+{
+    sp_member member = {.axis = {0, 0, 1}, .share = 1};
+    ring ring = {.count = 0};
+    if (!read_member(reader, node, &member, &ring))
+        return false;
+    size_t count = ring.count ? (size_t)ring.count : 1;
+    if (type->member_count + count > SP_MEMBERS)
+        return sp_read_message(reader, node, "members", "found more than %d patterns, expected at most as many",
+                               SP_MEMBERS);
+    sp_member *members = realloc(type->members, (type->member_count + count) * sizeof *members);
+    if (!members)
+        return sp_fail_memory(reader->error);
+    type->members = members;
+    memcpy(member.type.name, type->name, sizeof member.type.name);
+    for (size_t i = 0; i < count; i++) {
+        members[type->member_count] = member;
+        if (ring.count)
+            drill(&ring, i, &members[type->member_count]);
+        type->member_count++;
+    }
+    return true;
+}
+
+bool sp_scene_read_members(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+{
+    const sp_yaml *list = sp_yaml_get(node, "members");
+    if (type->pattern != SP_PATTERN_CLUSTER)
+        return true;
+    if (list->kind != SP_YAML_LIST || list->count == 0)
+        return sp_read_fail(reader, list, "members",
+                            "a list of patterns such as [{pattern: solid_stream, axis: [0, 0, 1]}, ...]");
+    for (const sp_yaml *child = list->first; child; child = child->next)
+        if (!add_members(reader, child, type))
+            return false;
+    return true;
+}

@@ -1,0 +1,21 @@
+/* A layout as the evaluators see it: patterns, body by body. */
+#ifndef SPRAY_BODIES_H
+#define SPRAY_BODIES_H
+
+#include "state.h"
+
+typedef struct sp_bodies {
+    const sp_layout *layout; /* borrowed; its nozzles are the bodies */
+    sp_layout *patterns;     /* nozzles of one pattern each */
+    size_t *first;           /* [layout->count + 1]: body b has the patterns first[b] to first[b + 1] */
+} sp_bodies;
+
+/* Fills in *bodies, for sp_bodies_free whatever the outcome. False, with an error, for what the evaluator does not
+ * take: exit speeds out of all bounds, clusters that are none. */
+bool sp_bodies_create(const sp_evaluator *evaluator, const sp_layout *layout, sp_bodies *bodies, sp_error *error);
+/* The same of nozzles that have this number of jets each, whatever they say. */
+bool sp_bodies_create_with(const sp_evaluator *evaluator, const sp_layout *layout, uint64_t jets, sp_bodies *bodies,
+                           sp_error *error);
+void sp_bodies_free(sp_bodies *bodies);
+
+#endif

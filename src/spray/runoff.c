@@ -1,0 +1,72 @@
+/* Film nozzle by nozzle, for who adds up those of many layouts. */
+#include "discs.h"
+#include "rundown.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct sp_runoff {
+    const sp_evaluator *walls;
+    sp_discs discs;
+    double *arriving;  /* [patches], m³/s */
+    double *spread;    /* [patches], the same once streams have spread over their discs */
+    double *flow;      /* the film's own */
+    double *per_width; /* [patches], m²/s */
+};
+
+sp_runoff *sp_runoff_create(const sp_evaluator *walls, sp_error *error)
+{
+    if (!walls->rundown || walls->rundown->walls != walls) {
+        sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0,
+                "runoff: expected an evaluator of all wet sides, made for searching, and a criterion of film");
+        return NULL;
+    }
+    sp_runoff *runoff = calloc(1, sizeof *runoff);
+    if (!runoff)
+        return sp_fail_memory(error);
+    size_t room = walls->patches.count + 1;
+    runoff->walls = walls;
+    runoff->arriving = calloc(room, sizeof *runoff->arriving);
+    runoff->spread = malloc(room * sizeof *runoff->spread);
+    runoff->flow = malloc(sp_film_flows(walls->rundown->film) * sizeof *runoff->flow);
+    runoff->per_width = malloc(room * sizeof *runoff->per_width);
+    if (sp_discs_create(&walls->patches, &runoff->discs, error) &&
+        ((runoff->arriving && runoff->spread && runoff->flow && runoff->per_width) || sp_fail_memory(error)))
+        return runoff;
+    sp_runoff_destroy(runoff);
+    return NULL;
+}
+
+void sp_runoff_destroy(sp_runoff *runoff)
+{
+    if (!runoff)
+        return;
+    sp_discs_free(&runoff->discs);
+    free(runoff->arriving);
+    free(runoff->spread);
+    free(runoff->flow);
+    free(runoff->per_width);
+    free(runoff);
+}
+
+double *sp_runoff_arriving(sp_runoff *runoff)
+{
+    return runoff->arriving;
+}
+
+void sp_runoff_find(sp_runoff *runoff, const sp_nozzle_type *type, double flow, float *film)
+{
+    const sp_evaluator *walls = runoff->walls;
+    size_t count = walls->patches.count;
+    double *from = runoff->arriving;
+    if (type->pattern == SP_PATTERN_SOLID_STREAM) {
+        from = runoff->spread;
+        memset(from, 0, count * sizeof *from);
+        sp_discs_add(&runoff->discs, &walls->setup.liquid, flow, runoff->arriving, from);
+    }
+    sp_film_run_in(walls->rundown->film, from, runoff->flow, runoff->per_width, NULL);
+    memset(runoff->arriving, 0, count * sizeof *runoff->arriving);
+    double scale = 1 / walls->setup.criterion.film;
+    for (size_t i = 0; i < count; i++)
+        film[i] = (float)(runoff->per_width[i] * scale);
+}

@@ -1,0 +1,45 @@
+#include "tally.h"
+
+#include <stdlib.h>
+
+static bool is_single(const sp_tally *tally)
+{
+    return tally->evaluator->setup.criterion.combine == SP_COMBINE_SINGLE;
+}
+
+bool sp_tally_create(const sp_evaluator *evaluator, sp_deposits *deposits, sp_tally *tally, sp_error *error)
+{
+    *tally = (sp_tally){evaluator, deposits, deposits->counted, deposits->even};
+    if (!is_single(tally))
+        return true;
+    tally->counted = calloc(deposits->count + 1, sizeof *tally->counted);
+    tally->even = calloc(deposits->count + 1, sizeof *tally->even);
+    return (tally->counted && tally->even) || sp_fail_memory(error);
+}
+
+void sp_tally_free(sp_tally *tally)
+{
+    if (tally->evaluator && is_single(tally)) {
+        free(tally->counted);
+        free(tally->even);
+    }
+    *tally = (sp_tally){0};
+}
+
+void sp_tally_add(sp_tally *tally, uint32_t patch, double counted, const sp_wetting *wetting)
+{
+    sp_wetting settled = sp_wetting_settle(*wetting, tally->evaluator->setup.criterion.flux);
+    tally->counted[patch] += counted;
+    tally->even[patch] += settled.even;
+    tally->deposits->dry[patch] *= settled.dry;
+}
+
+void sp_tally_end_nozzle(sp_tally *tally)
+{
+    sp_deposits *deposits = tally->deposits;
+    for (size_t i = 0; is_single(tally) && i < deposits->count; i++) {
+        deposits->counted[i] = fmax(deposits->counted[i], tally->counted[i]);
+        deposits->even[i] = fmax(deposits->even[i], tally->even[i]);
+        tally->counted[i] = tally->even[i] = 0;
+    }
+}

@@ -1,0 +1,22 @@
+/* How what nozzles bring to a patch comes together: all adds up, or one nozzle alone must meet the criterion. */
+#ifndef SPRAY_TALLY_H
+#define SPRAY_TALLY_H
+
+#include "state.h"
+
+typedef struct {
+    const sp_evaluator *evaluator;
+    sp_deposits *deposits;
+    double *counted, *even; /* [patches], m³/s per m²: of all nozzles so far, or where one alone must do, of the one in
+                             * hand with all its patterns */
+} sp_tally;
+
+/* For sp_tally_free whatever the outcome. */
+bool sp_tally_create(const sp_evaluator *evaluator, sp_deposits *deposits, sp_tally *tally, sp_error *error);
+void sp_tally_free(sp_tally *tally);
+/* Adds to what the criterion counts what one pattern brings to a patch: flux, m³/s per m², and where it falls. */
+void sp_tally_add(sp_tally *tally, uint32_t patch, double counted, const sp_wetting *wetting);
+/* All patterns of the nozzle in hand are added. */
+void sp_tally_end_nozzle(sp_tally *tally);
+
+#endif

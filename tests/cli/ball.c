@@ -1,0 +1,85 @@
+/* The example of a spray ball, as its user runs it: one nozzle in every list, nearly all of the vessel wet by film. */
+#include "workplace.h"
+
+#include <math.h>
+
+#ifdef SPRAYPLAN_SANITIZE
+#define FEW "--set simulate.texel=100mm --set simulate.trajectory=parabola"
+#else
+#define FEW "--set simulate.texel=50mm --set simulate.trajectory=parabola"
+#endif
+
+static int open_with_ball(void **state)
+{
+    char line[4096];
+    if (open_workplace(state))
+        return -1;
+    snprintf(line, sizeof line,
+             "cd '%s' && cp '%s/scenes/spray_ball.yaml' '%s/scenes/catalogue.yaml' . && '%s/scenes/plain_vessel' "
+             "plain_vessel.obj",
+             workplace, SOURCE_DIR, SOURCE_DIR, BINARY_DIR);
+    return system(line);
+}
+
+static double number(const json_t *object, const char *key)
+{
+    assert_true(json_is_number(json_object_get(object, key)));
+    return json_number_value(json_object_get(object, key));
+}
+
+static json_t *first_layout(const json_t *object)
+{
+    return json_array_get(json_object_get(object, "layouts"), 0);
+}
+
+static void film_cleans_what_the_ball_does_not_hit(void **state)
+{
+    (void)state;
+    json_t *object = expect_json("simulate spray_ball.yaml " FEW " --threads 1 --json", 0);
+    const json_t *layout = first_layout(object), *film = json_object_get(layout, "film"),
+                 *nozzles = json_object_get(layout, "nozzles");
+    double covered = number(layout, "covered_area_m2"), area = covered / number(layout, "coverage");
+    assert_true(number(layout, "coverage") > 0.98);
+    assert_true(covered - number(film, "covered_area_m2") < 0.05 * area);
+    assert_true(fabs(number(film, "per_girth_l_min_m") - 25.2) < 0.5);
+    assert_true(fabs(number(layout, "water_l_min") - 95) < 1e-9);
+    assert_int_equal(json_array_size(nozzles), 1);
+    assert_true(fabs(number(json_array_get(nozzles, 0), "angle_rad") - 86 * M_PI / 180) < 1e-9);
+#ifndef SPRAYPLAN_SANITIZE
+    json_t *again = expect_json("simulate spray_ball.yaml " FEW " --threads 3 --json", 0);
+    assert_true(json_equal(layout, first_layout(again)));
+    json_decref(again);
+#endif
+    json_decref(object);
+}
+
+static void place_names_the_ball_that_it_refuses(void **state)
+{
+    (void)state;
+    char scene[2048];
+    const char *at = strstr(room_yaml, "place:\n");
+    snprintf(scene, sizeof scene, "%.*splace:\n  types: [full-cone-90-12, spray-ball-up-95]\n%s", (int)(at - room_yaml),
+             room_yaml, at + strlen("place:\n"));
+    write_file("types.yaml", scene);
+    static const char ball[] =
+        "nozzles:\n"
+        "  - {name: full-cone-90-12, pattern: full_cone, angle: 90 deg, flow: 9 L/min, at: 2 bar}\n"
+        "  - {name: cone, pattern: full_cone, angle: 90 deg, flow: 9 L/min, at: 2 bar}\n"
+        "  - {name: spray-ball-up-95, pattern: cluster, flow: 9 L/min, at: 2 bar,\n"
+        "     members: [{pattern: solid_stream}]}\n";
+    write_file("catalogue.yaml", ball);
+    outcome result = run_program("place types.yaml");
+    assert_int_equal(result.status, 3);
+    assert_string_equal(result.err, "types.yaml:10:28: types: found 'spray-ball-up-95', a cluster, expected types of "
+                                    "one pattern each; simulate and compare take clusters\n");
+    forget(&result);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(film_cleans_what_the_ball_does_not_hit),
+        cmocka_unit_test(place_names_the_ball_that_it_refuses),
+    };
+    return cmocka_run_group_tests(tests, open_with_ball, close_workplace);
+}
