@@ -191,8 +191,8 @@ double sp_spray_density(const sp_spray *spray, const sp_frame *frame, sp_vec3 di
 /* Of what rotates: the share of the liquid, 0 to 1, that leaves within a polar angle (rad) of the axis turned about. */
 double sp_spray_within(const sp_spray *spray, double polar);
 /* Of what rotates: no less and no more than these leaves per steradian (1/sr) at any polar angle (rad) from one to
- * another. Close for cones and streams of less than 180 deg turned about one axis and for full ones on a hub, else 0 and
- * 1/solid_angle. */
+ * another. Close for cones and streams of less than 180 deg turned about one axis and for full ones on a hub, else 0
+ * and 1/solid_angle. */
 void sp_spray_densities(const sp_spray *spray, double from, double to, double *least, double *most);
 /* Beyond so many rad outside of the region no patch of this breadth has a share. */
 double sp_spray_fringe(double breadth);
