@@ -41,12 +41,18 @@ static void placement_free(sp_placement *placement)
 
 static bool takes_types(const sp_nozzle_type *const *types, size_t count, sp_error *error)
 {
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         if (types[i]->pattern == SP_PATTERN_CLUSTER)
             return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                            "types: found '%s', a cluster, expected types of one pattern each; simulate and "
                            "compare take clusters",
                            types[i]->name);
+        if (types[i]->pattern == SP_PATTERN_ROTATING)
+            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                           "types: found '%s', which rotates, expected types that do not; simulate and compare take "
+                           "such types",
+                           types[i]->name);
+    }
     return true;
 }
 
@@ -61,6 +67,11 @@ bool sp_place_takes(const sp_place_options *options, sp_error *error)
             return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                            "nozzles: %s, of type '%s', is a cluster to be kept; expected kept nozzles of one pattern "
                            "each, until place aims clusters",
+                           nozzle->name, nozzle->type->name);
+        if (nozzle->keep && nozzle->type->pattern == SP_PATTERN_ROTATING)
+            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                           "nozzles: %s, of type '%s', rotates and is to be kept; expected kept nozzles that do not, "
+                           "until place reckons with those that do",
                            nozzle->name, nozzle->type->name);
     }
     return takes_types(options->types, options->type_count, error);

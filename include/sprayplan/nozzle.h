@@ -20,8 +20,23 @@ typedef enum {
     SP_PATTERN_HOLLOW_CONE,
     SP_PATTERN_FLAT_FAN,
     SP_PATTERN_SOLID_STREAM,
-    SP_PATTERN_CLUSTER, /* several of these on one body */
+    SP_PATTERN_CLUSTER,  /* several of these on one body */
+    SP_PATTERN_ROTATING, /* one of the first four turned, averaged over time */
 } sp_pattern;
+
+/* How the jet of a rotating type turns. Its pattern is given about an axis of its own. That of one which turns about
+ * one axis leans by `tilt` from the body's, which is the nozzle's z; at roll 0 the jet's x, along which a fan is wide,
+ * lies in the plane of both, and `roll` turns it out of that. In a two-axis head `jets` of them, evenly spread, point
+ * outwards from a hub that turns about an axis across the body's, gears[0]/gears[1] times for every turn of the body;
+ * when it starts the first points along z, and the hub turns it towards x. */
+typedef struct {
+    sp_pattern jet;    /* any but SP_PATTERN_ROTATING; in a two-axis head a cone or stream no wider than 90 deg */
+    double tilt, roll; /* rad, [0, π] and any; one axis only */
+    unsigned jets;     /* 0: about one axis only */
+    unsigned gears[2]; /* teeth, as follows; two axes only */
+    double speed;      /* rad/s of the body; 0: not known */
+    unsigned turns;    /* of the body in a run; 0: until the tracks repeat */
+} sp_rotation;
 
 typedef struct {
     double density;         /* kg/m³ */
@@ -33,6 +48,7 @@ typedef struct {
 typedef struct {
     char name[SP_NAME];
     sp_pattern pattern;
+    sp_rotation rotation;        /* rotating types only, of which angle, hollow and thickness are their jet's */
     double angle;                /* rad, (0, 2π] for cones, (0, 2π] for fans; 0 for clusters */
     double hollow;               /* share of the angle that is empty, [0, 1); hollow cones only */
     double thickness;            /* rad, (0, π]; flat fans only */
@@ -121,13 +137,18 @@ void sp_nozzle_patterns(const sp_nozzle *nozzle, const sp_fluid *liquid, sp_vec3
  * that is a cluster or whose share is not above 0. */
 bool sp_type_is_whole(const sp_nozzle_type *type, sp_error *error);
 
-/* A pattern ready for use: liquid per solid angle, uniform inside its region. The region of each kind is DESIGN §2's:
- * cones by polar angle about z, fans by longitude atan2(x, z) and latitude asin(y). */
+/* A pattern ready for use: liquid per solid angle, uniform inside its region unless it rotates. The region of each kind
+ * is DESIGN §2's: cones by polar angle about z, fans by longitude atan2(x, z) and latitude asin(y), what rotates by the
+ * polar angles about z that its jet comes to. The angles of what rotates are its jet's. */
 typedef struct {
     sp_pattern kind;
     double inner, outer;               /* cones: polar angles, rad */
     double half_width, half_thickness; /* fans: longitude and latitude, rad */
+    sp_pattern jet;                    /* what rotates: the pattern that turns */
+    bool two_axes;                     /* what rotates: on a hub */
+    sp_vec3 spindle;                   /* what rotates: the axis turned about, unit, in the jet's frame */
     double solid_angle;                /* sr; this and what follows come from the angles, see sp_spray_settle */
+    double low, high;                  /* what rotates: the polar angles about z between which it sprays, rad */
     double inner_chord2, outer_chord2; /* cones: squared chords from the axis to these angles; 4: no edge */
     double inner_sine, outer_sine;     /* of these angles, from the chords */
     double height, rise;               /* fans: sine and cosine of half_thickness */
@@ -136,8 +157,15 @@ typedef struct {
 sp_spray sp_spray_create(const sp_nozzle_type *type, double angle);
 /* Works out what follows from a pattern's kind and angles, after these were changed. */
 void sp_spray_settle(sp_spray *spray);
+/* True where the liquid is as dense all over the region: 1/solid_angle. That is the most there is of what rotates. */
+static inline bool sp_spray_is_uniform(const sp_spray *spray)
+{
+    return spray->kind != SP_PATTERN_ROTATING;
+}
 /* Share of the liquid per steradian (1/sr) in a unit direction of the nozzle's frame: 1/solid_angle inside, 0 outside.
- */
+ * Of what rotates the mean over time: about one axis that of its jet along the circle about the axis, in closed form;
+ * of two-axis heads, whose gears run through all angles evenly, 1/(2π² sin ϑ) at the polar angle ϑ from the body's
+ * axis, averaged over the jet's breadth. */
 double sp_spray_intensity(const sp_spray *spray, sp_vec3 direction);
 /* Signed angular distance (rad) from the direction to the region's edge, positive inside; its smooth counterpart for
  * refinement. */
@@ -155,6 +183,17 @@ double sp_spray_reach(const sp_spray *spray);
  * (rad) broad about a unit direction of the world. Edges are blurred by about as much: shares of patches side by side
  * come to the region's solid angle over theirs, also where the region is thinner than a patch. */
 double sp_spray_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth);
+/* Share of the liquid per steradian (1/sr), averaged over what is `breadth` (rad) broad about a unit direction of the
+ * world, of which a part may lie outside of the region: sp_spray_share/solid_angle of uniform patterns. Of what rotates
+ * it comes from differences of sp_spray_within over rings of about that breadth about the axis, so that no liquid is
+ * lost however thin the jet. */
+double sp_spray_density(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth);
+/* Of what rotates: the share of the liquid, 0 to 1, that leaves within a polar angle (rad) of the axis turned about. */
+double sp_spray_within(const sp_spray *spray, double polar);
+/* Of what rotates: no less and no more than these leaves per steradian (1/sr) at any polar angle (rad) from one to
+ * another. Close for cones and streams of less than 180 deg turned about one axis and for full ones on a hub, else 0
+ * and 1/solid_angle. */
+void sp_spray_densities(const sp_spray *spray, double from, double to, double *least, double *most);
 /* Beyond so many rad outside of the region no patch of this breadth has a share. */
 double sp_spray_fringe(double breadth);
 

@@ -149,7 +149,8 @@ typedef struct {
 } sp_proposal;
 
 /* False, with SP_ERROR_INPUT that names it, where a type that may be chosen, or that of a nozzle to be kept, is a
- * cluster: placement aims one pattern at a time. Clusters in what a proposal is compared with are fine. */
+ * cluster or rotates: placement aims one pattern at a time, whose liquid is as dense all over. Either is fine in what a
+ * proposal is compared with. */
 bool sp_place_takes(const sp_place_options *options, sp_error *error);
 /* Greedy next-best-view placement by the inverse evaluator, then refinement with Ceres accepted only where the
  * re-traced objective improves. The error of the proposal's coverage is measured; where it is above the accuracy, and

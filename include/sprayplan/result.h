@@ -4,6 +4,7 @@
 
 #include <sprayplan/place.h>
 #include <sprayplan/scene.h>
+#include <sprayplan/tracks.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -34,6 +35,7 @@ typedef struct {
     sp_vec3 position;                          /* m */
     sp_vec3 axis;                              /* unit */
     double roll, angle, pressure, flow, speed; /* rad, rad, Pa, m³/s, m/s */
+    sp_track_gaps tracks;                      /* of a two-axis head */
 } sp_nozzle_figures;
 
 typedef struct {

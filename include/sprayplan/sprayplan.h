@@ -25,6 +25,7 @@
 #include <sprayplan/setup.h>
 #include <sprayplan/study.h>
 #include <sprayplan/trace.h>
+#include <sprayplan/tracks.h>
 #include <sprayplan/vector.h>
 
 #endif

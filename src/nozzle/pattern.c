@@ -1,6 +1,8 @@
 /* Patterns: where about its axis a nozzle sprays. Regions of the unit sphere in the nozzle's frame, as in the 2008
  * study (3.1.2): polar angles about z for cones, longitude atan2(x, z) and latitude asin(y) for fans. */
-#include <sprayplan/nozzle.h>
+#include "turned.h"
+
+#define THINNEST 1e-6 /* rad, half of a jet that turns: of thinner ones the solid angle is round-off in a cap's */
 
 /* 1 - cos(angle) without cancellation. */
 static double versine(double angle)
@@ -35,20 +37,31 @@ void sp_spray_settle(sp_spray *spray)
     spray->inner_chord2 = squared_chord(spray->inner);
     spray->outer_sine = sqrt(spray->outer_chord2 * (1 - spray->outer_chord2 / 4));
     spray->inner_sine = sqrt(spray->inner_chord2 * (1 - spray->inner_chord2 / 4));
-    bool fan = spray->kind == SP_PATTERN_FLAT_FAN;
+    bool turns = spray->kind == SP_PATTERN_ROTATING, fan = (turns ? spray->jet : spray->kind) == SP_PATTERN_FLAT_FAN;
     spray->solid_angle =
         fan ? 4 * spray->half_width * spray->height : 2 * M_PI * (versine(spray->outer) - versine(spray->inner));
+    if (turns)
+        sp_turned_settle(spray);
 }
 
 sp_spray sp_spray_create(const sp_nozzle_type *type, double angle)
 {
     sp_spray spray = {.kind = type->pattern};
-    if (spray.kind == SP_PATTERN_FLAT_FAN) {
-        spray.half_width = 0.5 * angle;
-        spray.half_thickness = 0.5 * type->thickness;
+    sp_pattern pattern = type->pattern;
+    if (pattern == SP_PATTERN_ROTATING) {
+        const sp_rotation *rotation = &type->rotation;
+        double sine = sin(rotation->tilt);
+        pattern = spray.jet = rotation->jet;
+        spray.two_axes = rotation->jets > 0;
+        spray.spindle = sp_v(-sine * cos(rotation->roll), sine * sin(rotation->roll), cos(rotation->tilt));
+    }
+    double thinnest = pattern == spray.kind ? 0 : THINNEST;
+    if (pattern == SP_PATTERN_FLAT_FAN) {
+        spray.half_width = fmax(0.5 * angle, thinnest);
+        spray.half_thickness = fmax(0.5 * type->thickness, thinnest);
     } else {
-        spray.outer = 0.5 * angle;
-        spray.inner = spray.kind == SP_PATTERN_HOLLOW_CONE ? type->hollow * spray.outer : 0;
+        spray.outer = fmax(0.5 * angle, thinnest);
+        spray.inner = pattern == SP_PATTERN_HOLLOW_CONE ? type->hollow * spray.outer : 0;
     }
     sp_spray_settle(&spray);
     return spray;
@@ -64,6 +77,8 @@ static bool inside(const sp_spray *spray, sp_vec3 d)
 
 double sp_spray_intensity(const sp_spray *spray, sp_vec3 direction)
 {
+    if (spray->kind == SP_PATTERN_ROTATING)
+        return sp_turned_density(spray, polar_angle(direction));
     return inside(spray, direction) ? 1 / spray->solid_angle : 0;
 }
 
@@ -97,13 +112,23 @@ static double fan_margin(const sp_spray *spray, sp_vec3 d)
     return fabs(longitude) <= spray->half_width ? fmin(side, end) : -end;
 }
 
+static double ring_margin(const sp_spray *spray, sp_vec3 d)
+{
+    double polar = polar_angle(d);
+    return fmin(spray->low > 0 ? polar - spray->low : M_PI, spray->high < M_PI ? spray->high - polar : M_PI);
+}
+
 double sp_spray_margin(const sp_spray *spray, sp_vec3 direction)
 {
+    if (spray->kind == SP_PATTERN_ROTATING)
+        return ring_margin(spray, direction);
     return spray->kind == SP_PATTERN_FLAT_FAN ? fan_margin(spray, direction) : cone_margin(spray, direction);
 }
 
 double sp_spray_reach(const sp_spray *spray)
 {
+    if (spray->kind == SP_PATTERN_ROTATING)
+        return spray->high;
     if (spray->kind != SP_PATTERN_FLAT_FAN)
         return spray->outer;
     /* the corners are farthest out, unless the fan reaches behind the nozzle, where its middle is */

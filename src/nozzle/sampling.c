@@ -1,8 +1,7 @@
 /* Directions of a pattern's jets: Archimedes' map (the 2008 study, 3.1.2) from a rectangle to the sphere keeps areas,
  * so points spread evenly over the rectangle are spread evenly over the pattern. */
 #include "scramble.h"
-
-#include <sprayplan/nozzle.h>
+#include "turned.h"
 
 /* Point i of the golden lattice (i/n, i φ mod 1) under a shift drawn from the seed (Cranley and Patterson 1976). φ is
  * the number worst approximated by fractions, so the lattice stays even however the rectangle is stretched: a thin fan
@@ -18,6 +17,10 @@ sp_vec3 sp_spray_direction(const sp_spray *spray, uint64_t i, uint64_t n, uint64
 {
     double u, w;
     lattice(i, n, seed, &u, &w);
+    if (spray->kind == SP_PATTERN_ROTATING) {
+        double polar = sp_turned_polar(spray, u), azimuth = 2 * M_PI * w;
+        return sp_v(sin(polar) * cos(azimuth), sin(polar) * sin(azimuth), cos(polar));
+    }
     if (spray->kind == SP_PATTERN_FLAT_FAN) {
         double longitude = (2 * u - 1) * spray->half_width;
         double y = (2 * w - 1) * sin(spray->half_thickness);

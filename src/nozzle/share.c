@@ -3,8 +3,10 @@
  * which solid angle is even (the squared chord to a cone's axis; the height over a fan's middle, Archimedes), so that
  * over patches side by side the shares come to the region's own solid angle, however thin it is; a plain test of the
  * points would let it fall between them. */
-#include <sprayplan/nozzle.h>
+#include "caps.h"
+#include "turned.h"
 
+#define FINEST 1e-6    /* rad, of a breadth: the liquid of a thinner ring is round-off, and its middle tells as much */
 #define ROUND_OFF 1e-6 /* share that all lacks */
 /* 0 to 1, with two even derivatives at either end (Perlin, Improving noise, 2002): what is left of a lattice's own
  * wavelengths after it is under 1 %. */
@@ -59,10 +61,54 @@ static double fan_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 di
     return share * (spray->end_cosine >= 0 ? fmax(0, ends - 1) : fmin(1, ends));
 }
 
+static double polar_angle(const sp_frame *frame, sp_vec3 direction)
+{
+    return atan2(hypot(sp_dot(direction, frame->x), sp_dot(direction, frame->y)), sp_dot(direction, frame->z));
+}
+
+/* Of what rotates a patch is a ring about the axis, blurred: three rings of different breadth, the broader the more, as
+ * steps of a slope that falls off evenly on either side; by one alone a thin jet's patches would come to 1 % more or
+ * less than it, by chance. */
+static const double ring_breadths[3] = {1.0 / 3, 1, 5.0 / 3}; /* of a patch's */
+static const double ring_weights[3] = {1.0 / 9, 3.0 / 9, 5.0 / 9};
+static const double cap_radii[3] = {1.0, 1.4, 1.8}; /* of the same, about the axis: the middles of several patches */
+
+/* By how much the rings lie in the region, as solid angle. */
+static double ring_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)
+{
+    double polar = polar_angle(frame, direction), share = 0;
+    if (breadth < FINEST)
+        return polar >= spray->low && polar <= spray->high;
+    for (int i = 0; i < 3; i++) {
+        double ring[2];
+        sp_turned_ring(polar, ring_breadths[i] * breadth, cap_radii[i] * breadth, ring);
+        double low = fmax(ring[0], spray->low), high = fmin(ring[1], spray->high);
+        share += high > low ? ring_weights[i] * sp_cap_height(low, high) / sp_cap_height(ring[0], ring[1]) : 0;
+    }
+    return share;
+}
+
+double sp_spray_density(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)
+{
+    if (spray->kind != SP_PATTERN_ROTATING)
+        return sp_spray_share(spray, frame, direction, breadth) / spray->solid_angle;
+    double polar = polar_angle(frame, direction), density = 0;
+    if (breadth < FINEST)
+        return sp_turned_density(spray, polar);
+    for (int i = 0; i < 3; i++) {
+        double ring[2];
+        sp_turned_ring(polar, ring_breadths[i] * breadth, cap_radii[i] * breadth, ring);
+        double liquid = sp_spray_within(spray, ring[1]) - sp_spray_within(spray, ring[0]);
+        density += ring_weights[i] * fmax(0, liquid) / (2 * M_PI * sp_cap_height(ring[0], ring[1]));
+    }
+    return density;
+}
+
 double sp_spray_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)
 {
-    double share = spray->kind == SP_PATTERN_FLAT_FAN ? fan_share(spray, frame, direction, breadth)
-                                                      : cone_share(spray, frame, direction, breadth);
+    double share = spray->kind == SP_PATTERN_ROTATING   ? ring_share(spray, frame, direction, breadth)
+                   : spray->kind == SP_PATTERN_FLAT_FAN ? fan_share(spray, frame, direction, breadth)
+                                                        : cone_share(spray, frame, direction, breadth);
     return share > 1 - ROUND_OFF ? 1 : fmax(0, share);
 }
 

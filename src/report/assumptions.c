@@ -130,7 +130,17 @@ static void add_criterion(sp_text *text, const sp_setup *setup)
     sp_text_add(text, "</dd>\n");
 }
 
-static void add_scene(sp_text *text, const sp_setup *setup)
+/* Whether any nozzle of the designs on an evaluator does. */
+static bool rotates(const sp_result *result, const sp_evaluator *evaluator)
+{
+    for (size_t i = 0; i < result->design_count; ++i)
+        for (size_t k = 0; result->designs[i].evaluator == evaluator && k < result->designs[i].layout->count; ++k)
+            if (result->designs[i].layout->nozzles[k].type->pattern == SP_PATTERN_ROTATING)
+                return true;
+    return false;
+}
+
+static void add_scene(sp_text *text, const sp_setup *setup, bool rotating)
 {
     static const char *const cavities[] = {
         "not named: every surface counts once and takes liquid from either side",
@@ -142,7 +152,10 @@ static void add_scene(sp_text *text, const sp_setup *setup)
     add_item(text, "Nozzles");
     sp_text_add(text,
                 "flow by the catalogue&#39;s point and exponent, exit speed from the pressure drop (Bernoulli), liquid "
-                "spread evenly over the spray angle</dd>\n");
+                "spread evenly over the spray angle%s</dd>\n",
+                rotating ? "; of those that rotate the mean over time, which is what every flux and film here is: while "
+                           "the jet passes there is more, and then none"
+                         : "");
     add_item(text, "Cavity");
     sp_text_add(text, "%s</dd>\n", cavities[setup->cavity]);
 }
@@ -196,7 +209,7 @@ void sp_page_assumptions(const sp_page *page, sp_text *text)
         add_flight(text, evaluator);
         add_choice(text, evaluator);
         add_errors(page, text, evaluator);
-        add_scene(text, sp_evaluator_setup(evaluator));
+        add_scene(text, sp_evaluator_setup(evaluator), rotates(page->result, evaluator));
         if (page->result->proposal)
             add_search(text, page->result->proposal);
         sp_text_add(text, "</dl>\n");

@@ -146,6 +146,7 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
     sp_page_comparison(page, text);
     sp_page_liquid(page, text);
     sp_page_film(page, text);
+    sp_page_tracks(page, text);
     sp_page_front_chart(page, text);
     sp_page_nozzle_counts(page, text);
     sp_page_certificate(page, text);

@@ -8,9 +8,10 @@
 /* Direction i of RIM along the edge of the spray, in the nozzle's frame. */
 static sp_vec3 rim_direction(const sp_spray *spray, int i)
 {
-    if (spray->outer > 0) {
+    double edge = sp_spray_is_uniform(spray) ? spray->outer : spray->high;
+    if (edge > 0) {
         double turn = 2 * M_PI * i / RIM;
-        return sp_v(sin(spray->outer) * cos(turn), sin(spray->outer) * sin(turn), cos(spray->outer));
+        return sp_v(sin(edge) * cos(turn), sin(edge) * sin(turn), cos(edge));
     }
     double way = (i % (RIM / 2)) / (RIM / 2 - 1.0), side = i < RIM / 2 ? 1 : -1;
     double longitude = spray->half_width * (2 * way - 1) * side, latitude = spray->half_thickness * side;

@@ -39,6 +39,8 @@ void sp_page_comparison(const sp_page *page, sp_text *text);
 void sp_page_liquid(const sp_page *page, sp_text *text);
 /* film.c: what runs down the walls; nothing where no criterion asks for film. */
 void sp_page_film(const sp_page *page, sp_text *text);
+/* tracks.c: how far the surface is from the tracks of two-axis heads; nothing where there are none. */
+void sp_page_tracks(const sp_page *page, sp_text *text);
 /* front_chart.c: coverage against water, SVG. */
 void sp_page_front_chart(const sp_page *page, sp_text *text);
 /* nozzle_counts.c: coverage against number of nozzles; nothing without a front. */

@@ -68,6 +68,14 @@ static bool set_nozzles(sp_figures *figures, const sp_layout *layout, const sp_s
     return copied;
 }
 
+static bool set_tracks(sp_figures *figures, const sp_design *design, sp_error *error)
+{
+    for (size_t i = 0; i < figures->nozzle_count; ++i)
+        if (!sp_find_track_gaps(design->evaluator, &design->layout->nozzles[i], &figures->nozzles[i].tracks, error))
+            return false;
+    return true;
+}
+
 static bool set_shadows(sp_figures *figures, const sp_shadow *shadows, const sp_setup *setup)
 {
     bool copied = true;
@@ -147,7 +155,9 @@ static bool describe(sp_figures *figures, const sp_design *design, const sp_reas
                                      design->layout->count) &&
                 set_nozzles(figures, design->layout, setup) && set_shadows(figures, shadows, setup);
     free(shadows);
-    return done || sp_fail_memory(error);
+    if (!done)
+        return sp_fail_memory(error);
+    return set_tracks(figures, design, error);
 }
 
 /* Why patches are not attainable: what the proposal says, but for what any design covers. Without a proposal NULL and

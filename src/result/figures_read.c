@@ -317,6 +317,24 @@ static bool get_url(const reader *in, const json_t *object, const char *key, cha
             wrong(in, key, json_object_get(object, key), "an http or https address"));
 }
 
+static bool read_tracks(const reader *in, const json_t *entry, sp_track_gaps *gaps)
+{
+    const json_t *tracks;
+    if (!get_part(in, entry, "tracks", JSON_OBJECT, false, &tracks))
+        return false;
+    if (!tracks)
+        return true;
+    reader inner = *in;
+    snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "tracks.");
+    gaps->known = true;
+    return get_count(&inner, tracks, "turns", &gaps->turns) &&
+           get_real(&inner, tracks, "seconds", 0, LARGEST, 1, &gaps->duration) &&
+           get_real(&inner, tracks, "reached_m2", 0, LARGEST, 1, &gaps->area) &&
+           get_real(&inner, tracks, "mean_gap_m", 0, LARGEST, 1, &gaps->mean) &&
+           get_real(&inner, tracks, "p95_gap_m", 0, LARGEST, 1, &gaps->p95) &&
+           get_real(&inner, tracks, "greatest_gap_m", 0, LARGEST, 1, &gaps->greatest);
+}
+
 static bool read_nozzle(const reader *in, const json_t *entry, sp_nozzle_figures *nozzle)
 {
     return get_text(in, entry, "name", &nozzle->name) && get_text(in, entry, "type", &nozzle->type) &&
@@ -326,7 +344,7 @@ static bool read_nozzle(const reader *in, const json_t *entry, sp_nozzle_figures
            get_real(in, entry, "angle_rad", 0, 7, 1, &nozzle->angle) &&
            get_real(in, entry, "pressure_pa", 0, LARGEST, 1, &nozzle->pressure) &&
            get_real(in, entry, "flow_l_min", 0, LARGEST, 1 / 6e4, &nozzle->flow) &&
-           get_real(in, entry, "speed_m_s", 0, LARGEST, 1, &nozzle->speed);
+           get_real(in, entry, "speed_m_s", 0, LARGEST, 1, &nozzle->speed) && read_tracks(in, entry, &nozzle->tracks);
 }
 
 static bool read_rows(const reader *in, const json_t *layout, sp_figures *figures)

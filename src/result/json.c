@@ -164,6 +164,18 @@ static bool put_shadow(json_t *shadows, const sp_shadow_figures *figures)
     return json_array_append_new(shadows, shadow) == 0 && done;
 }
 
+/* How far the surface is from the tracks of a two-axis head. */
+static bool put_tracks(json_t *object, const sp_track_gaps *gaps)
+{
+    if (!gaps->known)
+        return true;
+    json_t *tracks = json_object();
+    bool done = put_count(tracks, "turns", gaps->turns) && put_real(tracks, "seconds", gaps->duration) &&
+                put_real(tracks, "reached_m2", gaps->area) && put_real(tracks, "mean_gap_m", gaps->mean) &&
+                put_real(tracks, "p95_gap_m", gaps->p95) && put_real(tracks, "greatest_gap_m", gaps->greatest);
+    return put(object, "tracks", tracks) && done;
+}
+
 static bool put_nozzle(json_t *nozzles, const sp_nozzle_figures *figures)
 {
     json_t *nozzle = json_object();
@@ -172,7 +184,8 @@ static bool put_nozzle(json_t *nozzles, const sp_nozzle_figures *figures)
                 put_vector(nozzle, "position_m", figures->position) && put_vector(nozzle, "axis", figures->axis) &&
                 put_real(nozzle, "roll_rad", figures->roll) && put_real(nozzle, "angle_rad", figures->angle) &&
                 put_real(nozzle, "pressure_pa", figures->pressure) &&
-                put_real(nozzle, "flow_l_min", 6e4 * figures->flow) && put_real(nozzle, "speed_m_s", figures->speed);
+                put_real(nozzle, "flow_l_min", 6e4 * figures->flow) && put_real(nozzle, "speed_m_s", figures->speed) &&
+                put_tracks(nozzle, &figures->tracks);
     return json_array_append_new(nozzles, nozzle) == 0 && done;
 }
 

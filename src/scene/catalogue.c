@@ -5,18 +5,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const pattern_names[] = {"full_cone", "hollow_cone", "flat_fan", "solid_stream", "cluster", NULL};
+static const char *const pattern_names[] = {"full_cone", "hollow_cone", "flat_fan", "solid_stream",
+                                            "cluster",   "rotating",    NULL};
 
 bool sp_scene_read_pattern(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
-    static const char *const later[] = {"measured", "rotating"};
-    static const char *const later_keys[] = {"image", "rotation"};
+    static const char *const later[] = {"measured"};
+    static const char *const later_keys[] = {"image"};
     const sp_yaml *name = sp_yaml_get(node, "pattern");
     int pattern = 0;
     for (size_t i = 0; i < sizeof later / sizeof *later; i++)
         if (sp_text_is(name, later[i]))
             return sp_read_unsupported(reader, name, "pattern",
-                                       "full_cone, hollow_cone, flat_fan, solid_stream or cluster");
+                                       "full_cone, hollow_cone, flat_fan, solid_stream, cluster or rotating");
     for (size_t i = 0; i < sizeof later_keys / sizeof *later_keys; i++) {
         const sp_yaml *child = sp_yaml_get(node, later_keys[i]);
         if (child)
@@ -64,6 +65,8 @@ static bool read_adjustable(const sp_reader *reader, const sp_yaml *node, const 
     return true;
 }
 
+static bool read_turning(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
+
 /* A cluster has the angles of its members. */
 static bool check_angles(const sp_reader *reader, const sp_yaml *node, const sp_nozzle_type *type)
 {
@@ -80,6 +83,8 @@ bool sp_scene_read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle
 {
     const double pi = acos(-1);
     double limits[2];
+    if (type->pattern == SP_PATTERN_ROTATING)
+        return read_turning(reader, node, type);
     if (!check_angles(reader, node, type))
         return false;
     if (type->pattern == SP_PATTERN_SOLID_STREAM)
@@ -87,7 +92,8 @@ bool sp_scene_read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle
     else if (type->pattern != SP_PATTERN_CLUSTER && !sp_yaml_get(node, "angle"))
         return sp_read_message(reader, node, "angle", "found nothing, expected this key in a %s",
                                pattern_names[type->pattern]);
-    if (!check_pattern_key(reader, node, type, "hollow", SP_PATTERN_HOLLOW_CONE) ||
+    if (!check_pattern_key(reader, node, type, "rotation", SP_PATTERN_ROTATING) ||
+        !check_pattern_key(reader, node, type, "hollow", SP_PATTERN_HOLLOW_CONE) ||
         !check_pattern_key(reader, node, type, "thickness", SP_PATTERN_FLAT_FAN) ||
         !check_pattern_key(reader, node, type, "members", SP_PATTERN_CLUSTER) ||
         !sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_above_to(0, 2 * pi), &type->angle) ||
@@ -98,6 +104,49 @@ bool sp_scene_read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle
     type->angle_min = limits[0];
     type->angle_max = limits[1];
     return true;
+}
+
+/* The pattern that turns: its angles become the type's. */
+static bool read_jet(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+{
+    static const sp_key keys[] = {{"pattern", true}, {"angle", false}, {"hollow", false}, {"thickness", false},
+                                  {"tilt", false},   {"roll", false},  {NULL, false}};
+    const double pi = acos(-1);
+    sp_rotation *rotation = &type->rotation;
+    sp_nozzle_type jet = {0};
+    const sp_yaml *pattern = sp_yaml_get(node, "pattern");
+    if (sp_text_is(pattern, "rotating") || sp_text_is(pattern, "cluster"))
+        return sp_read_fail(reader, pattern, "pattern", "full_cone, hollow_cone, flat_fan or solid_stream in a jet");
+    if ((node->kind == SP_YAML_MAP && !sp_scene_read_pattern(reader, node, &jet)) ||
+        !sp_read_keys(reader, node, "jet", "a jet", keys) || !sp_scene_read_shape(reader, node, &jet) ||
+        !sp_read_quantity(reader, node, "tilt", &sp_angle_unit, sp_between(0, pi), &rotation->tilt) ||
+        !sp_read_quantity(reader, node, "roll", &sp_angle_unit, sp_any(), &rotation->roll))
+        return false;
+    rotation->jet = jet.pattern;
+    type->angle = type->angle_min = type->angle_max = jet.angle;
+    type->hollow = jet.hollow;
+    type->thickness = jet.thickness;
+    return true;
+}
+
+static bool read_turning(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+{
+    static const sp_key keys[] = {{"jet", true},    {"jets", false},  {"gears", false},
+                                  {"speed", false}, {"turns", false}, {NULL, false}};
+    static const char *const jets_own[] = {"angle", "hollow", "thickness", "angle_range"};
+    for (size_t i = 0; i < sizeof jets_own / sizeof *jets_own; i++) {
+        const sp_yaml *child = sp_yaml_get(node, jets_own[i]);
+        if (child)
+            return sp_read_message(reader, child, jets_own[i],
+                                   i < 3 ? "found in a rotating, expected in its jet"
+                                         : "found in a rotating, expected in another pattern only");
+    }
+    if (!check_pattern_key(reader, node, type, "members", SP_PATTERN_CLUSTER) ||
+        !check_pattern_key(reader, node, type, "rotation", SP_PATTERN_ROTATING))
+        return false;
+    const sp_yaml *rotation = sp_yaml_get(node, "rotation");
+    return sp_read_keys(reader, rotation, "rotation", "a rotation", keys) &&
+           read_jet(reader, sp_yaml_get(rotation, "jet"), type) && sp_scene_read_gears(reader, rotation, type);
 }
 
 static bool read_flow(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)

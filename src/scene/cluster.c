@@ -34,7 +34,7 @@ static bool read_member(const sp_reader *reader, const sp_yaml *node, sp_member 
     if (!sp_read_keys(reader, node, "members", "a member of a cluster", keys))
         return false;
     const sp_yaml *pattern = sp_yaml_get(node, "pattern");
-    if (sp_text_is(pattern, "cluster"))
+    if (sp_text_is(pattern, "cluster") || sp_text_is(pattern, "rotating"))
         return sp_read_fail(reader, pattern, "pattern",
                             "full_cone, hollow_cone, flat_fan or solid_stream in a cluster");
     return sp_scene_read_pattern(reader, node, &member->type) && sp_scene_read_shape(reader, node, &member->type) &&

@@ -246,7 +246,7 @@ static bool read_place_types(sp_scene *scene, const sp_reader *reader, const sp_
     if (!scene->place_types)
         return sp_fail_memory(reader->error);
     for (size_t i = 0; i < scene->type_count; i++)
-        if (scene->types[i].pattern != SP_PATTERN_CLUSTER)
+        if (scene->types[i].pattern != SP_PATTERN_CLUSTER && scene->types[i].pattern != SP_PATTERN_ROTATING)
             scene->place_types[(*count)++] = &scene->types[i];
     return true;
 }

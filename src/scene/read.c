@@ -21,6 +21,7 @@ const sp_dimension sp_density_unit = {"a density", "kg/m3", "1000 kg/m3", false}
 const sp_dimension sp_viscosity_unit = {"a viscosity", "Pa.s", "1 mPa.s", false};
 const sp_dimension sp_tension_unit = {"a surface tension", "N/m", "72 mN/m", false};
 const sp_dimension sp_acceleration_unit = {"an acceleration", "m/s2", "9.81 m/s2", false};
+const sp_dimension sp_turning_unit = {"a speed of rotation", "rad/s", "3 rpm", false};
 
 /* What stands at a node, as an error message says it. */
 static void describe(const sp_yaml *node, char text[TEXT])

@@ -47,6 +47,8 @@ bool sp_scene_read_members(const sp_reader *reader, const sp_yaml *node, sp_nozz
 /* The catalogue's type of that name; NULL with an error at `node`. */
 const sp_nozzle_type *sp_scene_find_type(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node,
                                          const char *key);
+/* rotation.c: what makes a rotating type a two-axis head, of the map under `rotation`; the jet has been read. */
+bool sp_scene_read_gears(const sp_reader *reader, const sp_yaml *rotation, sp_nozzle_type *type);
 /* A list of type names under `key`, malloc'd into *types; absent: none. */
 bool sp_scene_read_types(const sp_scene *scene, const sp_reader *reader, const sp_yaml *map, const char *key,
                          const sp_nozzle_type ***types, size_t *count);

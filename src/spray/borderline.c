@@ -27,8 +27,7 @@ static bool weigh(const inquiry *own, const sp_arrival *arrival, sp_wetting *wet
 {
     const sp_emitter *emitter = own->emitter;
     const sp_criterion *criterion = &emitter->source.evaluator->setup.criterion;
-    double flux = own->flow / emitter->spray.solid_angle * arrival->transfer;
-    double share = sp_emitter_share(emitter, arrival);
+    double share = sp_emitter_share(emitter, arrival), flux = sp_emitter_flux(emitter, own->flow, arrival, share);
     bool edge = share > 0 && share < 1;
     if (arrival->passes)
         sp_wetting_add(wetting, flux, criterion->flux, arrival->part, share,

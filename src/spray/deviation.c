@@ -196,6 +196,21 @@ static void transfer_of(const bounding *b, double v, const bundle *flights, doub
     *most = flat * fmax(1 / (near * near), w_most / narrow) * (1 + SLACK);
 }
 
+/* The least and the most of a nozzle's flow per solid angle, m³/s/sr, within `reach` (rad) of the way to the patch. Of
+ * what rotates, where no flux is asked for, any is enough. */
+static void flux_of(const spraying *s, sp_vec3 axis, double reach, double threshold, double flux[2])
+{
+    const sp_spray *spray = &s->straight.spray;
+    flux[0] = flux[1] = s->flow / spray->solid_angle;
+    if (sp_spray_is_uniform(spray))
+        return;
+    sp_vec3 z = s->straight.frame.z;
+    double polar = atan2(sp_length(sp_cross(axis, z)), sp_dot(axis, z)), least, most;
+    sp_spray_densities(spray, fmax(0, polar - reach), fmin(M_PI, polar + reach), &least, &most);
+    flux[0] = threshold > 0 ? s->flow * least * (1 - SLACK) : flux[0];
+    flux[1] = s->flow * most * (1 + SLACK);
+}
+
 /* Whether high arcs cannot bring anything that passes. */
 static bool high_arcs_fail(const bounding *b, const spraying *s, const workplace *w, sp_side side,
                            const bundle *flights, double share)
@@ -244,12 +259,15 @@ static void weigh(const bounding *b, const spraying *s, uint32_t patch, const wo
     if (fast < criterion->impact_speed || flights.incidence_least > limit + SLACK ||
         (margin < -reach && share[0] == 0 && share[1] == 0))
         return;
-    double transfer[2], flux = s->flow / s->straight.spray.solid_angle;
+    double transfer[2], flux[2];
+    double broad =
+        fmax(sp_flight_breadth(&line[0], v, target.length), sp_flight_breadth(&parabola[0], v, target.length));
+    flux_of(s, shaft->axis, reach + sp_spray_fringe(broad), criterion->flux, flux);
     transfer_of(b, v, &flights, &transfer[0], &transfer[1]);
-    *most = flux * transfer[1];
+    *most = flux[1] * transfer[1];
     if (slow >= criterion->impact_speed && flights.incidence_most < limit - SLACK && margin > reach && share[0] == 1 &&
         share[1] == 1)
-        *least = flux * transfer[0];
+        *least = flux[0] * transfer[0];
 }
 
 static double combined(const bounding *b, const double *each)

@@ -41,6 +41,17 @@ static sp_vec3 local(const sp_frame *frame, sp_vec3 direction)
     return sp_v(sp_dot(direction, frame->x), sp_dot(direction, frame->y), sp_dot(direction, frame->z));
 }
 
+double sp_emitter_flux(const sp_emitter *emitter, double flow, const sp_arrival *arrival, double share)
+{
+    const sp_spray *spray = &emitter->spray;
+    const sp_frame *frame = &emitter->frame;
+    if (sp_spray_is_uniform(spray))
+        return flow / spray->solid_angle * arrival->transfer;
+    double density = share > 0 ? sp_spray_density(spray, frame, arrival->direction, arrival->breadth) / share
+                               : sp_spray_intensity(spray, local(frame, arrival->direction));
+    return flow * density * arrival->transfer;
+}
+
 bool sp_emitter_holds(const sp_emitter *emitter, sp_vec3 direction)
 {
     return sp_spray_intensity(&emitter->spray, local(&emitter->frame, direction)) > 0;

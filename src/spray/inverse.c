@@ -15,7 +15,7 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
     /* no patch receives more than there is, however dense the flights are at its points */
     double counted = 0, left = flow / emitter->source.evaluator->patches.area[first->patch];
     for (const sp_arrival *arrival = first; arrival < end; arrival++) {
-        double flux = flow / emitter->spray.solid_angle * arrival->transfer, share = sp_emitter_share(emitter, arrival);
+        double share = sp_emitter_share(emitter, arrival), flux = sp_emitter_flux(emitter, flow, arrival, share);
         double mean = fmin(arrival->part * share * flux, left);
         left -= mean;
         if (share > 0)

@@ -52,7 +52,7 @@ static void gather(const sp_emitter *emitter, double flow, const sp_point *point
             !arrival.passes || sp_flight_pierces(source, &target, &ways[k]))
             continue;
         f->point[f->count] = index;
-        f->flux[f->count] = flow / emitter->spray.solid_angle * arrival.transfer;
+        f->flux[f->count] = sp_emitter_flux(emitter, flow, &arrival, 0);
         f->rays[f->count++] = sp_flight_ray(source, &target, &ways[k]);
     }
 }

@@ -365,8 +365,9 @@ static const slip catalogue_slips[] = {
     {"name: ring", "name: cone", "catalogue.yaml:3:12: name: found 'cone', expected a name that no other type has"},
     {"pattern: hollow_cone, ", "", "catalogue.yaml:3:5: pattern: found nothing, expected this key in a catalogue type"},
     {"pattern: hollow_cone", "pattern: spiral",
-     "catalogue.yaml:3:27: pattern: found 'spiral', expected full_cone, hollow_cone, flat_fan, solid_stream or "
-     "cluster"},
+     "catalogue.yaml:3:27: pattern: found 'spiral', expected full_cone, hollow_cone, flat_fan, solid_stream, cluster "
+     "or "
+     "rotating"},
     {"angle: 90 deg, flow", "flow", "catalogue.yaml:2:5: angle: found nothing, expected this key in a full_cone"},
     {"angle: 90 deg, flow", "angle: 400 deg, flow",
      "catalogue.yaml:2:45: angle: found '400 deg', expected an angle above 0 to 360 deg such as 30 deg"},
@@ -396,6 +397,7 @@ static const slip catalogue_slips[] = {
     {"cv: 0.9", "cv: 90",
      "catalogue.yaml:4:98: cv: found '90', expected a number without unit above 0 to 1 such as 0.5"},
     {"drop: 2 mm", "drop: 0 mm", "catalogue.yaml:4:109: drop: found '0 mm', expected a length above 0 such as 250 mm"},
+    {"drop: 2 mm", "rotation: {}", "catalogue.yaml:4:113: rotation: found in a flat_fan, expected in a rotating only"},
     {"drop: 2 mm", "drop: 2 mm, colour: red",
      "catalogue.yaml:4:115: colour: found a key that a catalogue type does not have, expected one of name, pattern, "
      "angle, hollow, thickness, flow, at, exponent, cv, drop, angle_range, flow_range, order_code, url, image, "
@@ -416,6 +418,73 @@ static const slip catalogue_slips[] = {
     {"[10 L/min, 30 L/min]", "[10 L/min, 30 bar]",
      "catalogue.yaml:7:61: flow_range: found '30 bar', expected a flow above 0 such as 12 L/min ('bar' measures "
      "something else)"},
+    {"pattern: solid_stream", "pattern: rotating",
+     "catalogue.yaml:5:5: rotation: found nothing, expected this key in a rotating"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: 3",
+     "catalogue.yaml:5:46: rotation: found '3', expected the keys of a rotation"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {}",
+     "catalogue.yaml:5:46: jet: found nothing, expected this key in a rotation"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: rotating}}",
+     "catalogue.yaml:5:62: pattern: found 'rotating', expected full_cone, hollow_cone, flat_fan or solid_stream "
+     "in a jet"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: cluster, members: []}}",
+     "catalogue.yaml:5:62: pattern: found 'cluster', expected full_cone, hollow_cone, flat_fan or solid_stream "
+     "in a jet"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: flat_fan, angle: 60 deg}}",
+     "catalogue.yaml:5:52: thickness: found nothing, expected this key in a flat_fan"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: full_cone}}",
+     "catalogue.yaml:5:52: angle: found nothing, expected this key in a full_cone"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {angle: 60 deg}}",
+     "catalogue.yaml:5:52: pattern: found nothing, expected this key in a jet"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: solid_stream, tilt: 190 deg}}",
+     "catalogue.yaml:5:82: tilt: found '190 deg', expected an angle from 0 to 180 deg such as 30 deg"},
+    {"pattern: solid_stream", "pattern: rotating, angle: 60 deg, rotation: {jet: {pattern: solid_stream}}",
+     "catalogue.yaml:5:43: angle: found in a rotating, expected in its jet"},
+    {"pattern: solid_stream", "pattern: rotating, hollow: 0.5, rotation: {jet: {pattern: solid_stream}}",
+     "catalogue.yaml:5:44: hollow: found in a rotating, expected in its jet"},
+    {"pattern: solid_stream",
+     "pattern: rotating, angle_range: [60 deg, 90 deg], rotation: {jet: {pattern: solid_stream}}",
+     "catalogue.yaml:5:49: angle_range: found in a rotating, expected in another pattern only"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: solid_stream, flow: 3 L/min}}",
+     "catalogue.yaml:5:76: flow: found a key that a jet does not have, expected one of pattern, angle, hollow, "
+     "thickness, tilt, roll"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: solid_stream}, tilt: 3 deg}",
+     "catalogue.yaml:5:77: tilt: found a key that a rotation does not have, expected one of jet, jets, gears, speed, "
+     "turns"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: solid_stream}, jets: 4}",
+     "catalogue.yaml:5:83: jets: found '4', expected this key only beside gears, of what turns about two axes"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: solid_stream}, speed: 4 rpm}",
+     "catalogue.yaml:5:84: speed: found '4 rpm', expected this key only beside gears, of what turns about two axes"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: solid_stream}, gears: [43, 47]}",
+     "catalogue.yaml:5:46: jets: found nothing, expected this key beside gears"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: solid_stream}, jets: 4, gears: 0.9}",
+     "catalogue.yaml:5:93: gears: found '0.9', expected two numbers of teeth such as [43, 47]"},
+    {"pattern: solid_stream",
+     "pattern: rotating, rotation: {jet: {pattern: solid_stream}, jets: 4, gears: [43, 47, 50]}",
+     "catalogue.yaml:5:93: gears: found a list of 3, expected two numbers of teeth such as [43, 47]"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: solid_stream}, jets: 4, gears: [43, 0]}",
+     "catalogue.yaml:5:98: gears: found '0', expected a number of teeth from 1 to 1000 such as 43"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: solid_stream}, jets: 4, gears: [43, 4.5]}",
+     "catalogue.yaml:5:98: gears: found '4.5', expected a whole number of teeth"},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: solid_stream}, jets: 17, gears: [43, 47]}",
+     "catalogue.yaml:5:83: jets: found '17', expected a whole number from 1 to 16"},
+    {"pattern: solid_stream",
+     "pattern: rotating, rotation: {jet: {pattern: solid_stream}, jets: 4, gears: [43, 47], turns: 0}",
+     "catalogue.yaml:5:110: turns: found '0', expected a whole number from 1 to 1000000"},
+    {"pattern: solid_stream",
+     "pattern: rotating, rotation: {jet: {pattern: solid_stream}, jets: 4, gears: [43, 47], speed: 3 m/s}",
+     "catalogue.yaml:5:110: speed: found '3 m/s', expected a speed of rotation above 0 such as 3 rpm ('m/s' measures "
+     "something else)"},
+    {"pattern: solid_stream",
+     "pattern: rotating, rotation: {jet: {pattern: solid_stream, tilt: 30 deg}, jets: 4, gears: [43, 47]}",
+     "catalogue.yaml:5:82: tilt: found '30 deg', expected none beside gears: jets on a hub point outwards from it"},
+    {"pattern: solid_stream",
+     "pattern: rotating, rotation: {jet: {pattern: flat_fan, angle: 30 deg, thickness: 5 deg}, jets: 4, gears: [43, "
+     "47]}",
+     "catalogue.yaml:5:62: pattern: found 'flat_fan', expected full_cone, hollow_cone or solid_stream beside gears"},
+    {"pattern: solid_stream",
+     "pattern: rotating, rotation: {jet: {pattern: full_cone, angle: 91 deg}, jets: 4, gears: [43, 47]}",
+     "catalogue.yaml:5:80: angle: found '91 deg', expected an angle of at most 90 deg beside gears"},
     {"nozzles:", "types:", "catalogue.yaml:1:1: types: found a key that a catalogue does not have, expected nozzles"},
     {"nozzles:", "nozzles: 3\nother:",
      "catalogue.yaml:2:1: other: found a key that a catalogue does not have, expected nozzles"},
@@ -450,8 +519,9 @@ static const slip clusters[] = {
      "catalogue.yaml:13:19: pattern: found 'cluster', expected full_cone, hollow_cone, flat_fan or solid_stream in a "
      "cluster"},
     {"{pattern: solid_stream, offset", "{pattern: spiral, offset",
-     "catalogue.yaml:13:19: pattern: found 'spiral', expected full_cone, hollow_cone, flat_fan, solid_stream or "
-     "cluster"},
+     "catalogue.yaml:13:19: pattern: found 'spiral', expected full_cone, hollow_cone, flat_fan, solid_stream, cluster "
+     "or "
+     "rotating"},
     {"share: 2}", "flow: 2 L/min}",
      "catalogue.yaml:13:56: flow: found a key that a member of a cluster does not have, expected one of pattern, "
      "angle, hollow, thickness, axis, offset, roll, share, ring"},
@@ -493,15 +563,9 @@ static const slip clusters[] = {
 static const slip catalogue_later[] = {
     {"pattern: full_cone, angle: 90 deg, flow: 12 L/min, at: 2 bar", "pattern: measured, image: a.png",
      "catalogue.yaml:2:27: pattern: found 'measured', which is not supported yet, expected full_cone, hollow_cone, "
-     "flat_fan, solid_stream or cluster"},
-    {"pattern: full_cone, angle: 90 deg, flow: 12 L/min, at: 2 bar", "pattern: rotating",
-     "catalogue.yaml:2:27: pattern: found 'rotating', which is not supported yet, expected full_cone, hollow_cone, "
-     "flat_fan, solid_stream or cluster"},
+     "flat_fan, solid_stream, cluster or rotating"},
     {"drop: 2 mm", "image: a.png",
      "catalogue.yaml:4:110: image: found 'a.png', which is not supported yet, expected a type without this key"},
-    {"drop: 2 mm", "rotation: {}",
-     "catalogue.yaml:4:113: rotation: found a block of keys, which is not supported yet, expected a type without this "
-     "key"},
 };
 
 static int failures;
