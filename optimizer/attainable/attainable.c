@@ -220,7 +220,7 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *
             reasons[p] = kept->deposits.covered[p] ? SP_REASON_ATTAINABLE : SP_REASON_UNKNOWN;
         done = reckon(&reckoning, watch, reasons, error) &&
                (watch->cancelled ||
-                (sp_runs(fine, search, scopes, reasons, error) && sp_bounces(fine, search, reasons, error)));
+                (sp_runs(fine, search, scopes, watch, reasons, error) && sp_bounces(fine, search, reasons, error)));
     }
     free(scopes);
     sp_coverage_destroy(kept);

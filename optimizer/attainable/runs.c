@@ -8,6 +8,7 @@
 
 typedef struct {
     const sp_search *search;
+    sp_watch *watch;
     const sp_scope *scopes;
     size_t count;    /* of patches that are asked about */
     uint32_t *asked; /* [count], coarse */
@@ -76,7 +77,9 @@ static void look_at_sites(const running *r, const sp_draft *nothing)
         for (uint32_t k = 0; k < candidates->make_count; k++) {
             int thread = omp_get_thread_num();
             sp_sweeper_look(&r->sweepers[thread], r->search, nothing, (uint32_t)site, candidates->makes[k].speed_class);
-            if (!r->sweepers[thread].view->start)
+            /* a time limit does not stop this, as it does not stop the rest of what is attainable */
+            bool stopped = !sp_watch_goes_on(r->watch, "attainable", 1) && r->watch->cancelled;
+            if (stopped || !r->sweepers[thread].view->start)
                 continue;
             sp_sweeper_take(&r->sweepers[thread], k);
             look_at_make(r, thread, (uint32_t)site, k);
@@ -110,10 +113,11 @@ static void note(const running *r, const sp_evaluator *fine, const bool *attaine
     }
 }
 
-bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_reason *reasons,
-             sp_error *error)
+bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_watch *watch,
+             sp_reason *reasons, sp_error *error)
 {
     running r = {.search = search,
+                 .watch = watch,
                  .scopes = scopes,
                  .places = search->options->mount_count + 1,
                  .threads = sp_sweeper_threads(search),

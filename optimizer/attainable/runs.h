@@ -4,11 +4,12 @@
 
 #include "attainable/offers.h"
 #include "scoring/draft.h"
+#include "watch.h"
 
 /* Makes SP_REASON_ATTAINABLE of any other reason where the films of as many poses as number, water and ports allow,
  * and of the kept nozzles, could together suffice, on the search's patches. `scopes` by make; `reasons` of the patches
- * of `fine`. Does nothing where film is not asked for. */
-bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_reason *reasons,
-             sp_error *error);
+ * of `fine`. Does nothing where film is not asked for, and ends early where the run is cancelled. */
+bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_watch *watch,
+             sp_reason *reasons, sp_error *error);
 
 #endif

@@ -9,9 +9,8 @@
 #include <string.h>
 
 #define CREDIT 0.2f /* of a patch that has almost the flux it needs: a saturating surrogate misleads the search */
-#define PORT_TOLERANCE                                                                                                 \
-    4e-4 /* of the geometry's diagonal: a kept nozzle this near to a port's lance sits in the port                     \
-          */
+/* Of the geometry's diagonal: a kept nozzle this near to a port's lance sits in the port. */
+#define PORT_TOLERANCE 4e-4
 
 static bool kept_create(sp_search *search, sp_error *error)
 {

@@ -152,12 +152,9 @@ static bool read_turning(const sp_reader *reader, const sp_yaml *node, sp_nozzle
 static bool read_flow(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
     double limits[2];
-    type->exponent = 0.5;
     type->cv = 0.95;
     type->drop = 1e-3;
-    if (!sp_read_quantity(reader, node, "flow", &sp_flow_unit, sp_above(0), &type->flow) ||
-        !sp_read_quantity(reader, node, "at", &sp_pressure_unit, sp_above(0), &type->at) ||
-        !sp_read_quantity(reader, node, "exponent", &sp_ratio_unit, sp_above_to(0, 1), &type->exponent) ||
+    if (!sp_scene_read_flow(reader, node, type) ||
         !sp_read_quantity(reader, node, "cv", &sp_ratio_unit, sp_above_to(0, 1), &type->cv) ||
         !sp_read_quantity(reader, node, "drop", &sp_length_unit, sp_above(0), &type->drop) ||
         !read_adjustable(reader, node, "flow_range", &sp_flow_unit, sp_above(0), type->flow, limits))

@@ -42,6 +42,8 @@ bool sp_scene_override(sp_yaml *tree, const char *setting, sp_error *error);
 /* What a catalogue type, or a member of a cluster, sprays: `pattern`, and the angles that belong to it. */
 bool sp_scene_read_pattern(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
 bool sp_scene_read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
+/* flow_points.c: flow, pressure and exponent of a catalogue type. */
+bool sp_scene_read_flow(const sp_reader *reader, const sp_yaml *map, sp_nozzle_type *type);
 /* cluster.c: the members of a cluster, malloc'd into type->members, also where it fails. */
 bool sp_scene_read_members(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
 /* The catalogue's type of that name; NULL with an error at `node`. */
