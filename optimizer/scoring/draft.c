@@ -45,6 +45,7 @@ static bool set_patches(sp_search *search, sp_error *error)
     search->kept_hit = calloc(search->patch_count + 1, sizeof *search->kept_hit);
     search->kept_dry = malloc((search->patch_count + 1) * sizeof *search->kept_dry);
     search->kept_film = film ? calloc(search->patch_count + 1, sizeof *search->kept_film) : NULL;
+    search->level = omp_get_level();
     search->runoffs = film ? calloc(threads + 1, sizeof *search->runoffs) : NULL;
     if (!search->area || !search->kept_hit || !search->kept_dry || (film && (!search->kept_film || !search->runoffs)))
         return sp_fail_memory(error);

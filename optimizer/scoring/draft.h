@@ -26,6 +26,7 @@ typedef struct {
     size_t patch_count;
     size_t field_count;  /* of a nozzle's field: one for each patch, and where film is asked for as many for that */
     sp_runoff **runoffs; /* [threads], by sp_search_runoff; NULL: film is not asked for */
+    int level;           /* parallel regions around the caller of the placement, whose threads are not the search's */
     double all;          /* m² of all patches that are cleaned */
     float *area; /* [patch_count], share of all, 0 of what is only run over: what is rounded to single precision has
                   * no unit of length */
@@ -89,7 +90,8 @@ void sp_search_free(sp_search *search);
 /* The calling thread's own. */
 static inline sp_runoff *sp_search_runoff(const sp_search *search)
 {
-    return search->runoffs[omp_get_level() ? omp_get_ancestor_thread_num(1) : 0];
+    int own = search->level + 1;
+    return search->runoffs[omp_get_level() >= own ? omp_get_ancestor_thread_num(own) : 0];
 }
 /* How wet the kept nozzles leave a patch: it is covered from SP_ENOUGH. */
 static inline float sp_kept_wet(const sp_search *search, size_t patch)
