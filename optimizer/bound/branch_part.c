@@ -113,7 +113,8 @@ static void note_most(const sp_rows *rows, most_of *most)
 }
 
 /* What the slots would cover if each nozzle brought every texel the most that any candidate alive in its slot does; a
- * layout that is all there is left is covered exactly. Shares are rounded upwards, and so is their sum. */
+ * layout that is all there is left is covered exactly, but where a texel may be covered in several ways: then no less.
+ * Shares are rounded upwards, and so is their sum. */
 static bool outline(const sp_branching *b, const sp_tree *tree, const sp_branch *branch, double *area, sp_error *error)
 {
     const sp_cover *cover = b->cover;

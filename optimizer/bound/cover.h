@@ -1,9 +1,10 @@
 /* Maximum coverage: candidates as sparse rows over texels, of which some may be chosen within number, water and ports.
  *
  * A texel counts as covered only where the shares of the chosen candidates come to at least 1. With liquid that adds up
- * a share is min(1, flux over what the texel still needs); where one nozzle alone must do, it is 1 or 0. Where a
- * candidate's spray ends within a texel it covers a part of it alone; no more of the texel is covered than these parts
- * come to, unless shares on all of it come to 1. */
+ * a share is min(1, flux over what the texel still needs); where one nozzle alone must do, it is 1 or 0. Where a texel
+ * may be covered in several ways, a candidate's share is the greatest of theirs. Where a candidate's spray ends within
+ * a texel it covers a part of it alone; no more of the texel is covered than these parts come to, unless shares on all
+ * of it come to 1. */
 #ifndef OPTIMIZER_COVER_H
 #define OPTIMIZER_COVER_H
 

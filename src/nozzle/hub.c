@@ -1,9 +1,9 @@
-/* Two axes. What of a jet lies at the height u over the hub's middle plane, per u, is (2/Ω) β, cos β = cos a / √(1 -
- * u²), for a cone of half angle a and solid angle Ω. It goes round the hub's axis, evenly, on a small circle of polar
- * angle acos(u), so that its angle ϑ from the body's axis follows cos ϑ = √(1 - u²) cos τ. In the mean, then, the share
- * acos(cos ϑ / √(1 - u²)) / π of it leaves within ϑ, and 1 / (2π² √(sin²ϑ - u²)) per steradian at ϑ: for a thin jet,
- * 1 / (2π² sin ϑ). Over the jet both are integrals without closed form; in ξ, u = m sin ξ, with m the lesser of sin a
- * and sin ϑ, they are smooth. */
+/* Two axes. What of a jet lies at the height u over the hub's middle plane, per u, is (2/Ω) β, with cos β = cos
+ * a / √(1 - u²), for a cone of half angle a and solid angle Ω. It goes round the hub's axis, evenly, on a
+ * small circle of polar angle acos(u), so that its angle ϑ from the body's axis follows cos ϑ = √(1 - u²) cos
+ * τ. In the mean, then, the share acos(cos ϑ / √(1 - u²)) / π of it leaves within ϑ, and 1 / (2π²
+ * √(sin²ϑ - u²)) per steradian at ϑ: for a thin jet, 1 / (2π² sin ϑ). Over the jet both are integrals
+ * without closed form; in ξ, u = m sin ξ, with m the lesser of sin a and sin ϑ, they are smooth. */
 #include "caps.h"
 #include "turned.h"
 

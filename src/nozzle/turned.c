@@ -44,23 +44,17 @@ static double cone_within(const sp_spray *spray, double polar)
     return (sp_cap_overlap(spray->outer, polar, tilt) - sp_cap_overlap(spray->inner, polar, tilt)) / spray->solid_angle;
 }
 
-/* A hollow cone is a full one less what it lacks. */
-static double hub_density(const sp_spray *spray, double polar)
-{
-    double density = sp_hub_density(spray->outer, polar);
-    if (!(spray->inner > 0))
-        return density;
-    double hollow = 2 * M_PI * sp_cap_height(0, spray->inner), all = spray->solid_angle + hollow;
-    return (all * density - hollow * sp_hub_density(spray->inner, polar)) / spray->solid_angle;
-}
+/* What a full cone on a hub comes to at a polar angle: its density there, or its share within. */
+typedef double hub_measure(double outer, double polar);
 
-static double hub_within(const sp_spray *spray, double polar)
+/* A hollow cone is a full one less what it lacks. */
+static double on_hub(const sp_spray *spray, hub_measure *measure, double polar)
 {
-    double within = sp_hub_within(spray->outer, polar);
+    double full = measure(spray->outer, polar);
     if (!(spray->inner > 0))
-        return within;
+        return full;
     double hollow = 2 * M_PI * sp_cap_height(0, spray->inner), all = spray->solid_angle + hollow;
-    return (all * within - hollow * sp_hub_within(spray->inner, polar)) / spray->solid_angle;
+    return (all * full - hollow * measure(spray->inner, polar)) / spray->solid_angle;
 }
 
 double sp_turned_density(const sp_spray *spray, double polar)
@@ -68,7 +62,7 @@ double sp_turned_density(const sp_spray *spray, double polar)
     if (polar < spray->low || polar > spray->high)
         return 0;
     if (spray->two_axes)
-        return hub_density(spray, polar);
+        return on_hub(spray, sp_hub_density, polar);
     if (spray->jet != SP_PATTERN_FLAT_FAN)
         return cone_density(spray, polar);
     double solid_angle, share;
@@ -79,7 +73,7 @@ double sp_turned_density(const sp_spray *spray, double polar)
 static double within(const sp_spray *spray, double polar)
 {
     if (spray->two_axes)
-        return hub_within(spray, polar);
+        return on_hub(spray, sp_hub_within, polar);
     if (spray->jet != SP_PATTERN_FLAT_FAN)
         return cone_within(spray, polar);
     double solid_angle, share;
