@@ -1,6 +1,7 @@
 #include "attainable/attainable.h"
 #include "certificate/certificate.h"
 #include "forward_check.h"
+#include "scoring/footprints.h"
 #include "search/find.h"
 #include "refine/least_squares.h"
 #include "refine/refine.h"
@@ -39,52 +40,12 @@ static void placement_free(sp_placement *placement)
     free(placement->watch.stages);
 }
 
-static bool takes_types(const sp_nozzle_type *const *types, size_t count, sp_error *error)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (types[i]->pattern == SP_PATTERN_CLUSTER)
-            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                           "types: found '%s', a cluster, expected types of one pattern each; simulate and "
-                           "compare take clusters",
-                           types[i]->name);
-        if (types[i]->pattern == SP_PATTERN_ROTATING)
-            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                           "types: found '%s', which rotates, expected types that do not; simulate and compare take "
-                           "such types",
-                           types[i]->name);
-    }
-    return true;
-}
-
-bool sp_place_takes(const sp_place_options *options, sp_error *error)
-{
-    for (size_t i = 0; i < options->mount_count; i++)
-        if (!takes_types(options->mounts[i].types, options->mounts[i].type_count, error))
-            return false;
-    for (size_t i = 0; options->kept && i < options->kept->count; i++) {
-        const sp_nozzle *nozzle = &options->kept->nozzles[i];
-        if (nozzle->keep && nozzle->type->pattern == SP_PATTERN_CLUSTER)
-            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                           "nozzles: %s, of type '%s', is a cluster to be kept; expected kept nozzles of one pattern "
-                           "each, until place aims clusters",
-                           nozzle->name, nozzle->type->name);
-        if (nozzle->keep && nozzle->type->pattern == SP_PATTERN_ROTATING)
-            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                           "nozzles: %s, of type '%s', rotates and is to be kept; expected kept nozzles that do not, "
-                           "until place reckons with those that do",
-                           nozzle->name, nozzle->type->name);
-    }
-    return takes_types(options->types, options->type_count, error);
-}
-
 static bool check(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error)
 {
     if (!options->mount_count)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: no mounts");
     if (!(options->coverage >= 0 && options->coverage <= 1))
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: coverage: %g, expected 0 to 1", options->coverage);
-    if (!sp_place_takes(options, error))
-        return false;
     for (size_t i = 0; options->kept && i < options->kept->count; i++)
         if (options->kept->nozzles[i].keep && !sp_evaluator_admits(evaluator, &options->kept->nozzles[i], error))
             return false;
@@ -105,7 +66,10 @@ static bool look_around(sp_placement *placement, sp_error *error)
     const sp_evaluator *coarse = placement->resampled ? placement->resampled : fine;
     return sp_search_create(coarse, placement->options, &placement->sites, &placement->candidates,
                             &placement->visibility, &placement->search, error) &&
-           sp_watch_stage(&placement->watch, "visibility", error);
+           sp_watch_stage(&placement->watch, "visibility", error) &&
+           (!placement->search.footprints ||
+            (sp_footprints_fill(placement->search.footprints, &placement->watch, error) &&
+             sp_watch_stage(&placement->watch, "footprints", error)));
 }
 
 static double area_of(const sp_evaluator *fine, const bool *chosen)
@@ -260,6 +224,13 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
     return proposal->front && proposal->by_number;
 }
 
+/* False where what candidates bring could not be found when it was asked for. */
+static bool is_sound(const sp_placement *placement, sp_error *error)
+{
+    return sp_visibility_sound(&placement->visibility, error) &&
+           sp_footprints_sound(placement->search.footprints, error);
+}
+
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error)
 {
     if (!evaluator || !check(evaluator, options, error))
@@ -272,14 +243,13 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
     bool done = look_around(&placement, error) && set_target(&placement, proposal, error) &&
                 sp_find(&placement.search, &placement.watch, &placement.front, &placement.pool, error) &&
                 write_down(&placement, &proposal->greedy, &proposal->greedy_coverage, error) &&
-                sp_visibility_sound(&placement.visibility, error) &&
+                is_sound(&placement, error) &&
                 sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
-                sp_visibility_sound(&placement.visibility, error) &&
-                write_down(&placement, &proposal->layout, &proposal->coverage, error) &&
+                is_sound(&placement, error) && write_down(&placement, &proposal->layout, &proposal->coverage, error) &&
                 sp_watch_stage(&placement.watch, "refine", error) && confirm(&placement, proposal, error) &&
                 check_forward(&placement, proposal, error) && certify(&placement, proposal, error) &&
-                sp_visibility_sound(&placement.visibility, error) &&
-                sp_watch_stage(&placement.watch, "certificate", error) && conclude(&placement, proposal, error);
+                is_sound(&placement, error) && sp_watch_stage(&placement.watch, "certificate", error) &&
+                conclude(&placement, proposal, error);
     placement_free(&placement);
     if (done)
         return proposal;

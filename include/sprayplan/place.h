@@ -148,15 +148,12 @@ typedef struct {
     sp_stage *stages;
 } sp_proposal;
 
-/* False, with SP_ERROR_INPUT that names it, where a type that may be chosen, or that of a nozzle to be kept, is a
- * cluster or rotates: placement aims one pattern at a time, whose liquid is as dense all over. Either is fine in what a
- * proposal is compared with. */
-bool sp_place_takes(const sp_place_options *options, sp_error *error);
 /* Greedy next-best-view placement by the inverse evaluator, then refinement with Ceres accepted only where the
  * re-traced objective improves. The error of the proposal's coverage is measured; where it is above the accuracy, and
  * auto chose the settings, everything found is counted again by dearer ones. Deterministic. Returns NULL on error,
  * never for a target that cannot be reached. Fails with SP_ERROR_INPUT where no mount, type or pressure is given, no
- * mounting point is inside and clear, a kept nozzle is in a wall or outside, or sp_place_takes says no. */
+ * mounting point is inside and clear, or a kept nozzle is in a wall or outside. Clusters, and types that do not spray
+ * as densely all over, stay at the poses of candidates: refinement moves the others about them. */
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error);
 void sp_proposal_destroy(sp_proposal *proposal);
 

@@ -6,7 +6,14 @@
 #include <omp.h>
 #include <stdlib.h>
 
+/* What is asked of the fields of candidates. */
+typedef enum {
+    FILM,       /* of all of them */
+    FOOTPRINTS, /* what hits, of those that no sweep knows */
+} question;
+
 typedef struct {
+    question question;
     const sp_search *search;
     sp_watch *watch;
     const sp_scope *scopes;
@@ -44,6 +51,15 @@ static bool list_asked(running *r, const sp_evaluator *fine, const sp_reason *re
     return done;
 }
 
+/* What a field brings to a patch over what is asked for. */
+static double brought(const running *r, const float *field, uint32_t patch)
+{
+    float hit = field[patch];
+    if (r->question == FILM)
+        return (double)field[r->search->patch_count + patch];
+    return hit < 0 ? hit <= -0.5f ? INFINITY : 0 : (double)hit;
+}
+
 /* All that a make at a site offers. */
 static void look_at_make(const running *r, int thread, uint32_t site, uint32_t make)
 {
@@ -58,9 +74,9 @@ static void look_at_make(const running *r, int thread, uint32_t site, uint32_t m
         return;
     for (uint32_t a = 0; a < axes; a++)
         for (uint32_t roll = 0; roll < own->roll_count; roll++) {
-            const float *film = sp_sweeper_field(sweeper, a, roll) + search->patch_count;
+            const float *field = sp_sweeper_field(sweeper, a, roll);
             for (size_t i = 0; i < r->count; i++) {
-                double ratio = (double)film[r->asked[i]] / own->flow;
+                double ratio = brought(r, field, r->asked[i]) / own->flow;
                 sp_place_offers offers = offers_of(r, thread, i);
                 if (ratio > 0)
                     sp_place_offers_take(&offers, place,
@@ -78,8 +94,9 @@ static void look_at_sites(const running *r, const sp_draft *nothing)
             int thread = omp_get_thread_num();
             sp_sweeper_look(&r->sweepers[thread], r->search, nothing, (uint32_t)site, candidates->makes[k].speed_class);
             /* a time limit does not stop this, as it does not stop the rest of what is attainable */
-            bool stopped = !sp_watch_goes_on(r->watch, "attainable", 1) && r->watch->cancelled;
-            if (stopped || !r->sweepers[thread].view->start)
+            bool stopped = !sp_watch_goes_on(r->watch, "attainable", 1) && r->watch->cancelled,
+                 swept = sp_is_swept(candidates->makes[k].type);
+            if (stopped || (swept && (r->question == FOOTPRINTS || !r->sweepers[thread].view->start)))
                 continue;
             sp_sweeper_take(&r->sweepers[thread], k);
             look_at_make(r, thread, (uint32_t)site, k);
@@ -100,8 +117,12 @@ static bool suffice(const running *r, size_t i)
             sp_place_offers_take(&all, place, more.thriftiest[place]);
         }
     }
-    return sp_place_offers_suffice(&all, most ? left : SIZE_MAX, r->water_left,
-                                   1 - (double)search->kept_film[r->asked[i]]);
+    if (r->question == FILM)
+        return sp_place_offers_suffice(&all, most ? left : SIZE_MAX, r->water_left,
+                                       1 - (double)search->kept_film[r->asked[i]]);
+    bool alone = search->single || search->threshold <= 0;
+    size_t nozzles = most && left < 1 ? 0 : alone ? 1 : most ? left : SIZE_MAX;
+    return sp_place_offers_suffice(&all, nozzles, r->water_left, alone ? 1 : 1 - (double)search->kept_hit[r->asked[i]]);
 }
 
 static void note(const running *r, const sp_evaluator *fine, const bool *attained, sp_reason *reasons)
@@ -113,6 +134,31 @@ static void note(const running *r, const sp_evaluator *fine, const bool *attaine
     }
 }
 
+static bool ask(const sp_evaluator *fine, running *r, sp_reason *reasons, sp_error *error)
+{
+    const sp_search *search = r->search;
+    sp_draft nothing = {0};
+    bool *attained = calloc(search->patch_count + 1, sizeof *attained);
+    bool done = (attained && list_asked(r, fine, reasons)) || sp_fail_memory(error);
+    if (done && r->count) {
+        r->offers = calloc((size_t)r->threads * r->count, 2 * r->places * sizeof *r->offers);
+        r->sweepers = r->offers ? sp_sweepers_create(search, r->threads, error) : sp_fail_memory(error);
+        done = r->sweepers && sp_draft_create(search, &nothing, error);
+        if (done)
+            look_at_sites(r, &nothing);
+        for (size_t i = 0; done && i < r->count; i++)
+            attained[r->asked[i]] = suffice(r, i);
+        if (done)
+            note(r, fine, attained, reasons);
+    }
+    sp_draft_free(&nothing);
+    sp_sweepers_destroy(r->sweepers, r->threads);
+    free(r->offers);
+    free(r->asked);
+    free(attained);
+    return done;
+}
+
 bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_watch *watch,
              sp_reason *reasons, sp_error *error)
 {
@@ -122,26 +168,8 @@ bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *
                  .places = search->options->mount_count + 1,
                  .threads = sp_sweeper_threads(search),
                  .water_left = search->options->max_water - search->kept_flow};
-    sp_draft nothing = {0};
-    if (!search->runoffs)
-        return true;
-    bool *attained = calloc(search->patch_count + 1, sizeof *attained);
-    bool done = (attained && list_asked(&r, fine, reasons)) || sp_fail_memory(error);
-    if (done && r.count) {
-        r.offers = calloc((size_t)r.threads * r.count, 2 * r.places * sizeof *r.offers);
-        r.sweepers = r.offers ? sp_sweepers_create(search, r.threads, error) : sp_fail_memory(error);
-        done = r.sweepers && sp_draft_create(search, &nothing, error);
-        if (done)
-            look_at_sites(&r, &nothing);
-        for (size_t i = 0; done && i < r.count; i++)
-            attained[r.asked[i]] = suffice(&r, i);
-        if (done)
-            note(&r, fine, attained, reasons);
-    }
-    sp_draft_free(&nothing);
-    sp_sweepers_destroy(r.sweepers, r.threads);
-    free(r.offers);
-    free(r.asked);
-    free(attained);
-    return done;
+    running hits = r, film = r;
+    hits.question = FOOTPRINTS;
+    return (!search->footprints || ask(fine, &hits, reasons, error)) &&
+           (!search->runoffs || ask(fine, &film, reasons, error));
 }

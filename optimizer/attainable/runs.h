@@ -1,4 +1,4 @@
-/* What film reaches that no spray does. */
+/* What fields of candidates reach that closed forms do not tell: film, and footprints. */
 #ifndef OPTIMIZER_RUNS_H
 #define OPTIMIZER_RUNS_H
 
@@ -7,8 +7,8 @@
 #include "watch.h"
 
 /* Makes SP_REASON_ATTAINABLE of any other reason where the films of as many poses as number, water and ports allow,
- * and of the kept nozzles, could together suffice, on the search's patches. `scopes` by make; `reasons` of the patches
- * of `fine`. Does nothing where film is not asked for, and ends early where the run is cancelled. */
+ * and of the kept nozzles, could together suffice, on the search's patches; and where what hits could of poses that no
+ * sweep knows. `scopes` by make; `reasons` of the patches of `fine`. Ends early where the run is cancelled. */
 bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_watch *watch,
              sp_reason *reasons, sp_error *error);
 

@@ -11,21 +11,31 @@
 #define FINENESS_STEP 0.95
 #define POSES_ENOUGH 1.1e6
 #define FAN_ROLLS 8
+#define BODY_ROLLS 4 /* of what no sweep knows, each of which has to be traced */
 #define ANGLES 3
 
 void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high)
 {
-    *low = fmax(type->angle_min, type->angle - options->refine.angle);
-    *high = fmin(type->angle_max, type->angle + options->refine.angle);
+    double change = sp_is_swept(type) ? options->refine.angle : 0;
+    *low = fmax(type->angle_min, type->angle - change);
+    *high = fmin(type->angle_max, type->angle + change);
 }
 
 void sp_flow_range(const sp_place_options *options, const sp_fluid *liquid, const sp_nozzle_type *type, double pressure,
                    double *low, double *high)
 {
-    double least = fmax(type->flow_min, type->flow * (1 - options->refine.flow));
-    double most = fmin(type->flow_max, type->flow * (1 + options->refine.flow));
+    double change = sp_is_swept(type) ? options->refine.flow : 0;
+    double least = fmax(type->flow_min, type->flow * (1 - change));
+    double most = fmin(type->flow_max, type->flow * (1 + change));
     *low = sp_type_flow(type, least, pressure, liquid);
     *high = sp_type_flow(type, most, pressure, liquid);
+}
+
+static size_t rolls_of(const sp_nozzle_type *type)
+{
+    if (type->pattern == SP_PATTERN_FLAT_FAN)
+        return FAN_ROLLS;
+    return sp_is_swept(type) || type->pattern == SP_PATTERN_ROTATING ? 1 : BODY_ROLLS;
 }
 
 static bool make_create(const sp_setup *setup, const sp_nozzle_type *type, double pressure, double angle,
@@ -35,8 +45,8 @@ static bool make_create(const sp_setup *setup, const sp_nozzle_type *type, doubl
     sp_make make = {.type = type, .pressure = pressure, .angle = angle, .spray = sp_spray_create(type, angle)};
     make.flow = sp_nozzle_flow(&nozzle, &setup->liquid);
     make.speed = sp_nozzle_speed(&nozzle, &setup->liquid);
-    make.reach = sp_spray_reach(&make.spray);
-    make.roll_count = type->pattern == SP_PATTERN_FLAT_FAN ? FAN_ROLLS : 1;
+    make.reach = type->pattern == SP_PATTERN_CLUSTER ? 0.5 * sp_nozzle_angle(&nozzle) : sp_spray_reach(&make.spray);
+    make.roll_count = rolls_of(type);
     if (!(make.flow > 0) || !(make.speed > 0))
         return false;
     while (make.speed_class < candidates->speed_count && candidates->speeds[make.speed_class] != make.speed)
@@ -107,16 +117,18 @@ static bool fits(const sp_mount *mount, const sp_nozzle_type *type)
     return false;
 }
 
-/* How far apart a make's axes lie, and how far out. */
+/* How far apart a make's axes lie, and how far out. Few poses do not make footprints finer: each has to be traced. */
 static double axis_step(const sp_make *make, double fineness)
 {
-    return fineness * fmin(AXIS_STEP_MOST, fmax(AXIS_STEP_LEAST, AXIS_SHARE * make->reach));
+    return (sp_is_swept(make->type) ? fineness : 1) *
+           fmin(AXIS_STEP_MOST, fmax(AXIS_STEP_LEAST, AXIS_SHARE * make->reach));
 }
 
 static double axis_tilt(const sp_make *make, const sp_mount *mount)
 {
     /* what sprays all round is the same whatever its axis */
-    bool all_round = make->spray.kind != SP_PATTERN_FLAT_FAN && make->spray.outer >= M_PI && make->spray.inner <= 0;
+    bool cone = sp_is_swept(make->type) && make->spray.kind != SP_PATTERN_FLAT_FAN,
+         all_round = cone && make->spray.outer >= M_PI && make->spray.inner <= 0;
     return all_round ? 0 : fmin(M_PI, mount->tilt);
 }
 
@@ -200,6 +212,15 @@ void sp_candidates_free(sp_candidates *candidates)
     *candidates = (sp_candidates){0};
 }
 
+size_t sp_candidates_number(const sp_candidates *candidates, const sp_sites *sites, sp_pose pose)
+{
+    size_t number = candidates->pose_start[pose.site];
+    uint32_t mount = sites->items[pose.site].mount;
+    for (uint32_t k = 0; k < pose.make; k++)
+        number += sp_candidates_axes(candidates, mount, k)->count * candidates->makes[k].roll_count;
+    return number + pose.axis * candidates->makes[pose.make].roll_count + pose.roll;
+}
+
 sp_vec3 sp_frame_axis(const sp_frame *frame, sp_vec3 axis)
 {
     return sp_unit(sp_add(sp_add(sp_scale(frame->x, axis.x), sp_scale(frame->y, axis.y)), sp_scale(frame->z, axis.z)));
@@ -208,7 +229,8 @@ sp_vec3 sp_frame_axis(const sp_frame *frame, sp_vec3 axis)
 double sp_make_roll(const sp_make *make, size_t i)
 {
     /* Half a turn brings a fan back to itself. */
-    return M_PI * (double)i / (double)make->roll_count;
+    double turn = make->type->pattern == SP_PATTERN_FLAT_FAN ? M_PI : 2 * M_PI;
+    return turn * (double)i / (double)make->roll_count;
 }
 
 sp_nozzle sp_pose_nozzle(const sp_candidates *candidates, const sp_sites *sites, sp_pose pose, sp_vec3 up)

@@ -14,8 +14,16 @@ typedef struct {
     size_t speed_class;
     sp_spray spray;
     double reach;      /* rad, half-angle of the cone that holds the pattern */
-    size_t roll_count; /* 1 but for fans */
+    size_t roll_count; /* 1 where it is the same at every roll */
 } sp_make;
+
+/* True of a type of one region that is as dense all over, which sweeps know and refinement may change. What any other
+ * brings is found by footprints, and it stays at the poses of candidates. */
+static inline bool sp_is_swept(const sp_nozzle_type *type)
+{
+    return type->pattern == SP_PATTERN_FULL_CONE || type->pattern == SP_PATTERN_HOLLOW_CONE ||
+           type->pattern == SP_PATTERN_FLAT_FAN || type->pattern == SP_PATTERN_SOLID_STREAM;
+}
 
 /* Axes within a mount's tilt, about +z. */
 typedef struct {
@@ -46,6 +54,8 @@ static inline const sp_axes *sp_candidates_axes(const sp_candidates *candidates,
 {
     return &candidates->axes[mount * candidates->make_count + make];
 }
+/* The pose's number among all, by site. */
+size_t sp_candidates_number(const sp_candidates *candidates, const sp_sites *sites, sp_pose pose);
 /* Turns an axis about +z to lie about the z of a frame: for a site sp_nozzle_frame(site->axis, 0, up). */
 sp_vec3 sp_frame_axis(const sp_frame *frame, sp_vec3 axis);
 /* What refinement may set: angle (rad), and flow (m³/s) of a type at a pressure. */

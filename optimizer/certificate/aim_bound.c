@@ -126,8 +126,7 @@ static bool add_rows(aiming *a, sp_error *error)
         for (size_t n = 0; n < sp_front_draft(a->front, i)->count; n++) {
             const sp_placed *placed = &sp_front_draft(a->front, i)->items[n];
             uint32_t tier = tier_of_weight(a, sp_water_weight(&a->units, placed->flow));
-            if (!sp_pose_prices_row(a->poses, placed->field, SP_OWN_KEY, a->task->ports[placed->site.mount], tier,
-                                    &a->bound.rows, error))
+            if (!sp_pose_prices_found(a->poses, placed, tier, &a->bound.rows, error))
                 return false;
         }
     for (size_t c = 0; c < rows->count && a->units.unit == a->task->units->unit; c++) {

@@ -317,8 +317,9 @@ static bool certify(certifying *c, sp_front *front, sp_certificate *certificate,
     conclude(c, front, certificate);
     const sp_aim_task task = {c->problem.search, c->watch,         &c->problem.cover, &c->problem.units,
                               c->problem.need,   c->problem.ports, &c->bound.rows};
-    /* film has no discs of aims: what runs down depends on all that hits above */
-    if (!c->problem.search->runoffs && !sp_aim_bound(&task, front, certificate, error))
+    /* film has no discs of aims: what runs down depends on all that hits above; and footprints are of single poses */
+    bool aims = !c->problem.search->runoffs && !c->problem.search->footprints;
+    if (aims && !sp_aim_bound(&task, front, certificate, error))
         return false;
     if (!c->problem.search->options->prove)
         return true;

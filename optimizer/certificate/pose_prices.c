@@ -2,6 +2,7 @@
 
 #include "ranking.h"
 
+#include "scoring/footprints.h"
 #include "scoring/scoring.h"
 
 #include <omp.h>
@@ -33,7 +34,7 @@ typedef struct {
     const sp_prices *prices; /* of now */
     sp_field_sweeper fields; /* where film is asked for, of which `worth` holds the arrays */
     float *field;            /* [field_count] */
-    uint32_t *texels;        /* [2 texels], of the row of a field */
+    uint32_t *texels;        /* [2 patch_count], of the row of a field or footprint */
     float *shares;
 } scratch;
 
@@ -55,7 +56,7 @@ struct sp_pose_prices {
 static bool allocate(sp_pose_prices *prices)
 {
     const sp_search *search = prices->search;
-    size_t texels = search->field_count + 1, room = search->visibility->largest + 2 * SP_LANES;
+    size_t texels = 2 * search->patch_count + 1, room = search->visibility->largest + 2 * SP_LANES;
     prices->bests = calloc(search->sites->count + 1, search->candidates->make_count * sizeof *prices->bests);
     prices->scratches = calloc((size_t)prices->threads, sizeof *prices->scratches);
     if (!prices->bests || !prices->scratches)
@@ -161,27 +162,53 @@ static inline float film_share_of(const sp_pose_prices *prices, uint32_t texel, 
     return fminf(1, film / prices->film_need[texel] * prices->upwards);
 }
 
-/* Writes a field as a row; returns how many entries it has. A texel is covered by what hits it, or by its film, never
- * by both together, so that where many nozzles suffice one way, the greater of either way's shares come to 1 as well.
- * Where a spray ends, what it covers by itself and its film are two entries: lifts make of them what they make of each.
- */
+/* Adds what a print brings to a row of `count` entries; returns how many it has then. A texel is covered by what hits
+ * it, or by its film, never by both together, so that where many nozzles suffice one way, the greater of either way's
+ * shares come to 1 as well. Where a spray ends, what it covers by itself and what suffices together with others' are
+ * two entries: lifts make of them what they make of each. */
+static inline size_t write_print(const sp_pose_prices *prices, const sp_print *print, uint32_t *texels, float *shares,
+                                 size_t count)
+{
+    uint32_t t = print->patch;
+    if (!(prices->need[t] > 0))
+        return count;
+    float hits = print->hit > 0 ? share_of(prices, t, print->hit, false) : 0,
+          runs = print->film > 0 ? film_share_of(prices, t, print->film) : 0;
+    float both[] = {print->edge > 0 ? fmaxf(-print->edge - PART_MORE, -1) : 0, fmaxf(hits, runs)};
+    for (int i = 0; i < 2; i++)
+        if (both[i] != 0) {
+            texels[count] = t;
+            shares[count++] = both[i];
+        }
+    return count;
+}
+
+/* Writes a field as a row; returns how many entries it has. */
 static size_t write_row(const sp_pose_prices *prices, const float *field, uint32_t *texels, float *shares)
 {
     size_t count = 0, patches = prices->search->patch_count;
     for (uint32_t t = 0; t < patches; t++) {
-        float film = prices->film_need ? field[patches + t] : 0;
-        if ((field[t] == 0 && !(film > 0)) || !(prices->need[t] > 0))
-            continue;
-        float share = field[t] < 0 ? fmaxf(field[t] - PART_MORE, -1) : share_of(prices, t, field[t], false);
-        float runs = film > 0 ? film_share_of(prices, t, film) : 0;
-        float both[] = {share < 0 ? share : fmaxf(share, runs), share < 0 ? runs : 0};
-        for (int i = 0; i < 2; i++)
-            if (both[i] != 0) {
-                texels[count] = t;
-                shares[count++] = both[i];
-            }
+        sp_print print = {t, fmaxf(field[t], 0), fmaxf(-field[t], 0), prices->film_need ? field[patches + t] : 0};
+        if (print.hit > 0 || print.edge > 0 || print.film > 0)
+            count = write_print(prices, &print, texels, shares, count);
     }
     return count;
+}
+
+/* The same of a footprint. */
+static size_t write_footprint(const sp_pose_prices *prices, const sp_footprint *footprint, uint32_t *texels,
+                              float *shares)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < footprint->count; i++)
+        count = write_print(prices, &footprint->prints[i], texels, shares, count);
+    return count;
+}
+
+/* What a pose, or a nozzle that is still there, brings of its own footprint. */
+static size_t write_pose(const sp_pose_prices *prices, sp_pose pose, uint32_t *texels, float *shares)
+{
+    return write_footprint(prices, sp_footprints_look(prices->search->footprints, pose), texels, shares);
 }
 
 bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t tier,
@@ -192,13 +219,34 @@ bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64
     return sp_rows_add(rows, key, port, tier, own->texels, own->shares, count, error);
 }
 
+/* The same of a pose that no sweep knows. */
+static bool add_footprint(const sp_pose_prices *prices, sp_pose pose, uint64_t key, size_t port, uint32_t tier,
+                          sp_rows *rows, sp_error *error)
+{
+    const scratch *own = &prices->scratches[0];
+    size_t count = write_pose(prices, pose, own->texels, own->shares);
+    return sp_rows_add(rows, key, port, tier, own->texels, own->shares, count, error);
+}
+
+bool sp_pose_prices_found(const sp_pose_prices *prices, const sp_placed *placed, uint32_t tier, sp_rows *rows,
+                          sp_error *error)
+{
+    size_t port = prices->ports[placed->site.mount];
+    return sp_is_swept(placed->nozzle.type)
+               ? sp_pose_prices_row(prices, placed->field, SP_OWN_KEY, port, tier, rows, error)
+               : add_footprint(prices, placed->pose, SP_OWN_KEY, port, tier, rows, error);
+}
+
 bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *rows, sp_error *error)
 {
+    const sp_search *search = prices->search;
     float *field = prices->scratches[0].field;
-    sp_field_pose(prices->search, pose, field);
-    return sp_pose_prices_row(prices, field, sp_pose_order_position(prices->order, pose),
-                              prices->ports[prices->search->sites->items[pose.site].mount], prices->tier_of[pose.make],
-                              rows, error);
+    size_t key = sp_pose_order_position(prices->order, pose),
+           port = prices->ports[search->sites->items[pose.site].mount];
+    if (!sp_is_swept(search->candidates->makes[pose.make].type))
+        return add_footprint(prices, pose, key, port, prices->tier_of[pose.make], rows, error);
+    sp_field_pose(search, pose, field);
+    return sp_pose_prices_row(prices, field, key, port, prices->tier_of[pose.make], rows, error);
 }
 
 /* What each arrival of a view brings to a make; returns the make's region about the site's axis. */
@@ -208,10 +256,20 @@ static sp_region prepare_worth(const sp_pose_prices *prices, scratch *own, const
     double strength = sp_make_strength(prices->search, make);
     own->prices = u;
     own->fields.view = view;
+    if (!sp_is_swept(make->type))
+        return (sp_region){.count = SP_COUNT_SHARE};
     if (!prices->film_need)
         sp_pose_prices_worth(prices, view, (float)strength, (float)strength, u, own->worth, own->total);
     sp_cull_create(&prices->search->visibility->bins, view, &make->spray, SP_COUNT_SHARE, &own->cull);
     return sp_region_create(&make->spray, frame, strength, SLACK);
+}
+
+/* The price of the row in hand, of `count` entries. */
+static double row_price(const scratch *own, size_t count)
+{
+    size_t start[] = {0, count};
+    sp_rows row = {.count = 1, .start = start, .texel = own->texels, .share = own->shares};
+    return sp_rows_price(&row, 0, own->prices) * UPWARDS;
 }
 
 /* The price of the pose's own row: what runs down comes from everywhere above, which no bin knows. */
@@ -219,9 +277,7 @@ static double field_price_of(const sp_pose_prices *prices, const scratch *own, c
                              const sp_region *region)
 {
     sp_field_sweep(prices->search, &own->fields, make, region, own->field);
-    size_t start[] = {0, write_row(prices, own->field, own->texels, own->shares)};
-    sp_rows row = {.count = 1, .start = start, .texel = own->texels, .share = own->shares};
-    return sp_rows_price(&row, 0, own->prices) * UPWARDS;
+    return row_price(own, write_row(prices, own->field, own->texels, own->shares));
 }
 
 /* The pose's price, rounded upwards, by more where it is less than `least`. */
@@ -234,6 +290,8 @@ static double price_of(const sp_pose_prices *prices, const scratch *own, const s
     sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, up);
     const sp_weight weight = {own->worth, own->total};
     double price;
+    if (!sp_is_swept(nozzle.type))
+        return row_price(own, write_pose(prices, pose, own->texels, own->shares));
     sp_region_turn(region, &frame);
     if (prices->film_need)
         return field_price_of(prices, own, &search->candidates->makes[pose.make], region);
@@ -268,7 +326,7 @@ static best price_make(sp_pose_prices *prices, scratch *own, const sp_view *view
     const sp_make *make = &candidates->makes[k];
     size_t axes = sp_candidates_axes(candidates, prices->search->sites->items[site].mount, k)->count;
     best found = {.price = 0};
-    double all = prices->film_need ? INFINITY : all_bins(own);
+    double all = prices->film_need || !sp_is_swept(make->type) ? INFINITY : all_bins(own);
     double told = stride == 1 ? TOLD_LEAST * needed : INFINITY; /* below it no price need be exact to be told */
     for (uint32_t a = 0; a < axes; a++)
         for (uint32_t r = 0; r < make->roll_count; r++) {
@@ -301,7 +359,7 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
         if (!sp_candidates_axes(candidates, mount, k)->count || !isfinite(least) || prices->search->port_taken[mount])
             continue;
         const sp_view *view = sp_visibility_look(prices->search->visibility, site, make->speed_class, &own->desk);
-        if (!view->start)
+        if (!view->start && sp_is_swept(make->type))
             continue;
         sp_region region = prepare_worth(prices, own, view, make, &frame, u);
         *found = price_make(prices, own, view, site, k, &region, stride, least, needed[prices->tier_of[k]]);
@@ -386,7 +444,7 @@ static void price_block(sp_pose_prices *prices, scratch *own, size_t block, cons
     if (!memchr(alive + poses->start, 1, end - poses->start))
         return;
     const sp_view *view = sp_visibility_look(search->visibility, poses->site, make->speed_class, &own->desk);
-    if (!view->start)
+    if (!view->start && sp_is_swept(make->type))
         return;
     sp_region region = prepare_worth(prices, own, view, make, &frame, u);
     for (size_t i = poses->start; i < end; i++)

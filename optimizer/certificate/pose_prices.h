@@ -39,6 +39,9 @@ void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, flo
 /* Appends a field (see sp_placed) as a row. */
 bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t tier,
                         sp_rows *rows, sp_error *error);
+/* Appends what a nozzle of a layout that was found brings, as SP_OWN_KEY. */
+bool sp_pose_prices_found(const sp_pose_prices *prices, const sp_placed *placed, uint32_t tier, sp_rows *rows,
+                          sp_error *error);
 /* Appends the row of a pose. */
 bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *rows, sp_error *error);
 

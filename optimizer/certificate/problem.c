@@ -1,5 +1,7 @@
 #include "certificate/problem.h"
 
+#include "scoring/scoring.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -117,8 +119,7 @@ static bool add_own(sp_problem *p, sp_error *error)
         const sp_draft *draft = sp_front_draft(p->front, i);
         for (size_t n = 0; n < draft->count; n++) {
             const sp_placed *placed = &draft->items[n];
-            if (!sp_pose_prices_row(p->prices, placed->field, SP_OWN_KEY, p->ports[placed->site.mount],
-                                    tier_for(p, placed->flow), &p->nozzles, error))
+            if (!sp_pose_prices_found(p->prices, placed, tier_for(p, placed->flow), &p->nozzles, error))
                 return false;
         }
     }
@@ -133,7 +134,7 @@ size_t sp_problem_poses(const sp_problem *p)
         for (size_t k = 0; k < search->candidates->make_count; k++) {
             uint32_t mount = search->sites->items[i].mount;
             const sp_make *make = &search->candidates->makes[k];
-            if (!search->port_taken[mount] && sp_visibility_known(search->visibility, (uint32_t)i, make->speed_class))
+            if (!search->port_taken[mount] && sp_sweeper_knows(search, (uint32_t)i, k))
                 count += sp_candidates_axes(search->candidates, mount, k)->count * make->roll_count;
         }
     return count;

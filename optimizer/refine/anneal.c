@@ -117,8 +117,8 @@ static bool step(const sp_annealing *annealing, size_t width, sp_draft *draft)
         views[i] = sp_sights_look(annealing->sights, &draft->items[i], annealing->error);
         done = views[i] != NULL;
     }
-    done = done && sp_soft_solve(search, freedoms, views, draft->count, widths[width], annealing->budget, values,
-                                 annealing->error);
+    done = done &&
+           sp_soft_solve(search, draft, freedoms, views, widths[width], annealing->budget, values, annealing->error);
     for (size_t i = 0; done && i < draft->count; i++)
         mark(&freedoms[i], values[i]);
     done = done && line_search(annealing, freedoms, values, width >= SP_CAREFUL, draft);

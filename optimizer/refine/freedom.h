@@ -22,6 +22,7 @@ typedef struct {
     double low[SP_UNKNOWNS], high[SP_UNKNOWNS]; /* low < high */
 } sp_freedom;
 
+/* Nothing, where sweeps do not know the nozzle's type. */
 sp_freedom sp_freedom_create(const sp_search *search, const sp_placed *placed);
 /* The nozzle at these values, its axis brought back within the limits of tilt and refinement. */
 sp_nozzle sp_freedom_nozzle(const sp_freedom *freedom, const double *values);

@@ -20,6 +20,8 @@ static bool moved_site(const sp_search *search, const sp_placed *placed, sp_vec3
 void sp_placed_move(const sp_search *search, sp_placed *placed, const sp_freedom *freedom, const double *values)
 {
     sp_site site = placed->site;
+    if (!freedom->count)
+        return;
     sp_nozzle nozzle = sp_freedom_nozzle(freedom, values);
     if (sp_distance(nozzle.position, placed->nozzle.position) > 0 &&
         moved_site(search, placed, nozzle.position, &site)) {

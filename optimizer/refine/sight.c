@@ -1,6 +1,6 @@
 #include "refine/sight.h"
 
-#include "scoring/field.h"
+#include "scoring/footprints.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -104,7 +104,10 @@ static sp_sight *known(const sp_sights *sights, const sp_sight *wanted)
 
 const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_error *error)
 {
+    static const sp_sight nothing = {0};
     const sp_search *search = sights->search;
+    if (!sp_is_swept(placed->nozzle.type))
+        return &nothing;
     sp_sight wanted = {.position = placed->nozzle.position,
                        .speed = sp_nozzle_speed(&placed->nozzle, &sp_evaluator_setup(search->coarse)->liquid),
                        .axis = placed->origin.axis,
@@ -168,6 +171,10 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
 
 bool sp_sights_field(sp_sights *sights, const sp_placed *placed, const sp_draft *draft, float *field, sp_error *error)
 {
+    if (!sp_is_swept(placed->nozzle.type)) {
+        sp_field_pose(sights->search, placed->pose, field);
+        return sp_footprints_sound(sights->search->footprints, error);
+    }
     const sp_sight *sight = sp_sights_look(sights, placed, error);
     if (sight)
         sp_sight_field(sights->search, sight, placed, draft, field);

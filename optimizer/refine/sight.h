@@ -43,8 +43,8 @@ bool sp_sights_create(const sp_search *search, size_t capacity, sp_sights *sight
 bool sp_sights_reserve(sp_sights *sights, size_t capacity, sp_error *error);
 void sp_sights_forget(sp_sights *sights);
 void sp_sights_free(sp_sights *sights);
-/* From the nozzle's place, or one near enough, all that refinement may turn it to. Valid for the next capacity - 1
- * looks; NULL on error. */
+/* From the nozzle's place, or one near enough, all that refinement may turn it to; nothing of a nozzle that it does not
+ * move, whose footprint is its field. Valid for the next capacity - 1 looks; NULL on error. */
 const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_error *error);
 /* Flies to a patch in sight, or its cell, from `position`, visibility as it was; false where no liquid arrives. */
 bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen *seen, sp_vec3 position,

@@ -2,6 +2,7 @@
 
 #include "refine/least_squares.h"
 #include "refine/soft_film.h"
+#include "scoring/footprints.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -419,19 +420,50 @@ static bool solve(sp_soft *soft, double (*values)[SP_UNKNOWNS], sp_error *error)
     return done;
 }
 
-bool sp_soft_solve(const sp_search *search, const sp_freedom *freedoms, const sp_sight *const *sights, size_t count,
-                   sp_width width, double budget, double (*values)[SP_UNKNOWNS], sp_error *error)
+/* The nozzles that keep their fields, as though every layout contained them, but for their water. */
+static bool hold(const sp_search *search, const sp_draft *draft, sp_search *held, sp_error *error)
 {
+    size_t bytes = (search->patch_count + 1) * sizeof(float), count = search->patch_count;
+    *held = *search;
+    held->kept_hit = malloc(bytes);
+    held->kept_dry = malloc(bytes);
+    held->kept_film = search->kept_film ? malloc(bytes) : NULL;
+    if (!held->kept_hit || !held->kept_dry || (search->kept_film && !held->kept_film))
+        return sp_fail_memory(error);
+    memcpy(held->kept_hit, search->kept_hit, count * sizeof(float));
+    memcpy(held->kept_dry, search->kept_dry, count * sizeof(float));
+    if (held->kept_film)
+        memcpy(held->kept_film, search->kept_film, count * sizeof(float));
+    for (size_t i = 0; i < draft->count; i++)
+        if (!sp_is_swept(draft->items[i].nozzle.type))
+            sp_footprint_pour(search, sp_footprints_look(search->footprints, draft->items[i].pose), held->kept_hit,
+                              held->kept_film, held->kept_dry);
+    return true;
+}
+
+static void let_go(sp_search *held)
+{
+    free(held->kept_hit);
+    free(held->kept_dry);
+    free(held->kept_film);
+}
+
+bool sp_soft_solve(const sp_search *search, const sp_draft *draft, const sp_freedom *freedoms,
+                   const sp_sight *const *sights, sp_width width, double budget, double (*values)[SP_UNKNOWNS],
+                   sp_error *error)
+{
+    sp_search held;
     sp_soft soft = {
-        .search = search, .width = width, .sums = sp_levels_sum(search), .budget = budget, .nozzle_count = count};
-    for (size_t i = 0; i < count; i++)
+        .search = &held, .width = width, .sums = sp_levels_sum(search), .budget = budget, .nozzle_count = draft->count};
+    for (size_t i = 0; i < draft->count; i++)
         soft.unknowns += freedoms[i].count;
     if (!soft.unknowns)
         return true;
-    bool done =
-        soft_create(&soft, freedoms, sights, error) &&
-        (!search->runoffs || sp_soft_film_create(search, freedoms, sights, count, width.level, &soft.film, error)) &&
-        solve(&soft, values, error);
+    bool done = hold(search, draft, &held, error) && soft_create(&soft, freedoms, sights, error) &&
+                (!search->runoffs ||
+                 sp_soft_film_create(&held, freedoms, sights, draft->count, width.level, &soft.film, error)) &&
+                solve(&soft, values, error);
     soft_free(&soft);
+    let_go(&held);
     return done;
 }

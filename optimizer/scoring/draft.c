@@ -2,7 +2,7 @@
 
 #include "mesh/grow.h"
 
-#include "scoring/field.h"
+#include "scoring/footprints.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,23 +15,19 @@
 static bool kept_create(sp_search *search, sp_error *error)
 {
     const sp_layout *layout = search->options->kept;
-    float *field = malloc(search->field_count * sizeof *field);
     search->kept = calloc(layout->count ? layout->count : 1, sizeof *search->kept);
-    bool done = field && search->kept;
-    if (!done)
-        sp_fail_memory(error);
+    bool done = search->kept || sp_fail_memory(error);
     for (size_t i = 0; done && i < layout->count; i++) {
+        sp_footprint footprint;
         if (!layout->nozzles[i].keep)
             continue;
         search->kept[search->kept_count++] = layout->nozzles[i];
         search->kept_flow += sp_nozzle_flow(&layout->nozzles[i], &sp_evaluator_setup(search->coarse)->liquid);
-        done = sp_field_nozzle(search, &layout->nozzles[i], NULL, field, error);
-        for (size_t p = 0; done && p < search->patch_count; p++)
-            sp_pour(search, field[p], &search->kept_hit[p], &search->kept_dry[p]);
-        for (size_t p = 0; done && search->kept_film && p < search->patch_count; p++)
-            search->kept_film[p] += field[search->patch_count + p];
+        done = sp_footprint_trace(search, &layout->nozzles[i], &footprint, error);
+        if (done)
+            sp_footprint_pour(search, &footprint, search->kept_hit, search->kept_film, search->kept_dry);
+        sp_footprint_free(&footprint);
     }
-    free(field);
     return done;
 }
 
@@ -87,7 +83,8 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
                           .credit = criterion->combine == SP_COMBINE_SINGLE ? 0 : CREDIT};
     search->port_taken = calloc(options->mount_count, sizeof *search->port_taken);
     bool done = (search->port_taken || sp_fail_memory(error)) && set_patches(search, error) &&
-                (!options->kept || kept_create(search, error));
+                (!options->kept || kept_create(search, error)) &&
+                sp_footprints_create(search, &search->footprints, error);
     if (!done) {
         sp_search_free(search);
         return false;
@@ -102,6 +99,7 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
 
 void sp_search_free(sp_search *search)
 {
+    sp_footprints_destroy(search->footprints);
     free(search->area);
     for (int i = 0; search->runoffs && search->runoffs[i]; i++)
         sp_runoff_destroy(search->runoffs[i]);
@@ -120,6 +118,10 @@ static void pour_item(const sp_search *search, sp_draft *draft, size_t i)
     const float *field = draft->items[i].field, *more = field + search->patch_count;
     float *restrict hit = draft->hit, *restrict dry = draft->dry, *restrict film = draft->film;
     draft->flow += draft->items[i].flow;
+    if (!sp_is_swept(draft->items[i].nozzle.type)) {
+        sp_footprint_pour(search, sp_footprints_look(search->footprints, draft->items[i].pose), hit, film, dry);
+        return;
+    }
     for (size_t p = 0; p < search->patch_count; p++)
         sp_pour(search, field[p], &hit[p], &dry[p]);
     for (size_t p = 0; film && p < search->patch_count; p++)
@@ -231,6 +233,7 @@ bool sp_draft_add_pose(const sp_search *search, sp_draft *draft, sp_pose pose, s
     sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, sp_evaluator_setup(search->coarse)->up);
     sp_placed placed = {.nozzle = nozzle,
                         .origin = nozzle,
+                        .pose = pose,
                         .site = search->sites->items[pose.site],
                         .flow = search->candidates->makes[pose.make].flow,
                         .field = malloc((search->field_count + 1) * sizeof *placed.field)};

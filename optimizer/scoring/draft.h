@@ -39,15 +39,17 @@ typedef struct {
     size_t kept_count;
     sp_nozzle *kept; /* the nozzles that every layout contains */
     double kept_flow;
-    float *kept_hit;  /* [patch_count], flux over threshold on all of a patch */
-    float *kept_film; /* [patch_count], film over what is asked for; NULL where none is */
-    float *kept_dry;  /* [patch_count], share of a patch that their edges do not cover */
-    bool *port_taken; /* [mount_count], by a kept nozzle */
+    float *kept_hit;                  /* [patch_count], flux over threshold on all of a patch */
+    float *kept_film;                 /* [patch_count], film over what is asked for; NULL where none is */
+    float *kept_dry;                  /* [patch_count], share of a patch that their edges do not cover */
+    bool *port_taken;                 /* [mount_count], by a kept nozzle */
+    struct sp_footprints *footprints; /* of poses that no sweep knows; NULL: there are none */
 } sp_search;
 
 typedef struct {
     sp_nozzle nozzle;
     sp_nozzle origin; /* the candidate that it was, from which refinement's limits count */
+    sp_pose pose;     /* the same, where it is still there: of a type that no sweep knows */
     sp_site site;     /* where it is now: a surface's axis changes along it */
     double flow;      /* m³/s */
     /* [field_count], what it brings to a patch (see sp_wetting): flux over threshold on all of it, INFINITY where any

@@ -1,4 +1,4 @@
-#include "scoring/field.h"
+#include "scoring/footprints.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -129,6 +129,10 @@ void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
 {
     const sp_make *make = &search->candidates->makes[pose.make];
     sp_desk *desk = NULL;
+    if (!sp_is_swept(make->type)) {
+        sp_footprint_field(search, sp_footprints_look(search->footprints, pose), field);
+        return;
+    }
     const sp_view *view = sp_visibility_look(search->visibility, pose.site, make->speed_class, &desk);
     sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
     sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);

@@ -45,8 +45,8 @@ void sp_field_end(const sp_field_making *making);
 
 /* Field of a spray at a view's mounting point; its strength is per transfer as the view has it. */
 void sp_field_view(const sp_search *search, const sp_view *view, const sp_posed_spray *posed, float *field);
-/* The same of a candidate pose; of any nozzle, traced anew, where a draft is given only on the patches that it leaves
- * dry: what the nozzle adds to it is the same. */
+/* The same of a candidate pose; of any nozzle that sweeps know, traced anew, where a draft is given only on the patches
+ * that it leaves dry: what the nozzle adds to it is the same. */
 void sp_field_pose(const sp_search *search, sp_pose pose, float *field);
 bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, const sp_draft *draft, float *field,
                      sp_error *error);

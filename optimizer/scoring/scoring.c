@@ -1,5 +1,7 @@
 #include "scoring/scoring.h"
 
+#include "scoring/footprints.h"
+
 #include <stdlib.h>
 
 static bool sweeper_create(const sp_search *search, sp_sweeper *sweeper, sp_error *error)
@@ -15,7 +17,7 @@ static bool sweeper_create(const sp_search *search, sp_sweeper *sweeper, sp_erro
     /* what lies behind a view's end is computed with, though never counted */
     for (size_t i = 0; i < 4 * room; i++)
         sweeper->block[i] = 0;
-    if (!search->runoffs)
+    if (!search->runoffs && !search->footprints)
         return true;
     sweeper->field = malloc((search->field_count + 1) * sizeof *sweeper->field);
     sweeper->fields = (sp_field_sweeper){.cull = &sweeper->cull,
@@ -92,11 +94,13 @@ void sp_sweeper_take(sp_sweeper *sweeper, size_t make)
 {
     const sp_search *search = sweeper->search;
     const sp_make *own = &search->candidates->makes[make];
-    double strength = sp_make_strength(search, own);
-    sp_credit credit = {search->single, search->credit, (float)strength};
     if (sweeper->make == make)
         return;
     sweeper->make = make;
+    if (!sp_is_swept(own->type))
+        return;
+    double strength = sp_make_strength(search, own);
+    sp_credit credit = {search->single, search->credit, (float)strength};
     sweeper->region = sp_region_create(&own->spray, &sweeper->frame, strength, 0);
     if (!sweeper->view->start)
         return;
@@ -121,9 +125,22 @@ sp_region sp_sweeper_region(const sp_sweeper *sweeper, uint32_t axis, uint32_t r
     return region;
 }
 
+/* The footprint of a pose at hand; NULL where sweeps know its make. */
+static const sp_footprint *footprint_at(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll)
+{
+    const sp_search *search = sweeper->search;
+    sp_pose pose = {sweeper->site, (uint32_t)sweeper->make, axis, roll};
+    return sp_is_swept(search->candidates->makes[pose.make].type) ? NULL : sp_footprints_look(search->footprints, pose);
+}
+
 const float *sp_sweeper_field(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll)
 {
     const sp_search *search = sweeper->search;
+    const sp_footprint *footprint = footprint_at(sweeper, axis, roll);
+    if (footprint) {
+        sp_footprint_field(search, footprint, sweeper->field);
+        return sweeper->field;
+    }
     sp_region region = sp_sweeper_region(sweeper, axis, roll);
     sp_field_sweep(search, &sweeper->fields, &search->candidates->makes[sweeper->make], &region, sweeper->field);
     return sweeper->field;
@@ -132,6 +149,9 @@ const float *sp_sweeper_field(const sp_sweeper *sweeper, uint32_t axis, uint32_t
 sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll, double least)
 {
     const sp_search *search = sweeper->search;
+    const sp_footprint *footprint = footprint_at(sweeper, axis, roll);
+    if (footprint)
+        return sp_footprint_score(search, sweeper->draft, footprint);
     if (!sweeper->view->start)
         return (sp_score){0};
     /* film knows no bins: what runs down comes from everywhere above */
@@ -150,4 +170,11 @@ sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_dr
     sp_sweeper_look(sweeper, search, draft, pose.site, search->candidates->makes[pose.make].speed_class);
     sp_sweeper_take(sweeper, pose.make);
     return sp_sweeper_score(sweeper, pose.axis, pose.roll, least);
+}
+
+bool sp_sweeper_knows(const sp_search *search, uint32_t site, size_t make)
+{
+    const sp_make *own = &search->candidates->makes[make];
+    return sp_is_swept(own->type) ? sp_visibility_known(search->visibility, site, own->speed_class)
+                                  : sp_footprints_know(search->footprints, site, (uint32_t)make);
 }

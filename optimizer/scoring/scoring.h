@@ -10,7 +10,7 @@
 typedef struct {
     float *block;                    /* holds the four */
     float *had, *area, *room, *gain; /* [largest view + SP_LANES], by arrival */
-    float *field;                    /* [field_count], where film is asked for: of the pose in hand */
+    float *field;                    /* [field_count], where film or footprints are: of the pose in hand */
     sp_field_sweeper fields;         /* the same, which takes `had` and `area` for its own */
     const sp_draft *draft;
     float room_total[SP_BINS], gain_total[SP_BINS];
@@ -40,10 +40,13 @@ void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draf
 void sp_sweeper_take(sp_sweeper *sweeper, size_t make);
 /* Then to its poses; where the gain is less than `least`, m², either may come out higher, the gain still below that. */
 sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll, double least);
-/* Or to a pose's field, as swept, where film is asked for: the sweeper's, until the next. */
+/* Or to a pose's field, as swept, where film is asked for, or of its footprint: the sweeper's, until the next. */
 const float *sp_sweeper_field(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll);
 /* All three at once. */
 sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose, double least);
+
+/* False where what a make's poses at a site bring was left out for want of time. */
+bool sp_sweeper_knows(const sp_search *search, uint32_t site, size_t make);
 
 /* The region of a pose at the site that the sweeper looks at, of the make that it took. */
 sp_region sp_sweeper_region(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll);

@@ -11,6 +11,8 @@
 #define FILM_PATCHES_MOST 8000.0
 #define FILM_SWEEPS_MOST 2e9 /* the same, where film runs down */
 #define MEMORY 1e9           /* bytes, for all views, where the options do not say */
+#define PRINT 16.0           /* bytes of a patch's part of a footprint */
+#define PRINTS_SHARE 0.5     /* of the memory, that all footprints may take */
 #define CELLS                                                                                                          \
     4000               /* arrivals of cells in a view that has not been traced yet: nearer to a wall than a hundredth  \
                         * of a texel there may be more */
@@ -35,7 +37,8 @@ double sp_visibility_needed(const sp_place_options *options, const sp_candidates
 {
     double reach = -1;
     for (size_t k = 0; k < candidates->make_count; k++)
-        if (candidates->makes[k].speed_class == speed && sp_candidates_axes(candidates, site->mount, k)->count)
+        if (candidates->makes[k].speed_class == speed && sp_is_swept(candidates->makes[k].type) &&
+            sp_candidates_axes(candidates, site->mount, k)->count)
             reach = fmax(reach, candidates->makes[k].reach);
     return reach < 0 ? reach : fmin(M_PI, reach + options->mounts[site->mount].tilt + 1e-6);
 }
@@ -274,14 +277,32 @@ bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *op
     return done;
 }
 
+/* Of poses that no sweep knows, each of which is traced by itself; and how many such poses there are. */
+static double patterns_to_trace(const sp_sites *sites, const sp_candidates *candidates, double *poses)
+{
+    double patterns = 0;
+    for (size_t i = 0; i < sites->count; i++)
+        for (size_t k = 0; k < candidates->make_count; k++) {
+            const sp_make *make = &candidates->makes[k];
+            double count = (double)(sp_candidates_axes(candidates, sites->items[i].mount, k)->count * make->roll_count);
+            if (sp_is_swept(make->type))
+                continue;
+            *poses += count;
+            patterns += count * (double)sp_nozzle_pattern_count(&(sp_nozzle){.type = make->type});
+        }
+    return patterns;
+}
+
 bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options, const sp_sites *sites,
                        const sp_candidates *candidates, sp_watch *watch, sp_evaluator **resampled,
                        sp_visibility *visibility, sp_error *error)
 {
-    double views = (double)sites->count * (double)candidates->speed_count;
+    double views = (double)sites->count * (double)candidates->speed_count, footprints = 0;
     double poses = (double)candidates->pose_start[sites->count];
+    views += patterns_to_trace(sites, candidates, &footprints);
     bool film = sp_evaluator_setup(fine)->criterion.film > 0;
     double most = film ? FILM_PATCHES_MOST : PATCHES_MOST, sweeps = film ? FILM_SWEEPS_MOST : SWEEPS_MOST;
+    most = fmin(most, PRINTS_SHARE * memory_of(options) / (PRINT * fmax(1, footprints)));
     double patches = fmax(PATCHES_LEAST, fmin(most, fmin(RAYS_MOST / views, sweeps / poses)));
     double finer = sp_evaluator_fidelity(fine)->texel,
            texel = finer * sqrt((double)sp_evaluator_patches(fine)->count / patches);

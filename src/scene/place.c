@@ -236,7 +236,7 @@ static bool read_aims(const sp_reader *reader, const sp_yaml *node, sp_place_opt
     return true;
 }
 
-/* All types of the catalogue that placement takes where the block names none. */
+/* All types of the catalogue where the block names none. */
 static bool read_place_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *node)
 {
     size_t *count = &scene->place.type_count;
@@ -246,8 +246,7 @@ static bool read_place_types(sp_scene *scene, const sp_reader *reader, const sp_
     if (!scene->place_types)
         return sp_fail_memory(reader->error);
     for (size_t i = 0; i < scene->type_count; i++)
-        if (scene->types[i].pattern != SP_PATTERN_CLUSTER && scene->types[i].pattern != SP_PATTERN_ROTATING)
-            scene->place_types[(*count)++] = &scene->types[i];
+        scene->place_types[(*count)++] = &scene->types[i];
     return true;
 }
 

@@ -191,8 +191,6 @@ sp_study *sp_study_create(const sp_setup *setup, const sp_layout *layout, const 
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "nozzles: found none, expected at least one to study, or mounts under place:"),
                NULL;
-    if (place && !sp_place_takes(place, error)) /* said now, not after the minutes that the runs take */
-        return NULL;
     sp_studying studying = {.setup = setup,
                             .layout = layout,
                             .options = options,

@@ -9,6 +9,7 @@
 #include <sprayplan/evaluator.h>
 
 #define RECOUNT_TYPES 4
+#define RECOUNT_HOLES 9 /* of a spray ball */
 #define RECOUNT_MOUNTS 4
 
 typedef struct {
@@ -360,6 +361,78 @@ static inline void film_and_one_alone(recount_scene *s, double texel)
     scene_open(s, &b, fmax(texel, FILM_TEXEL));
 }
 
+/* A spray ball with three rings of holes, a hub off its mounting point that turns a fan, and a plain cone. The ball's
+ * last hole is a cone whose edge crosses patches that other holes hit. */
+static inline void scene_bodies(recount_scene *s)
+{
+    static sp_member holes[RECOUNT_HOLES];
+    for (int i = 0; i < RECOUNT_HOLES; i++) {
+        double polar = (30 + 40 * (i % 3)) * DEGREE, turn = 2 * M_PI * i / RECOUNT_HOLES;
+        sp_vec3 out = sp_v(sin(polar) * cos(turn), sin(polar) * sin(turn), cos(polar));
+        holes[i] = (sp_member){
+            .type = room_cone("hole", 20 * DEGREE, 1), .offset = sp_scale(out, 0.04), .axis = out, .share = 1};
+    }
+    holes[RECOUNT_HOLES - 1].type = room_cone("hole", 80 * DEGREE, 1);
+    holes[RECOUNT_HOLES - 1].share = 4;
+    scene_type(s, SP_PATTERN_CLUSTER, 0, 0, 15);
+    scene_type(s, SP_PATTERN_ROTATING, 100, 0, 9);
+    scene_type(s, SP_PATTERN_FULL_CONE, 70, 0, 5);
+    s->types[0].angle = s->types[0].angle_min = s->types[0].angle_max = 0;
+    s->types[0].members = holes;
+    s->types[0].member_count = RECOUNT_HOLES;
+    s->types[1].rotation = (sp_rotation){.jet = SP_PATTERN_FLAT_FAN, .tilt = 35 * DEGREE};
+    s->types[1].thickness = 8 * DEGREE;
+    s->mounts[0].tilt = 25 * DEGREE;
+    s->options.max_nozzles = 3;
+}
+
+static inline void bodies_and_boxes(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    room_box(&b, sp_v(-0.5, -0.3, 0), sp_v(-0.1, 0.1, 0.5), "box", "top");
+    scene_bodies(s);
+    s->room.setup.fidelity.trajectory = SP_TRAJECTORY_PARABOLA;
+    s->room.setup.criterion.flux = 1.5 * LITRES_PER_MINUTE;
+    scene_open(s, &b, texel);
+}
+
+/* One body alone must do, with all its holes; a kept ball. */
+static inline void bodies_alone(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_bodies(s);
+    s->room.setup.criterion.flux = 2.5 * LITRES_PER_MINUTE;
+    s->room.setup.criterion.combine = SP_COMBINE_SINGLE;
+    s->kept[0] = (sp_nozzle){.name = "first",
+                             .type = &s->types[0],
+                             .position = sp_v(0.5, 0.3, 0.7),
+                             .axis = sp_unit(sp_v(0.3, 0.2, -1)),
+                             .pressure = 2e5,
+                             .keep = true};
+    s->kept_count = 1;
+    scene_open(s, &b, texel);
+}
+
+static inline void bodies_and_film(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_bodies(s);
+    s->room.setup.criterion = (sp_criterion){.flux = 8 * LITRES_PER_MINUTE, .film = 5 * LITRES_PER_MINUTE};
+    s->room.setup.gravity = 9.81;
+    s->mounts[0].axis = sp_unit(sp_v(0.6, 0.5, 0.2));
+    scene_open(s, &b, fmax(texel, FILM_TEXEL));
+}
+
+/* Few enough to try every layout. */
+static inline void bodies_of_few(recount_scene *s, double texel)
+{
+    bodies_and_boxes(s, texel);
+    s->mounts[0].tilt = 0;
+}
+
 typedef struct {
     const char *name;
     bool hall;
@@ -387,6 +460,10 @@ static const recount_case recount_cases[] = {
     {"film over boxes, refined", false, true, false, film_over_boxes},
     {"film and one alone", false, false, false, film_and_one_alone},
     {"film of few, every layout", false, false, true, film_of_few},
+    {"bodies and boxes", false, true, true, bodies_and_boxes},
+    {"one body alone", false, false, false, bodies_alone},
+    {"bodies and film", false, false, false, bodies_and_film},
+    {"bodies of few, every layout", false, false, true, bodies_of_few},
 };
 #define RECOUNT_CASES (sizeof recount_cases / sizeof *recount_cases)
 

@@ -2,7 +2,6 @@
 #include "../scene/scratch.h"
 
 #include <sprayplan/result.h>
-#include <sprayplan/study.h>
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -114,39 +113,11 @@ static void gaps_are_reported(void **state)
     sp_scene_destroy(scene);
 }
 
-/* The search does not know such types: said at once, with the type's name. */
-static void placement_refuses_what_rotates(void **state)
-{
-    (void)state;
-    sp_error none = {0}, by_type = {0}, by_kept = {0}, by_study = {0};
-    sp_scene *scene = load();
-    const sp_layout *layout = sp_scene_layout(scene);
-    const sp_setup *setup = sp_scene_setup(scene);
-    sp_evaluator *evaluator = sp_evaluator_create(setup, &none);
-    sp_place_options options = sp_scene_place_options(scene);
-    assert_null(sp_place(evaluator, &options, &by_type));
-    assert_int_equal(by_type.kind, SP_ERROR_INPUT);
-    assert_non_null(strstr(by_type.message, "'fan', which rotates"));
-    assert_null(sp_study_create(setup, layout, &options, NULL, &by_study));
-    assert_non_null(strstr(by_study.message, "'fan', which rotates"));
-    options.type_count = 1; /* plain */
-    assert_true(sp_place_takes(&options, &none));
-    sp_layout *kept = sp_layout_create(layout->nozzles, layout->count, &none);
-    kept->nozzles[2].keep = true;
-    options.kept = kept;
-    assert_false(sp_place_takes(&options, &by_kept));
-    assert_non_null(strstr(by_kept.message, "'slow', rotates"));
-    sp_layout_destroy(kept);
-    sp_evaluator_destroy(evaluator);
-    sp_scene_destroy(scene);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(types_are_as_written),
         cmocka_unit_test(gaps_are_reported),
-        cmocka_unit_test(placement_refuses_what_rotates),
     };
     return cmocka_run_group_tests(tests, make, scratch_remove);
 }

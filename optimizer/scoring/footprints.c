@@ -1,0 +1,187 @@
+#include "scoring/footprints.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+
+#define MEMORY 1e9 /* bytes, where the options do not say */
+#define BATCH 64   /* poses between two looks at clock and memory */
+
+struct sp_footprints {
+    sp_search search;     /* of which only what does not change is used */
+    sp_footprint **known; /* [poses], by number; NULL: not traced */
+    double bytes;
+    bool closed; /* what is not known brings nothing */
+    pthread_mutex_t lock;
+    sp_error failure;
+};
+
+static const sp_footprint nothing = {0};
+
+static bool any_unswept(const sp_candidates *candidates)
+{
+    for (size_t k = 0; k < candidates->make_count; k++)
+        if (!sp_is_swept(candidates->makes[k].type))
+            return true;
+    return false;
+}
+
+bool sp_footprints_create(const sp_search *search, sp_footprints **footprints, sp_error *error)
+{
+    *footprints = NULL;
+    if (!any_unswept(search->candidates))
+        return true;
+    sp_footprints *made = calloc(1, sizeof *made);
+    if (!made)
+        return sp_fail_memory(error);
+    made->search = *search;
+    made->known = calloc(search->candidates->pose_start[search->sites->count] + 1, sizeof *made->known);
+    if (!made->known) {
+        free(made);
+        return sp_fail_memory(error);
+    }
+    pthread_mutex_init(&made->lock, NULL);
+    *footprints = made;
+    return true;
+}
+
+void sp_footprints_destroy(sp_footprints *footprints)
+{
+    if (!footprints)
+        return;
+    for (size_t i = 0; i < footprints->search.candidates->pose_start[footprints->search.sites->count]; i++)
+        if (footprints->known[i]) {
+            sp_footprint_free(footprints->known[i]);
+            free(footprints->known[i]);
+        }
+    free(footprints->known);
+    pthread_mutex_destroy(&footprints->lock);
+    free(footprints);
+}
+
+static sp_footprint *trace(const sp_footprints *footprints, sp_pose pose, sp_error *error)
+{
+    const sp_search *search = &footprints->search;
+    sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
+    sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
+    sp_footprint *footprint = malloc(sizeof *footprint);
+    sp_error refused = {0};
+    if (!footprint)
+        return sp_fail_memory(error);
+    *footprint = nothing;
+    /* a hole may stick in a wall where the mounting point does not */
+    if (!sp_evaluator_admits(search->coarse, &nozzle, &refused) ||
+        sp_footprint_trace(search, &nozzle, footprint, error))
+        return footprint;
+    free(footprint);
+    return NULL;
+}
+
+/* Keeps what was traced, or drops it where another thread was quicker, which traced the same. */
+static const sp_footprint *keep(sp_footprints *footprints, size_t number, sp_footprint *traced, const sp_error *error)
+{
+    const sp_footprint *kept = &nothing;
+    pthread_mutex_lock(&footprints->lock);
+    if (!traced)
+        footprints->failure = *error;
+    else if (!footprints->known[number]) {
+        footprints->known[number] = traced;
+        footprints->bytes += (double)(sizeof *traced + traced->count * sizeof *traced->prints);
+        kept = traced;
+        traced = NULL;
+    } else
+        kept = footprints->known[number];
+    pthread_mutex_unlock(&footprints->lock);
+    if (traced) {
+        sp_footprint_free(traced);
+        free(traced);
+    }
+    return kept;
+}
+
+static const sp_footprint *known(sp_footprints *footprints, size_t number)
+{
+    pthread_mutex_lock(&footprints->lock);
+    const sp_footprint *found = footprints->known[number];
+    pthread_mutex_unlock(&footprints->lock);
+    return found;
+}
+
+const sp_footprint *sp_footprints_look(sp_footprints *footprints, sp_pose pose)
+{
+    size_t number = sp_candidates_number(footprints->search.candidates, footprints->search.sites, pose);
+    const sp_footprint *found = known(footprints, number);
+    if (found || footprints->closed)
+        return found ? found : &nothing;
+    sp_error error = {0};
+    return keep(footprints, number, trace(footprints, pose, &error), &error);
+}
+
+bool sp_footprints_know(const sp_footprints *footprints, uint32_t site, uint32_t make)
+{
+    const sp_search *search = &footprints->search;
+    return footprints->known[sp_candidates_number(search->candidates, search->sites, (sp_pose){site, make, 0, 0})];
+}
+
+bool sp_footprints_sound(const sp_footprints *footprints, sp_error *error)
+{
+    const sp_error *failure = footprints ? &footprints->failure : NULL;
+    if (!failure || failure->kind == SP_OK)
+        return true;
+    return sp_fail(error, failure->kind, failure->file, failure->line, failure->column, "%s", failure->message);
+}
+
+/* The poses that no sweep knows; NULL when memory runs out. */
+static sp_pose *list_poses(const sp_search *search, size_t *count)
+{
+    const sp_candidates *candidates = search->candidates;
+    sp_pose *poses = malloc((candidates->pose_start[search->sites->count] + 1) * sizeof *poses);
+    *count = 0;
+    for (uint32_t site = 0; poses && site < search->sites->count; site++)
+        for (uint32_t k = 0; k < candidates->make_count; k++) {
+            size_t axes = sp_candidates_axes(candidates, search->sites->items[site].mount, k)->count;
+            for (uint32_t a = 0; a < axes && !sp_is_swept(candidates->makes[k].type); a++)
+                for (uint32_t r = 0; r < candidates->makes[k].roll_count; r++)
+                    poses[(*count)++] = (sp_pose){site, k, a, r};
+        }
+    return poses;
+}
+
+static bool has_room(const sp_footprints *footprints, size_t poses, sp_error *error)
+{
+    double most = footprints->search.options->memory > 0 ? footprints->search.options->memory : MEMORY;
+    return footprints->bytes <= most ||
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "memory: %g bytes found, expected more for what %zu poses of clusters, and of types that do not "
+                   "spray evenly, bring to %zu patches; or fewer mounting points, or less tilt",
+                   most, poses, footprints->search.patch_count);
+}
+
+/* Where some poses and the last one's whole block end. */
+static size_t end_of_batch(const sp_pose *poses, size_t first, size_t count)
+{
+    size_t end = first + BATCH < count ? first + BATCH : count;
+    while (end < count && poses[end].site == poses[end - 1].site && poses[end].make == poses[end - 1].make)
+        end++;
+    return end;
+}
+
+bool sp_footprints_fill(sp_footprints *footprints, sp_watch *watch, sp_error *error)
+{
+    size_t count;
+    sp_pose *poses = list_poses(&footprints->search, &count);
+    int threads = sp_threads(&footprints->search.options->run);
+    bool done = poses || sp_fail_memory(error);
+    for (size_t first = 0, end; done && first < count; first = end) {
+        end = end_of_batch(poses, first, count);
+        /* out of time the first are traced all the same, so that there is something to choose from */
+        if (!sp_watch_goes_on(watch, "footprints", (double)first / (double)count) && (first || watch->cancelled))
+            break;
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+        for (size_t i = first; i < end; i++)
+            sp_footprints_look(footprints, poses[i]);
+        done = has_room(footprints, count, error) && sp_footprints_sound(footprints, error);
+    }
+    footprints->closed = true;
+    free(poses);
+    return done;
+}

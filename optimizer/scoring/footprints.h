@@ -1,0 +1,25 @@
+/* Footprints of candidate poses, each traced when it is first looked at, and kept. */
+#ifndef OPTIMIZER_FOOTPRINTS_H
+#define OPTIMIZER_FOOTPRINTS_H
+
+#include "scoring/footprint.h"
+#include "watch.h"
+
+typedef struct sp_footprints sp_footprints;
+
+/* For the poses of a search's candidates, on its patches; the search, or a copy of it, outlives them. Stays NULL, and
+ * true, where sweeps know all candidates. */
+bool sp_footprints_create(const sp_search *search, sp_footprints **footprints, sp_error *error);
+/* Accepts NULL. */
+void sp_footprints_destroy(sp_footprints *footprints);
+/* Traces all of them as far as time and the options' memory allow, all poses of a make at a site or none. Those that
+ * are left out when the time ends bring nothing from then on; where memory ends it fails with SP_ERROR_INPUT. */
+bool sp_footprints_fill(sp_footprints *footprints, sp_watch *watch, sp_error *error);
+/* The footprint of a pose, owned by the footprints. Safe to call from many threads. */
+const sp_footprint *sp_footprints_look(sp_footprints *footprints, sp_pose pose);
+/* False of a make's poses at a site that were left out. */
+bool sp_footprints_know(const sp_footprints *footprints, uint32_t site, uint32_t make);
+/* False where a look has failed since; what was looked at then was empty. Accepts NULL. */
+bool sp_footprints_sound(const sp_footprints *footprints, sp_error *error);
+
+#endif
