@@ -40,12 +40,44 @@ static void placement_free(sp_placement *placement)
     free(placement->watch.stages);
 }
 
+/* Poses of clusters and of what rotates are reckoned with by themselves, which knows no goods that move. */
+static bool swept_types(const sp_nozzle_type *const *types, size_t count, sp_error *error)
+{
+    for (size_t i = 0; i < count; i++)
+        if (types[i]->pattern == SP_PATTERN_CLUSTER || types[i]->pattern == SP_PATTERN_ROTATING)
+            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                           "types: found '%s' beside a sweep, a cluster or one that rotates, expected types of one "
+                           "pattern that stands still; simulate and compare take the others",
+                           types[i]->name);
+    return true;
+}
+
+static bool takes_for_goods(const sp_place_options *options, sp_error *error)
+{
+    bool done = swept_types(options->types, options->type_count, error);
+    for (size_t i = 0; done && i < options->mount_count; i++)
+        done = swept_types(options->mounts[i].types, options->mounts[i].type_count, error);
+    return done;
+}
+
 static bool check(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error)
 {
     if (!options->mount_count)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: no mounts");
     if (!(options->coverage >= 0 && options->coverage <= 1))
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: coverage: %g, expected 0 to 1", options->coverage);
+    const sp_setup *setup = sp_evaluator_setup(evaluator);
+    if (setup->sweep.speed > 0 && !(setup->criterion.flux > 0))
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "dose: found none, expected one such as 2 L/m2: place proposes nozzles for what goods that move "
+                       "have to take");
+    if (setup->sweep.speed > 0 && setup->criterion.combine == SP_COMBINE_SINGLE)
+        return sp_fail(
+            error, SP_ERROR_INPUT, NULL, 0, 0,
+            "combine: found single beside a sweep, expected sum: place adds up what goods that move take from "
+            "all nozzles");
+    if (setup->sweep.speed > 0 && !takes_for_goods(options, error))
+        return false;
     for (size_t i = 0; options->kept && i < options->kept->count; i++)
         if (options->kept->nozzles[i].keep && !sp_evaluator_admits(evaluator, &options->kept->nozzles[i], error))
             return false;

@@ -24,8 +24,8 @@ double sp_line_deviation(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity
  * liquid grazes the edge of a pattern or of a surface, or meets a criterion, to within 1e-9. It is about the trajectory
  * alone: what texels do to either coverage is no part of it, and nor are jets. On the evaluator's own trajectory, and
  * on its method, it does not depend. 0 without gravity. 1 says nothing; so it is where the liquid is slow for where it
- * goes (ε of sp_line_deviation 1/2 or more). `decided` is NULL or [patches], the caller's: the patches of which it is
- * proved. */
+ * goes (ε of sp_line_deviation 1/2 or more), and where goods move. `decided` is NULL or [patches], the caller's: the
+ * patches of which it is proved. */
 bool sp_bound_lines(const sp_evaluator *evaluator, const sp_layout *layout, double *bound, bool *decided,
                     sp_error *error);
 

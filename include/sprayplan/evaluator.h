@@ -103,17 +103,17 @@ typedef struct {
  * does not ask for film. */
 const sp_hollow *sp_evaluator_hollows(const sp_evaluator *evaluator, size_t *count);
 /* One thread's memory for what runs down the walls of an evaluator, borrowed, that sp_evaluator_resample made where the
- * criterion asks for film. */
+ * criterion asks for film; or for what goods that move take with them, where it asks for a dose. */
 typedef struct sp_runoff sp_runoff;
-/* NULL on error, also where film does not run from patch to patch. */
+/* NULL on error, also where film does not run from patch to patch and no goods take a dose. */
 sp_runoff *sp_runoff_create(const sp_evaluator *walls, sp_error *error);
 /* Accepts NULL. */
 void sp_runoff_destroy(sp_runoff *runoff);
 /* Where to write what one nozzle brings to each patch, m³/s, [patches]: the runoff's, all 0 at first. */
 double *sp_runoff_arriving(sp_runoff *runoff);
-/* What comes of it: the film on every patch [patches], in flow per width over what the criterion asks for. A solid
- * stream's liquid, all of `flow` (m³/s), spreads over a disc first. What arrives is 0 again then. Films of several
- * nozzles add up. */
+/* What comes of it: the film on every patch [patches], in flow per width over what the criterion asks for, of which a
+ * solid stream's liquid, all of `flow` (m³/s), spreads over a disc first; or the dose over what is asked for. What
+ * arrives is 0 again then. Films of several nozzles add up, and so do doses. */
 void sp_runoff_find(sp_runoff *runoff, const sp_nozzle_type *type, double flow, float *film);
 
 /* True where the point lies in the space that the wet sides face (no cavity: everywhere). Never in a solid; else by
@@ -122,8 +122,13 @@ void sp_runoff_find(sp_runoff *runoff, const sp_nozzle_type *type, double flow, 
 bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point);
 /* False, with an error that names the nozzle, where it cannot stand: in a wall (nearer to a surface than 1e-6 of the
  * geometry's diagonal), or not in the space that the wet sides face (by lines of sight as above, and none to the
- * cavity's point). Of a cluster that is asked of each pattern. */
+ * cavity's point), or in the way of goods that move. Of a cluster that is asked of each pattern. */
 bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle, sp_error *error);
+/* In how many positions goods that move are looked at on their pass; 1 where nothing moves. */
+size_t sp_evaluator_positions(const sp_evaluator *evaluator);
+/* True where no surface but that of part `own` (SP_NONE: no exception) comes nearer to the point than `clearance` (m),
+ * of goods that move at any time of their pass. */
+bool sp_evaluator_is_clear(const sp_evaluator *evaluator, sp_vec3 point, double clearance, uint32_t own);
 /* g, m/s²; zero for trajectory line. */
 sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator);
 
@@ -147,8 +152,8 @@ bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout,
  * to neighbouring patches fare differently: an occluder thinner than a patch that blocks none is not seen.
  *
  * Takes about as long as evaluating. `patches` is NULL or the caller's [patches], true for those found. *borderline is
- * coverage->borderline or another, the caller's. Given NULL from an earlier failure it returns false and keeps the
- * error. */
+ * coverage->borderline or another, the caller's; not known where goods move. Given NULL from an earlier failure it
+ * returns false and keeps the error. */
 bool sp_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
                         bool *patches, sp_borderline *borderline, sp_error *error);
 

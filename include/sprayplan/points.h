@@ -37,7 +37,8 @@ sp_point sp_points_draw(const sp_points *points, size_t i, size_t n, uint64_t se
 /* Whether the layout covers each point: every flight that reaches it, in closed form, with the spray's intensity in the
  * flight's own direction, against the setup's criterion, where nothing lies in the way. First impact only. Lines or
  * parabolas (auto: parabolas), whatever the evaluator's own are. covered [count] is the caller's; points are judged
- * each for itself, so that neither threads nor the other points matter. About as quick as a patch. */
+ * each for itself, so that neither threads nor the other points matter. About as quick as a patch. Fails with
+ * SP_ERROR_UNSUPPORTED where goods move. */
 bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_trajectory trajectory,
                      const sp_point *points, size_t count, bool *covered, sp_error *error);
 
@@ -53,8 +54,8 @@ bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_
  *
  * `reference` is how the liquid flies in truth; auto: as the setup says, parabolas where that leaves it open. The seed
  * draws the points. *measured is coverage->measured or another, the caller's. Where liquid that walls throw back was
- * followed, points know nothing of it, and where nothing is counted there are none: `known` is false. Given NULL from
- * an earlier failure it returns false and keeps the error. */
+ * followed, or goods move, points know nothing of it, and where nothing is counted there are none: `known` is false.
+ * Given NULL from an earlier failure it returns false and keeps the error. */
 bool sp_measure_error(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
                       sp_trajectory reference, uint64_t seed, sp_measured_error *measured, sp_error *error);
 

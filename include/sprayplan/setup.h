@@ -18,7 +18,19 @@ typedef struct {
     double restitution; /* e, 0 to 1; what comes less high over a wall than 2^-30 of the geometry's farthest coordinate
                          * stays there all the same */
     double rebound;     /* share of the liquid that flies on where e > 0, 0 to 1 */
+    bool moves;         /* with the setup's sweep */
 } sp_surface;
+
+/* Goods that are moved through fixed nozzles: all parts that move are, at first, at `from` from where the mesh has
+ * them, and at constant speed come to `to`. Every flux is then the mean over the pass, of what stands too, which what
+ * moves may shade; what is in flight is taken to see the goods stand still. Which sides are wet, and whether a point
+ * lies in the cavity, is decided where the mesh has them. */
+typedef struct {
+    sp_vec3 from, to; /* m; unequal where anything moves */
+    double speed;     /* m/s, > 0 where anything moves; 0: nothing does */
+} sp_sweep;
+/* s, of the pass; 0 where nothing moves. What is given as a dose, m³/m², is that times a mean flux. */
+double sp_sweep_duration(const sp_sweep *sweep);
 
 typedef enum {
     SP_CAVITY_NONE,    /* every triangle counts once and takes liquid from either side */
@@ -38,12 +50,12 @@ typedef enum { SP_COMBINE_SUM, SP_COMBINE_SINGLE } sp_combine;
 
 /* All must hold; with none (0, 0, π/2) any liquid covers. */
 typedef struct {
-    double flux;         /* m³/s per m², 0: none */
+    double flux; /* m³/s per m², 0: none; of goods that move the mean over the pass: the dose over its duration */
     double impact_speed; /* m/s, 0: none */
     double incidence;    /* rad, π/2: none */
     sp_combine combine;
-    double film;         /* m²/s, 0: none; else as much running down a patch, per width, covers it whatever the others
-                          * say. Needs a cavity and gravity */
+    double film; /* m²/s, 0: none; else as much running down a patch, per width, covers it whatever the others
+                  * say. Needs a cavity and gravity */
 } sp_criterion;
 
 typedef enum { SP_TRAJECTORY_AUTO, SP_TRAJECTORY_LINE, SP_TRAJECTORY_PARABOLA } sp_trajectory;
@@ -73,6 +85,7 @@ typedef struct {
     sp_vec3 origin;
     const sp_cap *caps; /* borrowed: [cap_count]; NULL for none */
     size_t cap_count;
+    sp_sweep sweep;  /* speed 0: nothing moves */
     sp_fluid liquid; /* default water: 1000 kg/m³, 1 mPa s */
     sp_fluid air;    /* 1.2 kg/m³, 18 µPa s */
     sp_vec3 up;      /* (0,0,1) or (0,1,0) */

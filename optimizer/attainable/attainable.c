@@ -1,6 +1,7 @@
 #include "attainable/attainable.h"
 
 #include "attainable/bounce.h"
+#include "attainable/passing.h"
 #include "attainable/runs.h"
 
 #include <omp.h>
@@ -220,9 +221,11 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *
         reckoning.kept = kept->deposits.even;
         for (size_t p = 0; p < kept->deposits.count; p++)
             reasons[p] = kept->deposits.covered[p] ? SP_REASON_ATTAINABLE : SP_REASON_UNKNOWN;
-        done = reckon(&reckoning, watch, reasons, error) &&
-               (watch->cancelled ||
-                (sp_runs(fine, search, scopes, watch, reasons, error) && sp_bounces(fine, search, reasons, error)));
+        bool moves = sp_evaluator_setup(fine)->sweep.speed > 0;
+        done = (moves || reckon(&reckoning, watch, reasons, error)) &&
+               (watch->cancelled || (sp_runs(fine, search, scopes, watch, reasons, error) &&
+                                     (moves ? sp_passing_reasons(fine, search, watch, reasons, error)
+                                            : sp_bounces(fine, search, reasons, error))));
     }
     free(scopes);
     sp_coverage_destroy(kept);

@@ -1,4 +1,4 @@
-/* What fields of candidates reach that closed forms do not tell: film, and footprints. */
+/* What fields of candidates reach that closed forms do not tell: film, footprints, and what goods that move take. */
 #ifndef OPTIMIZER_RUNS_H
 #define OPTIMIZER_RUNS_H
 

@@ -224,7 +224,7 @@ static bool lance_blocked(const sp_evaluator *evaluator, sp_vec3 from, sp_vec3 t
 bool sp_site_allowed(const sp_evaluator *evaluator, const sp_place_options *options, const sp_site *site)
 {
     const sp_mount *mount = &options->mounts[site->mount];
-    if (!sp_is_clear(sp_evaluator_setup(evaluator)->mesh, site->position, options->clearance, site->own) ||
+    if (!sp_evaluator_is_clear(evaluator, site->position, options->clearance, site->own) ||
         !sp_evaluator_inside(evaluator, site->position))
         return false;
     return mount->kind != SP_MOUNT_PORT || !lance_blocked(evaluator, mount->position, site->position, site->own);

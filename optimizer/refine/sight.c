@@ -60,10 +60,10 @@ static bool equal(sp_vec3 a, sp_vec3 b)
 
 static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
 {
-    sp_reach *reach = search->runoffs ? sp_evaluator_reach(search->coarse, sight->position, sight->speed, sight->axis,
-                                                           sight->half_angle, error)
-                                      : sp_evaluator_reach_passing(search->coarse, sight->position, sight->speed,
-                                                                   sight->axis, sight->half_angle, NULL, error);
+    sp_reach *reach = search->all_feeds ? sp_evaluator_reach(search->coarse, sight->position, sight->speed, sight->axis,
+                                                             sight->half_angle, error)
+                                        : sp_evaluator_reach_passing(search->coarse, sight->position, sight->speed,
+                                                                     sight->axis, sight->half_angle, NULL, error);
     if (!reach)
         return false;
     sight->seen = malloc((reach->count ? reach->count : 1) * sizeof *sight->seen);

@@ -35,7 +35,9 @@ static bool kept_create(sp_search *search, sp_error *error)
 static bool set_patches(sp_search *search, sp_error *error)
 {
     size_t threads = (size_t)sp_threads(&search->options->run);
-    bool film = sp_evaluator_setup(search->coarse)->criterion.film > 0;
+    const sp_setup *setup = sp_evaluator_setup(search->coarse);
+    bool film = setup->criterion.film > 0 || setup->sweep.speed > 0;
+    search->all_feeds = setup->criterion.film > 0;
     search->field_count = (film ? 2 : 1) * search->patch_count;
     search->area = malloc((search->patch_count + 1) * sizeof *search->area);
     search->kept_hit = calloc(search->patch_count + 1, sizeof *search->kept_hit);
@@ -69,6 +71,7 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
                       sp_error *error)
 {
     const sp_criterion *criterion = &sp_evaluator_setup(coarse)->criterion;
+    double threshold = sp_evaluator_setup(coarse)->sweep.speed > 0 ? INFINITY : criterion->flux;
     *search = (sp_search){.options = options,
                           .sites = sites,
                           .candidates = candidates,
@@ -76,9 +79,9 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
                           .sweeps = sp_sweep_best(),
                           .coarse = coarse,
                           .patch_count = sp_evaluator_patches(coarse)->count,
-                          .threshold = criterion->flux,
+                          .threshold = threshold,
                           .view_area = sp_evaluator_patches(visibility->evaluator)->total_area,
-                          .plenty = criterion->flux * sp_evaluator_patches(visibility->evaluator)->total_area,
+                          .plenty = threshold * sp_evaluator_patches(visibility->evaluator)->total_area,
                           .single = criterion->combine == SP_COMBINE_SINGLE,
                           .credit = criterion->combine == SP_COMBINE_SINGLE ? 0 : CREDIT};
     search->port_taken = calloc(options->mount_count, sizeof *search->port_taken);

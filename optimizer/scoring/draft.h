@@ -25,7 +25,9 @@ typedef struct {
     const sp_evaluator *coarse;
     size_t patch_count;
     size_t field_count;  /* of a nozzle's field: one for each patch, and where film is asked for as many for that */
-    sp_runoff **runoffs; /* [threads], by sp_search_runoff; NULL: film is not asked for */
+    sp_runoff **runoffs; /* [threads], by sp_search_runoff; NULL: neither film nor a dose is asked for. In all that
+                          * follows a dose of goods that move is a film that stays where it arrives, and no hit */
+    bool all_feeds;      /* the film, whether it passes speed and incidence or not */
     int level;           /* parallel regions around the caller of the placement, whose threads are not the search's */
     double all;          /* m² of all patches that are cleaned */
     float *area; /* [patch_count], share of all, 0 of what is only run over: what is rounded to single precision has

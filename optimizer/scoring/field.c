@@ -152,7 +152,7 @@ static sp_reach *reach_of(const sp_search *search, const sp_nozzle *nozzle, cons
     sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
     double speed = sp_nozzle_speed(nozzle, &sp_evaluator_setup(search->coarse)->liquid);
     double half_angle = fmin(M_PI, sp_spray_reach(&spray) + 1e-6);
-    if (search->runoffs)
+    if (search->all_feeds)
         return sp_evaluator_reach(search->coarse, nozzle->position, speed, nozzle->axis, half_angle, error);
     bool *dry = draft ? malloc((search->patch_count + 1) * sizeof *dry) : NULL;
     if (draft && !dry)

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#define PART 512  /* patches traced at a time */
+#define PART SP_SIGHTING_PART
 #define COLUMNS 5 /* of floats by arrival */
 
 /* The octahedron unfolded onto [-1, 1]²: Cigolle et al., A survey of efficient representations for independent unit

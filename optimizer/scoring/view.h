@@ -4,6 +4,7 @@
 
 #include "candidates/candidates.h"
 
+#define SP_SIGHTING_PART 512 /* patches traced at a time */
 #define SP_BINS_EDGE 32
 #define SP_BINS (SP_BINS_EDGE * SP_BINS_EDGE)
 /* Of a patch's breadth, each a little more than in sp_spray_share, for round-off: so far beyond a pattern's edge it may

@@ -10,6 +10,9 @@
 #define SWEEPS_MOST 1.2e10 /* patches times poses */
 #define FILM_PATCHES_MOST 8000.0
 #define FILM_SWEEPS_MOST 2e9 /* the same, where film runs down */
+#define PASS_PATCHES_MOST 8000.0
+#define PASS_RAYS_MOST 5e6   /* patches times positions times views, where goods move */
+#define PASS_SWEEPS_MOST 2e9 /* patches times positions times poses */
 #define MEMORY 1e9           /* bytes, for all views, where the options do not say */
 #define PRINT 16.0           /* bytes of a patch's part of a footprint */
 #define PRINTS_SHARE 0.5     /* of the memory, that all footprints may take */
@@ -41,6 +44,17 @@ double sp_visibility_needed(const sp_place_options *options, const sp_candidates
             sp_candidates_axes(candidates, site->mount, k)->count)
             reach = fmax(reach, candidates->makes[k].reach);
     return reach < 0 ? reach : fmin(M_PI, reach + options->mounts[site->mount].tilt + 1e-6);
+}
+
+/* Arrivals that a view of all patches may have before it is traced, and of these of cells at a time. */
+static size_t most_arrivals(const sp_evaluator *evaluator)
+{
+    return 2 * sp_evaluator_patches(evaluator)->count * sp_evaluator_positions(evaluator) + CELLS;
+}
+static size_t most_cells(const sp_evaluator *evaluator)
+{
+    size_t positions = sp_evaluator_positions(evaluator);
+    return CELLS + (positions > 1 ? 2 * SP_SIGHTING_PART * positions : 0);
 }
 
 /* Bytes that one desk takes for views of so many arrivals: the view, its sightings and the tracing. */
@@ -157,8 +171,8 @@ static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
 {
     sp_visibility *visibility = survey->visibility;
     const sp_place_options *options = visibility->options;
-    size_t sites = visibility->site_count, most = 2 * sp_evaluator_patches(visibility->evaluator)->count + CELLS;
-    double memory = memory_of(options), work = desk_bytes(most, CELLS, true);
+    size_t sites = visibility->site_count, most = most_arrivals(visibility->evaluator);
+    double memory = memory_of(options), work = desk_bytes(most, most_cells(visibility->evaluator), true);
     survey->kept = (double)(sites * visibility->speed_count) * (double)visibility->sight_bytes;
     survey->threads = sp_threads(&options->run);
     if ((double)survey->threads * work > memory)
@@ -293,6 +307,17 @@ static double patterns_to_trace(const sp_sites *sites, const sp_candidates *cand
     return patterns;
 }
 
+/* Patches on whose texels goods that move are looked at in few enough positions: with p patches of texels t, p t² being
+ * the surface, p / t times the way over which they move is what a view has at most. */
+static double patches_that_pass(const sp_evaluator *fine, double views, double poses)
+{
+    const sp_sweep *sweep = &sp_evaluator_setup(fine)->sweep;
+    double finer = sp_evaluator_fidelity(fine)->texel, count = (double)sp_evaluator_patches(fine)->count;
+    double each = fmin(PASS_RAYS_MOST / views, PASS_SWEEPS_MOST / poses);
+    double patches = cbrt(pow(each * finer / sp_distance(sweep->from, sweep->to), 2) * count);
+    return fmax(PATCHES_LEAST, fmin(PASS_PATCHES_MOST, patches));
+}
+
 bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options, const sp_sites *sites,
                        const sp_candidates *candidates, sp_watch *watch, sp_evaluator **resampled,
                        sp_visibility *visibility, sp_error *error)
@@ -300,12 +325,15 @@ bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options
     double views = (double)sites->count * (double)candidates->speed_count, footprints = 0;
     double poses = (double)candidates->pose_start[sites->count];
     views += patterns_to_trace(sites, candidates, &footprints);
-    bool film = sp_evaluator_setup(fine)->criterion.film > 0;
+    const sp_setup *setup = sp_evaluator_setup(fine);
+    bool film = setup->criterion.film > 0;
     double most = film ? FILM_PATCHES_MOST : PATCHES_MOST, sweeps = film ? FILM_SWEEPS_MOST : SWEEPS_MOST;
     most = fmin(most, PRINTS_SHARE * memory_of(options) / (PRINT * fmax(1, footprints)));
     double patches = fmax(PATCHES_LEAST, fmin(most, fmin(RAYS_MOST / views, sweeps / poses)));
-    double finer = sp_evaluator_fidelity(fine)->texel,
-           texel = finer * sqrt((double)sp_evaluator_patches(fine)->count / patches);
+    double finer = sp_evaluator_fidelity(fine)->texel;
+    if (setup->sweep.speed > 0)
+        patches = patches_that_pass(fine, views, poses);
+    double texel = finer * sqrt((double)sp_evaluator_patches(fine)->count / patches);
     *resampled = NULL;
     if (film || texel > SAME * finer) {
         *resampled = sp_evaluator_resample(fine, fmax(texel, finer), error);

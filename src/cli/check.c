@@ -182,6 +182,14 @@ static void print_cavity(const sp_setup *setup)
     }
 }
 
+static void print_sweep(const sp_evaluator *evaluator)
+{
+    const sp_sweep *sweep = &sp_evaluator_setup(evaluator)->sweep;
+    if (sweep->speed > 0)
+        printf("sweep       %.4g m at %.4g m/s, %.4g s, in %zu positions\n", sp_distance(sweep->from, sweep->to),
+               sweep->speed, sp_sweep_duration(sweep), sp_evaluator_positions(evaluator));
+}
+
 static void print_boxes(const findings *found)
 {
     const sp_mesh *mesh = setup_of(found)->mesh;
@@ -249,6 +257,7 @@ static void print_table(const findings *found, const char *output)
            found->mesh.shells, found->mesh.closed_shells, found->mesh.open_edges, found->mesh.non_manifold_edges,
            found->mesh.flipped_edges, found->mesh.degenerate, found->mesh.duplicate_triangles);
     print_cavity(setup);
+    print_sweep(found->opened->evaluator);
     printf("to clean    %.4f m2 in %zu patches of texels of %.4g m\n\n", patches->total_area, patches->count,
            fidelity->texel);
     print_parts(found);
@@ -344,17 +353,29 @@ static json_t *cavity_json(const sp_setup *setup)
     return setup->cavity == SP_CAVITY_OUTSIDE ? json_string("outside") : json_null();
 }
 
+/* null where nothing moves. */
+static json_t *sweep_json(const sp_evaluator *evaluator)
+{
+    const sp_sweep *sweep = &sp_evaluator_setup(evaluator)->sweep;
+    if (!(sweep->speed > 0))
+        return json_null();
+    return json_pack("{s:f, s:f, s:f, s:I}", "travel_m", sp_distance(sweep->from, sweep->to), "speed_m_s", sweep->speed,
+                     "duration_s", sp_sweep_duration(sweep), "positions",
+                     (json_int_t)sp_evaluator_positions(evaluator));
+}
+
 static bool print_json(const findings *found)
 {
     json_t *warnings = json_array();
     for (size_t i = 0; i < found->warning_count; i++)
         json_array_append_new(warnings, json_string(found->warnings[i]));
     json_t *object =
-        json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}", "sprayplan", SP_VERSION,
-                  "command", "check", "scene", sp_scene_path(found->opened->scene), "mesh", mesh_json(found), "parts",
-                  parts_json(found), "cavity_m", cavity_json(setup_of(found)), "openings", openings_json(found),
-                  "hollows", hollows_json(found), "outdoors_m2", sp_evaluator_outdoors(found->opened->evaluator),
-                  "clean_area_m2", sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
+        json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}", "sprayplan",
+                  SP_VERSION, "command", "check", "scene", sp_scene_path(found->opened->scene), "mesh",
+                  mesh_json(found), "parts", parts_json(found), "cavity_m", cavity_json(setup_of(found)), "sweep",
+                  sweep_json(found->opened->evaluator), "openings", openings_json(found), "hollows",
+                  hollows_json(found), "outdoors_m2", sp_evaluator_outdoors(found->opened->evaluator), "clean_area_m2",
+                  sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
                   (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
                   sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",
                   (json_int_t)sp_scene_layout(found->opened->scene)->count, "warnings", warnings);

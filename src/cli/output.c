@@ -187,6 +187,17 @@ static void print_film(const sp_result *result, const sp_figures *figures, int w
     }
 }
 
+/* What goods that move take with them; of them no error is measured. */
+static void print_dose(const sp_result *result, const sp_figures *figures, int width)
+{
+    for (size_t i = 0, told = 0; i < result->design_count; i++)
+        if (isfinite(figures[i].pass))
+            printf("%s%-*s dose L/m2: mean %.4g, 5th percentile %.4g, highest %.4g, in a pass of %.4g s\n",
+                   told++ ? "" : "\n", width, result->designs[i].name, 1e3 * figures[i].pass * figures[i].flux_mean,
+                   1e3 * figures[i].pass * figures[i].flux_p05, 1e3 * figures[i].pass * figures[i].flux_max,
+                   figures[i].pass);
+}
+
 /* What is proved, in the report's own words; rounded so that it stays true. */
 static void print_forward_check(const sp_forward_check *check)
 {
@@ -278,6 +289,7 @@ static bool print_summary(const sp_result *result, sp_error *error)
            "of attainable %", "m2 per L/min");
     for (size_t i = 0; i < result->design_count; i++)
         print_figures(&figures[i], result->designs[i].name, width);
+    print_dose(result, figures, width);
     print_errors(result, figures, width);
     print_choice(result, figures);
     print_noise(result);

@@ -49,7 +49,8 @@ bool cli_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout,
 static bool bound_lines(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
 {
     const sp_fidelity *fidelity = sp_evaluator_fidelity(evaluator);
-    if (fidelity->trajectory != SP_TRAJECTORY_LINE || fidelity->method != SP_METHOD_INVERSE)
+    bool moves = sp_evaluator_setup(evaluator)->sweep.speed > 0; /* of what passes by nothing is proved */
+    if (fidelity->trajectory != SP_TRAJECTORY_LINE || fidelity->method != SP_METHOD_INVERSE || moves)
         return true;
     coverage->line_error.known = sp_bound_lines(evaluator, layout, &coverage->line_error.share, NULL, error);
     return coverage->line_error.known;

@@ -85,3 +85,57 @@ bool sp_is_clear(const sp_mesh *mesh, sp_vec3 point, double clearance, uint32_t 
     }
     return true;
 }
+
+/* Squared. Ericson, 5.1.9, for ways and edges that have a length. */
+static double between_ways(sp_vec3 a, sp_vec3 b, sp_vec3 c, sp_vec3 d)
+{
+    sp_vec3 ab = sp_sub(b, a), cd = sp_sub(d, c), ca = sp_sub(a, c);
+    double e = sp_dot(ab, ab), f = sp_dot(cd, cd), g = sp_dot(ab, cd), h = sp_dot(ab, ca), i = sp_dot(cd, ca);
+    double parallel = e * f - g * g, s = parallel > 0 ? fmin(1, fmax(0, (g * i - h * f) / parallel)) : 0;
+    double t = (g * s + i) / f;
+    if (t < 0 || t > 1) {
+        t = fmin(1, fmax(0, t));
+        s = fmin(1, fmax(0, (g * t - h) / e));
+    }
+    sp_vec3 apart = sp_sub(sp_along(a, s, ab), sp_along(c, t, cd));
+    return sp_dot(apart, apart);
+}
+
+static bool way_meets(sp_vec3 from, sp_vec3 to, sp_vec3 a, sp_vec3 b, sp_vec3 c)
+{
+    sp_vec3 way = sp_sub(to, from), normal = sp_cross(sp_sub(b, a), sp_sub(c, a));
+    double start = sp_dot(sp_sub(from, a), normal), fall = -sp_dot(way, normal);
+    if (fall == 0 || !(start / fall >= 0 && start / fall <= 1))
+        return false;
+    sp_vec3 p = sp_along(from, start / fall, way);
+    const sp_vec3 corner[3] = {a, b, c};
+    for (int k = 0; k < 3; k++)
+        if (sp_dot(sp_cross(sp_sub(corner[(k + 1) % 3], corner[k]), sp_sub(p, corner[k])), normal) < 0)
+            return false;
+    return true;
+}
+
+static double way_to_triangle(const sp_mesh *mesh, uint32_t triangle, sp_vec3 from, sp_vec3 to)
+{
+    sp_vec3 corner[3], at_start = sp_sub(sp_triangle_nearest(mesh, triangle, from), from),
+                       at_end = sp_sub(sp_triangle_nearest(mesh, triangle, to), to);
+    for (int k = 0; k < 3; k++)
+        corner[k] = mesh->vertices[mesh->triangles[triangle][k]];
+    if (way_meets(from, to, corner[0], corner[1], corner[2]))
+        return 0;
+    double least = fmin(sp_dot(at_start, at_start), sp_dot(at_end, at_end));
+    for (int k = 0; k < 3; k++)
+        least = fmin(least, between_ways(from, to, corner[k], corner[(k + 1) % 3]));
+    return least;
+}
+
+bool sp_way_is_clear(const sp_mesh *mesh, sp_vec3 from, sp_vec3 to, double clearance)
+{
+    double limit = clearance * clearance * (1 - 1e-9);
+    sp_vec3 middle = sp_scale(sp_add(from, to), 0.5);
+    double around = 0.5 * sp_distance(from, to) + clearance;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        if (may_be_nearer(mesh, t, middle, around * around * (1 + 1e-9)) && way_to_triangle(mesh, t, from, to) <= limit)
+            return false;
+    return true;
+}

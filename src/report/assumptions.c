@@ -107,8 +107,12 @@ static void add_criterion(sp_text *text, const sp_setup *setup)
     const sp_criterion *criterion = &setup->criterion;
     const char *separator = "";
     add_item(text, "Covered means");
+    double pass = sp_sweep_duration(&setup->sweep);
     if (criterion->flux > 0) {
-        sp_text_add(text, "liquid flux of at least %.4g&nbsp;L/min per m\xc2\xb2", 6e4 * criterion->flux);
+        if (pass > 0)
+            sp_text_add(text, "a dose of at least %.4g&nbsp;L per m\xc2\xb2", 1e3 * pass * criterion->flux);
+        else
+            sp_text_add(text, "liquid flux of at least %.4g&nbsp;L/min per m\xc2\xb2", 6e4 * criterion->flux);
         separator = ", ";
     }
     if (criterion->impact_speed > 0) {
@@ -124,6 +128,7 @@ static void add_criterion(sp_text *text, const sp_setup *setup)
         sp_text_add(text, "any liquid arrives");
     else
         sp_text_add(text, criterion->combine == SP_COMBINE_SINGLE ? "; one nozzle alone must do it"
+                          : pass > 0                              ? "; what all nozzles bring adds up"
                                                                   : "; the flux of all nozzles adds up");
     if (criterion->film > 0)
         add_film(text, setup);
@@ -140,6 +145,23 @@ static bool rotates(const sp_result *result, const sp_evaluator *evaluator)
     return false;
 }
 
+/* Goods that pass by. */
+static void add_sweep(sp_text *text, const sp_evaluator *evaluator)
+{
+    const sp_sweep *sweep = &sp_evaluator_setup(evaluator)->sweep;
+    if (!(sweep->speed > 0))
+        return;
+    add_item(text, "Goods");
+    sp_text_add(
+        text,
+        "move %.4g&nbsp;m past the nozzles at %.4g&nbsp;m/s, in %.4g&nbsp;s, and are looked at in %zu positions; "
+        "every flux is the mean over the pass, the dose that times its duration, of liquid that arrives fast "
+        "and steeply enough when it arrives. The pictures show them where the scene puts them, which also "
+        "decides which of their sides are wet. No error is measured of them: single points tell it only of "
+        "what stands</dd>\n",
+        sp_distance(sweep->from, sweep->to), sweep->speed, sp_sweep_duration(sweep), sp_evaluator_positions(evaluator));
+}
+
 static void add_scene(sp_text *text, const sp_setup *setup, bool rotating)
 {
     static const char *const cavities[] = {
@@ -153,9 +175,10 @@ static void add_scene(sp_text *text, const sp_setup *setup, bool rotating)
     sp_text_add(text,
                 "flow by the catalogue&#39;s point and exponent, exit speed from the pressure drop (Bernoulli), liquid "
                 "spread evenly over the spray angle%s</dd>\n",
-                rotating ? "; of those that rotate the mean over time, which is what every flux and film here is: while "
-                           "the jet passes there is more, and then none"
-                         : "");
+                rotating
+                    ? "; of those that rotate the mean over time, which is what every flux and film here is: while "
+                      "the jet passes there is more, and then none"
+                    : "");
     add_item(text, "Cavity");
     sp_text_add(text, "%s</dd>\n", cavities[setup->cavity]);
 }
@@ -206,6 +229,7 @@ void sp_page_assumptions(const sp_page *page, sp_text *text)
         before = evaluator;
         sp_text_add(text, "<dl>\n");
         add_criterion(text, sp_evaluator_setup(evaluator));
+        add_sweep(text, evaluator);
         add_flight(text, evaluator);
         add_choice(text, evaluator);
         add_errors(page, text, evaluator);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #define L_MIN 6e4 /* L/min per m³/s, and L/min/m² per m/s */
+#define L 1e3     /* L/m² per m³/m² */
 #define SHADOWS_SHOWN 10
 
 typedef double measure(const sp_figures *figures);
@@ -48,6 +49,18 @@ static double flux_max(const sp_figures *f)
 {
     return L_MIN * f->flux_max;
 }
+static double dose_mean(const sp_figures *f)
+{
+    return L * f->pass * f->flux_mean;
+}
+static double dose_p05(const sp_figures *f)
+{
+    return L * f->pass * f->flux_p05;
+}
+static double dose_max(const sp_figures *f)
+{
+    return L * f->pass * f->flux_max;
+}
 static double largest(const sp_figures *f)
 {
     return f->shadow_count ? f->shadows[0].area : 0;
@@ -73,6 +86,9 @@ static const row rows[] = {
     {"Liquid flux, mean", "L/min per m\xc2\xb2", flux_mean, 3, false, false},
     {"Liquid flux, 5th percentile", "L/min per m\xc2\xb2", flux_p05, 3, false, false},
     {"Liquid flux, highest", "L/min per m\xc2\xb2", flux_max, 3, false, false},
+    {"Dose, mean", "L/m\xc2\xb2", dose_mean, 3, false, false},
+    {"Dose, 5th percentile", "L/m\xc2\xb2", dose_p05, 3, false, false},
+    {"Dose, highest", "L/m\xc2\xb2", dose_max, 3, false, false},
 };
 
 static void add_value(sp_text *text, const row *r, double value)

@@ -22,7 +22,7 @@ static void set_geometry_and_fidelity(sp_figures *figures, const sp_evaluator *e
     figures->texel = fidelity->texel;
 }
 
-static void set_coverage(sp_figures *figures, const sp_coverage *coverage)
+static void set_coverage(sp_figures *figures, const sp_coverage *coverage, const sp_sweep *sweep)
 {
     figures->flow = coverage->flow;
     figures->covered_area = coverage->covered_area;
@@ -43,6 +43,7 @@ static void set_coverage(sp_figures *figures, const sp_coverage *coverage)
     figures->flux_mean = coverage->flux_mean;
     figures->flux_p05 = coverage->flux_p05;
     figures->flux_max = coverage->flux_max;
+    figures->pass = sweep->speed > 0 ? sp_sweep_duration(sweep) : NAN;
 }
 
 static bool set_nozzles(sp_figures *figures, const sp_layout *layout, const sp_setup *setup)
@@ -149,7 +150,7 @@ static bool describe(sp_figures *figures, const sp_design *design, const sp_reas
         return false;
     set_geometry_and_fidelity(figures, design->evaluator);
     set_attainable(figures, sp_evaluator_patches(design->evaluator), reasons);
-    set_coverage(figures, design->coverage);
+    set_coverage(figures, design->coverage, &sp_evaluator_setup(design->evaluator)->sweep);
     bool done = set_missing_parts(figures, design->evaluator, reasons) &&
                 sp_figures_make_rows(figures, shadow_count < SP_SHADOWS_KEPT ? shadow_count : SP_SHADOWS_KEPT,
                                      design->layout->count) &&

@@ -238,6 +238,7 @@ static bool read_coverage(const reader *in, const json_t *layout, sp_figures *fi
         !get_real(in, layout, "borderline_m2", 0, LARGEST, 1, &figures->borderline) ||
         !get_real(in, layout, "coverage_of_attainable", 0, 1 + 1e-9, 1, &figures->of_attainable) ||
         !get_real(in, layout, "area_per_water", 0, LARGEST, 6e4, &figures->area_per_water) ||
+        !get_real(in, layout, "pass_s", 0, LARGEST, 1, &figures->pass) ||
         !get_part(in, layout, "flux_l_min_m2", JSON_OBJECT, false, &flux))
         return false;
     if (isnan(figures->flow))

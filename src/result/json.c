@@ -126,6 +126,18 @@ static bool put_flux(json_t *object, const sp_figures *figures)
     return put(object, "flux_l_min_m2", flux) && done;
 }
 
+/* Of goods that move. */
+static bool put_dose(json_t *object, const sp_figures *figures)
+{
+    double l_m2 = 1e3 * figures->pass;
+    if (!isfinite(l_m2))
+        return true;
+    json_t *dose = json_object();
+    bool done = put_real(dose, "min", l_m2 * figures->flux_min) && put_real(dose, "mean", l_m2 * figures->flux_mean) &&
+                put_real(dose, "p05", l_m2 * figures->flux_p05) && put_real(dose, "max", l_m2 * figures->flux_max);
+    return put(object, "dose_l_m2", dose) && done && put_real(object, "pass_s", figures->pass);
+}
+
 /* Where the liquid ends, where that was counted. */
 static bool put_liquid(json_t *object, const sp_figures *figures)
 {
@@ -201,7 +213,7 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, const sp_eval
         put_real(layout, "borderline_m2", figures->borderline) &&
         put_real(layout, "coverage_of_attainable", figures->of_attainable) &&
         put_real(layout, "area_per_water", figures->area_per_water / 6e4) && put_flux(layout, figures) &&
-        put_liquid(layout, figures) && put_film(layout, &figures->film);
+        put_dose(layout, figures) && put_liquid(layout, figures) && put_film(layout, &figures->film);
     for (size_t i = 0; done && i < figures->shadow_count; ++i)
         done = put_shadow(shadows, &figures->shadows[i]);
     for (size_t i = 0; done && i < figures->nozzle_count; ++i)

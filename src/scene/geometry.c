@@ -12,7 +12,7 @@
 typedef struct {
     double unit;
     sp_transform transform;
-    bool obstacle;
+    bool obstacle, moves;
     double restitution, rebound;
 } piece;
 
@@ -45,11 +45,11 @@ static bool read_rotation(const sp_reader *reader, const sp_yaml *node, sp_trans
     return true;
 }
 
-static bool read_piece(const sp_reader *reader, const sp_yaml *node, piece *p)
+static bool read_piece(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, piece *p)
 {
     static const sp_key keys[] = {{"file", true},         {"unit", false},   {"scale", false},       {"role", false},
                                   {"translate", false},   {"rotate", false}, {"restitution", false}, {"rebound", false},
-                                  {"clean_parts", false}, {NULL, false}};
+                                  {"clean_parts", false}, {"sweep", false},  {NULL, false}};
     static const char *const roles[] = {"clean", "obstacle", NULL};
     int role = 0;
     *p = (piece){.unit = 1, .transform = sp_transform_default(), .rebound = 1};
@@ -59,7 +59,8 @@ static bool read_piece(const sp_reader *reader, const sp_yaml *node, piece *p)
         !sp_read_vector(reader, node, "translate", &sp_length_unit, &p->transform.translate) ||
         !read_rotation(reader, node, &p->transform) ||
         !sp_read_quantity(reader, node, "restitution", &sp_share_unit, sp_between(0, 1), &p->restitution) ||
-        !sp_read_quantity(reader, node, "rebound", &sp_share_unit, sp_between(0, 1), &p->rebound))
+        !sp_read_quantity(reader, node, "rebound", &sp_share_unit, sp_between(0, 1), &p->rebound) ||
+        !sp_scene_read_sweep(scene, reader, node, &p->moves))
         return false;
     p->obstacle = role == 1;
     const sp_yaml *parts = sp_yaml_get(node, "clean_parts");
@@ -121,7 +122,7 @@ static bool set_surfaces(sp_scene *scene, const sp_reader *reader, const sp_yaml
     const sp_yaml *parts = sp_yaml_get(node, "clean_parts");
     for (size_t i = 0; i < scene->mesh->part_count; i++)
         if (scene->mesh->parts[i].geometry == index)
-            scene->surfaces[i] = (sp_surface){!p->obstacle && !parts, p->restitution, p->rebound};
+            scene->surfaces[i] = (sp_surface){!p->obstacle && !parts, p->restitution, p->rebound, p->moves};
     if (!parts)
         return true;
     if (!sp_read_is_list(reader, parts, "clean_parts", "part names"))
@@ -193,7 +194,7 @@ static bool read_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml 
 {
     size_t count = 0;
     for (const sp_yaml *node = list->first; node; node = node->next, count++)
-        if (!read_piece(reader, node, &pieces[count]) ||
+        if (!read_piece(scene, reader, node, &pieces[count]) ||
             !(meshes[count] = load_piece(scene, reader, node, &pieces[count])))
             return false;
     if (!join_pieces(scene, reader, (const sp_mesh *const *)meshes, pieces, count))
@@ -202,7 +203,7 @@ static bool read_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml 
     for (const sp_yaml *node = list->first; node; node = node->next, index++)
         if (!set_surfaces(scene, reader, node, index, &pieces[index]))
             return false;
-    return true;
+    return sp_scene_settle_dose(scene, reader);
 }
 
 bool sp_scene_read_geometry(sp_scene *scene, const sp_reader *reader)

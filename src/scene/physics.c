@@ -63,10 +63,11 @@ static bool read_caps(sp_scene *scene, const sp_reader *reader)
     return true;
 }
 
-static bool read_criterion(const sp_scene *scene, const sp_reader *reader, sp_criterion *criterion)
+static bool read_criterion(sp_scene *scene, const sp_reader *reader, sp_criterion *criterion)
 {
-    static const sp_key keys[] = {{"flux", false},    {"impact_speed", false}, {"incidence", false},
-                                  {"combine", false}, {"film", false},         {NULL, false}};
+    static const sp_key keys[] = {{"flux", false},      {"dose", false},    {"impact_speed", false},
+                                  {"incidence", false}, {"combine", false}, {"film", false},
+                                  {NULL, false}};
     static const char *const combines[] = {"sum", "single", NULL};
     const sp_yaml *node = sp_yaml_get(scene->tree, "criterion");
     int combine = criterion->combine;
@@ -74,6 +75,7 @@ static bool read_criterion(const sp_scene *scene, const sp_reader *reader, sp_cr
         return true;
     if (!sp_read_keys(reader, node, "criterion", "the criterion", keys) ||
         !sp_read_quantity(reader, node, "flux", &sp_flux_unit, sp_from(0), &criterion->flux) ||
+        !sp_read_quantity(reader, node, "dose", &sp_dose_unit, sp_from(0), &scene->dose) ||
         !sp_read_quantity(reader, node, "impact_speed", &sp_speed_unit, sp_from(0), &criterion->impact_speed) ||
         !sp_read_quantity(reader, node, "incidence", &sp_angle_unit, sp_above_to(0, acos(-1) / 2),
                           &criterion->incidence) ||

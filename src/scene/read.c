@@ -15,6 +15,7 @@ const sp_dimension sp_share_unit = {"a share", "1", "95 %", true};
 const sp_dimension sp_pressure_unit = {"a pressure", "Pa", "2 bar", false};
 const sp_dimension sp_flow_unit = {"a flow", "m3/s", "12 L/min", false};
 const sp_dimension sp_width_flow_unit = {"a flow per width", "m2/s", "10 L/min/m", false};
+const sp_dimension sp_dose_unit = {"a dose", "m3/m2", "2 L/m2", false};
 const sp_dimension sp_flux_unit = {"a flux", "m3/s/m2", "1 L/min/m2", false};
 const sp_dimension sp_speed_unit = {"a speed", "m/s", "1 m/s", false};
 const sp_dimension sp_density_unit = {"a density", "kg/m3", "1000 kg/m3", false};

@@ -51,7 +51,7 @@ static inline sp_range sp_from_below(double low, double high)
 }
 
 extern const sp_dimension sp_length_unit, sp_angle_unit, sp_ratio_unit, sp_share_unit, sp_pressure_unit, sp_flow_unit,
-    sp_flux_unit, sp_width_flow_unit, sp_speed_unit, sp_density_unit, sp_viscosity_unit, sp_tension_unit,
+    sp_flux_unit, sp_width_flow_unit, sp_dose_unit, sp_speed_unit, sp_density_unit, sp_viscosity_unit, sp_tension_unit,
     sp_acceleration_unit, sp_turning_unit;
 
 /* "key: found WHAT STANDS AT node, expected ..." at the node's place. False always. */

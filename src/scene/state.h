@@ -16,6 +16,7 @@ struct sp_scene {
     sp_mesh *mesh;
     sp_surface *surfaces; /* [mesh->part_count] */
     sp_cap *caps;         /* [setup.cap_count] */
+    double dose;          /* m³/m², of the criterion; 0: none */
     size_t type_count;
     sp_nozzle_type *types;
     sp_setup setup;
@@ -35,6 +36,11 @@ bool sp_scene_read_catalogue(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_nozzles(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_simulate(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_place(sp_scene *scene, const sp_reader *reader);
+
+/* sweep.c: the sweep of one piece of geometry; absent: *moves is false. All of a scene are the same. */
+bool sp_scene_read_sweep(sp_scene *scene, const sp_reader *reader, const sp_yaml *piece, bool *moves);
+/* What the criterion asks for of goods that move, once all pieces are read: a dose, as its mean flux. */
+bool sp_scene_settle_dose(sp_scene *scene, const sp_reader *reader);
 
 /* Puts "simulate.jets=20000" into the tree. */
 bool sp_scene_override(sp_yaml *tree, const char *setting, sp_error *error);

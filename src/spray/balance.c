@@ -1,6 +1,7 @@
 /* Where the liquid ends: on what is to be cleaned, on other surface, outside, or on a way that is not followed. */
 #include "bodies.h"
 #include "emitter.h"
+#include "movers.h"
 
 #include <stdlib.h>
 
@@ -35,18 +36,20 @@ static void end_jet(const sp_evaluator *evaluator, const sp_ray *ray, const sp_h
     balance->unfollowed += onward;
 }
 
-/* Room for JETS rays and hits is the caller's: no pattern has more. */
-static void end_pattern(const sp_evaluator *evaluator, const sp_nozzle *pattern, sp_ray *rays, sp_hit *hits,
-                        sp_balance *balance)
+/* Room for JETS rays, offsets and hits is the caller's: no pattern has more. */
+static void end_pattern(const sp_evaluator *evaluator, const sp_nozzle *pattern, sp_ray *rays, sp_vec3 *offset,
+                        sp_hit *hits, sp_balance *balance)
 {
     sp_emitter emitter = sp_emitter_of(evaluator, pattern);
     double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
     size_t jets = (size_t)pattern->jets;
     if (!(emitter.source.speed > 0) || !(flow > 0))
         return;
-    for (size_t i = 0; i < jets; i++)
+    for (size_t i = 0; i < jets; i++) {
         rays[i] = sp_emitter_jet(&emitter, i, jets);
-    sp_trace_nearest_many(evaluator->tracer, rays, jets, evaluator->gravity, evaluator->setup.run.threads, hits);
+        offset[i] = sp_jet_offset(evaluator, i);
+    }
+    sp_jets_hit(evaluator, rays, offset, jets, evaluator->setup.run.threads, hits);
     for (size_t i = 0; i < jets; i++)
         end_jet(evaluator, &rays[i], &hits[i], flow / (double)jets, balance);
 }
@@ -59,14 +62,16 @@ bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout,
         return true;
     sp_bodies bodies;
     sp_ray *rays = malloc(JETS * sizeof *rays);
+    sp_vec3 *offset = malloc(JETS * sizeof *offset);
     sp_hit *hits = malloc(JETS * sizeof *hits);
-    bool done =
-        sp_bodies_create_with(evaluator, layout, JETS, &bodies, error) && ((rays && hits) || sp_fail_memory(error));
+    bool done = sp_bodies_create_with(evaluator, layout, JETS, &bodies, error) &&
+                ((rays && offset && hits) || sp_fail_memory(error));
     sp_balance balance = {.known = true};
     for (size_t n = 0; done && n < bodies.patterns->count; n++)
-        end_pattern(evaluator, &bodies.patterns->nozzles[n], rays, hits, &balance);
+        end_pattern(evaluator, &bodies.patterns->nozzles[n], rays, offset, hits, &balance);
     sp_bodies_free(&bodies);
     free(rays);
+    free(offset);
     free(hits);
     coverage->balance = done ? balance : coverage->balance;
     return done;

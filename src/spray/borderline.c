@@ -132,6 +132,10 @@ bool sp_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, 
         return false;
     *borderline = (sp_borderline){.known = false};
     size_t count = evaluator->patches.count;
+    for (size_t p = 0; patches && p < count; p++)
+        patches[p] = false;
+    if (evaluator->movers)
+        return true;
     bool *found = calloc(count + 1, sizeof *found);
     sp_bodies bodies;
     bool done = sp_bodies_create(evaluator, layout, &bodies, error) && (found || sp_fail_memory(error));

@@ -149,6 +149,17 @@ static void tell_method(sp_evaluator *evaluator)
     snprintf(evaluator->choice.method, SP_WHY, "%s", why);
 }
 
+/* Points tell nothing of goods that move: what is left open stays as plain as without a layout. */
+static bool choose_unmeasured(sp_evaluator *evaluator, sp_error *error)
+{
+    const sp_fidelity *open = &evaluator->setup.fidelity;
+    if (!(open->texel > 0))
+        snprintf(evaluator->choice.texel, SP_WHY, "the plain length: of goods that move no error is measured");
+    if (open->trajectory == SP_TRAJECTORY_AUTO && evaluator->setup.gravity > 0)
+        snprintf(evaluator->choice.trajectory, SP_WHY, "parabolas: of goods that move no error is measured");
+    return sp_texels_create(evaluator, NULL, error);
+}
+
 bool sp_choose(sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
 {
     const sp_fidelity *open = &evaluator->setup.fidelity;
@@ -156,6 +167,8 @@ bool sp_choose(sp_evaluator *evaluator, const sp_layout *layout, sp_error *error
     bool done;
     if (open->method == SP_METHOD_AUTO)
         tell_method(evaluator);
+    if (evaluator->movers)
+        return choose_unmeasured(evaluator, error);
     if (evaluator->fidelity.method == SP_METHOD_FORWARD)
         done = sp_choose_forward(&trial, error);
     else if (!(open->texel > 0))

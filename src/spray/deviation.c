@@ -441,7 +441,7 @@ bool sp_bound_lines(const sp_evaluator *evaluator, const sp_layout *layout, doub
     bool done = sp_bodies_create(evaluator, layout, &bodies, error) && (marks || sp_fail_memory(error));
     if (done)
         memset(marks, evaluator->setup.gravity == 0, patches->count);
-    if (done && evaluator->setup.gravity > 0) {
+    if (done && evaluator->setup.gravity > 0 && !evaluator->movers) {
         done = bounding_create(&b, evaluator, &bodies, error) && (decide(&b, marks) || sp_fail_memory(error));
         bounding_free(&b);
     }

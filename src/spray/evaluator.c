@@ -1,5 +1,6 @@
 /* Building an evaluator, choosing what is left to auto, and asking it. */
 #include "choice.h"
+#include "movers.h"
 #include "resolution.h"
 #include "rundown.h"
 #include "spray/wet/wet.h"
@@ -33,6 +34,23 @@ static bool check_surfaces(const sp_setup *setup, sp_error *error)
         clean = clean || surface->clean;
     }
     return clean || sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "nothing is to be cleaned: every part is an obstacle");
+}
+
+static bool check_sweep(const sp_setup *setup, sp_error *error)
+{
+    const sp_sweep *sweep = &setup->sweep;
+    double travel = sp_distance(sweep->from, sweep->to), speed = sweep->speed;
+    bool moves = false;
+    for (size_t i = 0; i < setup->mesh->part_count; i++)
+        moves = moves || setup->surfaces[i].moves;
+    if (moves != (speed != 0) || (moves && !(in_range(travel, 1e-300, 1e300) && in_range(speed, 1e-300, 1e300))))
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "sweep: a way of %g m at %g m/s and %s found; expected parts that move, ends that are apart and "
+                       "a speed above 0, or nothing of these",
+                       travel, speed, moves ? "parts that move" : "no part that moves");
+    return !moves || !(setup->criterion.film > 0) ||
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "film: found beside a sweep, which carries it along; expected a criterion of dose");
 }
 
 static bool check_caps(const sp_setup *setup, sp_error *error)
@@ -74,7 +92,8 @@ static bool check_setup(const sp_setup *setup, sp_error *error)
                        "film: found without %s; expected a cavity, which says on which side of a wall it "
                        "runs down, and gravity",
                        setup->gravity > 0 ? "a cavity" : "gravity");
-    return check_caps(setup, error) && check_surfaces(setup, error) && sp_geometry_is_resolved(setup, error);
+    return check_caps(setup, error) && check_surfaces(setup, error) && check_sweep(setup, error) &&
+           sp_geometry_is_resolved(setup, error);
 }
 
 static bool anything_reflects(const sp_setup *setup)
@@ -129,7 +148,11 @@ static bool build(sp_evaluator *evaluator, const sp_layout *layout, sp_error *er
     if (!sp_evaluator_progress(setup, "accelerator", 0, error))
         return false;
     evaluator->tracer = sp_tracer_create(setup->mesh, SP_ACCELERATOR_BVH, setup->run.threads, error);
-    if (!evaluator->tracer || !sp_evaluator_progress(setup, "wet sides", 0, error))
+    if (!evaluator->tracer)
+        return false;
+    if (setup->sweep.speed > 0 && !(evaluator->movers = sp_movers_create(setup, error)))
+        return false;
+    if (!sp_evaluator_progress(setup, "wet sides", 0, error))
         return false;
     evaluator->wet = sp_wet_create(setup, evaluator->tracer, error);
     if (!evaluator->wet || !sp_evaluator_progress(setup, "atlas", 0, error))
@@ -161,7 +184,8 @@ sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *la
         return NULL;
     }
     evaluator->gravity = sp_gravity_for(setup, evaluator->fidelity.trajectory);
-    evaluator->farthest = sp_farthest_coordinate(setup->mesh);
+    evaluator->farthest =
+        sp_farthest_coordinate(setup->mesh) + fmax(sp_length(setup->sweep.from), sp_length(setup->sweep.to));
     if (!build(evaluator, layout, error) || !sp_rundown_create(evaluator, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;
@@ -190,6 +214,7 @@ sp_evaluator *sp_evaluator_share(const sp_evaluator *fine, double texel, sp_erro
     evaluator->tracer = origin->tracer;
     evaluator->charts = origin->charts;
     evaluator->wet = origin->wet;
+    evaluator->movers = origin->movers;
     return evaluator;
 }
 
@@ -250,6 +275,7 @@ void sp_evaluator_destroy(sp_evaluator *evaluator)
         sp_tracer_destroy(evaluator->tracer);
         sp_charts_destroy(evaluator->charts);
         sp_wet_destroy(evaluator->wet);
+        sp_movers_destroy(evaluator->movers);
     }
     sp_texels_free(evaluator);
     sp_rundown_destroy(evaluator);

@@ -3,6 +3,7 @@
 #include "bodies.h"
 #include "emitter.h"
 #include "lit.h"
+#include "movers.h"
 #include "splat.h"
 #include "tally.h"
 
@@ -34,6 +35,7 @@ typedef struct {
     double lowest;       /* g · x, m²/s², of the geometry's lowest point */
     double able;         /* m³/s that flies on in the end and may yet be fast enough to count */
     sp_ray *rays;        /* [BATCH] */
+    sp_vec3 *offset;     /* [BATCH], m, of goods that move, as they are while the jet flies */
     double *flow;        /* [BATCH], m³/s */
     sp_hit *hits;        /* [BATCH] */
     jet_impact *impacts; /* [BATCH] */
@@ -131,6 +133,7 @@ static size_t gather(jet_flight *flight, size_t count)
         if (!flight->impacts[i].goes_on)
             continue;
         flight->rays[kept] = flight->rays[i];
+        flight->offset[kept] = flight->offset[i];
         flight->flow[kept++] = flight->flow[i];
     }
     return kept;
@@ -161,8 +164,7 @@ static void fly(jet_flight *flight, size_t count)
 {
     const sp_evaluator *evaluator = flight->evaluator;
     for (int bounce = 0; bounce <= flight->reflections && count > 0; bounce++) {
-        sp_trace_nearest_many(evaluator->tracer, flight->rays, count, evaluator->gravity, flight->threads,
-                              flight->hits);
+        sp_jets_hit(evaluator, flight->rays, flight->offset, count, flight->threads, flight->hits);
         flight->work->rays += count;
 #pragma omp parallel for num_threads(flight->threads)
         for (size_t i = 0; i < count; i++)
@@ -193,6 +195,7 @@ static void spray_jets(jet_flight *flight, const sp_nozzle *pattern, uint64_t fi
 #pragma omp parallel for num_threads(flight->threads)
     for (size_t i = 0; i < count; i++) {
         flight->rays[i] = sp_emitter_jet(&emitter, first + i, jets);
+        flight->offset[i] = sp_jet_offset(flight->evaluator, first + i);
         flight->flow[i] = flow / (double)jets;
     }
 }
@@ -219,7 +222,8 @@ static bool fly_pattern(jet_flight *flight, const sp_nozzle *pattern, double *do
 static void count_pattern(jet_flight *flight)
 {
     const sp_evaluator *evaluator = flight->evaluator;
-    bool spread = evaluator->fidelity.splat == SP_SPLAT_LINEAR;
+    /* what passes by lights up all of a patch in the end */
+    bool spread = evaluator->fidelity.splat == SP_SPLAT_LINEAR || evaluator->movers;
 #pragma omp parallel for num_threads(flight->threads)
     for (size_t i = 0; i < flight->deposits->count; i++) {
         double flux = flight->counted[i],
@@ -264,6 +268,7 @@ static void flight_free(jet_flight *flight)
     sp_lit_free(&flight->lit);
     free(flight->counted);
     free(flight->rays);
+    free(flight->offset);
     free(flight->flow);
     free(flight->hits);
     free(flight->impacts);
@@ -278,6 +283,7 @@ static bool evaluate_bodies(const sp_evaluator *evaluator, const sp_bodies *bodi
                          .balance = &coverage->balance,
                          .work = &coverage->work,
                          .rays = malloc(BATCH * sizeof *flight.rays),
+                         .offset = malloc(BATCH * sizeof *flight.offset),
                          .flow = malloc(BATCH * sizeof *flight.flow),
                          .hits = malloc(BATCH * sizeof *flight.hits),
                          .impacts = malloc(BATCH * sizeof *flight.impacts),
@@ -285,7 +291,7 @@ static bool evaluate_bodies(const sp_evaluator *evaluator, const sp_bodies *bodi
                          .reflections = reflections,
                          .lowest = lowest_point(evaluator),
                          .per_jet = per_jet};
-    bool room = flight.rays && flight.flow && flight.hits && flight.impacts && flight.counted;
+    bool room = flight.rays && flight.offset && flight.flow && flight.hits && flight.impacts && flight.counted;
     bool done = (room || sp_fail_memory(error)) &&
                 sp_tally_create(evaluator, &coverage->deposits, &flight.tally, error) &&
                 sp_lit_create(evaluator, &flight.lit, error) && fly_bodies(&flight, bodies, error) &&

@@ -24,8 +24,11 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
         if (!arrival->passes)
             continue;
         counted += mean;
-        sp_wetting_add(&wetting, flux, setup->criterion.flux, arrival->part, share,
-                       sp_emitter_holds(emitter, arrival->direction));
+        if (emitter->source.evaluator->movers)
+            wetting.even = counted; /* what passes by adds up */
+        else
+            sp_wetting_add(&wetting, flux, setup->criterion.flux, arrival->part, share,
+                           sp_emitter_holds(emitter, arrival->direction));
     }
     sp_tally_add(tally, first->patch, counted, &wetting);
 }

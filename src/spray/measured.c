@@ -92,7 +92,7 @@ static bool measure(const sp_evaluator *evaluator, const measuring *m, sp_measur
 static bool measure_on(const sp_evaluator *evaluator, measuring *m, sp_measured_error *measured, sp_error *error)
 {
     *measured = (sp_measured_error){.known = false};
-    if (evaluator->fidelity.reflections > 0 || !(m->coverage->area > 0))
+    if (evaluator->fidelity.reflections > 0 || evaluator->movers || !(m->coverage->area > 0))
         return true;
     sp_points *surface = sp_points_create(evaluator, error);
     m->surface = surface;

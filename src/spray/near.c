@@ -9,6 +9,7 @@
  * where √D is the mean of its least and most, of the share of the cell that is within reach. */
 #include "near.h"
 
+#include "aside.h"
 #include "middle.h"
 #include "reserve.h"
 
@@ -19,7 +20,7 @@
 #define CELLS_MOST 4096 /* of one patch: more than it takes a nanometre off a wall */
 #define CORNERS 14      /* 8 of a piece, and one more for every side of a box */
 #define EQUAL 1e-9      /* share by which a side is no longer than another: the first of equal ones is halved */
-#define ROUND_OFF 1e-12 /* of a cell's area, that a cut may leave of nothing; rad */
+#define ROUND_OFF 1e-12 /* of a cell's area, that a cut may leave of nothing */
 
 typedef enum {
     OUT_OF_REACH, /* all of it */
@@ -228,21 +229,6 @@ static cell cell_of(const cutting *cut, size_t first, size_t end)
     return cell;
 }
 
-/* Whether no flight to within `radius` of a point leaves within the cone. Low flights leave within asin g d / (v √2b)
- * of the way, as g²T is 2d²g²/b at most, and high ones within asin g d / b of the vertical, as it is 2b at least. */
-static bool is_aside(const cutting *cut, sp_vec3 point, double radius)
-{
-    sp_vec3 gravity = cut->source->evaluator->gravity, r = sp_sub(point, cut->source->position);
-    double distance = sp_length(r), g = sp_length(gravity), speed = cut->source->speed, far = distance + radius;
-    double b = speed * speed + sp_dot(r, gravity) - g * radius, most = cut->half_angle + ROUND_OFF;
-    if (most >= M_PI || distance <= radius || b <= 0 || g * far >= b || g * far >= speed * sqrt(2 * b))
-        return false;
-    double bend = asin(g * far / (speed * sqrt(2 * b))), spread = asin(radius / distance);
-    if (acos(fmin(1, fmax(-1, sp_dot(r, cut->axis) / distance))) <= most + spread + bend)
-        return false;
-    return g == 0 || acos(fmin(1, fmax(-1, -sp_dot(gravity, cut->axis) / g))) > most + asin(g * far / b);
-}
-
 static void visit_cell(cutting *cut, cell *cell)
 {
     cell->middle.point = sp_middle_centroid(&cell->middle); /* within a piece that is alone */
@@ -279,7 +265,7 @@ static void cut_cell(cutting *cut, size_t first, size_t end, double whole)
     double radius = 0.5 * sp_length(size);
     sp_vec3 middle = sp_scale(sp_add(cell.low, cell.high), 0.5);
     bearing seen = bearing_of(cut->source, middle, side, radius);
-    if (seen == OUT_OF_REACH || is_aside(cut, middle, radius))
+    if (seen == OUT_OF_REACH || sp_cone_is_aside(cut->source, cut->axis, cut->half_angle, middle, radius))
         return;
     if (seen == FINE || side < FINEST * cut->whole.length || cut->cells >= CELLS_MOST) {
         visit_cell(cut, &cell);

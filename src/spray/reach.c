@@ -1,12 +1,15 @@
 /* What one point can reach at one speed: the flights to every patch, less those that something blocks. */
 #include "reach.h"
 
+#include "aside.h"
+#include "movers.h"
 #include "near.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #define CHUNK 4096 /* patches whose flights are traced together: the tracer likes many of one origin */
+#define WIDEST 3.0 /* of a patch's length, from its point: it lies within */
 
 sp_aim sp_aim_at(sp_vec3 axis, double half_angle)
 {
@@ -16,6 +19,12 @@ sp_aim sp_aim_at(sp_vec3 axis, double half_angle)
                     .end = SIZE_MAX};
 }
 
+/* What else is to be known of a ray where goods move. */
+typedef struct {
+    size_t position; /* theirs */
+    uint32_t target; /* triangle, of the setup's mesh */
+} passing_ray;
+
 /* Flights that pass all questions but whether their way is free. */
 typedef struct flock {
     size_t count, capacity;
@@ -23,6 +32,7 @@ typedef struct flock {
     size_t ray_count;
     sp_ray *rays; /* of those whose way is not known yet */
     bool *blocked;
+    passing_ray *passing;
     size_t places; /* that flights were solved for */
     bool failed;   /* for want of memory */
 } flock;
@@ -38,7 +48,9 @@ static bool make_room(flock *flock, size_t more)
     flock->rays = rays ? rays : flock->rays;
     bool *blocked = realloc(flock->blocked, capacity * sizeof *blocked);
     flock->blocked = blocked ? blocked : flock->blocked;
-    flock->failed = flock->failed || !arrivals || !rays || !blocked;
+    passing_ray *passing = realloc(flock->passing, capacity * sizeof *passing);
+    flock->passing = passing ? passing : flock->passing;
+    flock->failed = flock->failed || !arrivals || !rays || !blocked || !passing;
     flock->capacity = flock->failed ? flock->capacity : capacity;
     return !flock->failed;
 }
@@ -48,6 +60,7 @@ static void flock_free(flock *flock)
     free(flock->arrivals);
     free(flock->rays);
     free(flock->blocked);
+    free(flock->passing);
 }
 
 /* Within the cone, a hair wider than asked, so that round-off never takes a jet of the edge away; or not farther
@@ -77,20 +90,31 @@ static sp_flight flight_beside(sp_flight flight, unsigned side)
 
 /* One patch while its flights are gathered. */
 typedef struct {
-    const sp_source *source;
+    sp_source source; /* as the patch sees it from where the mesh has it */
     const sp_aim *aim;
     uint32_t patch;
     flock *flock;
+    double share;    /* of the pass, that the goods' position stands for */
+    double step;     /* m, that the goods move from one position to the next; 0: the patch does not */
+    size_t position; /* theirs */
+    sp_vec3 offset;  /* m, theirs */
 } gathering;
+
+/* What is known of a patch is not known of its cells, nor of where goods were then. */
+static bool is_traced(const sp_evaluator *evaluator, const sp_aim *aim, double part)
+{
+    return !aim->known || part < 1 || evaluator->movers;
+}
 
 /* The flights to a patch, or to a cell that is `part` of it. */
 static void gather_at(void *user, const sp_target *target, double part)
 {
     gathering *own = user;
-    const sp_source *source = own->source;
+    const sp_source *source = &own->source;
     const sp_aim *aim = own->aim;
     flock *flock = own->flock;
     sp_flight flights[2];
+    part *= own->share;
     int count = sp_flights(source->position, target->point, source->speed, source->evaluator->gravity, flights);
     if (!make_room(flock, 2))
         return;
@@ -98,12 +122,13 @@ static void gather_at(void *user, const sp_target *target, double part)
     for (int k = 0; k < count; k++) {
         sp_arrival *arrival = &flock->arrivals[flock->count];
         size_t bit = 2 * (size_t)own->patch + (size_t)k;
-        bool traced = !aim->known || part < 1;
+        bool traced = is_traced(source->evaluator, aim, part);
         if (aim->known && !(aim->known[bit / 8] >> bit % 8 & 1))
             continue;
         if (!sp_arrive(source, target, &flights[k], arrival) || (aim->passing && !arrival->passes))
             continue;
-        arrival->breadth = sp_flight_breadth(&flights[k], source->speed, target->length);
+        /* what a spray's edge is blurred over is no less than a step, so that no thin spray falls between two */
+        arrival->breadth = sp_flight_breadth(&flights[k], source->speed, fmax(target->length, own->step));
         sp_flight way = aim->beside ? flight_beside(flights[k], aim->beside) : flights[k];
         arrival->blocked = traced && sp_flight_pierces(source, target, &way);
         if (!aimed(aim, arrival) || (arrival->blocked && !aim->blocked))
@@ -111,23 +136,73 @@ static void gather_at(void *user, const sp_target *target, double part)
         arrival->patch = own->patch;
         arrival->arc = (uint8_t)k;
         arrival->part = part;
+        arrival->point = sp_add(arrival->point, own->offset);
         flock->count++;
-        if (traced)
-            flock->rays[flock->ray_count++] = sp_flight_ray(source, target, &way);
+        if (!traced)
+            continue;
+        flock->passing[flock->ray_count] = (passing_ray){own->position, target->triangle};
+        flock->rays[flock->ray_count] = sp_flight_ray(source, target, &way);
+        flock->rays[flock->ray_count].origin = sp_add(source->position, own->offset);
+        flock->ray_count++;
     }
+}
+
+/* The patch, whole or in cells. */
+static void gather_patch(gathering *own, const sp_target *target)
+{
+    const sp_aim *aim = own->aim;
+    if (!sp_target_is_near(&own->source, target))
+        gather_at(own, target, 1);
+    else if (!sp_patch_cut(&own->source, own->patch, aim->axis, aim->half_angle + sp_spray_fringe(SP_BREADTH_MOST),
+                           gather_at, own))
+        own->flock->failed = true;
+}
+
+/* Whether the spray surely misses a patch at all positions from one to another. */
+static bool passes_aside(const gathering *own, const sp_source *source, const sp_target *target, size_t first,
+                         size_t end)
+{
+    const sp_evaluator *evaluator = source->evaluator;
+    sp_vec3 from = sp_pass_offset(evaluator, sp_pass_share(evaluator, own->patch, first)),
+            to = sp_pass_offset(evaluator, sp_pass_share(evaluator, own->patch, end - 1));
+    sp_vec3 middle = sp_along(target->point, 0.5, sp_add(from, to));
+    double radius = 0.5 * sp_distance(from, to) + WIDEST * target->length;
+    double fringe = sp_spray_fringe(sp_breadth_most(source, middle, radius, fmax(target->length, own->step)));
+    return sp_cone_is_aside(source, own->aim->axis, own->aim->half_angle + fringe, middle, radius) ||
+           (own->aim->emitter && sp_fan_is_aside(own->aim->emitter, source->position, fringe, middle, radius));
+}
+
+/* A patch that moves, at the positions first to end: halves of the way that the spray misses are not looked at. */
+static void gather_moving(gathering *own, const sp_source *source, const sp_target *target, size_t first, size_t end)
+{
+    const sp_evaluator *evaluator = source->evaluator;
+    if (passes_aside(own, source, target, first, end))
+        return;
+    if (end - first > 1) {
+        gather_moving(own, source, target, first, first + (end - first) / 2);
+        gather_moving(own, source, target, first + (end - first) / 2, end);
+        return;
+    }
+    own->position = first;
+    own->share = 1 / (double)evaluator->positions;
+    own->offset = sp_pass_offset(evaluator, sp_pass_share(evaluator, own->patch, first));
+    own->source.position = sp_sub(source->position, own->offset);
+    gather_patch(own, target);
 }
 
 static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, flock *flock)
 {
+    const sp_evaluator *evaluator = source->evaluator;
     if ((aim->known && !(aim->known[patch / 4] >> 2 * (patch % 4) & 3)) || (aim->among && !aim->among[patch]))
         return;
-    gathering own = {source, aim, patch, flock};
-    sp_target target = sp_patch_target(source->evaluator, patch);
-    if (!sp_target_is_near(source, &target))
-        gather_at(&own, &target, 1);
-    else if (!sp_patch_cut(source, patch, aim->axis, aim->half_angle + sp_spray_fringe(SP_BREADTH_MOST), gather_at,
-                           &own))
-        flock->failed = true;
+    gathering own = {.source = *source, .aim = aim, .patch = patch, .flock = flock, .share = 1};
+    sp_target target = sp_patch_target(evaluator, patch);
+    if (!evaluator->movers || sp_motion_of(evaluator, target.triangle) == SP_STANDING) {
+        gather_patch(&own, &target);
+        return;
+    }
+    own.step = sp_pass_step(evaluator);
+    gather_moving(&own, source, &target, 0, evaluator->positions);
 }
 
 /* A chunk's arrivals, malloc'd; NULL where there are none, or where memory ran out. */
@@ -136,6 +211,34 @@ typedef struct harvest {
     sp_arrival *arrivals;
     sp_work work;
 } harvest;
+
+/* What is in the way of the flock's rays, of what stands. */
+static void trace(const sp_evaluator *evaluator, flock *flock)
+{
+    const sp_movers *movers = evaluator->movers;
+    for (size_t i = 0; movers && i < flock->ray_count; i++) {
+        uint32_t target = flock->passing[i].target;
+        flock->rays[i].skip = sp_motion_of(evaluator, target) == SP_STANDING ? movers->own[target] : SP_NONE;
+    }
+    sp_trace_occluded_many(movers ? movers->tracer[SP_STANDING] : evaluator->tracer, flock->rays, flock->ray_count,
+                           evaluator->gravity, 1, flock->blocked);
+}
+
+/* The share of an arrival's time in which no goods are in its way: all or none where they are looked at in one
+ * position, and of what stands the mean over the pass. */
+static double free_share(const sp_evaluator *evaluator, const flock *flock, uint32_t patch, size_t i)
+{
+    const passing_ray *passing = &flock->passing[i];
+    sp_ray ray = flock->rays[i];
+    ray.skip = passing->target;
+    bool moves = sp_motion_of(evaluator, passing->target) == SP_MOVING;
+    size_t first = moves ? passing->position : 0, end = moves ? first + 1 : evaluator->positions, free = 0;
+    for (size_t k = first; k < end; k++) {
+        sp_vec3 offset = sp_pass_offset(evaluator, sp_pass_share(evaluator, patch, k));
+        free += !sp_movers_occlude(evaluator, SP_MOVING, &ray, offset);
+    }
+    return (double)free / (double)(end - first);
+}
 
 /* The arrivals at patches first to end; false where memory ran out. */
 static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uint32_t end, flock *flock,
@@ -148,13 +251,14 @@ static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uin
         gather(source, aim, patch, flock);
     if (flock->failed)
         return false;
-    sp_trace_occluded_many(source->evaluator->tracer, flock->rays, flock->ray_count, source->evaluator->gravity, 1,
-                           flock->blocked);
+    trace(source->evaluator, flock);
     size_t kept = 0;
     for (size_t i = 0, ray = 0; i < flock->count; i++) {
         sp_arrival *arrival = &flock->arrivals[i];
-        bool traced = !aim->known || arrival->part < 1;
-        if (traced && flock->blocked[ray++])
+        bool traced = is_traced(source->evaluator, aim, arrival->part);
+        if (traced && source->evaluator->movers && !flock->blocked[ray])
+            arrival->part *= free_share(source->evaluator, flock, arrival->patch, ray);
+        if (traced && (flock->blocked[ray++] || !(arrival->part > 0)))
             arrival->blocked = true;
         if (!arrival->blocked || aim->blocked)
             flock->arrivals[kept++] = *arrival;

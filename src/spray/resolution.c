@@ -1,6 +1,7 @@
 #include "resolution.h"
 
 #include "density.h"
+#include "movers.h"
 
 #include <stdlib.h>
 
@@ -15,6 +16,7 @@
 #define MOST_PAGE_EDGE 16384 /* texels, for a triangle longer than PAGE_EDGE */
 #define PAGE_MARGIN 4        /* texels that a page needs beyond its chart */
 #define MOST_TEXELS 1e9
+#define MOST_POSITIONS 1e5
 #define WELL_WITHIN 0.5 /* of the longest chart that fits a page: shorter ones are as they would be on any page */
 
 static double counted_area(const sp_evaluator *evaluator)
@@ -83,13 +85,27 @@ static bool check_number(double texel, double texels, sp_error *error)
                    texels * texel * texel, texel * sqrt(texels / MOST_TEXELS));
 }
 
+static bool set_positions(sp_evaluator *evaluator, double texel, sp_error *error)
+{
+    const sp_sweep *sweep = &evaluator->setup.sweep;
+    double travel = sp_distance(sweep->from, sweep->to);
+    if (travel / texel > MOST_POSITIONS)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "texel: %g m found, too small for a sweep of %g m, which is followed in steps no longer; "
+                       "expected at least %.3g m",
+                       texel, travel, travel / MOST_POSITIONS);
+    evaluator->positions = sp_pass_positions(&evaluator->setup, texel);
+    return true;
+}
+
 /* The atlas on pages of the usual size, or larger ones where a single triangle must have them. */
 static bool build_atlas(sp_evaluator *evaluator, const sp_charts *charts, const sp_density *density, sp_error *error)
 {
     double texel = evaluator->fidelity.texel;
     double page = fmin(fmax(ceil(density->longest) + PAGE_MARGIN, PAGE_EDGE), MOST_PAGE_EDGE);
     sp_atlas_options options = {.texel = texel, .page_edge = (uint32_t)page, .chart_texel = density->texel};
-    if (sp_texel_is_resolved(evaluator, texel, error) && check_number(texel, density->texels, error))
+    if (sp_texel_is_resolved(evaluator, texel, error) && check_number(texel, density->texels, error) &&
+        set_positions(evaluator, texel, error))
         evaluator->atlas = sp_atlas_create(evaluator->setup.mesh, charts, &options, error);
     return evaluator->atlas &&
            sp_fragments_create(&evaluator->fragments, evaluator->atlas, evaluator->setup.mesh, error) &&

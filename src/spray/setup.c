@@ -20,6 +20,11 @@ sp_setup sp_setup_default(void)
     };
 }
 
+double sp_sweep_duration(const sp_sweep *sweep)
+{
+    return sweep->speed > 0 ? sp_distance(sweep->from, sweep->to) / sweep->speed : 0;
+}
+
 sp_vec3 sp_setup_outside(const sp_setup *setup, sp_vec3 point)
 {
     return sp_add(point, setup->origin);

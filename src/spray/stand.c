@@ -1,5 +1,6 @@
 /* Whether a nozzle can stand where a layout puts it. */
 #include "bodies.h"
+#include "movers.h"
 
 #include "mesh/distance.h"
 
@@ -14,13 +15,38 @@ static bool sees_cavity(const sp_evaluator *evaluator, sp_vec3 point)
            (!(sp_length(sight.velocity) > 0) || !sp_trace_occluded(evaluator->tracer, &sight, sp_v(0, 0, 0)));
 }
 
+/* What stands; all where nothing moves. */
+static const sp_mesh *standing(const sp_evaluator *evaluator)
+{
+    return evaluator->movers ? evaluator->movers->mesh[SP_STANDING] : evaluator->setup.mesh;
+}
+
+/* Goods that pass a point do so as the point would pass them. */
+static bool is_out_of_the_way(const sp_evaluator *evaluator, sp_vec3 point, double clearance)
+{
+    const sp_sweep *sweep = &evaluator->setup.sweep;
+    return !evaluator->movers || sp_way_is_clear(evaluator->movers->mesh[SP_MOVING], sp_sub(point, sweep->from),
+                                                 sp_sub(point, sweep->to), clearance);
+}
+
+bool sp_evaluator_is_clear(const sp_evaluator *evaluator, sp_vec3 point, double clearance, uint32_t own)
+{
+    return sp_is_clear(standing(evaluator), point, clearance, own) && is_out_of_the_way(evaluator, point, clearance);
+}
+
 /* Where liquid leaves a nozzle. */
 static bool admits_exit(const sp_evaluator *evaluator, const sp_nozzle *exit, sp_error *error)
 {
-    const sp_mesh *mesh = evaluator->setup.mesh;
+    const sp_mesh *mesh = standing(evaluator);
     sp_vec3 p = exit->position, told = sp_setup_outside(&evaluator->setup, p);
     sp_vec3 low, high;
-    double touch = TOUCH * sp_mesh_box(mesh, &low, &high);
+    double touch = TOUCH * sp_mesh_box(evaluator->setup.mesh, &low, &high);
+    if (!is_out_of_the_way(evaluator, p, touch))
+        return sp_fail(
+            error, SP_ERROR_INPUT, NULL, 0, 0,
+            "nozzles: %s at [%.6g m, %.6g m, %.6g m] is in the way of the goods of the sweep; expected a place "
+            "that they pass by",
+            exit->name, told.x, told.y, told.z);
     if (!sp_is_clear(mesh, p, touch, SP_NONE)) {
         uint32_t triangle = sp_nearest_triangle(mesh, SP_NONE, p);
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,

@@ -23,6 +23,8 @@ struct sp_evaluator {
     sp_patches patches;
     uint32_t (*texel_patch)[2]; /* [texel_count], patch on the front (or both sides) and on the back, or SP_NONE */
     struct sp_rundown *rundown; /* rundown.h; NULL where the criterion does not ask for film */
+    struct sp_movers *movers;   /* movers.h; NULL where nothing moves; the origin owns it */
+    size_t positions;           /* in which goods are looked at on their pass; 1 where nothing moves */
 };
 
 /* Threads to use for sp_run's `threads`. */

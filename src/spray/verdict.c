@@ -120,6 +120,9 @@ bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_
 {
     if (!evaluator || !layout || !points)
         return false;
+    if (evaluator->movers)
+        return sp_fail(error, SP_ERROR_UNSUPPORTED, NULL, 0, 0,
+                       "sweep: found goods that move, expected none: points are judged as they stand");
     sp_evaluator truth = *evaluator; /* the same but for how liquid flies */
     truth.gravity = sp_gravity_for(&evaluator->setup, trajectory);
     sp_bodies bodies;

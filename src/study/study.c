@@ -187,6 +187,10 @@ sp_study *sp_study_create(const sp_setup *setup, const sp_layout *layout, const 
                        "film: found, expected none: study judges single points, which tell nothing of what "
                        "runs down to them"),
                NULL;
+    if (setup->sweep.speed > 0)
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                       "sweep: found, expected none: study judges single points, as they stand"),
+               NULL;
     if (layout->count == 0 && !place)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "nozzles: found none, expected at least one to study, or mounts under place:"),

@@ -568,6 +568,31 @@ static const slip catalogue_later[] = {
      "catalogue.yaml:4:110: image: found 'a.png', which is not supported yet, expected a type without this key"},
 };
 
+#define SWEPT "role: obstacle, sweep: {from: [0, 0, -1], to: [0, 0, 2], speed: 3 m/min}}"
+
+/* Geometry that moves, and what its criterion takes. */
+static const slip sweeps[] = {
+    {"role: obstacle}", SWEPT,
+     "scene.yaml:16:19: flux: found beside a sweep, where it changes as the goods pass, expected dose, such as 2 L/m2"},
+    {"flux: 1 L/min/m2", "dose: 2 L/m2",
+     "scene.yaml:16:19: dose: found without geometry that has a sweep, expected flux: what stands has no pass over "
+     "which liquid adds up"},
+    {"flux: 1 L/min/m2", "dose: 2 L/min/m2",
+     "scene.yaml:16:19: dose: found '2 L/min/m2', expected a dose of at least 0 such as 2 L/m2 ('L/min/m2' measures "
+     "something else)"},
+    {"role: obstacle}", "role: obstacle, sweep: {from: [0, 0, 1], to: [0, 0, 1], speed: 3 m/min}}",
+     "scene.yaml:11:70: to: found the same place as from, expected another"},
+    {"role: obstacle}", "role: obstacle, sweep: {from: [0, 0, 1], to: [0, 0, 2]}}",
+     "scene.yaml:11:48: speed: found nothing, expected this key in a sweep"},
+    {"role: obstacle}", "role: obstacle, sweep: {from: [0, 0, 1], to: [0, 0, 2], speed: 0 m/s}}",
+     "scene.yaml:11:88: speed: found '0 m/s', expected a speed above 0 such as 1 m/s"},
+    {"role: obstacle}", "role: obstacle, sweep: {from: [0, 0, 1], to: [0, 2], speed: 1 m/s}}",
+     "scene.yaml:11:70: to: found a list of 2, expected a list of three values such as [0, 0, 1]"},
+    {"role: obstacle}", SWEPT "\n  - {file: stirrer.obj, sweep: {from: [0, 0, -1], to: [0, 0, 2], speed: 4 m/min}}",
+     "scene.yaml:12:32: sweep: found another one than of the geometry before it, expected the same: all that moves, "
+     "moves together"},
+};
+
 static int failures;
 
 static void compare(const char *slip_text, const char *found, const char *expected)
@@ -621,6 +646,12 @@ static void scene_quantities(void **state)
 {
     (void)state;
     try_scenes(quantities, COUNT(quantities), SP_ERROR_INPUT);
+}
+
+static void scene_sweeps(void **state)
+{
+    (void)state;
+    try_scenes(sweeps, COUNT(sweeps), SP_ERROR_INPUT);
 }
 
 static void scene_keys(void **state)
@@ -746,9 +777,10 @@ static void wrong_overrides(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scene_quantities), cmocka_unit_test(scene_keys),        cmocka_unit_test(scene_kinds),
-        cmocka_unit_test(scene_files),      cmocka_unit_test(scene_unsupported), cmocka_unit_test(scene_syntax),
-        cmocka_unit_test(catalogues),       cmocka_unit_test(whole_files),       cmocka_unit_test(wrong_overrides),
+        cmocka_unit_test(scene_quantities), cmocka_unit_test(scene_keys),  cmocka_unit_test(scene_kinds),
+        cmocka_unit_test(scene_sweeps),     cmocka_unit_test(scene_files), cmocka_unit_test(scene_unsupported),
+        cmocka_unit_test(scene_syntax),     cmocka_unit_test(catalogues),  cmocka_unit_test(whole_files),
+        cmocka_unit_test(wrong_overrides),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

@@ -433,6 +433,43 @@ static inline void bodies_of_few(recount_scene *s, double texel)
     s->mounts[0].tilt = 0;
 }
 
+/* A block that is carried through the chamber over the floor, which it shades; its walls take what they take meanwhile.
+ */
+static inline void carry_a_block(recount_scene *s, room_builder *b, double texel)
+{
+    room_box(b, sp_v(-0.2, -0.3, 0.1), sp_v(0.2, 0.25, 0.4), "block", "block top");
+    s->room.moves[2] = s->room.moves[3] = true;
+    s->room.setup.sweep = (sp_sweep){.from = {-0.6, 0, 0}, .to = {0.7, 0.05, 0}, .speed = 0.1};
+    scene_open(s, b, texel);
+}
+
+static inline void goods_in_a_chamber(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_type(s, SP_PATTERN_FULL_CONE, 70, 0, 12);
+    scene_type(s, SP_PATTERN_FLAT_FAN, 80, 6, 7.3);
+    s->room.setup.criterion = (sp_criterion){.flux = 1.5 * LITRES_PER_MINUTE, .incidence = 75 * DEGREE};
+    s->options.max_nozzles = 4;
+    s->options.max_water = 40 * LITRES_PER_MINUTE;
+    carry_a_block(s, &b, texel);
+}
+
+/* So few poses that every layout can be tried. */
+static inline void goods_of_few(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_type(s, SP_PATTERN_FULL_CONE, 90, 0, 9);
+    scene_type(s, SP_PATTERN_HOLLOW_CONE, 100, 0.7, 6.4);
+    s->room.setup.criterion.flux = 1.2 * LITRES_PER_MINUTE;
+    s->mounts[0].tilt = 0;
+    s->mounts[0].axis = sp_unit(sp_v(0.4, 0.3, -1));
+    s->mounts[0].spacing = 0.25;
+    s->options.max_nozzles = 3;
+    carry_a_block(s, &b, texel);
+}
+
 typedef struct {
     const char *name;
     bool hall;
@@ -464,6 +501,8 @@ static const recount_case recount_cases[] = {
     {"one body alone", false, false, false, bodies_alone},
     {"bodies and film", false, false, false, bodies_and_film},
     {"bodies of few, every layout", false, false, true, bodies_of_few},
+    {"goods in a chamber, refined", false, false, false, goods_in_a_chamber},
+    {"goods of few, every layout", false, false, true, goods_of_few},
 };
 #define RECOUNT_CASES (sizeof recount_cases / sizeof *recount_cases)
 

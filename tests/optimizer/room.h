@@ -62,6 +62,7 @@ static inline void room_box(room_builder *b, sp_vec3 low, sp_vec3 high, const ch
 typedef struct {
     sp_mesh *mesh;
     sp_surface surfaces[8];
+    bool moves[8]; /* parts, where the setup has a sweep */
     sp_setup setup;
     sp_evaluator *evaluator;
 } room;
@@ -73,7 +74,7 @@ static inline void room_open(room *r, const room_builder *b, double texel)
                              b->part_count, &error);
     assert_non_null(r->mesh);
     for (size_t i = 0; i < b->part_count; i++)
-        r->surfaces[i] = (sp_surface){.clean = true, .rebound = 1};
+        r->surfaces[i] = (sp_surface){.clean = true, .rebound = 1, .moves = r->moves[i]};
     r->setup.mesh = r->mesh;
     r->setup.surfaces = r->surfaces;
     r->setup.fidelity.texel = texel;

@@ -345,6 +345,37 @@ static void nothing(void **state)
     assert_null(sp_scene_load("no-such.yaml", NULL));
 }
 
+/* All that moves does so together; a dose is a mean flux over the pass, and is written back as it stood. */
+static void goods_that_move(void **state)
+{
+    (void)state;
+    sp_error error = {0};
+    sp_scene *scene = load("geometry:\n"
+                           "  - {file: tank.obj, sweep: {from: [-1, 0, 0], to: [2, 4, 0], speed: 6 m/min}}\n"
+                           "  - {file: stirrer.obj, role: obstacle}\n"
+                           "criterion: {dose: 5 L/m2}\n"
+                           "catalogue: catalogue.yaml\n");
+    const sp_setup *setup = sp_scene_setup(scene);
+    near_vector(setup->sweep.from, -1, 0, 0);
+    near_vector(setup->sweep.to, 2, 4, 0);
+    near(setup->sweep.speed, 0.1);
+    near(sp_sweep_duration(&setup->sweep), 50);
+    near(setup->criterion.flux, 1e-4);
+    for (size_t i = 0; i < setup->mesh->part_count; i++)
+        assert_int_equal(setup->surfaces[i].moves, setup->mesh->parts[i].geometry == 0);
+    sp_fidelity fidelity = setup->fidelity;
+    fidelity.trajectory = SP_TRAJECTORY_LINE;
+    fidelity.method = SP_METHOD_INVERSE;
+    fidelity.reflections = 0;
+    fidelity.texel = 0.1;
+    char *text = sp_scene_text(scene, sp_scene_layout(scene), &fidelity, ".", &error);
+    assert_non_null(text);
+    assert_non_null(strstr(text, "sweep: {from: [-1, 0, 0], to: [2, 4, 0], speed: 6 m/min}"));
+    assert_non_null(strstr(text, "dose: 5 L/m2"));
+    free(text);
+    sp_scene_destroy(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -358,6 +389,7 @@ int main(void)
         cmocka_unit_test(types),
         cmocka_unit_test(clusters),
         cmocka_unit_test(overrides),
+        cmocka_unit_test(goods_that_move),
         cmocka_unit_test(nothing),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
