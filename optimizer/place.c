@@ -57,6 +57,8 @@ static bool takes_for_goods(const sp_place_options *options, sp_error *error)
     bool done = swept_types(options->types, options->type_count, error);
     for (size_t i = 0; done && i < options->mount_count; i++)
         done = swept_types(options->mounts[i].types, options->mounts[i].type_count, error);
+    for (size_t i = 0; done && options->kept && i < options->kept->count; i++)
+        done = !options->kept->nozzles[i].keep || swept_types(&options->kept->nozzles[i].type, 1, error);
     return done;
 }
 
