@@ -84,7 +84,7 @@ static sp_mesh *tank_mesh(int around, sp_error *error)
     return mesh;
 }
 
-static const sp_surface tank_surfaces[3] = {{true, 0, 1}, {true, 0, 1}, {false, 0, 1}};
+static const sp_surface tank_surfaces[3] = {{true, 0, 1, false}, {true, 0, 1, false}, {false, 0, 1, false}};
 
 static sp_setup tank_setup(const sp_mesh *mesh, double texel)
 {

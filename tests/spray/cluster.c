@@ -8,7 +8,7 @@
 
 #define HOLES 9
 
-static const sp_surface surfaces[SHAPE_PARTS] = {{true, 0, 1}};
+static const sp_surface surfaces[SHAPE_PARTS] = {{true, 0, 1, false}};
 
 /* A room of 1 m, its front inside. */
 typedef struct {

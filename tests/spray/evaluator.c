@@ -15,7 +15,8 @@ static fixture floor_and_step(void)
     shape_sheet(&s, sp_v(0, 0, 0), sp_v(1, 0, 0), sp_v(0, 1, 0), 4);
     shape_part(&s, "step");
     shape_sheet(&s, sp_v(0.25, 0.25, 0.1), sp_v(0.5, 0, 0), sp_v(0, 0.5, 0), 2);
-    fixture f = {.mesh = shape_mesh(&s), .surfaces = {{true, 0, 1}, {true, 0, 1}}, .setup = sp_setup_default()};
+    fixture f = {
+        .mesh = shape_mesh(&s), .surfaces = {{true, 0, 1, false}, {true, 0, 1, false}}, .setup = sp_setup_default()};
     f.setup.mesh = f.mesh;
     return f;
 }

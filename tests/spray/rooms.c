@@ -3,8 +3,9 @@
 
 #include <stdio.h>
 
-static const sp_surface surfaces[SHAPE_PARTS] = {{true, 0, 1}, {true, 0, 1}, {true, 0, 1}, {true, 0, 1},
-                                                 {true, 0, 1}, {true, 0, 1}, {true, 0, 1}, {true, 0, 1}};
+static const sp_surface surfaces[SHAPE_PARTS] = {{true, 0, 1, false}, {true, 0, 1, false}, {true, 0, 1, false},
+                                                 {true, 0, 1, false}, {true, 0, 1, false}, {true, 0, 1, false},
+                                                 {true, 0, 1, false}, {true, 0, 1, false}};
 
 /* Turned about an axis that is parallel to nothing, and moved. */
 static sp_transform attitude(double angle)

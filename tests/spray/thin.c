@@ -121,7 +121,7 @@ static shape tank_under_roof(double roof)
 static void a_roof_leaves_the_texels_short(void **state)
 {
     (void)state;
-    const sp_surface surfaces[] = {{true, 0, 1}, {true, 0, 1}, {false, 0, 1}};
+    const sp_surface surfaces[] = {{true, 0, 1, false}, {true, 0, 1, false}, {false, 0, 1, false}};
     double texel[2];
     uint64_t jets[2];
     for (int with = 0; with < 2; with++) {
@@ -152,7 +152,7 @@ static void a_roof_leaves_the_texels_short(void **state)
 static void a_tank_keeps_its_texels(void **state)
 {
     (void)state;
-    const sp_surface surfaces[] = {{true, 0, 1}, {true, 0, 1}};
+    const sp_surface surfaces[] = {{true, 0, 1, false}, {true, 0, 1, false}};
     shape s = tank_under_roof(0);
     s.part_count = 2;
     sp_mesh *mesh = shape_mesh(&s);

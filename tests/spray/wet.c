@@ -7,7 +7,8 @@ typedef struct {
 } fixture;
 
 /* As many as any mesh here has parts. */
-static const sp_surface surfaces[] = {{true, 0, 1}, {true, 0, 1}, {true, 0, 1}, {true, 0, 1}};
+static const sp_surface surfaces[] = {
+    {true, 0, 1, false}, {true, 0, 1, false}, {true, 0, 1, false}, {true, 0, 1, false}};
 
 static sp_setup setup_of(const fixture *f)
 {
