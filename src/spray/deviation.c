@@ -197,7 +197,7 @@ static void transfer_of(const bounding *b, double v, const bundle *flights, doub
 }
 
 /* The least and the most of a nozzle's flow per solid angle, m³/s/sr, within `reach` (rad) of the way to the patch. Of
- * what rotates, where no flux is asked for, any is enough. */
+ * what rotates, where no flux is asked for, any is enough; what is measured may have gaps. */
 static void flux_of(const spraying *s, sp_vec3 axis, double reach, double threshold, double flux[2])
 {
     const sp_spray *spray = &s->straight.spray;
@@ -207,7 +207,8 @@ static void flux_of(const spraying *s, sp_vec3 axis, double reach, double thresh
     sp_vec3 z = s->straight.frame.z;
     double polar = atan2(sp_length(sp_cross(axis, z)), sp_dot(axis, z)), least, most;
     sp_spray_densities(spray, fmax(0, polar - reach), fmin(M_PI, polar + reach), &least, &most);
-    flux[0] = threshold > 0 ? s->flow * least * (1 - SLACK) : flux[0];
+    if (threshold > 0 || spray->kind == SP_PATTERN_MEASURED)
+        flux[0] = s->flow * least * (1 - SLACK);
     flux[1] = s->flow * most * (1 + SLACK);
 }
 
