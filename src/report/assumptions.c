@@ -130,18 +130,9 @@ static void add_criterion(sp_text *text, const sp_setup *setup)
     sp_text_add(text, "</dd>\n");
 }
 
-/* Whether any nozzle of the designs on an evaluator does. */
-static bool rotates(const sp_result *result, const sp_evaluator *evaluator)
+static void add_scene(const sp_page *page, sp_text *text, const sp_evaluator *evaluator)
 {
-    for (size_t i = 0; i < result->design_count; ++i)
-        for (size_t k = 0; result->designs[i].evaluator == evaluator && k < result->designs[i].layout->count; ++k)
-            if (result->designs[i].layout->nozzles[k].type->pattern == SP_PATTERN_ROTATING)
-                return true;
-    return false;
-}
-
-static void add_scene(sp_text *text, const sp_setup *setup, bool rotating)
-{
+    const sp_setup *setup = sp_evaluator_setup(evaluator);
     static const char *const cavities[] = {
         "not named: every surface counts once and takes liquid from either side",
         "the space seen from a point inside: only sides that face it are cleaned and counted",
@@ -151,11 +142,9 @@ static void add_scene(sp_text *text, const sp_setup *setup, bool rotating)
                 1e3 * setup->liquid.viscosity);
     add_item(text, "Nozzles");
     sp_text_add(text,
-                "flow by the catalogue&#39;s point and exponent, exit speed from the pressure drop (Bernoulli), liquid "
-                "spread evenly over the spray angle%s</dd>\n",
-                rotating ? "; of those that rotate the mean over time, which is what every flux and film here is: while "
-                           "the jet passes there is more, and then none"
-                         : "");
+                "flow by the catalogue&#39;s point and exponent, exit speed from the pressure drop (Bernoulli), ");
+    sp_page_spread(text, page->result, evaluator);
+    sp_text_add(text, "</dd>\n");
     add_item(text, "Cavity");
     sp_text_add(text, "%s</dd>\n", cavities[setup->cavity]);
 }
@@ -209,7 +198,7 @@ void sp_page_assumptions(const sp_page *page, sp_text *text)
         add_flight(text, evaluator);
         add_choice(text, evaluator);
         add_errors(page, text, evaluator);
-        add_scene(text, sp_evaluator_setup(evaluator), rotates(page->result, evaluator));
+        add_scene(page, text, evaluator);
         if (page->result->proposal)
             add_search(text, page->result->proposal);
         sp_text_add(text, "</dl>\n");
