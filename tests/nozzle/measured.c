@@ -166,7 +166,7 @@ static void all_liquid_is_there(void **state)
 static void means_hold_all_liquid(void **state)
 {
     (void)state;
-    enum { PLACES = 40000 };
+    enum { PLACES = 20000 };
     static const double breadths[] = {0.02, 0.19};
     sp_frame frame = sp_nozzle_frame(sp_v(0.3, -0.2, 0.9), 0.4, sp_v(0, 0, 1));
     sp_nozzle_type cone = {.pattern = SP_PATTERN_FULL_CONE};
