@@ -161,7 +161,7 @@ static void jets_and_closed_form_agree(void **state)
     sp_nozzle_type types[] = {measured(lopsided, 72, 45, 140), measured(cosine_squared, 8, 20, 300)};
     scene s;
     open_room(&s, 0.05);
-    s.setup.fidelity.jets = JETS / 8;
+    s.setup.fidelity.jets = JETS / 8 > 200000 ? JETS / 8 : 200000; /* enough where little more than asked for comes */
     sp_evaluator *evaluator = scene_evaluator(&s);
     for (size_t t = 0; t < 2; t++) {
         types[t].flow = 20e-3 / 60;
@@ -174,7 +174,7 @@ static void jets_and_closed_form_agree(void **state)
             liquid += closed->deposits.flux[i] * patches->area[i];
         print_message("image %zu: %.2f %% covered, by jets %.2f %%; %.3f %% of the liquid arrives\n", t,
                       100 * closed->fraction, 100 * jets->fraction, 100 * liquid / types[t].flow);
-        assert_true(fabs(closed->fraction - jets->fraction) < 0.005 * COARSER);
+        assert_true(fabs(closed->fraction - jets->fraction) < 0.005 * COARSER * COARSER);
         assert_true(fabs(liquid / types[t].flow - 1) < 0.002 * COARSER * COARSER);
         assert_true(fabs(jets->balance.clean / types[t].flow - 1) < 1e-6);
         sp_coverage_destroy(closed);
