@@ -2,7 +2,6 @@
 #include "scratch.h"
 
 #include <sprayplan/image.h>
-#include <sprayplan/place.h>
 #include <sprayplan/scene.h>
 
 #include <setjmp.h>
@@ -80,7 +79,7 @@ static void types_share_their_image(void **state)
             first = sp_v(-second.x / 2, sqrt(0.1875), second.z);
     /* the last row's middle is at 30 deg, its columns' at azimuths of 60, 180 and 300 deg */
     assert_true(fabs(sp_spray_intensity(&spray, second) / sp_spray_intensity(&spray, first) - 5 / 4.) < 1e-6);
-    assert_int_equal(sp_scene_place_options(scene).type_count, 1); /* neither measured types nor clusters of them */
+    assert_int_equal(sp_scene_place_options(scene).type_count, 4);
     sp_scene_destroy(scene);
 }
 
@@ -118,28 +117,6 @@ static void what_is_written_reads_back(void **state)
     sp_spray before = sp_spray_create(one->type, 0), after = sp_spray_create(other->type, 0);
     assert_true(before.solid_angle == after.solid_angle && one->roll == other->roll);
     sp_scene_destroy(again);
-    sp_scene_destroy(scene);
-}
-
-static void placement_refuses_what_is_measured(void **state)
-{
-    (void)state;
-    sp_scene *scene = load("scene.yaml");
-    sp_place_options options = sp_scene_place_options(scene);
-    const sp_nozzle_type *own[1] = {sp_scene_layout(scene)->nozzles[0].type};
-    sp_error by_type = {0}, by_kept = {0}, none = {0};
-    assert_true(sp_place_takes(&options, &none));
-    options.types = own;
-    assert_false(sp_place_takes(&options, &by_type));
-    assert_string_equal(by_type.message, "types: found 'rim', which is measured, expected types of even patterns; "
-                                         "simulate and compare take such types");
-    options.type_count = 0;
-    sp_layout *kept = sp_layout_create(sp_scene_layout(scene)->nozzles, 1, &none);
-    kept->nozzles[0].keep = true;
-    options.kept = kept;
-    assert_false(sp_place_takes(&options, &by_kept));
-    assert_non_null(strstr(by_kept.message, "nozzles: ours, of type 'rim', is measured and to be kept"));
-    sp_layout_destroy(kept);
     sp_scene_destroy(scene);
 }
 
@@ -205,8 +182,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(types_share_their_image),    cmocka_unit_test(images_are_input_files),
-        cmocka_unit_test(what_is_written_reads_back), cmocka_unit_test(placement_refuses_what_is_measured),
-        cmocka_unit_test(wrong_images_are_named),     cmocka_unit_test(cut_images_are_no_crash),
+        cmocka_unit_test(what_is_written_reads_back), cmocka_unit_test(wrong_images_are_named),
+        cmocka_unit_test(cut_images_are_no_crash),
     };
     return cmocka_run_group_tests(tests, make, scratch_remove);
 }
