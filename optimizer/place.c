@@ -40,12 +40,25 @@ static void placement_free(sp_placement *placement)
     free(placement->watch.stages);
 }
 
+static bool are_whole(const sp_nozzle_type *const *types, size_t count, sp_error *error)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!sp_type_is_whole(types[i], error))
+            return false;
+    return true;
+}
+
 static bool check(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error)
 {
     if (!options->mount_count)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: no mounts");
     if (!(options->coverage >= 0 && options->coverage <= 1))
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: coverage: %g, expected 0 to 1", options->coverage);
+    for (size_t i = 0; i < options->mount_count; i++)
+        if (!are_whole(options->mounts[i].types, options->mounts[i].type_count, error))
+            return false;
+    if (!are_whole(options->types, options->type_count, error))
+        return false;
     for (size_t i = 0; options->kept && i < options->kept->count; i++)
         if (options->kept->nozzles[i].keep && !sp_evaluator_admits(evaluator, &options->kept->nozzles[i], error))
             return false;

@@ -45,15 +45,13 @@ typedef struct {
     double surface_tension; /* N/m, of liquids */
 } sp_fluid;
 
-/* What a measured pattern sprays: liquid per solid angle by azimuth and polar angle, with all that is worked out from
- * it.
- */
+/* What a measured pattern sprays: liquid per solid angle by azimuth and polar angle, with all that follows from it. */
 typedef struct sp_patternation sp_patternation;
 #define SP_PATTERNATION_COLUMNS 4096 /* at most */
 #define SP_PATTERNATION_ROWS 1024    /* at most */
 /* values: [rows][columns], liquid per steradian in any measure, 0 or more and not all 0. Columns are azimuth, a full
- * turn from the nozzle frame's x towards its y; rows polar angle, from the axis to half of `angle` (rad, full, (0,
- * 2π]); each value is of its column's and row's middle. Between these it goes linearly with azimuth and with the polar
+ * turn from the nozzle frame's x towards its y; rows polar angle, from the axis to half of `angle` (rad, full, 1e-6
+ * to 2π); each value is of its column's and row's middle. Between these it goes linearly with azimuth and with the polar
  * angle's cosine; the axis has the mean of the first row, and the last row reaches to the edge. The values are copied.
  * NULL on error, which says where a wrong value is. */
 sp_patternation *sp_patternation_create(const float *values, size_t columns, size_t rows, double angle,
@@ -64,23 +62,25 @@ void sp_patternation_destroy(sp_patternation *patternation);
 typedef struct {
     char name[SP_NAME];
     sp_pattern pattern;
-    sp_rotation rotation;                /* rotating types only, of which angle, hollow and thickness are their jet's */
-    const sp_patternation *patternation; /* measured types only, borrowed: of a scene's types, from the scene */
-    char image[SP_URL];                  /* the file that it was read from, as the catalogue names it; "" for none */
-    double angle;                        /* rad, (0, 2π] for cones, (0, 2π] for fans; of the image; 0 for clusters */
-    double hollow;                       /* share of the angle that is empty, [0, 1); hollow cones only */
-    double thickness;                    /* rad, (0, π]; flat fans only */
-    double flow;                         /* m³/s of water (1000 kg/m³) at pressure `at` */
-    double at;                           /* Pa */
-    double exponent;                     /* n in Q = K dp^n */
-    double cv;                           /* v0 = cv sqrt(2 dp / rho) */
-    double drop;                         /* diameter of the drops, m */
-    double angle_min, angle_max;         /* rad; equal to angle where not adjustable */
-    double flow_min, flow_max;           /* m³/s of water at `at`; equal to flow where not adjustable */
-    char order_code[SP_NAME];            /* by which its maker sells it; "" where it has none */
-    char url[SP_URL];                    /* of its page; "" where it has none, else as sp_is_url */
-    size_t member_count;                 /* clusters only, 1 to SP_MEMBERS */
-    struct sp_member *members;           /* [member_count], owned by whoever made the type: of a scene's, the scene */
+    sp_rotation rotation;        /* rotating types only, of which angle, hollow and thickness are their jet's */
+    double angle;                /* rad, (0, 2π] for cones, (0, 2π] for fans; 0 for clusters */
+    double hollow;               /* share of the angle that is empty, [0, 1); hollow cones only */
+    double thickness;            /* rad, (0, π]; flat fans only */
+    double flow;                 /* m³/s of water (1000 kg/m³) at pressure `at` */
+    double at;                   /* Pa */
+    double exponent;             /* n in Q = K dp^n */
+    double cv;                   /* v0 = cv sqrt(2 dp / rho) */
+    double drop;                 /* diameter of the drops, m */
+    double angle_min, angle_max; /* rad; equal to angle where not adjustable */
+    double flow_min, flow_max;   /* m³/s of water at `at`; equal to flow where not adjustable */
+    char order_code[SP_NAME];    /* by which its maker sells it; "" where it has none */
+    char url[SP_URL];            /* of its page; "" where it has none, else as sp_is_url */
+    size_t member_count;         /* clusters only, 1 to SP_MEMBERS */
+    struct sp_member *members;   /* [member_count], owned by whoever made the type: of a scene's, the scene */
+    /* Measured types only, whose angle is their image's: borrowed, of a scene's types from the scene; and the file that
+     * it was read from, as the catalogue names it, "" for none. */
+    const sp_patternation *patternation;
+    char image[SP_URL];
 } sp_nozzle_type;
 
 #define SP_MEMBERS 1000 /* of a cluster at most */

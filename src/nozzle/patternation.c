@@ -5,6 +5,8 @@
 
 #include <stdlib.h>
 
+#define NARROWEST 1e-6 /* rad */
+
 /* False, with an error, of an image that is no pattern. */
 static bool is_pattern(const float *values, size_t columns, size_t rows, double angle, sp_error *error)
 {
@@ -12,8 +14,9 @@ static bool is_pattern(const float *values, size_t columns, size_t rows, double 
     if (columns < 1 || columns > SP_PATTERNATION_COLUMNS || rows < 1 || rows > SP_PATTERNATION_ROWS)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "%zu x %zu values found, expected 1 x 1 to %d x %d", columns,
                        rows, SP_PATTERNATION_COLUMNS, SP_PATTERNATION_ROWS);
-    if (!(angle > 0 && angle <= 2 * M_PI))
-        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "an angle of %g rad, expected above 0 to 2 pi", angle);
+    if (!(angle >= NARROWEST && angle <= 2 * M_PI))
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "an angle of %g rad found, expected %g to 2 pi", angle,
+                       NARROWEST);
     for (size_t i = 0; i < rows * columns; i++) {
         if (!(values[i] >= 0 && values[i] < INFINITY))
             return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,

@@ -346,8 +346,9 @@ static void what_is_no_pattern_is_refused(void **state)
     float values[6] = {1, 2, 0, 3, 0, 1};
     refuse(values, 0, 1, 1, "0 x 1 values found, expected 1 x 1 to 4096 x 1024");
     refuse(values, 1, 1025, 1, "1 x 1025 values found, expected 1 x 1 to 4096 x 1024");
-    refuse(values, 3, 2, 7, "an angle of 7 rad, expected above 0 to 2 pi");
-    refuse(values, 3, 2, NAN, "an angle of nan rad, expected above 0 to 2 pi");
+    refuse(values, 3, 2, 7, "an angle of 7 rad found, expected 1e-06 to 2 pi");
+    refuse(values, 3, 2, NAN, "an angle of nan rad found, expected 1e-06 to 2 pi");
+    refuse(values, 3, 2, 1e-7, "an angle of 1e-07 rad found, expected 1e-06 to 2 pi");
     values[4] = -1;
     refuse(values, 3, 2, 1, "-1 found in column 2 of row 2, expected finite values of 0 or more");
     values[4] = NAN;
