@@ -51,9 +51,9 @@ typedef struct sp_patternation sp_patternation;
 #define SP_PATTERNATION_ROWS 1024    /* at most */
 /* values: [rows][columns], liquid per steradian in any measure, 0 or more and not all 0. Columns are azimuth, a full
  * turn from the nozzle frame's x towards its y; rows polar angle, from the axis to half of `angle` (rad, full, 1e-6
- * to 2π); each value is of its column's and row's middle. Between these it goes linearly with azimuth and with the polar
- * angle's cosine; the axis has the mean of the first row, and the last row reaches to the edge. The values are copied.
- * NULL on error, which says where a wrong value is. */
+ * to 2π); each value is of its column's and row's middle. Between these it goes linearly with azimuth and with the
+ * polar angle's cosine; the axis has the mean of the first row, and the last row reaches to the edge. The values are
+ * copied. NULL on error, which says where a wrong value is. */
 sp_patternation *sp_patternation_create(const float *values, size_t columns, size_t rows, double angle,
                                         sp_error *error);
 void sp_patternation_destroy(sp_patternation *patternation);
