@@ -42,6 +42,15 @@ static void add_flight(sp_text *text, const sp_evaluator *evaluator)
     add_item(text, "Flight");
     if (fidelity->trajectory == SP_TRAJECTORY_LINE)
         sp_text_add(text, "straight lines: gravity and air are neglected");
+    else if (fidelity->trajectory == SP_TRAJECTORY_DRAG)
+        sp_text_add(
+            text,
+            "single drops of the catalogue&#39;s diameters under gravity of %.4g&nbsp;m/s\xc2\xb2, held back by "
+            "air at rest (%.4g&nbsp;kg/m\xc2\xb3, %.4g&nbsp;&micro;Pa&thinsp;s; drag of spheres by Haider and "
+            "Levenspiel); solid streams fly free until they break up, 5&thinsp;We<sup>0.378</sup> diameters "
+            "away. This is the <strong>far end of a bracket</strong>: a spray carries air along and its drops "
+            "fly farther and faster than single ones, up to what parabolas without drag say",
+            setup->gravity, setup->air.density, 1e6 * setup->air.viscosity);
     else
         sp_text_add(text, "parabolas under gravity of %.4g&nbsp;m/s\xc2\xb2; the drag of air is neglected",
                     setup->gravity);
@@ -153,9 +162,10 @@ static void add_scene(sp_text *text, const sp_setup *setup, bool rotating)
     sp_text_add(text,
                 "flow by the catalogue&#39;s point and exponent, exit speed from the pressure drop (Bernoulli), liquid "
                 "spread evenly over the spray angle%s</dd>\n",
-                rotating ? "; of those that rotate the mean over time, which is what every flux and film here is: while "
-                           "the jet passes there is more, and then none"
-                         : "");
+                rotating
+                    ? "; of those that rotate the mean over time, which is what every flux and film here is: while "
+                      "the jet passes there is more, and then none"
+                    : "");
     add_item(text, "Cavity");
     sp_text_add(text, "%s</dd>\n", cavities[setup->cavity]);
 }

@@ -11,6 +11,7 @@
 
 #include "middle.h"
 #include "reserve.h"
+#include "spray/drag/fronts.h"
 
 #include <stdlib.h>
 
@@ -27,47 +28,79 @@ typedef enum {
     TOO_BROAD,
 } bearing;
 
-/* D at the end of a way, and its slope there. */
+/* D at the end of a way, with drag how far (m) it is within reach, and what goes with it. Flights sweep area in their
+ * plane by `turn` times its root (m²/s) per rad. */
 typedef struct {
-    double value;  /* m⁴/s⁴ */
-    sp_vec3 slope; /* m³/s⁴ */
+    double value;    /* m⁴/s⁴ */
+    sp_vec3 slope;   /* of it, m³/s⁴ */
+    double bend;     /* half its second derivatives, at most, m²/s⁴ */
+    double longest;  /* m, of a side that looks not too broad across the plane of a flight at the limit */
+    double arriving; /* m/s, of that flight */
+    double turn;     /* s */
 } reserve;
+
+static reserve reserve_by_parabola(const sp_source *source, sp_vec3 r)
+{
+    sp_vec3 gravity = source->evaluator->gravity;
+    double g = sp_length(gravity), distance = sp_length(r), speed = source->speed, v2 = speed * speed;
+    double b = v2 + sp_dot(r, gravity), time = sqrt(2 * distance / g);
+    sp_vec3 level = sp_cross(gravity, sp_cross(r, gravity)); /* g² times r's part across gravity */
+    return (reserve){.value = sp_reserve(speed, r, gravity) * (b + g * distance),
+                     .slope = sp_along(sp_scale(gravity, 2 * speed * speed), -2, level),
+                     .bend = g * g,
+                     .longest = SP_BREADTH_MOST * speed * time,
+                     .arriving = sqrt(fmax(0, speed * speed + 2 * sp_dot(r, gravity))),
+                     .turn = time};
+}
 
 static reserve reserve_at(const sp_source *source, sp_vec3 r)
 {
-    sp_vec3 gravity = source->evaluator->gravity;
-    double g = sp_length(gravity), distance = sp_length(r), b = source->speed * source->speed + sp_dot(r, gravity);
-    sp_vec3 level = sp_cross(gravity, sp_cross(r, gravity)); /* g² times r's part across gravity */
-    return (reserve){sp_reserve(source->speed, r, gravity) * (b + g * distance),
-                     sp_along(sp_scale(gravity, 2 * source->speed * source->speed), -2, level)};
+    sp_front_limit limit;
+    if (!source->fronts)
+        return reserve_by_parabola(source, r);
+    if (!sp_fronts_limit(source->fronts, sp_v(0, 0, 0), r, &limit))
+        return (reserve){.value = INFINITY};
+    return (reserve){.value = limit.margin,
+                     .slope = limit.slope,
+                     .bend = 1 / limit.lever,
+                     .longest = SP_BREADTH_MOST * limit.lever,
+                     .arriving = limit.arriving,
+                     .turn = limit.turn};
 }
 
 /* How what lies within `radius` of a point, and is `side` long, looks from the source. */
 static bearing bearing_of(const sp_source *source, sp_vec3 point, double side, double radius)
 {
-    sp_vec3 gravity = source->evaluator->gravity, r = sp_sub(point, source->position);
-    double distance = sp_length(r), g = sp_length(gravity), speed = source->speed;
-    if (distance <= radius)
+    sp_vec3 r = sp_sub(point, source->position);
+    if (sp_length(r) <= radius)
         return TOO_BROAD;
-    if (g > 0) {
+    if (sp_length(source->evaluator->gravity) > 0) {
         reserve own = reserve_at(source, r);
-        double change = sp_length(own.slope) * radius + g * g * radius * radius;
+        double change = sp_length(own.slope) * radius + own.bend * radius * radius;
         if (own.value < -change)
             return OUT_OF_REACH;
-        if (own.value < change) {
-            double time = sqrt(2 * distance / g), arriving = sqrt(fmax(0, speed * speed + 2 * sp_dot(r, gravity)));
-            return side > SP_BREADTH_MOST * speed * time || arriving * side > RIM * time * sqrt(change) ? TOO_BROAD
-                                                                                                        : FINE;
-        }
+        if (own.value < change)
+            return side > own.longest || own.arriving * side > RIM * own.turn * sqrt(change) ? TOO_BROAD : FINE;
     }
     sp_flight flights[2]; /* of which the low one looks broader */
-    int count = sp_flights(source->position, point, speed, gravity, flights);
-    return count > 0 && sp_flight_breadth(&flights[0], speed, side) >= SP_BREADTH_MOST ? TOO_BROAD : FINE;
+    int count = sp_source_flights(source, point, flights);
+    return count > 0 && sp_flight_breadth(&flights[0], side) >= SP_BREADTH_MOST ? TOO_BROAD : FINE;
 }
 
-/* The same, rather too often than not, without roots: most patches are neither. */
+/* The same, rather too often than not: whether it is broad, or may lie at the limit. */
+static bool may_be_near_with_drag(const sp_source *source, const sp_target *target)
+{
+    sp_flight flights[2];
+    int count = sp_source_flights(source, target->point, flights);
+    return sp_fronts_margin_least(source->fronts, source->position, target->point) < 2 * target->length ||
+           (count > 0 && sp_flight_breadth(&flights[0], target->length) >= SP_BREADTH_MOST);
+}
+
+/* The same without drag and without roots: most patches are neither. */
 static bool may_be_near(const sp_source *source, const sp_target *target)
 {
+    if (source->fronts)
+        return may_be_near_with_drag(source, target);
     sp_vec3 gravity = source->evaluator->gravity, r = sp_sub(target->point, source->position);
     double v2 = source->speed * source->speed, r2 = sp_dot(r, r), g2 = sp_dot(gravity, gravity);
     double side2 = target->length * target->length, least = SP_BREADTH_MOST * SP_BREADTH_MOST * r2;
@@ -228,14 +261,16 @@ static cell cell_of(const cutting *cut, size_t first, size_t end)
     return cell;
 }
 
-/* Whether no flight to within `radius` of a point leaves within the cone. Low flights leave within asin g d / (v √2b)
- * of the way, as g²T is 2d²g²/b at most, and high ones within asin g d / b of the vertical, as it is 2b at least. */
+/* Whether no flight to within `radius` of a point leaves within the cone, which is told without drag alone. Low flights
+ * leave within asin g d / (v √2b) of the way, as g²T is 2d²g²/b at most, and high ones within asin g d / b of the
+ * vertical, as it is 2b at least. */
 static bool is_aside(const cutting *cut, sp_vec3 point, double radius)
 {
     sp_vec3 gravity = cut->source->evaluator->gravity, r = sp_sub(point, cut->source->position);
     double distance = sp_length(r), g = sp_length(gravity), speed = cut->source->speed, far = distance + radius;
     double b = speed * speed + sp_dot(r, gravity) - g * radius, most = cut->half_angle + ROUND_OFF;
-    if (most >= M_PI || distance <= radius || b <= 0 || g * far >= b || g * far >= speed * sqrt(2 * b))
+    if (cut->source->fronts || most >= M_PI || distance <= radius || b <= 0 || g * far >= b ||
+        g * far >= speed * sqrt(2 * b))
         return false;
     double bend = asin(g * far / (speed * sqrt(2 * b))), spread = asin(radius / distance);
     if (acos(fmin(1, fmax(-1, sp_dot(r, cut->axis) / distance))) <= most + spread + bend)

@@ -24,6 +24,7 @@ typedef struct flock {
     sp_ray *rays; /* of those whose way is not known yet */
     bool *blocked;
     size_t places; /* that flights were solved for */
+    size_t ways;   /* that were looked along, with drag one by one */
     bool failed;   /* for want of memory */
 } flock;
 
@@ -91,7 +92,7 @@ static void gather_at(void *user, const sp_target *target, double part)
     const sp_aim *aim = own->aim;
     flock *flock = own->flock;
     sp_flight flights[2];
-    int count = sp_flights(source->position, target->point, source->speed, source->evaluator->gravity, flights);
+    int count = sp_source_flights(source, target->point, flights);
     if (!make_room(flock, 2))
         return;
     flock->places++;
@@ -103,16 +104,20 @@ static void gather_at(void *user, const sp_target *target, double part)
             continue;
         if (!sp_arrive(source, target, &flights[k], arrival) || (aim->passing && !arrival->passes))
             continue;
-        arrival->breadth = sp_flight_breadth(&flights[k], source->speed, target->length);
+        arrival->breadth = sp_flight_breadth(&flights[k], target->length);
         sp_flight way = aim->beside ? flight_beside(flights[k], aim->beside) : flights[k];
-        arrival->blocked = traced && sp_flight_pierces(source, target, &way);
-        if (!aimed(aim, arrival) || (arrival->blocked && !aim->blocked))
+        if (!aimed(aim, arrival))
+            continue;
+        arrival->blocked = traced && (source->fronts ? sp_flight_is_blocked(source, target, &way)
+                                                     : sp_flight_pierces(source, target, &way));
+        if (arrival->blocked && !aim->blocked)
             continue;
         arrival->patch = own->patch;
         arrival->arc = (uint8_t)k;
         arrival->part = part;
         flock->count++;
-        if (traced)
+        flock->ways += traced;
+        if (traced && !source->fronts)
             flock->rays[flock->ray_count++] = sp_flight_ray(source, target, &way);
     }
 }
@@ -141,7 +146,7 @@ typedef struct harvest {
 static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uint32_t end, flock *flock,
                  harvest *harvest)
 {
-    flock->count = flock->ray_count = flock->places = 0;
+    flock->count = flock->ray_count = flock->places = flock->ways = 0;
     if (!make_room(flock, 2 * (size_t)(end - first)))
         return false;
     for (uint32_t patch = first; patch < end; patch++)
@@ -153,14 +158,14 @@ static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uin
     size_t kept = 0;
     for (size_t i = 0, ray = 0; i < flock->count; i++) {
         sp_arrival *arrival = &flock->arrivals[i];
-        bool traced = !aim->known || arrival->part < 1;
+        bool traced = !source->fronts && (!aim->known || arrival->part < 1);
         if (traced && flock->blocked[ray++])
             arrival->blocked = true;
         if (!arrival->blocked || aim->blocked)
             flock->arrivals[kept++] = *arrival;
     }
-    *harvest = (struct harvest){
-        kept, kept ? malloc(kept * sizeof *harvest->arrivals) : NULL, {flock->places, flock->ray_count}};
+    *harvest =
+        (struct harvest){kept, kept ? malloc(kept * sizeof *harvest->arrivals) : NULL, {flock->places, flock->ways}};
     if (harvest->arrivals)
         memcpy(harvest->arrivals, flock->arrivals, kept * sizeof *harvest->arrivals);
     return harvest->arrivals || !kept;
@@ -224,34 +229,42 @@ sp_reach *sp_reach_create(const sp_source *source, const sp_aim *aim, sp_error *
     return sp_fail_memory(error);
 }
 
+/* False, with an error: here nothing says what drops they are. */
+static bool flies_free(const sp_evaluator *evaluator, sp_error *error)
+{
+    return evaluator && (evaluator->fidelity.trajectory != SP_TRAJECTORY_DRAG ||
+                         sp_fail(error, SP_ERROR_UNSUPPORTED, NULL, 0, 0,
+                                 "trajectory: drag found, of which reach knows nothing yet"));
+}
+
 sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                              double half_angle, sp_error *error)
 {
-    sp_source source = {evaluator, position, speed};
+    sp_source source = {evaluator, position, speed, NULL};
     sp_aim aim = sp_aim_at(axis, half_angle);
-    return evaluator ? sp_reach_create(&source, &aim, error) : NULL;
+    return flies_free(evaluator, error) ? sp_reach_create(&source, &aim, error) : NULL;
 }
 
 sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                                      double half_angle, const bool *among, sp_error *error)
 {
-    sp_source source = {evaluator, position, speed};
+    sp_source source = {evaluator, position, speed, NULL};
     sp_aim aim = sp_aim_at(axis, half_angle);
     aim.passing = true;
     aim.among = among;
-    return evaluator ? sp_reach_create(&source, &aim, error) : NULL;
+    return flies_free(evaluator, error) ? sp_reach_create(&source, &aim, error) : NULL;
 }
 
 sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                                   double half_angle, size_t first, size_t end, const uint8_t *known, sp_error *error)
 {
-    sp_source source = {evaluator, position, speed};
+    sp_source source = {evaluator, position, speed, NULL};
     sp_aim aim = sp_aim_at(axis, half_angle);
     aim.passing = evaluator && !evaluator->everything;
     aim.first = first;
     aim.end = end;
     aim.known = known;
-    return evaluator ? sp_reach_create(&source, &aim, error) : NULL;
+    return flies_free(evaluator, error) ? sp_reach_create(&source, &aim, error) : NULL;
 }
 
 void sp_reach_destroy(sp_reach *reach)
