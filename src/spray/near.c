@@ -18,6 +18,7 @@
 #define RIM 0.25        /* rad, by which flights turn over a cell at the limit of their reach, about */
 #define FINEST 0x1p-40  /* of the patch's length: no cell is halved below it */
 #define CELLS_MOST 4096 /* of one patch: more than it takes a nanometre off a wall */
+#define CLEAR 3         /* lengths of a patch, that one is within reach which the limit does not concern */
 #define CORNERS 14      /* 8 of a piece, and one more for every side of a box */
 #define EQUAL 1e-9      /* share by which a side is no longer than another: the first of equal ones is halved */
 #define ROUND_OFF 1e-12 /* of a cell's area, that a cut may leave of nothing; rad */
@@ -87,20 +88,9 @@ static bearing bearing_of(const sp_source *source, sp_vec3 point, double side, d
     return count > 0 && sp_flight_breadth(&flights[0], side) >= SP_BREADTH_MOST ? TOO_BROAD : FINE;
 }
 
-/* The same, rather too often than not: whether it is broad, or may lie at the limit. */
-static bool may_be_near_with_drag(const sp_source *source, const sp_target *target)
-{
-    sp_flight flights[2];
-    int count = sp_source_flights(source, target->point, flights);
-    return sp_fronts_margin_least(source->fronts, source->position, target->point) < 2 * target->length ||
-           (count > 0 && sp_flight_breadth(&flights[0], target->length) >= SP_BREADTH_MOST);
-}
-
-/* The same without drag and without roots: most patches are neither. */
+/* The same, without drag, rather too often than not, without roots: most patches are neither. */
 static bool may_be_near(const sp_source *source, const sp_target *target)
 {
-    if (source->fronts)
-        return may_be_near_with_drag(source, target);
     sp_vec3 gravity = source->evaluator->gravity, r = sp_sub(target->point, source->position);
     double v2 = source->speed * source->speed, r2 = sp_dot(r, r), g2 = sp_dot(gravity, gravity);
     double side2 = target->length * target->length, least = SP_BREADTH_MOST * SP_BREADTH_MOST * r2;
@@ -133,12 +123,25 @@ static bool limit_across(const sp_source *source, const sp_target *target, doubl
     return true;
 }
 
-bool sp_target_is_near(const sp_source *source, const sp_target *target)
+static bool is_near(const sp_source *source, const sp_target *target)
 {
     limit limit;
-    return source->speed > 0 && may_be_near(source, target) &&
-           (bearing_of(source, target->point, target->length, target->length) == TOO_BROAD ||
-            limit_across(source, target, target->length, &limit));
+    return bearing_of(source, target->point, target->length, target->length) == TOO_BROAD ||
+           limit_across(source, target, target->length, &limit);
+}
+
+bool sp_target_is_near(const sp_source *source, const sp_target *target)
+{
+    return source->speed > 0 && may_be_near(source, target) && is_near(source, target);
+}
+
+bool sp_target_is_near_by(const sp_source *source, const sp_target *target, const sp_flight *flights, int count,
+                          double margin)
+{
+    if (count > 0 && margin > CLEAR * target->length)
+        return sp_flight_breadth(&flights[0], target->length) >= SP_BREADTH_MOST ||
+               sp_distance(source->position, target->point) <= target->length;
+    return is_near(source, target);
 }
 
 /* Convex and flat. */

@@ -2,6 +2,7 @@
 #include "reach.h"
 
 #include "near.h"
+#include "spray/drag/fronts.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -84,15 +85,12 @@ typedef struct {
     flock *flock;
 } gathering;
 
-/* The flights to a patch, or to a cell that is `part` of it. */
-static void gather_at(void *user, const sp_target *target, double part)
+/* These flights to a patch, or to a cell that is `part` of it. */
+static void take(const gathering *own, const sp_target *target, const sp_flight *flights, int count, double part)
 {
-    gathering *own = user;
     const sp_source *source = own->source;
     const sp_aim *aim = own->aim;
     flock *flock = own->flock;
-    sp_flight flights[2];
-    int count = sp_source_flights(source, target->point, flights);
     if (!make_room(flock, 2))
         return;
     flock->places++;
@@ -122,17 +120,47 @@ static void gather_at(void *user, const sp_target *target, double part)
     }
 }
 
+/* All flights there. */
+static void gather_at(void *user, const sp_target *target, double part)
+{
+    const gathering *own = user;
+    sp_flight flights[2];
+    take(own, target, flights, sp_source_flights(own->source, target->point, flights), part);
+}
+
+static void cut(gathering *own)
+{
+    const sp_aim *aim = own->aim;
+    if (!sp_patch_cut(own->source, own->patch, aim->axis, aim->half_angle + sp_spray_fringe(SP_BREADTH_MOST), gather_at,
+                      own))
+        own->flock->failed = true;
+}
+
+/* With drag finding the flights is what takes long. */
+static void gather_with_drag(gathering *own, const sp_target *target)
+{
+    const sp_source *source = own->source;
+    sp_flight flights[2];
+    double margin;
+    int count = sp_fronts_reach(source->fronts, source->position, target->point, flights, &margin);
+    if (sp_target_is_near_by(source, target, flights, count, margin))
+        cut(own);
+    else
+        take(own, target, flights, count, 1);
+}
+
 static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, flock *flock)
 {
     if ((aim->known && !(aim->known[patch / 4] >> 2 * (patch % 4) & 3)) || (aim->among && !aim->among[patch]))
         return;
     gathering own = {source, aim, patch, flock};
     sp_target target = sp_patch_target(source->evaluator, patch);
-    if (!sp_target_is_near(source, &target))
+    if (source->fronts)
+        gather_with_drag(&own, &target);
+    else if (!sp_target_is_near(source, &target))
         gather_at(&own, &target, 1);
-    else if (!sp_patch_cut(source, patch, aim->axis, aim->half_angle + sp_spray_fringe(SP_BREADTH_MOST), gather_at,
-                           &own))
-        flock->failed = true;
+    else
+        cut(&own);
 }
 
 /* A chunk's arrivals, malloc'd; NULL where there are none, or where memory ran out. */

@@ -12,22 +12,26 @@ sp_chain sp_chain_of(const sp_fronts *fronts, sp_vec3 from, const sp_flight *fli
     double sine = sp_dot(flight->direction, fronts->up);
     sp_vec3 level = sp_along(flight->direction, -sine, fronts->up);
     double cosine = sp_length(level);
-    return (sp_chain){.fronts = fronts,
+    sp_chain chain = {.fronts = fronts,
                       .from = from,
                       .level = sp_unit(level),
-                      .elevation = atan2(sine, cosine),
                       .sine = sine,
                       .cosine = cosine,
                       .time = flight->time,
                       .at = from};
+    sp_front_polynomials(fronts, atan2(sine, cosine), chain.polynomials);
+    return chain;
+}
+
+static sp_vec3 place_of(const sp_chain *chain, sp_front_place at)
+{
+    return sp_along(sp_along(chain->from, at.q * chain->cosine, chain->level), at.q * chain->sine + at.d,
+                    chain->fronts->up);
 }
 
 static sp_vec3 place_at(const sp_chain *chain, double time)
 {
-    const sp_fronts *fronts = chain->fronts;
-    sp_front front = sp_front_between(fronts, sp_front_moment_before(fronts, time), time, chain->elevation);
-    return sp_along(sp_along(chain->from, front.q * chain->cosine, chain->level), front.q * chain->sine + front.d,
-                    fronts->up);
+    return place_of(chain, sp_front_place_between(chain->fronts, time, chain->polynomials));
 }
 
 bool sp_chain_next(sp_chain *chain, sp_piece *piece)

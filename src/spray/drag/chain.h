@@ -15,10 +15,11 @@ typedef struct {
 typedef struct {
     const sp_fronts *fronts;
     sp_vec3 from, level; /* m; unit, or 0 straight up and down */
-    double elevation, sine, cosine;
-    double time; /* s, that it takes */
-    size_t next; /* joint */
-    sp_vec3 at;  /* m, where the next piece begins */
+    double sine, cosine;
+    double polynomials[SP_FRONT_ORDER]; /* at its elevation */
+    double time;                        /* s, that it takes */
+    size_t next;                        /* joint */
+    sp_vec3 at;                         /* m, where the next piece begins */
 } sp_chain;
 
 sp_chain sp_chain_of(const sp_fronts *fronts, sp_vec3 from, const sp_flight *flight);

@@ -8,7 +8,7 @@
 
 #define ROUNDS 60
 #define TURNS 12
-#define LINEAR 1e-8 /* rad: closer, what follows from an elevation is told by its slope */
+#define LINEAR 1e-6 /* rad: closer, what follows from an elevation is told by its slope */
 #define ROUGH 1e-3  /* the same, to tell between which moments something is */
 #define WIDER 0.01  /* of the time between moments, by which they may be told wrongly so */
 #define BEYOND 3
@@ -31,19 +31,26 @@ typedef struct {
     double area;                    /* m²/s: |v x w| */
 } view;
 
-/* Of moment i, or at a time after it. */
-static sp_front front_of(const sp_fronts *fronts, size_t i, double time, double elevation)
+/* Where to look: at a time after moment i or, roughly, at that moment. */
+typedef struct {
+    size_t i;
+    double time; /* s */
+    bool roughly;
+} glance;
+
+static sp_front front_of(const sp_fronts *fronts, const glance *at, double elevation)
 {
-    return time == fronts->time[i] ? sp_front_at_moment(fronts, i, elevation)
-                                   : sp_front_between(fronts, i, time, elevation);
+    return at->roughly ? sp_front_at_moment(fronts, at->i, fronts->rough[at->i], elevation)
+                       : sp_front_between(fronts, at->i, at->time, elevation);
 }
 
 /* The elevation that leads to the end, by Newton, and the front there. */
-static void face(const end *end, size_t i, double time, double linear, view *view)
+static void face(const end *end, const glance *at, view *view)
 {
+    double linear = at->roughly ? ROUGH : LINEAR;
     sp_front *front = &view->front;
     for (int round = 0; round < TURNS; round++) {
-        *front = front_of(end->fronts, i, time, view->elevation);
+        *front = front_of(end->fronts, at, view->elevation);
         double rise = end->up - front->d,
                slope = 1 + front->d_turn * end->forward / (rise * rise + end->forward * end->forward);
         double turn = atan2(rise, end->forward) - view->elevation;
@@ -58,10 +65,10 @@ static void face(const end *end, size_t i, double time, double linear, view *vie
     }
 }
 
-static view view_by(const end *end, size_t i, double time, double elevation, double linear)
+static view view_by(const end *end, const glance *at, double elevation)
 {
     view view = {.elevation = elevation};
-    face(end, i, time, linear, &view);
+    face(end, at, &view);
     const sp_front *front = &view.front;
     double rise = end->up - front->d, way = hypot(end->forward, rise);
     view.outside = way - front->q;
@@ -77,66 +84,113 @@ static view view_by(const end *end, size_t i, double time, double elevation, dou
     return view;
 }
 
-/* At a time after moment i. */
 static view view_of(const end *end, size_t i, double time, double elevation)
 {
-    return view_by(end, i, time, elevation, LINEAR);
+    return view_by(end, &(glance){i, time, false}, elevation);
 }
 
-/* Roughly, at a moment. */
 static view view_at(const end *end, size_t i, double elevation)
 {
-    return view_by(end, i, end->fronts->time[i], elevation, ROUGH);
+    return view_by(end, &(glance){i, end->fronts->time[i], true}, elevation);
 }
 
-/* A part of the table, and the elevation to start from. */
+/* A part of the table, the elevation to start from, and how far outside the end is at either moment, where it is known.
+ */
 typedef struct {
-    size_t low, high; /* moments */
-    double elevation; /* rad */
+    size_t low, high;         /* moments */
+    double elevation;         /* rad */
+    double low_out, high_out; /* m, or NAN */
+    double inside;            /* m, as far as it was seen to be at some moment */
 } span;
 
-/* Halves until the end is inside at one of both moments, or they are neighbours; true where inside, at `low` then. */
+static span whole(const end *end)
+{
+    return (span){0, end->fronts->count - 1, atan2(end->up, end->forward), hypot(end->forward, end->up), NAN, 0};
+}
+
+/* The first moment at which the front is about as wide as the end is far: low flights arrive near it. */
+static size_t first_guess(const end *end)
+{
+    const sp_fronts *fronts = end->fronts;
+    double way = hypot(end->forward, end->up);
+    size_t low = 0, high = fronts->count - 1;
+    while (high - low > 1) {
+        size_t middle = (low + high) / 2;
+        *(fronts->sum[middle * fronts->most][0] < way ? &low : &high) = middle;
+    }
+    return high;
+}
+
+static view look(const end *end, size_t i, span *span)
+{
+    view view = view_at(end, i, span->elevation);
+    span->elevation = view.elevation;
+    span->inside = fmax(span->inside, -view.outside);
+    return view;
+}
+
+/* Halves, at first at the guess, until the end is inside at one of both moments, or they are neighbours; true where
+ * inside, at `low` then. */
 static bool find_inside(const end *end, span *span)
 {
-    while (span->high - span->low > 1) {
-        size_t middle = (span->low + span->high) / 2;
-        view view = view_at(end, middle, span->elevation);
-        span->elevation = view.elevation;
+    size_t middle = first_guess(end);
+    for (; span->high - span->low > 1; middle = (span->low + span->high) / 2) {
+        if (middle <= span->low || middle >= span->high)
+            continue;
+        view view = look(end, middle, span);
         if (view.outside < 0) {
             span->low = middle;
+            span->low_out = view.outside;
             return true;
         }
-        if (view.approach < 0)
-            span->low = middle;
-        else
-            span->high = middle;
+        *(view.approach < 0 ? &span->low : &span->high) = middle;
+        *(view.approach < 0 ? &span->low_out : &span->high_out) = view.outside;
     }
     return false;
 }
 
-/* Halves until they are neighbours, the end inside at just one of both moments, as it is at the start. */
+/* Of neighbours, the end inside at just one of both moments, as it is at the start: halves or, as long as the last is
+ * inside only, goes back from there in strides. */
 static void find_crossing(const end *end, bool low_inside, span *span)
 {
-    while (span->high - span->low > 1) {
-        size_t middle = (span->low + span->high) / 2;
-        view view = view_at(end, middle, span->elevation);
-        span->elevation = view.elevation;
-        if ((view.outside < 0) == low_inside)
-            span->low = middle;
-        else
-            span->high = middle;
+    for (size_t stride = low_inside ? SIZE_MAX : 1; span->high - span->low > 1;) {
+        size_t gap = span->high - span->low, probe = span->low + gap / 2;
+        probe = stride < gap / 2 ? span->high - stride : probe;
+        stride = stride > gap ? stride : 2 * stride;
+        view view = look(end, probe, span);
+        bool low = (view.outside < 0) == low_inside;
+        *(low ? &span->low : &span->high) = probe;
+        *(low ? &span->low_out : &span->high_out) = view.outside;
+        stride = low ? SIZE_MAX : stride;
     }
 }
 
-/* Where the end is on the front, between two times after moment i: Newton, kept in between until the very end. */
-static view cross(const end *end, size_t i, double low, double high, bool low_inside, double elevation, double *time)
+/* Where between its moments an end that is on the front there is so, about. */
+static double interpolate(const end *end, const span *span)
 {
-    double t = 0.5 * (low + high), beyond = WIDER * (high - low);
+    double low = end->fronts->time[span->low], high = end->fronts->time[span->high];
+    double share = span->low_out / (span->low_out - span->high_out);
+    return low + (share > 0 && share < 1 ? share : 0.5) * (high - low);
+}
+
+/* Between two times after moment i the end is on the front once, on the way in or out. */
+typedef struct {
+    size_t i;
+    double low, start, high; /* s */
+    bool low_inside;
+    double elevation; /* rad */
+} crossing;
+
+/* By Newton, kept in between until the very end. */
+static view cross(const end *end, const crossing *at, double *time)
+{
+    size_t i = at->i;
+    double low = at->low, high = at->high, t = at->start, beyond = WIDER * (high - low), elevation = at->elevation;
     view view = {0};
     for (int round = 0; round < ROUNDS; round++) {
         view = view_of(end, i, t, elevation);
         elevation = view.elevation;
-        if ((view.outside < 0) == low_inside)
+        if ((view.outside < 0) == at->low_inside)
             low = t;
         else
             high = t;
@@ -162,7 +216,7 @@ static view cross(const end *end, size_t i, double low, double high, bool low_in
 static double find_least(const end *end, size_t i, double *elevation)
 {
     double low = end->fronts->time[i], high = end->fronts->time[i + 1];
-    double falls = view_of(end, i, low, *elevation).approach, rises = view_of(end, i + 1, high, *elevation).approach,
+    double falls = view_of(end, i, low, *elevation).approach, rises = view_of(end, i, high, *elevation).approach,
            time = low;
     for (int round = 0; round < ROUNDS && high - low > ROUND_OFF * high; round++) {
         time = round % 3 == 2 ? 0.5 * (low + high) : low + (high - low) * falls / (falls - rises);
@@ -181,51 +235,60 @@ static double find_least(const end *end, size_t i, double *elevation)
     return time;
 }
 
-/* How an end is reached: between which times it is inside, and which moments lie before them. */
+/* How an end is reached. */
 typedef struct {
     bool reached, left; /* from some time on, until another */
-    size_t in, out;
-    double in_from, in_to, out_from, out_to; /* s */
-    double elevation;                        /* rad */
+    crossing in, out;
+    double margin; /* m, that it is inside at some time at least */
 } passage;
 
+static crossing crossing_of(const end *end, const span *span, bool low_inside)
+{
+    const double *time = end->fronts->time;
+    return (crossing){span->low,        time[span->low], interpolate(end, span),
+                      time[span->high], low_inside,      span->elevation};
+}
+
+/* Inside between two neighbouring moments at most. */
+static passage pass_between(const end *end, const span *inner)
+{
+    const double *time = end->fronts->time;
+    double from = time[inner->low], to = time[inner->high], elevation = inner->elevation;
+    passage own = {.left = true};
+    if (from == to)
+        return own;
+    double middle = find_least(end, inner->low, &elevation);
+    own.margin = -view_of(end, inner->low, middle, elevation).outside;
+    own.reached = own.margin > 0;
+    own.in = (crossing){inner->low, from, 0.5 * (from + middle), middle, false, elevation};
+    own.out = (crossing){inner->low, middle, 0.5 * (middle + to), to, true, elevation};
+    return own;
+}
+
+/* With gravity what is reached is left again; without it, it is reached where it is in the end. */
 static passage passage_at(const end *end)
 {
     const sp_fronts *fronts = end->fronts;
-    const double *time = fronts->time;
-    span inner = {0, fronts->count - 1, atan2(end->up, end->forward)}, before, after;
-    passage own = {.in_to = 0};
-    bool found = find_inside(end, &inner);
-    double middle = time[inner.low];
-    view last = view_at(end, fronts->count - 1, inner.elevation);
-    own.left = !(last.outside < 0);
-    own.elevation = inner.elevation;
-    if (!found && !own.left) {
-        inner.low = fronts->count - 1; /* without gravity it stays inside */
-        found = true;
+    span inner = whole(end);
+    bool found = find_inside(end, &inner), falls = sp_length(fronts->gravity) > 0;
+    if (!found && !falls) {
+        inner.low = fronts->count - 1;
+        inner.low_out = look(end, inner.low, &inner).outside;
+        found = inner.low_out < 0;
     }
-    if (!found) {
-        if (time[inner.low] == time[inner.high])
-            return own;
-        middle = find_least(end, inner.low, &own.elevation);
-        own.reached = view_of(end, inner.low, middle, own.elevation).outside < 0;
-        before = after = inner;
-    } else {
-        own.reached = true;
-        before = (span){0, inner.low, own.elevation};
-        after = (span){inner.low, fronts->count - 1, own.elevation};
-        find_crossing(end, false, &before);
-        if (own.left)
-            find_crossing(end, true, &after);
-        middle = time[inner.low];
-    }
-    own.in = before.low;
-    own.out = after.low;
-    own.in_from = time[before.low];
-    own.in_to = found ? time[before.high] : middle;
-    own.out_from = found ? time[after.low] : middle;
-    own.out_to = time[after.high];
-    return own;
+    if (!found)
+        return falls ? pass_between(end, &inner) : (passage){0};
+    span before = whole(end), after = inner;
+    before.high = inner.low;
+    before.high_out = inner.low_out;
+    before.elevation = inner.elevation;
+    after.high = fronts->count - 1;
+    after.high_out = NAN;
+    find_crossing(end, false, &before);
+    if (falls)
+        find_crossing(end, true, &after);
+    double margin = falls ? fmax(before.inside, after.inside) : INFINITY;
+    return (passage){true, falls, crossing_of(end, &before, false), crossing_of(end, &after, true), margin};
 }
 
 /* The world about a flight. */
@@ -259,34 +322,32 @@ static sp_flight flight_of(const plane *plane, const view *view, double time)
                        .lever = front->q};
 }
 
-int sp_fronts_flights(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2])
+int sp_fronts_reach(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2], double *margin)
 {
     plane plane = plane_to(fronts, from, to);
+    *margin = 0;
     if (!(sp_distance(from, to) > 0 && fronts->speed > 0))
         return 0;
     passage own = passage_at(&plane.end);
     int count = 0;
     double time;
+    *margin = own.margin;
     if (!own.reached)
         return 0;
-    view view = cross(&plane.end, own.in, own.in_from, own.in_to, false, own.elevation, &time);
+    view view = cross(&plane.end, &own.in, &time);
     flights[count] = flight_of(&plane, &view, time);
     count += flights[count].spread > 0;
     if (!own.left || !count)
         return count;
-    view = cross(&plane.end, own.out, own.out_from, own.out_to, true, own.elevation, &time);
+    view = cross(&plane.end, &own.out, &time);
     flights[count] = flight_of(&plane, &view, time);
     return count + (flights[count].spread > 0);
 }
 
-double sp_fronts_margin_least(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to)
+int sp_fronts_flights(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2])
 {
-    plane plane = plane_to(fronts, from, to);
-    const end *end = &plane.end;
-    span span = {0, fronts->count - 1, atan2(end->up, end->forward)};
-    if (!(sp_length(fronts->gravity) > 0))
-        return INFINITY;
-    return find_inside(end, &span) ? -view_at(end, span.low, span.elevation).outside : -INFINITY;
+    double margin;
+    return sp_fronts_reach(fronts, from, to, flights, &margin);
 }
 
 bool sp_fronts_limit(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_front_limit *limit)
@@ -295,12 +356,10 @@ bool sp_fronts_limit(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_front
     const end *end = &plane.end;
     if (!(sp_length(fronts->gravity) > 0) || !(sp_distance(from, to) > 0))
         return false;
-    span span = {0, fronts->count - 1, atan2(end->up, end->forward)};
+    span span = whole(end);
     while (span.high - span.low > 1) {
         size_t middle = (span.low + span.high) / 2;
-        view view = view_of(end, middle, fronts->time[middle], span.elevation);
-        span.elevation = view.elevation;
-        *(view.approach < 0 ? &span.low : &span.high) = middle;
+        *(look(end, middle, &span).approach < 0 ? &span.low : &span.high) = middle;
     }
     double time = find_least(end, span.low, &span.elevation);
     double step = 1e-3 * fmin(time - fronts->time[span.low], fronts->time[span.high] - time);

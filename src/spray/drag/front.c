@@ -6,13 +6,13 @@ typedef struct {
     double value[SP_FRONT_DATA], slope[SP_FRONT_DATA];
 } sums;
 
-static sums sum_up(const sp_fronts *fronts, size_t i, double elevation)
+static sums sum_up(const sp_fronts *fronts, size_t i, unsigned terms, double elevation)
 {
     const double(*sum)[SP_FRONT_DATA] = (const double(*)[SP_FRONT_DATA])fronts->sum + i * fronts->most;
     double at = elevation / (0.5 * M_PI), now = 1, before = at, slope_now = 0,
            slope_before = 1; /* the polynomial -1 is the first */
     sums own = {0};
-    for (unsigned n = 0; n < fronts->terms[i]; n++) {
+    for (unsigned n = 0; n < terms; n++) {
         for (int k = 0; k < SP_FRONT_DATA; k++) {
             own.value[k] += now * sum[n][k];
             own.slope[k] += slope_now * sum[n][k] / (0.5 * M_PI);
@@ -26,9 +26,9 @@ static sums sum_up(const sp_fronts *fronts, size_t i, double elevation)
     return own;
 }
 
-sp_front sp_front_at_moment(const sp_fronts *fronts, size_t i, double elevation)
+sp_front sp_front_at_moment(const sp_fronts *fronts, size_t i, unsigned terms, double elevation)
 {
-    sums own = sum_up(fronts, i, elevation);
+    sums own = sum_up(fronts, i, terms, elevation);
     return (sp_front){own.value[0], own.value[1], own.slope[0], own.value[3], own.value[4], own.slope[3]};
 }
 
@@ -65,7 +65,8 @@ sp_front sp_front_between(const sp_fronts *fronts, size_t i, double time, double
 {
     double step = fronts->time[i + 1] - fronts->time[i], x = (time - fronts->time[i]) / step;
     double weight[6], change[6];
-    sums from = sum_up(fronts, i, elevation), to = sum_up(fronts, i + 1, elevation);
+    sums from = sum_up(fronts, i, fronts->terms[i], elevation);
+    sums to = sum_up(fronts, i + 1, fronts->terms[i + 1], elevation);
     quintic(x, weight);
     quintic_slope(x, change);
     return (sp_front){.q = blend(weight, step, from.value, to.value),
@@ -87,4 +88,45 @@ size_t sp_front_moment_before(const sp_fronts *fronts, double time)
             high = middle;
     }
     return low;
+}
+
+void sp_front_polynomials(const sp_fronts *fronts, double elevation, double *polynomials)
+{
+    double at = elevation / (0.5 * M_PI);
+    polynomials[0] = 1;
+    polynomials[1] = at;
+    for (unsigned n = 2; n < fronts->most; n++)
+        polynomials[n] = 2 * at * polynomials[n - 1] - polynomials[n - 2];
+}
+
+sp_front_place sp_front_place_at(const sp_fronts *fronts, size_t i, const double *polynomials)
+{
+    const double(*sum)[SP_FRONT_DATA] = (const double(*)[SP_FRONT_DATA])fronts->sum + i * fronts->most;
+    sp_front_place place = {0, 0};
+    for (unsigned n = 0; n < fronts->terms[i]; n++) {
+        place.q += polynomials[n] * sum[n][0];
+        place.d += polynomials[n] * sum[n][3];
+    }
+    return place;
+}
+
+static void data_at(const sp_fronts *fronts, size_t i, const double *polynomials, double data[SP_FRONT_DATA])
+{
+    const double(*sum)[SP_FRONT_DATA] = (const double(*)[SP_FRONT_DATA])fronts->sum + i * fronts->most;
+    for (int k = 0; k < SP_FRONT_DATA; k++)
+        data[k] = 0;
+    for (unsigned n = 0; n < fronts->terms[i]; n++)
+        for (int k = 0; k < SP_FRONT_DATA; k++)
+            data[k] += polynomials[n] * sum[n][k];
+}
+
+sp_front_place sp_front_place_between(const sp_fronts *fronts, double time, const double *polynomials)
+{
+    size_t i = sp_front_moment_before(fronts, time);
+    double step = fronts->time[i + 1] - fronts->time[i];
+    double from[SP_FRONT_DATA], to[SP_FRONT_DATA], weight[6];
+    data_at(fronts, i, polynomials, from);
+    data_at(fronts, i + 1, polynomials, to);
+    quintic((time - fronts->time[i]) / step, weight);
+    return (sp_front_place){blend(weight, step, from, to), blend(weight, step, from + 3, to + 3)};
 }

@@ -6,17 +6,17 @@
 
 #define TOLERANCE 1e-8 /* of a step, of the speed: by what a lower order is off, and the step far less */
 #define CUT 1e-10      /* of the way flown, that a polynomial left out may come to */
+#define CUT_ROUGH 1e-4
 #define ORDER_FIRST 16u
-#define ORDER_MOST 32u
 #define MOMENTS_MOST 20000u
 #define JOINT 5e-5 /* of how far it has come, that a piece may miss its parabola by */
 
 /* The drops under way. */
 typedef struct {
     unsigned count;
-    double sine[ORDER_MOST], cosine[ORDER_MOST]; /* of their elevations */
-    double share[4 * ORDER_MOST];                /* cosines of a full turn, 4 count of them */
-    sp_moment now[ORDER_MOST], next[ORDER_MOST]; /* x forwards, z upwards */
+    double sine[SP_FRONT_ORDER], cosine[SP_FRONT_ORDER]; /* of their elevations */
+    double share[4 * SP_FRONT_ORDER];                    /* cosines of a full turn, 4 count of them */
+    sp_moment now[SP_FRONT_ORDER], next[SP_FRONT_ORDER]; /* x forwards, z upwards */
     sp_vec3 gravity;
 } drops;
 
@@ -44,9 +44,11 @@ static bool make_room(sp_fronts *fronts)
     fronts->time = time ? time : fronts->time;
     unsigned *terms = realloc(fronts->terms, capacity * sizeof *terms);
     fronts->terms = terms ? terms : fronts->terms;
+    unsigned *rough = realloc(fronts->rough, capacity * sizeof *rough);
+    fronts->rough = rough ? rough : fronts->rough;
     double(*sum)[SP_FRONT_DATA] = realloc(fronts->sum, capacity * fronts->most * sizeof *sum);
     fronts->sum = sum ? sum : fronts->sum;
-    if (!time || !terms || !sum)
+    if (!time || !terms || !rough || !sum)
         return false;
     fronts->capacity = capacity;
     return true;
@@ -59,9 +61,9 @@ static double length_of(const double *sum, unsigned datum, double step)
 }
 
 /* Polynomials beyond which all are too small to tell. */
-static unsigned terms_needed(double (*sum)[SP_FRONT_DATA], unsigned count, double step)
+static unsigned terms_needed(double (*sum)[SP_FRONT_DATA], unsigned count, double step, double cut)
 {
-    double least = CUT * (sum[0][0] + step * sum[0][1]);
+    double least = cut * (sum[0][0] + step * sum[0][1]);
     for (unsigned n = count; n > 1; n--)
         for (unsigned datum = 0; datum < SP_FRONT_DATA; datum++)
             if (length_of(sum[n - 1], datum, step) > least)
@@ -96,7 +98,8 @@ static bool record(sp_fronts *fronts, const drops *drops, double time, double st
                 sum[n][i] += share * data[i];
         }
     }
-    fronts->terms[fronts->count] = terms_needed(sum, drops->count, step);
+    fronts->terms[fronts->count] = terms_needed(sum, drops->count, step, CUT);
+    fronts->rough[fronts->count] = terms_needed(sum, drops->count, step, CUT_ROUGH);
     fronts->time[fronts->count++] = time;
     return true;
 }
@@ -151,7 +154,7 @@ static bool are_settled(const sp_fronts *fronts, const drops *drops)
 /* Nothing comes to within `far` any more. */
 static bool are_past(const sp_fronts *fronts)
 {
-    sp_front up = sp_front_at_moment(fronts, fronts->count - 1, 0.5 * M_PI);
+    sp_front up = sp_front_at_moment(fronts, fronts->count - 1, fronts->terms[fronts->count - 1], 0.5 * M_PI);
     return sp_length(fronts->gravity) > 0 ? up.q + up.d < -fronts->far : up.q > fronts->far;
 }
 
@@ -166,7 +169,7 @@ static bool settle(sp_fronts *fronts)
     if (!(sp_length(fronts->gravity) > 0) || !(fall < 0))
         return true;
     sum[0][4] = fall;
-    sp_front up = sp_front_at_moment(fronts, last, 0.5 * M_PI);
+    sp_front up = sp_front_at_moment(fronts, last, fronts->terms[last], 0.5 * M_PI);
     double time = fmax(up.q + up.d + 2 * fronts->far, fronts->far) / -fall;
     if (!make_room(fronts))
         return false;
@@ -174,6 +177,7 @@ static bool settle(sp_fronts *fronts)
     memcpy(sum + fronts->most, sum, fronts->most * sizeof *sum);
     sum[fronts->most][3] += fall * time;
     fronts->terms[last + 1] = fronts->terms[last];
+    fronts->rough[last + 1] = fronts->rough[last];
     fronts->time[last + 1] = fronts->time[last] + time;
     fronts->count++;
     return true;
@@ -254,7 +258,7 @@ static bool find_joints(sp_fronts *fronts)
 
 static bool make(sp_fronts *fronts, sp_error *error)
 {
-    for (unsigned order = ORDER_FIRST; order <= ORDER_MOST; order *= 2) {
+    for (unsigned order = ORDER_FIRST; order <= SP_FRONT_ORDER; order *= 2) {
         fronts->most = order;
         fronts->capacity = 0;
         if (!build(fronts, order, error))
@@ -284,6 +288,7 @@ void sp_fronts_destroy(sp_fronts *fronts)
         return;
     free(fronts->time);
     free(fronts->terms);
+    free(fronts->rough);
     free(fronts->sum);
     free(fronts->joints);
     free(fronts);

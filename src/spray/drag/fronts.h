@@ -8,7 +8,8 @@
 
 #include "leg.h"
 
-#define SP_FRONT_DATA 6 /* q, its first and second derivative by time, and the same of d */
+#define SP_FRONT_ORDER 32 /* polynomials in θ at most */
+#define SP_FRONT_DATA 6   /* q, its first and second derivative by time, and the same of d */
 
 struct sp_fronts {
     sp_drag drag;
@@ -19,6 +20,7 @@ struct sp_fronts {
     size_t count, capacity;
     double *time;                 /* [count], s, ascending from 0 */
     unsigned *terms;              /* [count], polynomials in θ at that moment */
+    unsigned *rough;              /* [count], of these, as many as tell about what it is */
     double (*sum)[SP_FRONT_DATA]; /* [count x most], Chebyshev's in 2 θ/π, by moment */
     double *joints;               /* [joint_count], s, from 0: in between ways are parabolas, but for little */
     size_t joint_count;
@@ -30,10 +32,19 @@ typedef struct {
     double d, d_time, d_turn;
 } sp_front;
 
-/* At moment i. */
-sp_front sp_front_at_moment(const sp_fronts *fronts, size_t i, double elevation);
+/* At moment i, by so many polynomials. */
+sp_front sp_front_at_moment(const sp_fronts *fronts, size_t i, unsigned terms, double elevation);
 /* At a time between moments i and i + 1. */
 sp_front sp_front_between(const sp_fronts *fronts, size_t i, double time, double elevation);
+/* Where a flight of one elevation is: q and d, m. */
+typedef struct {
+    double q, d;
+} sp_front_place;
+/* Fills Chebyshev's polynomials [fronts->most] at an elevation, for what follows. */
+void sp_front_polynomials(const sp_fronts *fronts, double elevation, double *polynomials);
+/* At moment i, and at any time. */
+sp_front_place sp_front_place_at(const sp_fronts *fronts, size_t i, const double *polynomials);
+sp_front_place sp_front_place_between(const sp_fronts *fronts, double time, const double *polynomials);
 /* The last moment before a time, or the first. */
 size_t sp_front_moment_before(const sp_fronts *fronts, double time);
 
@@ -45,8 +56,8 @@ typedef struct {
     double arriving; /* m/s, its speed */
     double turn; /* m²/s/√m: by its product with √margin flights sweep area in their plane, per rad of direction */
 } sp_front_limit;
-/* No more than that margin, but quick to find; below 0 where it may be. */
-double sp_fronts_margin_least(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to);
+/* As sp_fronts_flights. *margin is no more than that margin; it is not to be trusted where there are no flights. */
+int sp_fronts_reach(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2], double *margin);
 /* False without gravity, where what comes to rest is the limit and nothing goes wrong near it. */
 bool sp_fronts_limit(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_front_limit *limit);
 
