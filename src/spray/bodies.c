@@ -4,6 +4,8 @@
 
 #include <stdlib.h>
 
+#define DROP_LEAST 1e-9 /* m */
+
 static bool are_whole(const sp_layout *layout, sp_error *error)
 {
     for (size_t i = 0; i < layout->count; i++)
@@ -32,12 +34,24 @@ static bool take_apart(const sp_evaluator *evaluator, uint64_t jets, sp_bodies *
     return bodies->patterns != NULL;
 }
 
+/* Drops so small that air stops them at once are none; nor is anything said of them. */
+static bool are_drops(const sp_layout *patterns, sp_error *error)
+{
+    for (size_t i = 0; i < patterns->count; i++)
+        if (!(patterns->nozzles[i].type->drop >= DROP_LEAST))
+            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                           "trajectory: drag found with drops of %g m from nozzle %s; expected at least %g m",
+                           patterns->nozzles[i].type->drop, patterns->nozzles[i].name, DROP_LEAST);
+    return true;
+}
+
 bool sp_bodies_create_with(const sp_evaluator *evaluator, const sp_layout *layout, uint64_t jets, sp_bodies *bodies,
                            sp_error *error)
 {
     *bodies = (sp_bodies){.layout = layout};
     return are_whole(layout, error) && sp_evaluator_takes(evaluator, layout, error) &&
-           take_apart(evaluator, jets, bodies, error);
+           take_apart(evaluator, jets, bodies, error) &&
+           (evaluator->fidelity.trajectory != SP_TRAJECTORY_DRAG || are_drops(bodies->patterns, error));
 }
 
 bool sp_bodies_create(const sp_evaluator *evaluator, const sp_layout *layout, sp_bodies *bodies, sp_error *error)

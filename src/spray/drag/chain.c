@@ -1,6 +1,6 @@
 #include "chain.h"
 
-#define JOINED 0.2     /* of a piece: a last one shorter than that belongs to the one before */
+#define JOINED 0.1     /* of a piece: a last one shorter than that belongs to the one before */
 #define MARCH 1e-7     /* the error of a leg */
 #define STRAIGHT 3e-5  /* of a leg's length, that its pieces may miss their parabolas by */
 #define PIECES_MOST 16 /* of a leg */

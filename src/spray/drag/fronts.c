@@ -9,7 +9,8 @@
 #define CUT_ROUGH 1e-4
 #define ORDER_FIRST 16u
 #define MOMENTS_MOST 20000u
-#define JOINT 5e-5 /* of how far it has come, that a piece may miss its parabola by */
+#define JOINT 5e-5    /* of how far it has come, that a piece may miss its parabola by */
+#define PARTS_MOST 16 /* of what lies between two moments */
 
 /* The drops under way. */
 typedef struct {
@@ -229,30 +230,36 @@ static double misses(const sp_fronts *fronts, double from, double to)
 {
     static const double shares[4] = {0, 0.5, 1, 0.25};
     double worst = 0;
-    for (int k = -1; k <= 1; k++) {
+    for (int k = -2; k <= 2; k++) {
         sp_vec3 place[4];
-        double elevation = k, sine = sin(elevation), cosine = cos(elevation);
+        double elevation = 0.75 * k, sine = sin(elevation), cosine = cos(elevation);
         for (int i = 0; i < 4; i++) {
             double time = from + shares[i] * (to - from);
             sp_front front = sp_front_between(fronts, sp_front_moment_before(fronts, time), time, elevation);
             place[i] = sp_v(front.q * cosine, 0, front.q * sine + front.d);
         }
-        worst = fmax(worst, sp_parabola_misses(place, place[3]) / sp_length(place[2]));
+        worst = fmax(worst, sp_parabola_misses(place, place[3]) / sp_length(place[3]));
     }
     return worst;
 }
 
-/* As far apart as their error allows. */
+/* As far apart as their error allows: at moments, or where these are too far apart themselves between them. */
 static bool find_joints(sp_fronts *fronts)
 {
-    fronts->joints = malloc((fronts->count + 1) * sizeof *fronts->joints);
-    if (!fronts->joints)
+    double last = 0, *joints = fronts->joints = malloc(fronts->count * PARTS_MOST * sizeof *joints);
+    if (!joints)
         return false;
-    double last = 0;
-    fronts->joints[fronts->joint_count++] = 0;
-    for (size_t i = 1; i + 1 < fronts->count; i++)
-        if (fronts->time[i] > last && misses(fronts, last, fronts->time[i + 1]) > JOINT)
-            fronts->joints[fronts->joint_count++] = last = fronts->time[i];
+    joints[fronts->joint_count++] = 0;
+    for (size_t i = 1; i < fronts->count; i++) {
+        double before = fronts->time[i - 1], now = fronts->time[i];
+        if (now == before || !(misses(fronts, last, now) > JOINT))
+            continue;
+        if (before > last)
+            joints[fronts->joint_count++] = last = before;
+        double parts = fmin(fmax(ceil(cbrt(misses(fronts, before, now) / JOINT)), 1), PARTS_MOST - 1);
+        for (int k = 1; k < parts; k++)
+            joints[fronts->joint_count++] = last = before + k / parts * (now - before);
+    }
     return true;
 }
 

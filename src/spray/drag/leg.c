@@ -4,6 +4,7 @@
 #include "leg.h"
 
 #define STAGES 7
+#define FROM_REST 1e-6 /* s, of a first step */
 
 static const double weights[STAGES][STAGES] = {
     {0},
@@ -79,9 +80,9 @@ sp_march sp_march_from(const sp_drag *drag, sp_vec3 gravity, sp_vec3 point, sp_v
 {
     sp_march march = {.drag = drag, .gravity = gravity, .speed = sp_length(velocity)};
     march.now = sp_drag_moment(drag, point, velocity, gravity);
-    /* the time in which the velocity changes about as much as it is */
+    /* the time in which the velocity changes about as much as it is, or from rest a little */
     double change = sp_length(march.now.acceleration);
-    march.step = change > 0 ? march.speed / change : 1;
+    march.step = change > 0 && march.speed > 0 ? march.speed / change : FROM_REST;
     return march;
 }
 
