@@ -110,13 +110,15 @@ typedef struct limit {
     sp_vec3 along;            /* from the cell's point to where D is the mean of what is within reach, m */
 } limit;
 
-/* False where what is about a target, as large as a square of edge `side`, does not lie across the limit of reach. */
+/* False where what is about a target, as large as a square of edge `side`, does not lie across the limit of reach, nor,
+ * with drag, which gathers much of a fine spray there, close to it. */
 static bool limit_across(const sp_source *source, const sp_target *target, double side, limit *limit)
 {
     reserve own = reserve_at(source, sp_sub(target->point, source->position));
     sp_vec3 along = sp_along(own.slope, -sp_dot(own.slope, target->normal), target->normal);
     double steep = sp_length(along), half = 0.5 * side * steep;
-    if (!(fabs(own.value) < half))
+    double close = source->fronts ? 2 * CLEAR * half : half;
+    if (!(own.value > -half && own.value < close))
         return false;
     double most = own.value + half, least = fmax(0, own.value - half), mean = 0.5 * (sqrt(most) + sqrt(least));
     *limit = (struct limit){least, most, half, sp_scale(along, (mean * mean - own.value) / (steep * steep))};

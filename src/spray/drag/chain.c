@@ -1,8 +1,8 @@
 #include "chain.h"
 
 #define JOINED 0.1     /* of a piece: a last one shorter than that belongs to the one before */
-#define MARCH 1e-7     /* the error of a leg */
-#define STRAIGHT 3e-5  /* of a leg's length, that its pieces may miss their parabolas by */
+#define MARCH 1e-6     /* the error of a leg */
+#define STRAIGHT 2e-5  /* of how far a drop has come, that a piece may miss its parabola by */
 #define PIECES_MOST 16 /* of a leg */
 #define LEGS_MOST 100000
 #define OVERLAP 1e-9 /* of a piece, that it goes on beyond its end: nothing slips between two */
@@ -54,14 +54,15 @@ bool sp_chain_next(sp_chain *chain, sp_piece *piece)
     return true;
 }
 
-/* How many pieces a leg is cut into. */
-static int count_pieces(const sp_leg *leg)
+/* How many pieces a leg is cut into of a flight from `start`. */
+static int count_pieces(const sp_leg *leg, sp_vec3 start)
 {
     if (isinf(leg->time))
         return 1;
     sp_vec3 place[3] = {leg->from.point, sp_leg_at(leg, 0.5 * leg->time).point, leg->to.point};
     double misses = sp_parabola_misses(place, sp_leg_at(leg, 0.25 * leg->time).point);
-    double share = misses / (STRAIGHT * sp_distance(place[0], place[2]));
+    double come = fmax(sp_distance(place[2], start), sp_distance(place[2], place[0]));
+    double share = misses / (STRAIGHT * come);
     return share > 1 ? (int)fmin(ceil(cbrt(share)), PIECES_MOST) : 1;
 }
 
@@ -100,7 +101,7 @@ static sp_landing trace(const sp_tracer *tracer, const sp_drag *drag, const sp_r
     for (int legs = 0; legs < LEGS_MOST && !has_left(&march.now, gravity, box); legs++) {
         double start = march.flown;
         sp_leg leg = sp_march_on(&march, MARCH);
-        int count = count_pieces(&leg);
+        int count = count_pieces(&leg, ray->origin);
         bool falls = isinf(leg.time) && sp_length(gravity) > 0;
         for (int i = 0; i < count && (falls || isfinite(leg.time)); i++) {
             sp_piece piece = piece_of(&leg, i, count);
