@@ -57,9 +57,11 @@ static void add_flight(sp_text *text, const sp_evaluator *evaluator)
     sp_text_add(text, "</dd>\n");
     add_item(text, "Evaluator");
     if (fidelity->method == SP_METHOD_INVERSE)
-        sp_text_add(
-            text, "inverse: for every patch of surface the flights that reach it in closed form; first impact only, no "
-                  "liquid flies on from a wall");
+        sp_text_add(text,
+                    "inverse: for every patch of surface the flights that reach it %s; first impact only, no liquid "
+                    "flies on from a wall",
+                    fidelity->trajectory == SP_TRAJECTORY_DRAG ? "from a table of all that leave, made exact"
+                                                               : "in closed form");
     else
         sp_text_add(text, "forward: %llu jets a nozzle, up to %d reflection%s", (unsigned long long)fidelity->jets,
                     fidelity->reflections, fidelity->reflections == 1 ? "" : "s");
