@@ -12,8 +12,8 @@ sp_drag sp_drag_of_drops(double diameter, const sp_fluid *liquid, const sp_fluid
                      .reynolds = air->density * diameter / air->viscosity};
 }
 
-/* s, until a round stream has broken up. The power law is that of Sallam, Dai and Faeth's kind for turbulent streams in
- * still air; from 10³ to 10⁵ it lies within 15 % of Grant and Middleman's 8.51 We^0.32 (AIChE Journal 12, 1966). */
+/* s, until a round stream has broken up. From We of 10³ to 10⁵ the power law lies within 15 % of Grant and Middleman's
+ * 8.51 We^0.32 for turbulent streams in still air (AIChE Journal 12, 1966), whose We is the liquid's too. */
 static double break_up(double flow, double speed, const sp_fluid *liquid)
 {
     double diameter = sqrt(4 * flow / (M_PI * speed));
