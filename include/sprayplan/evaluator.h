@@ -196,7 +196,8 @@ sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 positio
                                   double half_angle, size_t first, size_t end, const uint8_t *known, sp_error *error);
 void sp_reach_destroy(sp_reach *reach);
 
-/* True where nothing lies in the way of a flight that leaves `position` (m) at `speed` (m/s) for the patch's point. */
+/* True where nothing lies in the way of a flight without drag that leaves `position` (m) at `speed` (m/s) for the
+ * patch's point. */
 bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, double speed, const sp_flight *flight,
                               uint32_t patch);
 

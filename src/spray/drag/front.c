@@ -99,17 +99,6 @@ void sp_front_polynomials(const sp_fronts *fronts, double elevation, double *pol
         polynomials[n] = 2 * at * polynomials[n - 1] - polynomials[n - 2];
 }
 
-sp_front_place sp_front_place_at(const sp_fronts *fronts, size_t i, const double *polynomials)
-{
-    const double(*sum)[SP_FRONT_DATA] = (const double(*)[SP_FRONT_DATA])fronts->sum + i * fronts->most;
-    sp_front_place place = {0, 0};
-    for (unsigned n = 0; n < fronts->terms[i]; n++) {
-        place.q += polynomials[n] * sum[n][0];
-        place.d += polynomials[n] * sum[n][3];
-    }
-    return place;
-}
-
 static void data_at(const sp_fronts *fronts, size_t i, const double *polynomials, double data[SP_FRONT_DATA])
 {
     const double(*sum)[SP_FRONT_DATA] = (const double(*)[SP_FRONT_DATA])fronts->sum + i * fronts->most;

@@ -42,8 +42,6 @@ typedef struct {
 } sp_front_place;
 /* Fills Chebyshev's polynomials [fronts->most] at an elevation, for what follows. */
 void sp_front_polynomials(const sp_fronts *fronts, double elevation, double *polynomials);
-/* At moment i, and at any time. */
-sp_front_place sp_front_place_at(const sp_fronts *fronts, size_t i, const double *polynomials);
 sp_front_place sp_front_place_between(const sp_fronts *fronts, double time, const double *polynomials);
 /* The last moment before a time, or the first. */
 size_t sp_front_moment_before(const sp_fronts *fronts, double time);
