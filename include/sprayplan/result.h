@@ -46,7 +46,7 @@ typedef struct {
     double missing_area[SP_REASONS];                     /* m² that are not attainable, by reason */
     size_t missing_count;                                /* of parts that are not wholly attainable */
     sp_missing_figures *missing;                         /* owned; those of most area first */
-    char trajectory[16], evaluator[16];                  /* "line" or "parabola", "forward" or "inverse" */
+    char trajectory[16], evaluator[16];                  /* "line", "parabola" or "drag"; "forward" or "inverse" */
     size_t reflections, jets;                            /* jets: per nozzle, unknown for the inverse evaluator */
     size_t jets_wanted;                                  /* per nozzle, where they are fewer; else unknown */
     double texel;                                        /* m */

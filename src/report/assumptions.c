@@ -42,15 +42,26 @@ static void add_flight(sp_text *text, const sp_evaluator *evaluator)
     add_item(text, "Flight");
     if (fidelity->trajectory == SP_TRAJECTORY_LINE)
         sp_text_add(text, "straight lines: gravity and air are neglected");
+    else if (fidelity->trajectory == SP_TRAJECTORY_DRAG)
+        sp_text_add(
+            text,
+            "single drops of the catalogue&#39;s diameters under gravity of %.4g&nbsp;m/s\xc2\xb2, held back by "
+            "air at rest (%.4g&nbsp;kg/m\xc2\xb3, %.4g&nbsp;&micro;Pa&thinsp;s; drag of spheres by Haider and "
+            "Levenspiel); solid streams fly free until they break up, 5&thinsp;We<sup>0.378</sup> diameters "
+            "away. This is the <strong>far end of a bracket</strong>: a spray carries air along and its drops "
+            "fly farther and faster than single ones, up to what parabolas without drag say",
+            setup->gravity, setup->air.density, 1e6 * setup->air.viscosity);
     else
         sp_text_add(text, "parabolas under gravity of %.4g&nbsp;m/s\xc2\xb2; the drag of air is neglected",
                     setup->gravity);
     sp_text_add(text, "</dd>\n");
     add_item(text, "Evaluator");
     if (fidelity->method == SP_METHOD_INVERSE)
-        sp_text_add(
-            text, "inverse: for every patch of surface the flights that reach it in closed form; first impact only, no "
-                  "liquid flies on from a wall");
+        sp_text_add(text,
+                    "inverse: for every patch of surface the flights that reach it %s; first impact only, no liquid "
+                    "flies on from a wall",
+                    fidelity->trajectory == SP_TRAJECTORY_DRAG ? "from a table of all that leave, made exact"
+                                                               : "in closed form");
     else
         sp_text_add(text, "forward: %llu jets a nozzle, up to %d reflection%s", (unsigned long long)fidelity->jets,
                     fidelity->reflections, fidelity->reflections == 1 ? "" : "s");

@@ -69,6 +69,7 @@ static bool add_members(sp_scene *scene, const sp_reader *reader, const sp_yaml 
         return sp_fail_memory(reader->error);
     type->members = members;
     memcpy(member.type.name, type->name, sizeof member.type.name);
+    member.type.drop = type->drop;
     for (size_t i = 0; i < count; i++) {
         members[type->member_count] = member;
         if (ring.count)

@@ -1,6 +1,7 @@
 /* Where the liquid ends: on what is to be cleaned, on other surface, outside, or on a way that is not followed. */
 #include "bodies.h"
 #include "emitter.h"
+#include "spray/drag/chain.h"
 
 #include <stdlib.h>
 
@@ -18,7 +19,7 @@ void sp_balance_add(sp_balance *balance, bool hit, bool clean, double arrived, d
 }
 
 /* What is thrown back is not followed: the inverse evaluator knows the first impact only. */
-static void end_jet(const sp_evaluator *evaluator, const sp_ray *ray, const sp_hit *hit, double flow,
+static void end_jet(const sp_evaluator *evaluator, const sp_hit *hit, sp_vec3 velocity, double flow,
                     sp_balance *balance)
 {
     bool is_hit = hit->triangle != SP_NONE, clean = false;
@@ -26,7 +27,6 @@ static void end_jet(const sp_evaluator *evaluator, const sp_ray *ray, const sp_h
     if (is_hit) {
         const sp_mesh *mesh = evaluator->setup.mesh;
         const sp_surface *surface = &evaluator->setup.surfaces[mesh->part[hit->triangle]];
-        sp_vec3 velocity = sp_ray_velocity(ray, evaluator->gravity, hit->t);
         bool back = sp_dot(velocity, sp_triangle_normal(mesh, hit->triangle)) > 0;
         clean = sp_patch_at(evaluator, hit->triangle, hit->u, hit->v, back) != SP_NONE;
         onward = surface->restitution > 0 ? flow * surface->rebound : 0;
@@ -35,20 +35,42 @@ static void end_jet(const sp_evaluator *evaluator, const sp_ray *ray, const sp_h
     balance->unfollowed += onward;
 }
 
-/* Room for JETS rays and hits is the caller's: no pattern has more. */
-static void end_pattern(const sp_evaluator *evaluator, const sp_nozzle *pattern, sp_ray *rays, sp_hit *hits,
+/* Room for JETS, which no pattern has more of. */
+typedef struct {
+    sp_ray *rays;
+    sp_hit *hits;
+    sp_landing *landings; /* with drag alone */
+} jets_room;
+
+/* Where jets of one pattern, or drops, come to. */
+static void fly(const sp_evaluator *evaluator, const sp_nozzle *pattern, size_t jets, const jets_room *room)
+{
+    const sp_setup *setup = &evaluator->setup;
+    sp_drag drag = sp_drag_of(pattern, &setup->liquid, &setup->air);
+    if (room->landings)
+        sp_drag_trace_many(evaluator->tracer, &drag, room->rays, jets, evaluator->gravity,
+                           sp_thread_count(setup->run.threads), room->landings);
+    else
+        sp_trace_nearest_many(evaluator->tracer, room->rays, jets, evaluator->gravity, setup->run.threads, room->hits);
+}
+
+static void end_pattern(const sp_evaluator *evaluator, const sp_nozzle *pattern, const jets_room *room,
                         sp_balance *balance)
 {
-    sp_emitter emitter = sp_emitter_of(evaluator, pattern);
+    sp_emitter emitter = sp_emitter_of(evaluator, pattern, NULL);
     double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
     size_t jets = (size_t)pattern->jets;
     if (!(emitter.source.speed > 0) || !(flow > 0))
         return;
     for (size_t i = 0; i < jets; i++)
-        rays[i] = sp_emitter_jet(&emitter, i, jets);
-    sp_trace_nearest_many(evaluator->tracer, rays, jets, evaluator->gravity, evaluator->setup.run.threads, hits);
-    for (size_t i = 0; i < jets; i++)
-        end_jet(evaluator, &rays[i], &hits[i], flow / (double)jets, balance);
+        room->rays[i] = sp_emitter_jet(&emitter, i, jets);
+    fly(evaluator, pattern, jets, room);
+    for (size_t i = 0; i < jets; i++) {
+        const sp_landing *landing = room->landings ? &room->landings[i] : NULL;
+        const sp_hit *hit = landing ? &landing->hit : &room->hits[i];
+        sp_vec3 velocity = landing ? landing->velocity : sp_ray_velocity(&room->rays[i], evaluator->gravity, hit->t);
+        end_jet(evaluator, hit, velocity, flow / (double)jets, balance);
+    }
 }
 
 bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
@@ -58,16 +80,18 @@ bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout,
     if (coverage->balance.known)
         return true;
     sp_bodies bodies;
-    sp_ray *rays = malloc(JETS * sizeof *rays);
-    sp_hit *hits = malloc(JETS * sizeof *hits);
-    bool done =
-        sp_bodies_create_with(evaluator, layout, JETS, &bodies, error) && ((rays && hits) || sp_fail_memory(error));
+    bool drag = evaluator->fidelity.trajectory == SP_TRAJECTORY_DRAG;
+    jets_room room = {malloc(JETS * sizeof *room.rays), malloc(JETS * sizeof *room.hits),
+                      drag ? malloc(JETS * sizeof *room.landings) : NULL};
+    bool done = sp_bodies_create_with(evaluator, layout, JETS, &bodies, error) &&
+                ((room.rays && room.hits && (room.landings || !drag)) || sp_fail_memory(error));
     sp_balance balance = {.known = true};
     for (size_t n = 0; done && n < bodies.patterns->count; n++)
-        end_pattern(evaluator, &bodies.patterns->nozzles[n], rays, hits, &balance);
+        end_pattern(evaluator, &bodies.patterns->nozzles[n], &room, &balance);
     sp_bodies_free(&bodies);
-    free(rays);
-    free(hits);
+    free(room.rays);
+    free(room.hits);
+    free(room.landings);
     coverage->balance = done ? balance : coverage->balance;
     return done;
 }

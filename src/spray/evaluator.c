@@ -56,6 +56,10 @@ static bool check_setup(const sp_setup *setup, sp_error *error)
         wrong = "a mesh with triangles and a surface for each of its parts";
     else if (!in_range(setup->liquid.density, 1e-300, 1e300))
         wrong = "a positive density of the liquid";
+    else if (fidelity->trajectory == SP_TRAJECTORY_DRAG &&
+             (!in_range(setup->air.density, 0, 1e300) || !in_range(setup->air.viscosity, 1e-300, 1e300) ||
+              !in_range(setup->liquid.surface_tension, 1e-300, 1e300)))
+        wrong = "air with a density of 0 or more and a viscosity, and a surface tension of the liquid, for drag";
     else if (!in_range(setup->gravity, 0, 1e300))
         wrong = "a gravity of 0 or more";
     else if (!in_range(criterion->flux, 0, 1e300) || !in_range(criterion->impact_speed, 0, 1e300) ||

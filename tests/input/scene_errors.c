@@ -228,7 +228,7 @@ static const slip kinds[] = {
      "scene.yaml:19:22: flow: found '12 L/min', expected this key only with an adjustable type, and 'cone' has no "
      "flow_range"},
     {"trajectory: line", "trajectory: curve",
-     "scene.yaml:23:15: trajectory: found 'curve', expected auto, line or parabola"},
+     "scene.yaml:23:15: trajectory: found 'curve', expected auto, line, parabola or drag"},
     {"evaluator: forward", "evaluator: both",
      "scene.yaml:24:14: evaluator: found 'both', expected auto, forward or inverse"},
     {"reflections: 3", "reflections: -1",
@@ -328,8 +328,6 @@ static const slip unsupported[] = {
      "scene.yaml:3:11: file: found 'tank.igs', which is not supported yet, expected an OBJ or STL file"},
     {"file: tank.obj", "file: tank.brep",
      "scene.yaml:3:11: file: found 'tank.brep', which is not supported yet, expected an OBJ or STL file"},
-    {"trajectory: line", "trajectory: drag",
-     "scene.yaml:23:15: trajectory: found 'drag', which is not supported yet, expected auto, line or parabola"},
 };
 
 /* Not YAML, or YAML that is refused. Where libfyaml says what is wrong, only the place is checked. */
