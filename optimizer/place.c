@@ -40,26 +40,12 @@ static void placement_free(sp_placement *placement)
     free(placement->watch.stages);
 }
 
-/* Poses of clusters and of what rotates are reckoned with by themselves, which knows no goods that move. */
-static bool swept_types(const sp_nozzle_type *const *types, size_t count, sp_error *error)
+static bool are_whole(const sp_nozzle_type *const *types, size_t count, sp_error *error)
 {
     for (size_t i = 0; i < count; i++)
-        if (types[i]->pattern == SP_PATTERN_CLUSTER || types[i]->pattern == SP_PATTERN_ROTATING)
-            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                           "types: found '%s' beside a sweep, a cluster or one that rotates, expected types of one "
-                           "pattern that stands still; simulate and compare take the others",
-                           types[i]->name);
+        if (!sp_type_is_whole(types[i], error))
+            return false;
     return true;
-}
-
-static bool takes_for_goods(const sp_place_options *options, sp_error *error)
-{
-    bool done = swept_types(options->types, options->type_count, error);
-    for (size_t i = 0; done && i < options->mount_count; i++)
-        done = swept_types(options->mounts[i].types, options->mounts[i].type_count, error);
-    for (size_t i = 0; done && options->kept && i < options->kept->count; i++)
-        done = !options->kept->nozzles[i].keep || swept_types(&options->kept->nozzles[i].type, 1, error);
-    return done;
 }
 
 static bool check(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error)
@@ -78,7 +64,13 @@ static bool check(const sp_evaluator *evaluator, const sp_place_options *options
             error, SP_ERROR_INPUT, NULL, 0, 0,
             "combine: found single beside a sweep, expected sum: place adds up what goods that move take from "
             "all nozzles");
-    if (setup->sweep.speed > 0 && !takes_for_goods(options, error))
+    if (sp_evaluator_fidelity(evaluator)->trajectory == SP_TRAJECTORY_DRAG)
+        return sp_fail(error, SP_ERROR_UNSUPPORTED, NULL, 0, 0,
+                       "trajectory: drag found, for which place is not built yet; expected auto, line or parabola");
+    for (size_t i = 0; i < options->mount_count; i++)
+        if (!are_whole(options->mounts[i].types, options->mounts[i].type_count, error))
+            return false;
+    if (!are_whole(options->types, options->type_count, error))
         return false;
     for (size_t i = 0; options->kept && i < options->kept->count; i++)
         if (options->kept->nozzles[i].keep && !sp_evaluator_admits(evaluator, &options->kept->nozzles[i], error))

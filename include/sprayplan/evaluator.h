@@ -4,6 +4,7 @@
 
 #include <sprayplan/atlas.h>
 #include <sprayplan/coverage.h>
+#include <sprayplan/flight.h>
 #include <sprayplan/patches.h>
 #include <sprayplan/setup.h>
 #include <sprayplan/trace.h>
@@ -200,22 +201,8 @@ sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 positio
                                   double half_angle, size_t first, size_t end, const uint8_t *known, sp_error *error);
 void sp_reach_destroy(sp_reach *reach);
 
-/* The closed-form flights from `from` to `to` at `speed` under `gravity`: unit directions and flight times, low arc
- * first. Returns 0, 1 or 2. A line (gravity zero) has one. */
-typedef struct {
-    sp_vec3 direction; /* unit, at the start */
-    sp_vec3 velocity;  /* on arrival, m/s */
-    double time;       /* s */
-    double spread; /* m³/s: transfer (1/m²) = |n · velocity| / spread; v r² for a line, v T √D for a parabola */
-} sp_flight;
-int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_flight flights[2]);
-/* How broad a square of this edge length (m) about the flight's end looks from where it starts at `speed` (m/s), at
- * most, however it is turned: by how much the flight's direction has to change for its end to move so far. Never more
- * than SP_BREADTH_MOST (rad): a patch that looks broader is cut into cells that do not, and the spray's edge is blurred
- * over them by as much, so that their shares still come to the region's solid angle. */
-#define SP_BREADTH_MOST 0.2
-double sp_flight_breadth(const sp_flight *flight, double speed, double length);
-/* True where nothing lies in the way of a flight that leaves `position` (m) at `speed` (m/s) for the patch's point. */
+/* True where nothing lies in the way of a flight without drag that leaves `position` (m) at `speed` (m/s) for the
+ * patch's point. */
 bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, double speed, const sp_flight *flight,
                               uint32_t patch);
 

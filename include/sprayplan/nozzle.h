@@ -22,6 +22,7 @@ typedef enum {
     SP_PATTERN_SOLID_STREAM,
     SP_PATTERN_CLUSTER,  /* several of these on one body */
     SP_PATTERN_ROTATING, /* one of the first four turned, averaged over time */
+    SP_PATTERN_MEASURED, /* an image of liquid per solid angle */
 } sp_pattern;
 
 /* How the jet of a rotating type turns. Its pattern is given about an axis of its own. That of one which turns about
@@ -30,7 +31,7 @@ typedef enum {
  * outwards from a hub that turns about an axis across the body's, gears[0]/gears[1] times for every turn of the body;
  * when it starts the first points along z, and the hub turns it towards x. */
 typedef struct {
-    sp_pattern jet;    /* any but SP_PATTERN_ROTATING; in a two-axis head a cone or stream no wider than 90 deg */
+    sp_pattern jet;    /* one of the first four; in a two-axis head a cone or stream no wider than 90 deg */
     double tilt, roll; /* rad, [0, π] and any; one axis only */
     unsigned jets;     /* 0: about one axis only */
     unsigned gears[2]; /* teeth, as follows; two axes only */
@@ -43,6 +44,19 @@ typedef struct {
     double viscosity;       /* Pa s */
     double surface_tension; /* N/m, of liquids */
 } sp_fluid;
+
+/* What a measured pattern sprays: liquid per solid angle by azimuth and polar angle, with all that follows from it. */
+typedef struct sp_patternation sp_patternation;
+#define SP_PATTERNATION_COLUMNS 4096 /* at most */
+#define SP_PATTERNATION_ROWS 1024    /* at most */
+/* values: [rows][columns], liquid per steradian in any measure, 0 or more and not all 0. Columns are azimuth, a full
+ * turn from the nozzle frame's x towards its y; rows polar angle, from the axis to half of `angle` (rad, full, 1e-6
+ * to 2π); each value is of its column's and row's middle. Between these it goes linearly with azimuth and with the
+ * polar angle's cosine; the axis has the mean of the first row, and the last row reaches to the edge. The values are
+ * copied. NULL on error, which says where a wrong value is. */
+sp_patternation *sp_patternation_create(const float *values, size_t columns, size_t rows, double angle,
+                                        sp_error *error);
+void sp_patternation_destroy(sp_patternation *patternation);
 
 /* A catalogue entry. Plain data; angles are full opening angles. */
 typedef struct {
@@ -63,6 +77,10 @@ typedef struct {
     char url[SP_URL];            /* of its page; "" where it has none, else as sp_is_url */
     size_t member_count;         /* clusters only, 1 to SP_MEMBERS */
     struct sp_member *members;   /* [member_count], owned by whoever made the type: of a scene's, the scene */
+    /* Measured types only, whose angle is their image's: borrowed, of a scene's types from the scene; and the file that
+     * it was read from, as the catalogue names it, "" for none. */
+    const sp_patternation *patternation;
+    char image[SP_URL];
 } sp_nozzle_type;
 
 #define SP_MEMBERS 1000 /* of a cluster at most */
@@ -133,13 +151,14 @@ size_t sp_nozzle_pattern_count(const sp_nozzle *nozzle);
  * the body's axis, without offset, that has all the flow is to the bit the plain nozzle. `up` as for sp_nozzle_frame.
  */
 void sp_nozzle_patterns(const sp_nozzle *nozzle, const sp_fluid *liquid, sp_vec3 up, sp_nozzle *patterns);
-/* False, with an error that names the type, of a cluster without members, with more than SP_MEMBERS, or with a member
- * that is a cluster or whose share is not above 0. */
+/* False, with an error that names the type, of a measured type without patternation, and of a cluster without members,
+ * with more than SP_MEMBERS, or with a member that is a cluster or not whole, or whose share is not above 0. */
 bool sp_type_is_whole(const sp_nozzle_type *type, sp_error *error);
 
-/* A pattern ready for use: liquid per solid angle, uniform inside its region unless it rotates. The region of each kind
- * is DESIGN §2's: cones by polar angle about z, fans by longitude atan2(x, z) and latitude asin(y), what rotates by the
- * polar angles about z that its jet comes to. The angles of what rotates are its jet's. */
+/* A pattern ready for use: liquid per solid angle, uniform inside its region unless it rotates or is measured. The
+ * region of each kind is DESIGN §2's: cones by polar angle about z, fans by longitude atan2(x, z) and latitude asin(y),
+ * what rotates by the polar angles about z that its jet comes to, what is measured by where there is any liquid. The
+ * angles of what rotates are its jet's. */
 typedef struct {
     sp_pattern kind;
     double inner, outer;               /* cones: polar angles, rad */
@@ -147,8 +166,9 @@ typedef struct {
     sp_pattern jet;                    /* what rotates: the pattern that turns */
     bool two_axes;                     /* what rotates: on a hub */
     sp_vec3 spindle;                   /* what rotates: the axis turned about, unit, in the jet's frame */
+    const sp_patternation *measured;   /* what is measured: borrowed from the type */
     double solid_angle;                /* sr; this and what follows come from the angles, see sp_spray_settle */
-    double low, high;                  /* what rotates: the polar angles about z between which it sprays, rad */
+    double low, high; /* what rotates or is measured: the polar angles about z between which it sprays, rad */
     double inner_chord2, outer_chord2; /* cones: squared chords from the axis to these angles; 4: no edge */
     double inner_sine, outer_sine;     /* of these angles, from the chords */
     double height, rise;               /* fans: sine and cosine of half_thickness */
@@ -157,21 +177,23 @@ typedef struct {
 sp_spray sp_spray_create(const sp_nozzle_type *type, double angle);
 /* Works out what follows from a pattern's kind and angles, after these were changed. */
 void sp_spray_settle(sp_spray *spray);
-/* True where the liquid is as dense all over the region: 1/solid_angle. That is the most there is of what rotates. */
+/* True where the liquid is as dense all over the region: 1/solid_angle. Of any other that is the most there is, also of
+ * means. */
 static inline bool sp_spray_is_uniform(const sp_spray *spray)
 {
-    return spray->kind != SP_PATTERN_ROTATING;
+    return spray->kind != SP_PATTERN_ROTATING && spray->kind != SP_PATTERN_MEASURED;
 }
 /* Share of the liquid per steradian (1/sr) in a unit direction of the nozzle's frame: 1/solid_angle inside, 0 outside.
  * Of what rotates the mean over time: about one axis that of its jet along the circle about the axis, in closed form;
  * of two-axis heads, whose gears run through all angles evenly, 1/(2π² sin ϑ) at the polar angle ϑ from the body's
- * axis, averaged over the jet's breadth. */
+ * axis, averaged over the jet's breadth. Of what is measured the image's, so that all directions together have 1. */
 double sp_spray_intensity(const sp_spray *spray, sp_vec3 direction);
 /* Signed angular distance (rad) from the direction to the region's edge, positive inside; its smooth counterpart for
- * refinement. */
+ * refinement. Of what is measured to the ring or cone about the axis that just holds the region, which may have gaps.
+ */
 double sp_spray_margin(const sp_spray *spray, sp_vec3 direction);
-/* Direction i of n, low-discrepancy and equal in area (Archimedes' map), unit, in the nozzle's frame. Deterministic in
- * (i, n, seed). */
+/* Direction i of n, low-discrepancy and equal in area (Archimedes' map) or, where the liquid is not even, in liquid;
+ * unit, in the nozzle's frame. Deterministic in (i, n, seed). */
 sp_vec3 sp_spray_direction(const sp_spray *spray, uint64_t i, uint64_t n, uint64_t seed);
 /* Half-angle (rad) of the smallest cone about z that holds the region. */
 double sp_spray_reach(const sp_spray *spray);
@@ -186,13 +208,14 @@ double sp_spray_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 dire
 /* Share of the liquid per steradian (1/sr), averaged over what is `breadth` (rad) broad about a unit direction of the
  * world, of which a part may lie outside of the region: sp_spray_share/solid_angle of uniform patterns. Of what rotates
  * it comes from differences of sp_spray_within over rings of about that breadth about the axis, so that no liquid is
- * lost however thin the jet. */
+ * lost however thin the jet. Of what is measured from its integral over squares on maps of equal area, whose bins are
+ * 1/256 of its angle or finer; what is less broad than these has the density of its middle. */
 double sp_spray_density(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth);
 /* Of what rotates: the share of the liquid, 0 to 1, that leaves within a polar angle (rad) of the axis turned about. */
 double sp_spray_within(const sp_spray *spray, double polar);
-/* Of what rotates: no less and no more than these leaves per steradian (1/sr) at any polar angle (rad) from one to
- * another. Close for cones and streams of less than 180 deg turned about one axis and for full ones on a hub, else 0
- * and 1/solid_angle. */
+/* Of what rotates or is measured: no less and no more than these leaves per steradian (1/sr) at any polar angle (rad)
+ * from one to another, nor of any mean over directions between them. Of what rotates close for cones and streams of
+ * less than 180 deg turned about one axis and for full ones on a hub, else 0 and 1/solid_angle. */
 void sp_spray_densities(const sp_spray *spray, double from, double to, double *least, double *most);
 /* Beyond so many rad outside of the region no patch of this breadth has a share. */
 double sp_spray_fringe(double breadth);

@@ -13,6 +13,7 @@
 #include <sprayplan/deviation.h>
 #include <sprayplan/error.h>
 #include <sprayplan/evaluator.h>
+#include <sprayplan/flight.h>
 #include <sprayplan/image.h>
 #include <sprayplan/mesh.h>
 #include <sprayplan/nozzle.h>

@@ -128,7 +128,7 @@ static void add_make(lining *l, uint32_t make)
     for (size_t i = 0; i < search->sites->count; i++) {
         uint32_t site = l->sites[i], mount = search->sites->items[site].mount;
         size_t poses = sp_candidates_axes(candidates, mount, make)->count * candidates->makes[make].roll_count;
-        if (!poses || search->port_taken[mount] || !sp_sweeper_knows(search, site, make))
+        if (!poses || search->port_taken[mount] || !sp_search_knows(search, site, make))
             continue;
         l->order->block_of[site * candidates->make_count + make] = l->order->block_count;
         add_block(l, (sp_pose_block){0, site, make}, l->ports[mount], poses);

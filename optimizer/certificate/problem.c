@@ -134,7 +134,7 @@ size_t sp_problem_poses(const sp_problem *p)
         for (size_t k = 0; k < search->candidates->make_count; k++) {
             uint32_t mount = search->sites->items[i].mount;
             const sp_make *make = &search->candidates->makes[k];
-            if (!search->port_taken[mount] && sp_sweeper_knows(search, (uint32_t)i, k))
+            if (!search->port_taken[mount] && sp_search_knows(search, (uint32_t)i, k))
                 count += sp_candidates_axes(search->candidates, mount, k)->count * make->roll_count;
         }
     return count;

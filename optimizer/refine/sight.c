@@ -162,7 +162,7 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
         if (moved) {
             if (!sp_sight_fly(search, sight, seen, nozzle->position, &flight, &transfer))
                 continue;
-            breadth = sp_flight_breadth(&flight, sight->speed, patches->length[seen->patch]);
+            breadth = sp_flight_breadth(&flight, patches->length[seen->patch]);
         }
         sp_field_add(&making, seen->patch, seen->passes, flight.direction, breadth, transfer, (float)seen->part);
     }

@@ -95,7 +95,7 @@ static bool lay_pattern(const sp_nozzle *nozzle, sum *s, sp_error *error)
                      .flow = sp_nozzle_flow(nozzle, &setup->liquid)};
     double speed = sp_nozzle_speed(nozzle, &setup->liquid),
            half_angle = fmin(M_PI, sp_spray_reach(&pattern.spray) + 1e-6);
-    sp_reach *reach = s->film
+    sp_reach *reach = search->all_feeds
                           ? sp_evaluator_reach(search->coarse, nozzle->position, speed, nozzle->axis, half_angle, error)
                           : sp_evaluator_reach_passing(search->coarse, nozzle->position, speed, nozzle->axis,
                                                        half_angle, NULL, error);

@@ -172,7 +172,7 @@ sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_dr
     return sp_sweeper_score(sweeper, pose.axis, pose.roll, least);
 }
 
-bool sp_sweeper_knows(const sp_search *search, uint32_t site, size_t make)
+bool sp_search_knows(const sp_search *search, uint32_t site, size_t make)
 {
     const sp_make *own = &search->candidates->makes[make];
     return sp_is_swept(own->type) ? sp_visibility_known(search->visibility, site, own->speed_class)

@@ -46,7 +46,7 @@ const float *sp_sweeper_field(const sp_sweeper *sweeper, uint32_t axis, uint32_t
 sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose, double least);
 
 /* False where what a make's poses at a site bring was left out for want of time. */
-bool sp_sweeper_knows(const sp_search *search, uint32_t site, size_t make);
+bool sp_search_knows(const sp_search *search, uint32_t site, size_t make);
 
 /* The region of a pose at the site that the sweeper looks at, of the make that it took. */
 sp_region sp_sweeper_region(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll);

@@ -1,10 +1,10 @@
-/* Image files: arguments are checked here, the module of OpenImageIO writes. */
+/* Image files: arguments are checked here, the module of OpenImageIO writes and reads. */
 #include <sprayplan/image.h>
 
-#include "image/oiio/writer.h"
+#include "image/oiio/files.h"
 #include "module/module.h"
 
-static const sp_image_writer *writer(sp_error *error)
+static const sp_image_files *files(sp_error *error)
 {
     static sp_module module = {.file = "sprayplan-images.so", .name = "sp_image_module_open"};
     __typeof__(sp_image_module_open) *open = (__typeof__(open))sp_module_open(&module, error);
@@ -22,13 +22,13 @@ static bool png_possible(const char *path, int width, int height, int channels, 
 
 bool sp_image_write_png(const char *path, const uint8_t *pixels, int width, int height, int channels, sp_error *error)
 {
-    const sp_image_writer *images = png_possible(path, width, height, channels, error) ? writer(error) : NULL;
+    const sp_image_files *images = png_possible(path, width, height, channels, error) ? files(error) : NULL;
     return images && images->write_png(path, pixels, width, height, channels, error);
 }
 
 uint8_t *sp_image_encode_png(const uint8_t *pixels, int width, int height, int channels, size_t *size, sp_error *error)
 {
-    const sp_image_writer *images = png_possible(NULL, width, height, channels, error) ? writer(error) : NULL;
+    const sp_image_files *images = png_possible(NULL, width, height, channels, error) ? files(error) : NULL;
     return images ? images->encode_png(pixels, width, height, channels, size, error) : NULL;
 }
 
@@ -43,6 +43,12 @@ bool sp_image_write_exr(const char *path, const sp_exr_part *parts, size_t count
             return sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0,
                            "part %s is %d x %d pixels, expected all parts to be of one size and not empty",
                            parts[i].name, parts[i].width, parts[i].height);
-    const sp_image_writer *images = writer(error);
+    const sp_image_files *images = files(error);
     return images && images->write_exr(path, parts, count, channel_names, channels, error);
+}
+
+float *sp_image_read(const char *path, int most_width, int most_height, int *width, int *height, sp_error *error)
+{
+    const sp_image_files *images = files(error);
+    return images ? images->read(path, most_width, most_height, width, height, error) : NULL;
 }

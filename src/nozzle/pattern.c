@@ -1,5 +1,6 @@
 /* Patterns: where about its axis a nozzle sprays. Regions of the unit sphere in the nozzle's frame, as in the 2008
  * study (3.1.2): polar angles about z for cones, longitude atan2(x, z) and latitude asin(y) for fans. */
+#include "patternation.h"
 #include "turned.h"
 
 #define THINNEST 1e-6 /* rad, half of a jet that turns: of thinner ones the solid angle is round-off in a cap's */
@@ -29,6 +30,8 @@ static double squared_chord(double angle)
 
 void sp_spray_settle(sp_spray *spray)
 {
+    if (spray->kind == SP_PATTERN_MEASURED) /* has no angles but its image's */
+        return;
     spray->height = sin(spray->half_thickness);
     spray->rise = cos(spray->half_thickness);
     spray->end_sine = sin(spray->half_width);
@@ -44,8 +47,19 @@ void sp_spray_settle(sp_spray *spray)
         sp_turned_settle(spray);
 }
 
+static sp_spray measured(const sp_patternation *patternation)
+{
+    return (sp_spray){.kind = SP_PATTERN_MEASURED,
+                      .measured = patternation,
+                      .solid_angle = 1 / patternation->densest,
+                      .low = patternation->low,
+                      .high = patternation->high};
+}
+
 sp_spray sp_spray_create(const sp_nozzle_type *type, double angle)
 {
+    if (type->pattern == SP_PATTERN_MEASURED)
+        return measured(type->patternation);
     sp_spray spray = {.kind = type->pattern};
     sp_pattern pattern = type->pattern;
     if (pattern == SP_PATTERN_ROTATING) {
@@ -79,7 +93,17 @@ double sp_spray_intensity(const sp_spray *spray, sp_vec3 direction)
 {
     if (spray->kind == SP_PATTERN_ROTATING)
         return sp_turned_density(spray, polar_angle(direction));
+    if (spray->kind == SP_PATTERN_MEASURED)
+        return sp_patternation_at(spray->measured, direction);
     return inside(spray, direction) ? 1 / spray->solid_angle : 0;
+}
+
+void sp_spray_densities(const sp_spray *spray, double from, double to, double *least, double *most)
+{
+    if (spray->kind == SP_PATTERN_MEASURED)
+        sp_patternation_densities(spray->measured, from, to, least, most);
+    else
+        sp_turned_densities(spray, from, to, least, most);
 }
 
 /* A region without an edge keeps every direction as far inside as can be: π. */
@@ -120,14 +144,14 @@ static double ring_margin(const sp_spray *spray, sp_vec3 d)
 
 double sp_spray_margin(const sp_spray *spray, sp_vec3 direction)
 {
-    if (spray->kind == SP_PATTERN_ROTATING)
+    if (!sp_spray_is_uniform(spray))
         return ring_margin(spray, direction);
     return spray->kind == SP_PATTERN_FLAT_FAN ? fan_margin(spray, direction) : cone_margin(spray, direction);
 }
 
 double sp_spray_reach(const sp_spray *spray)
 {
-    if (spray->kind == SP_PATTERN_ROTATING)
+    if (!sp_spray_is_uniform(spray))
         return spray->high;
     if (spray->kind != SP_PATTERN_FLAT_FAN)
         return spray->outer;

@@ -1,5 +1,6 @@
 /* Directions of a pattern's jets: Archimedes' map (the 2008 study, 3.1.2) from a rectangle to the sphere keeps areas,
  * so points spread evenly over the rectangle are spread evenly over the pattern. */
+#include "patternation.h"
 #include "scramble.h"
 #include "turned.h"
 
@@ -21,6 +22,8 @@ sp_vec3 sp_spray_direction(const sp_spray *spray, uint64_t i, uint64_t n, uint64
         double polar = sp_turned_polar(spray, u), azimuth = 2 * M_PI * w;
         return sp_v(sin(polar) * cos(azimuth), sin(polar) * sin(azimuth), cos(polar));
     }
+    if (spray->kind == SP_PATTERN_MEASURED)
+        return sp_patternation_direction(spray->measured, u, w);
     if (spray->kind == SP_PATTERN_FLAT_FAN) {
         double longitude = (2 * u - 1) * spray->half_width;
         double y = (2 * w - 1) * sin(spray->half_thickness);

@@ -4,6 +4,7 @@
  * over patches side by side the shares come to the region's own solid angle, however thin it is; a plain test of the
  * points would let it fall between them. */
 #include "caps.h"
+#include "patternation.h"
 #include "turned.h"
 
 #define FINEST 1e-6    /* rad, of a breadth: the liquid of a thinner ring is round-off, and its middle tells as much */
@@ -88,8 +89,16 @@ static double ring_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 d
     return share;
 }
 
+static sp_held mean_of(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)
+{
+    sp_vec3 own = sp_v(sp_dot(direction, frame->x), sp_dot(direction, frame->y), sp_dot(direction, frame->z));
+    return sp_patternation_mean(spray->measured, own, breadth);
+}
+
 double sp_spray_density(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)
 {
+    if (spray->kind == SP_PATTERN_MEASURED)
+        return mean_of(spray, frame, direction, breadth).liquid;
     if (spray->kind != SP_PATTERN_ROTATING)
         return sp_spray_share(spray, frame, direction, breadth) / spray->solid_angle;
     double polar = polar_angle(frame, direction), density = 0;
@@ -107,6 +116,7 @@ double sp_spray_density(const sp_spray *spray, const sp_frame *frame, sp_vec3 di
 double sp_spray_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth)
 {
     double share = spray->kind == SP_PATTERN_ROTATING   ? ring_share(spray, frame, direction, breadth)
+                   : spray->kind == SP_PATTERN_MEASURED ? mean_of(spray, frame, direction, breadth).wet
                    : spray->kind == SP_PATTERN_FLAT_FAN ? fan_share(spray, frame, direction, breadth)
                                                         : cone_share(spray, frame, direction, breadth);
     return share > 1 - ROUND_OFF ? 1 : fmax(0, share);

@@ -94,7 +94,7 @@ static double densest(const sp_spray *spray)
     return acos(fmax(-1, fmin(1, cos(tilt_of(spray)) / cos(spray->outer))));
 }
 
-void sp_spray_densities(const sp_spray *spray, double from, double to, double *least, double *most)
+void sp_turned_densities(const sp_spray *spray, double from, double to, double *least, double *most)
 {
     bool narrow = spray->jet != SP_PATTERN_FLAT_FAN && !(spray->inner > 0) && spray->outer < 0.499 * M_PI;
     *least = 0;

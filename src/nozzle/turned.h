@@ -11,6 +11,8 @@ sp_spray sp_turned_jet(const sp_spray *spray);
 void sp_turned_settle(sp_spray *spray);
 /* Share of the liquid per steradian at a polar angle, 1/sr. */
 double sp_turned_density(const sp_spray *spray, double polar);
+/* As sp_spray_densities. */
+void sp_turned_densities(const sp_spray *spray, double from, double to, double *least, double *most);
 /* The polar angle within which this share of the liquid leaves. */
 double sp_turned_polar(const sp_spray *spray, double share);
 /* The polar angles, low and high, of what is `breadth` broad about a direction at a polar angle: a ring or, less than

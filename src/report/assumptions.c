@@ -42,15 +42,26 @@ static void add_flight(sp_text *text, const sp_evaluator *evaluator)
     add_item(text, "Flight");
     if (fidelity->trajectory == SP_TRAJECTORY_LINE)
         sp_text_add(text, "straight lines: gravity and air are neglected");
+    else if (fidelity->trajectory == SP_TRAJECTORY_DRAG)
+        sp_text_add(
+            text,
+            "single drops of the catalogue&#39;s diameters under gravity of %.4g&nbsp;m/s\xc2\xb2, held back by "
+            "air at rest (%.4g&nbsp;kg/m\xc2\xb3, %.4g&nbsp;&micro;Pa&thinsp;s; drag of spheres by Haider and "
+            "Levenspiel); solid streams fly free until they break up, 5&thinsp;We<sup>0.378</sup> diameters "
+            "away. This is the <strong>far end of a bracket</strong>: a spray carries air along and its drops "
+            "fly farther and faster than single ones, up to what parabolas without drag say",
+            setup->gravity, setup->air.density, 1e6 * setup->air.viscosity);
     else
         sp_text_add(text, "parabolas under gravity of %.4g&nbsp;m/s\xc2\xb2; the drag of air is neglected",
                     setup->gravity);
     sp_text_add(text, "</dd>\n");
     add_item(text, "Evaluator");
     if (fidelity->method == SP_METHOD_INVERSE)
-        sp_text_add(
-            text, "inverse: for every patch of surface the flights that reach it in closed form; first impact only, no "
-                  "liquid flies on from a wall");
+        sp_text_add(text,
+                    "inverse: for every patch of surface the flights that reach it %s; first impact only, no liquid "
+                    "flies on from a wall",
+                    fidelity->trajectory == SP_TRAJECTORY_DRAG ? "from a table of all that leave, made exact"
+                                                               : "in closed form");
     else
         sp_text_add(text, "forward: %llu jets a nozzle, up to %d reflection%s", (unsigned long long)fidelity->jets,
                     fidelity->reflections, fidelity->reflections == 1 ? "" : "s");
@@ -135,16 +146,6 @@ static void add_criterion(sp_text *text, const sp_setup *setup)
     sp_text_add(text, "</dd>\n");
 }
 
-/* Whether any nozzle of the designs on an evaluator does. */
-static bool rotates(const sp_result *result, const sp_evaluator *evaluator)
-{
-    for (size_t i = 0; i < result->design_count; ++i)
-        for (size_t k = 0; result->designs[i].evaluator == evaluator && k < result->designs[i].layout->count; ++k)
-            if (result->designs[i].layout->nozzles[k].type->pattern == SP_PATTERN_ROTATING)
-                return true;
-    return false;
-}
-
 /* Goods that pass by. */
 static void add_sweep(sp_text *text, const sp_evaluator *evaluator)
 {
@@ -162,8 +163,9 @@ static void add_sweep(sp_text *text, const sp_evaluator *evaluator)
         sp_distance(sweep->from, sweep->to), sweep->speed, sp_sweep_duration(sweep), sp_evaluator_positions(evaluator));
 }
 
-static void add_scene(sp_text *text, const sp_setup *setup, bool rotating)
+static void add_scene(const sp_page *page, sp_text *text, const sp_evaluator *evaluator)
 {
+    const sp_setup *setup = sp_evaluator_setup(evaluator);
     static const char *const cavities[] = {
         "not named: every surface counts once and takes liquid from either side",
         "the space seen from a point inside: only sides that face it are cleaned and counted",
@@ -173,12 +175,9 @@ static void add_scene(sp_text *text, const sp_setup *setup, bool rotating)
                 1e3 * setup->liquid.viscosity);
     add_item(text, "Nozzles");
     sp_text_add(text,
-                "flow by the catalogue&#39;s point and exponent, exit speed from the pressure drop (Bernoulli), liquid "
-                "spread evenly over the spray angle%s</dd>\n",
-                rotating
-                    ? "; of those that rotate the mean over time, which is what every flux and film here is: while "
-                      "the jet passes there is more, and then none"
-                    : "");
+                "flow by the catalogue&#39;s point and exponent, exit speed from the pressure drop (Bernoulli), ");
+    sp_page_spread(text, page->result, evaluator);
+    sp_text_add(text, "</dd>\n");
     add_item(text, "Cavity");
     sp_text_add(text, "%s</dd>\n", cavities[setup->cavity]);
 }
@@ -233,7 +232,7 @@ void sp_page_assumptions(const sp_page *page, sp_text *text)
         add_flight(text, evaluator);
         add_choice(text, evaluator);
         add_errors(page, text, evaluator);
-        add_scene(text, sp_evaluator_setup(evaluator), rotates(page->result, evaluator));
+        add_scene(page, text, evaluator);
         if (page->result->proposal)
             add_search(text, page->result->proposal);
         sp_text_add(text, "</dl>\n");

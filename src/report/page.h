@@ -54,6 +54,8 @@ void sp_page_figures(const sp_page *page, sp_text *text);
 void sp_page_nozzles(const sp_page *page, sp_text *text);
 void sp_page_shadows(const sp_page *page, sp_text *text);
 void sp_page_stages(const sp_page *page, sp_text *text);
+/* spread.c: how liquid leaves the nozzles of the designs on an evaluator, within a sentence. */
+void sp_page_spread(sp_text *text, const sp_result *result, const sp_evaluator *evaluator);
 /* assumptions.c: physics, fidelity, criteria, liquid. */
 void sp_page_assumptions(const sp_page *page, sp_text *text);
 

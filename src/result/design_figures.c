@@ -13,7 +13,9 @@ static void set_geometry_and_fidelity(sp_figures *figures, const sp_evaluator *e
     figures->triangles = mesh->triangle_count;
     figures->area = sp_mesh_area(mesh);
     figures->clean_area = sp_evaluator_patches(evaluator)->total_area;
-    strcpy(figures->trajectory, fidelity->trajectory == SP_TRAJECTORY_LINE ? "line" : "parabola");
+    strcpy(figures->trajectory, fidelity->trajectory == SP_TRAJECTORY_LINE   ? "line"
+                                : fidelity->trajectory == SP_TRAJECTORY_DRAG ? "drag"
+                                                                             : "parabola");
     strcpy(figures->evaluator, inverse ? "inverse" : "forward");
     figures->reflections = fidelity->reflections < 0 ? SP_UNKNOWN : (size_t)fidelity->reflections;
     figures->jets = inverse ? SP_UNKNOWN : fidelity->jets;

@@ -91,7 +91,7 @@ static bool get_text(const reader *in, const json_t *object, const char *key, ch
     return *value || sp_fail_memory(in->error);
 }
 
-static bool get_choice(const reader *in, const json_t *object, const char *key, const char *first, const char *second,
+static bool get_choice(const reader *in, const json_t *object, const char *key, const char *const choices[3],
                        char value[16])
 {
     const json_t *found = json_object_get(object, key);
@@ -99,12 +99,15 @@ static bool get_choice(const reader *in, const json_t *object, const char *key, 
     value[0] = 0;
     if (!found)
         return true;
+    for (int i = 0; text && i < 3 && choices[i]; i++)
+        if (strcmp(text, choices[i]) == 0) {
+            snprintf(value, 16, "%s", text);
+            return true;
+        }
     char expected[64];
-    snprintf(expected, sizeof expected, "\"%s\" or \"%s\"", first, second);
-    if (!text || (strcmp(text, first) != 0 && strcmp(text, second) != 0))
-        return wrong(in, key, found, expected);
-    snprintf(value, 16, "%s", text);
-    return true;
+    snprintf(expected, sizeof expected, choices[2] ? "\"%s\", \"%s\" or \"%s\"" : "\"%s\" or \"%s\"", choices[0],
+             choices[1], choices[2]);
+    return wrong(in, key, found, expected);
 }
 
 static bool get_vector(const reader *in, const json_t *object, const char *key, sp_vec3 *value)
@@ -203,8 +206,10 @@ static bool read_geometry(const reader *in, const json_t *geometry, sp_figures *
 
 static bool read_fidelity(const reader *in, const json_t *fidelity, sp_figures *figures)
 {
-    return get_choice(in, fidelity, "trajectory", "line", "parabola", figures->trajectory) &&
-           get_choice(in, fidelity, "evaluator", "forward", "inverse", figures->evaluator) &&
+    static const char *const trajectories[3] = {"line", "parabola", "drag"}, *const evaluators[3] = {"forward",
+                                                                                                     "inverse"};
+    return get_choice(in, fidelity, "trajectory", trajectories, figures->trajectory) &&
+           get_choice(in, fidelity, "evaluator", evaluators, figures->evaluator) &&
            get_count(in, fidelity, "reflections", &figures->reflections) &&
            get_count(in, fidelity, "jets_per_nozzle", &figures->jets) &&
            get_count(in, fidelity, "jets_wanted_per_nozzle", &figures->jets_wanted) &&

@@ -6,23 +6,11 @@
 #include <string.h>
 
 static const char *const pattern_names[] = {"full_cone", "hollow_cone", "flat_fan", "solid_stream",
-                                            "cluster",   "rotating",    NULL};
+                                            "cluster",   "rotating",    "measured", NULL};
 
 bool sp_scene_read_pattern(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
-    static const char *const later[] = {"measured"};
-    static const char *const later_keys[] = {"image"};
-    const sp_yaml *name = sp_yaml_get(node, "pattern");
     int pattern = 0;
-    for (size_t i = 0; i < sizeof later / sizeof *later; i++)
-        if (sp_text_is(name, later[i]))
-            return sp_read_unsupported(reader, name, "pattern",
-                                       "full_cone, hollow_cone, flat_fan, solid_stream, cluster or rotating");
-    for (size_t i = 0; i < sizeof later_keys / sizeof *later_keys; i++) {
-        const sp_yaml *child = sp_yaml_get(node, later_keys[i]);
-        if (child)
-            return sp_read_unsupported(reader, child, later_keys[i], "a type without this key");
-    }
     if (!sp_read_choice(reader, node, "pattern", pattern_names, &pattern))
         return false;
     type->pattern = (sp_pattern)pattern;
@@ -67,9 +55,12 @@ static bool read_adjustable(const sp_reader *reader, const sp_yaml *node, const 
 
 static bool read_turning(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
 
-/* A cluster has the angles of its members. */
+/* A cluster has the angles of its members, and an image was measured at one. */
 static bool check_angles(const sp_reader *reader, const sp_yaml *node, const sp_nozzle_type *type)
 {
+    const sp_yaml *range = sp_yaml_get(node, "angle_range");
+    if (type->pattern == SP_PATTERN_MEASURED && range)
+        return sp_read_message(reader, range, "angle_range", "found in a measured, expected in another pattern only");
     static const char *const angles[] = {"angle", "angle_range"};
     for (int i = 0; i < 2 && type->pattern == SP_PATTERN_CLUSTER; i++) {
         const sp_yaml *child = sp_yaml_get(node, angles[i]);
@@ -96,6 +87,7 @@ bool sp_scene_read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle
         !check_pattern_key(reader, node, type, "hollow", SP_PATTERN_HOLLOW_CONE) ||
         !check_pattern_key(reader, node, type, "thickness", SP_PATTERN_FLAT_FAN) ||
         !check_pattern_key(reader, node, type, "members", SP_PATTERN_CLUSTER) ||
+        !check_pattern_key(reader, node, type, "image", SP_PATTERN_MEASURED) ||
         !sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_above_to(0, 2 * pi), &type->angle) ||
         !sp_read_quantity(reader, node, "hollow", &sp_share_unit, sp_from_below(0, 1), &type->hollow) ||
         !sp_read_quantity(reader, node, "thickness", &sp_angle_unit, sp_above_to(0, pi), &type->thickness) ||
@@ -115,7 +107,7 @@ static bool read_jet(const sp_reader *reader, const sp_yaml *node, sp_nozzle_typ
     sp_rotation *rotation = &type->rotation;
     sp_nozzle_type jet = {0};
     const sp_yaml *pattern = sp_yaml_get(node, "pattern");
-    if (sp_text_is(pattern, "rotating") || sp_text_is(pattern, "cluster"))
+    if (sp_text_is(pattern, "rotating") || sp_text_is(pattern, "cluster") || sp_text_is(pattern, "measured"))
         return sp_read_fail(reader, pattern, "pattern", "full_cone, hollow_cone, flat_fan or solid_stream in a jet");
     if ((node->kind == SP_YAML_MAP && !sp_scene_read_pattern(reader, node, &jet)) ||
         !sp_read_keys(reader, node, "jet", "a jet", keys) || !sp_scene_read_shape(reader, node, &jet) ||
@@ -142,6 +134,7 @@ static bool read_turning(const sp_reader *reader, const sp_yaml *node, sp_nozzle
                                          : "found in a rotating, expected in another pattern only");
     }
     if (!check_pattern_key(reader, node, type, "members", SP_PATTERN_CLUSTER) ||
+        !check_pattern_key(reader, node, type, "image", SP_PATTERN_MEASURED) ||
         !check_pattern_key(reader, node, type, "rotation", SP_PATTERN_ROTATING))
         return false;
     const sp_yaml *rotation = sp_yaml_get(node, "rotation");
@@ -180,7 +173,7 @@ static bool read_source(const sp_reader *reader, const sp_yaml *node, sp_nozzle_
     return sp_is_url(text) || sp_read_fail(reader, child, "url", "%s", expected);
 }
 
-static bool read_type(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+static bool read_type(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
     static const sp_key keys[] = {
         {"name", true},         {"pattern", true},     {"angle", false},      {"hollow", false}, {"thickness", false},
@@ -188,12 +181,12 @@ static bool read_type(const sp_reader *reader, const sp_yaml *node, sp_nozzle_ty
         {"angle_range", false}, {"flow_range", false}, {"order_code", false}, {"url", false},    {"image", false},
         {"members", false},     {"rotation", false},   {NULL, false}};
     *type = (sp_nozzle_type){0};
-    /* What is not built yet is said before what such a type may lack. */
+    /* Which keys belong to it depends on its pattern. */
     return (node->kind != SP_YAML_MAP || sp_scene_read_pattern(reader, node, type)) &&
            sp_read_keys(reader, node, "nozzles", "a catalogue type", keys) &&
            sp_read_name(reader, node, "name", type->name) && sp_scene_read_shape(reader, node, type) &&
            read_flow(reader, node, type) && read_source(reader, node, type) &&
-           sp_scene_read_members(reader, node, type);
+           sp_scene_read_image(scene, reader, node, type) && sp_scene_read_members(scene, reader, node, type);
 }
 
 static bool read_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *list)
@@ -209,7 +202,7 @@ static bool read_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *
     for (const sp_yaml *node = list->first; node; node = node->next) {
         /* Counted even when it fails: its members are then freed with the others'. */
         sp_nozzle_type *type = &scene->types[scene->type_count++];
-        if (!read_type(reader, node, type))
+        if (!read_type(scene, reader, node, type))
             return false;
         for (size_t i = 0; i + 1 < scene->type_count; i++)
             if (strcmp(scene->types[i].name, type->name) == 0)
@@ -224,7 +217,7 @@ bool sp_scene_read_catalogue(sp_scene *scene, const sp_reader *reader)
     const sp_yaml *node = sp_yaml_get(scene->tree, "catalogue");
     if (!node)
         return true;
-    char *path = sp_scene_file(scene, reader, node, "catalogue");
+    char *path = sp_scene_file(scene->directory, "the scene", reader, node, "catalogue");
     sp_yaml *tree = path ? sp_yaml_load(path, reader->error) : NULL;
     bool good = tree && sp_read_keys(reader, tree, "catalogue", "a catalogue", keys) &&
                 read_types(scene, reader, sp_yaml_get(tree, "nozzles"));

@@ -26,18 +26,19 @@ static bool read_ring(const sp_reader *reader, const sp_yaml *node, ring *ring)
            sp_read_quantity(reader, map, "phase", &sp_angle_unit, sp_any(), &ring->phase);
 }
 
-static bool read_member(const sp_reader *reader, const sp_yaml *node, sp_member *member, ring *ring)
+static bool read_member(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_member *member, ring *ring)
 {
     static const sp_key keys[] = {{"pattern", true}, {"angle", false},  {"hollow", false}, {"thickness", false},
                                   {"axis", false},   {"offset", false}, {"roll", false},   {"share", false},
-                                  {"ring", false},   {NULL, false}};
+                                  {"ring", false},   {"image", false},  {NULL, false}};
     if (!sp_read_keys(reader, node, "members", "a member of a cluster", keys))
         return false;
     const sp_yaml *pattern = sp_yaml_get(node, "pattern");
     if (sp_text_is(pattern, "cluster") || sp_text_is(pattern, "rotating"))
         return sp_read_fail(reader, pattern, "pattern",
-                            "full_cone, hollow_cone, flat_fan or solid_stream in a cluster");
+                            "full_cone, hollow_cone, flat_fan, solid_stream or measured in a cluster");
     return sp_scene_read_pattern(reader, node, &member->type) && sp_scene_read_shape(reader, node, &member->type) &&
+           sp_scene_read_image(scene, reader, node, &member->type) &&
            sp_read_axis(reader, node, "axis", &member->axis) &&
            sp_read_vector(reader, node, "offset", &sp_length_unit, &member->offset) &&
            sp_read_quantity(reader, node, "roll", &sp_angle_unit, sp_any(), &member->roll) &&
@@ -53,11 +54,11 @@ static void drill(const ring *ring, uint64_t i, sp_member *member)
     member->offset = sp_along(member->offset, ring->radius, member->axis);
 }
 
-static bool add_members(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+static bool add_members(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
     sp_member member = {.axis = {0, 0, 1}, .share = 1};
     ring ring = {.count = 0};
-    if (!read_member(reader, node, &member, &ring))
+    if (!read_member(scene, reader, node, &member, &ring))
         return false;
     size_t count = ring.count ? (size_t)ring.count : 1;
     if (type->member_count + count > SP_MEMBERS)
@@ -68,6 +69,7 @@ static bool add_members(const sp_reader *reader, const sp_yaml *node, sp_nozzle_
         return sp_fail_memory(reader->error);
     type->members = members;
     memcpy(member.type.name, type->name, sizeof member.type.name);
+    member.type.drop = type->drop;
     for (size_t i = 0; i < count; i++) {
         members[type->member_count] = member;
         if (ring.count)
@@ -77,7 +79,7 @@ static bool add_members(const sp_reader *reader, const sp_yaml *node, sp_nozzle_
     return true;
 }
 
-bool sp_scene_read_members(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+bool sp_scene_read_members(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
     const sp_yaml *list = sp_yaml_get(node, "members");
     if (type->pattern != SP_PATTERN_CLUSTER)
@@ -86,7 +88,7 @@ bool sp_scene_read_members(const sp_reader *reader, const sp_yaml *node, sp_nozz
         return sp_read_fail(reader, list, "members",
                             "a list of patterns such as [{pattern: solid_stream, axis: [0, 0, 1]}, ...]");
     for (const sp_yaml *child = list->first; child; child = child->next)
-        if (!add_members(reader, child, type))
+        if (!add_members(scene, reader, child, type))
             return false;
     return true;
 }

@@ -90,7 +90,7 @@ static sp_mesh *load_piece(const sp_scene *scene, const sp_reader *reader, const
     const sp_yaml *file = sp_yaml_get(node, "file");
     if (!check_extension(reader, file))
         return NULL;
-    char *path = sp_scene_file(scene, reader, file, "file");
+    char *path = sp_scene_file(scene->directory, "the scene", reader, file, "file");
     sp_mesh *mesh = path ? sp_mesh_load(path, p->unit, reader->error) : NULL;
     free(path);
     return mesh;

@@ -33,20 +33,21 @@ char *sp_path_directory(const char *path, sp_error *error)
     return directory;
 }
 
-char *sp_scene_file(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, const char *key)
+char *sp_scene_file(const char *directory, const char *owner, const sp_reader *reader, const sp_yaml *node,
+                    const char *key)
 {
     const char *name = sp_read_text(reader, node, key, "the path of a file");
-    char *path = name ? sp_path_join(scene->directory, name, reader->error) : NULL;
+    char *path = name ? sp_path_join(directory, name, reader->error) : NULL;
     struct stat status;
     if (!path)
         return NULL;
     if (stat(path, &status) != 0)
         sp_fail(reader->error, SP_ERROR_INPUT, node->file, node->line, node->column,
-                "%s: found '%.300s', which cannot be opened (%s), expected a file, relative to the scene", key, name,
-                strerror(errno));
+                "%s: found '%.300s', which cannot be opened (%s), expected a file, relative to %s", key, name,
+                strerror(errno), owner);
     else if (!S_ISREG(status.st_mode))
         sp_fail(reader->error, SP_ERROR_INPUT, node->file, node->line, node->column,
-                "%s: found '%.300s', which is no regular file, expected a file, relative to the scene", key, name);
+                "%s: found '%.300s', which is no regular file, expected a file, relative to %s", key, name, owner);
     else
         return path;
     free(path);

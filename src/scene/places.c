@@ -5,10 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* All but the images of its catalogue. */
+static size_t named_files(const sp_scene *scene)
+{
+    return 1 + sp_yaml_get(scene->tree, "geometry")->count + (sp_yaml_get(scene->tree, "catalogue") != NULL);
+}
+
 size_t sp_scene_file_count(const sp_scene *scene)
 {
-    return scene ? 1 + sp_yaml_get(scene->tree, "geometry")->count + (sp_yaml_get(scene->tree, "catalogue") != NULL)
-                 : 0;
+    return scene ? named_files(scene) + scene->image_count : 0;
 }
 
 char *sp_scene_file_path(const sp_scene *scene, size_t index, sp_error *error)
@@ -17,8 +22,11 @@ char *sp_scene_file_path(const sp_scene *scene, size_t index, sp_error *error)
         sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "a scene has no file %zu", index);
         return NULL;
     }
-    if (index == 0) {
-        char *path = strdup(scene->path);
+    const char *known = index == 0                    ? scene->path
+                        : index >= named_files(scene) ? scene->images[index - named_files(scene)].path
+                                                      : NULL;
+    if (known) {
+        char *path = strdup(known);
         return path ? path : sp_fail_memory(error);
     }
     const sp_yaml *geometry = sp_yaml_get(scene->tree, "geometry")->first;

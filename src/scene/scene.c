@@ -84,6 +84,11 @@ void sp_scene_destroy(sp_scene *scene)
     for (size_t i = 0; i < scene->type_count; i++)
         free(scene->types[i].members);
     free(scene->types);
+    for (size_t i = 0; i < scene->image_count; i++) {
+        free(scene->images[i].path);
+        sp_patternation_destroy(scene->images[i].patternation);
+    }
+    free(scene->images);
     free(scene->caps);
     sp_mesh_destroy(scene->mesh);
     free(scene->surfaces);

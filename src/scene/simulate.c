@@ -6,19 +6,6 @@ static bool is_auto(const sp_yaml *map, const char *key)
     return sp_text_is(sp_yaml_get(map, key), "auto");
 }
 
-static bool read_trajectory(const sp_reader *reader, const sp_yaml *node, sp_fidelity *fidelity)
-{
-    static const char *const names[] = {"auto", "line", "parabola", NULL};
-    const sp_yaml *child = sp_yaml_get(node, "trajectory");
-    int found = 0;
-    if (sp_text_is(child, "drag"))
-        return sp_read_unsupported(reader, child, "trajectory", "auto, line or parabola");
-    if (!sp_read_choice(reader, node, "trajectory", names, &found))
-        return false;
-    fidelity->trajectory = (sp_trajectory)found;
-    return true;
-}
-
 /* Whole numbers and lengths that may also be auto, which the defaults are already. */
 static bool read_sizes(const sp_reader *reader, const sp_yaml *node, sp_fidelity *fidelity)
 {
@@ -39,19 +26,22 @@ bool sp_scene_read_simulate(sp_scene *scene, const sp_reader *reader)
     static const sp_key keys[] = {{"trajectory", false}, {"evaluator", false}, {"reflections", false},
                                   {"jets", false},       {"texel", false},     {"splat", false},
                                   {"accuracy", false},   {"seed", false},      {NULL, false}};
+    static const char *const trajectories[] = {"auto", "line", "parabola", "drag", NULL};
     static const char *const methods[] = {"auto", "forward", "inverse", NULL};
     static const char *const splats[] = {"nearest", "linear", NULL};
     const sp_yaml *node = sp_yaml_get(scene->tree, "simulate");
     sp_fidelity *fidelity = &scene->setup.fidelity;
-    int method = fidelity->method, splat = fidelity->splat;
+    int trajectory = fidelity->trajectory, method = fidelity->method, splat = fidelity->splat;
     if (!node)
         return true;
-    if (!sp_read_keys(reader, node, "simulate", "the simulation", keys) || !read_trajectory(reader, node, fidelity) ||
+    if (!sp_read_keys(reader, node, "simulate", "the simulation", keys) ||
+        !sp_read_choice(reader, node, "trajectory", trajectories, &trajectory) ||
         !sp_read_choice(reader, node, "evaluator", methods, &method) || !read_sizes(reader, node, fidelity) ||
         !sp_read_choice(reader, node, "splat", splats, &splat) ||
         !sp_read_quantity(reader, node, "accuracy", &sp_share_unit, sp_above_to(0, 1), &fidelity->accuracy) ||
         !sp_read_count(reader, node, "seed", 0, UINT64_MAX, &fidelity->seed))
         return false;
+    fidelity->trajectory = (sp_trajectory)trajectory;
     fidelity->method = (sp_method)method;
     fidelity->splat = (sp_splat)splat;
     return true;

@@ -9,6 +9,13 @@
 enum { SP_MAX_ITEMS = 10000 }; /* of nozzles, types, mounts, geometry files */
 #define SP_MAX_JETS UINT64_C(1000000000000)
 
+/* An image of the catalogue's types. */
+typedef struct {
+    char *path; /* seen from the working directory */
+    double angle;
+    sp_patternation *patternation;
+} sp_scene_image;
+
 struct sp_scene {
     char *path;
     char *directory; /* that holds the scene, "." where the path names none */
@@ -19,6 +26,8 @@ struct sp_scene {
     double dose;          /* m³/m², of the criterion; 0: none */
     size_t type_count;
     sp_nozzle_type *types;
+    size_t image_count;
+    sp_scene_image *images; /* [image_count], what types borrow */
     sp_setup setup;
     sp_layout *layout;
     sp_place_options place;
@@ -50,8 +59,10 @@ bool sp_scene_read_pattern(const sp_reader *reader, const sp_yaml *node, sp_nozz
 bool sp_scene_read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
 /* flow_points.c: flow, pressure and exponent of a catalogue type. */
 bool sp_scene_read_flow(const sp_reader *reader, const sp_yaml *map, sp_nozzle_type *type);
+/* patternation.c: the image of a measured type, whose angle has been read, into the scene. */
+bool sp_scene_read_image(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
 /* cluster.c: the members of a cluster, malloc'd into type->members, also where it fails. */
-bool sp_scene_read_members(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
+bool sp_scene_read_members(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
 /* The catalogue's type of that name; NULL with an error at `node`. */
 const sp_nozzle_type *sp_scene_find_type(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node,
                                          const char *key);
@@ -66,7 +77,9 @@ char *sp_path_join(const char *directory, const char *file, sp_error *error);
 char *sp_path_directory(const char *path, sp_error *error);
 /* `path` (seen from the working directory) as seen from `directory`, which need not exist yet. Malloc'd. */
 char *sp_path_relative(const char *path, const char *directory, sp_error *error);
-/* A file named under `key` exists and can be opened. Returns its path as sp_path_join does, NULL with an error. */
-char *sp_scene_file(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, const char *key);
+/* A file named under `key`, relative to a directory, that of `owner` ("the scene"), exists and can be opened. Returns
+ * its path as sp_path_join does, NULL with an error. */
+char *sp_scene_file(const char *directory, const char *owner, const sp_reader *reader, const sp_yaml *node,
+                    const char *key);
 
 #endif

@@ -93,7 +93,7 @@ static sp_yaml *nozzles_node(writer *w, const sp_layout *layout, const sp_setup 
 static const char *trajectory_text(const sp_fidelity *asked, const sp_fidelity *fidelity)
 {
     if (fidelity->trajectory != SP_TRAJECTORY_LINE)
-        return "parabola";
+        return fidelity->trajectory == SP_TRAJECTORY_DRAG ? "drag" : "parabola";
     return asked->trajectory == SP_TRAJECTORY_AUTO ? "auto" : "line";
 }
 

@@ -1,9 +1,17 @@
 /* How liquid arrives: from which side, how fast, how steeply, how densely, and whether the way is free. */
 #include "arrival.h"
 
+#include "spray/drag/chain.h"
+
 /* Share of a flight's time at either end in which nothing blocks it: the surface that it leaves or meets lies there,
  * and which of two triangles at an edge that is belongs to round-off. */
 static const double ends = 1e-7;
+
+int sp_source_flights(const sp_source *source, sp_vec3 to, sp_flight flights[2])
+{
+    return source->fronts ? sp_fronts_flights(source->fronts, source->position, to, flights)
+                          : sp_flights(source->position, to, source->speed, source->evaluator->gravity, flights);
+}
 
 sp_target sp_patch_target(const sp_evaluator *evaluator, uint32_t patch)
 {
@@ -40,28 +48,62 @@ sp_ray sp_flight_ray(const sp_source *source, const sp_target *target, const sp_
                     .skip = target->triangle};
 }
 
-/* Of the two times at which a parabola meets the plane of the triangle one is its arrival, so that the other follows
- * from their sum without round-off. */
+/* Of the two times at which a parabola that takes `time` meets the plane of the triangle one is its arrival, so that
+ * the other follows from their sum without round-off. */
+static bool pierces(const sp_evaluator *evaluator, const sp_target *target, const sp_ray *ray, sp_vec3 pull,
+                    double time)
+{
+    double fall = sp_dot(pull, target->normal);
+    double t = -2 * sp_dot(ray->velocity, target->normal) / fall - time;
+    if (fall == 0 || !(t > ends * time && t < (1 - ends) * time))
+        return false;
+    double u, v;
+    return sp_triangle_weights(evaluator->setup.mesh, target->triangle, sp_ray_point(ray, pull, t), &u, &v);
+}
+
 bool sp_flight_pierces(const sp_source *source, const sp_target *target, const sp_flight *flight)
 {
+    sp_ray ray = {.origin = source->position, .velocity = sp_scale(flight->direction, source->speed)};
+    return pierces(source->evaluator, target, &ray, source->evaluator->gravity, flight->time);
+}
+
+/* Piece by piece. Nothing blocks the first and last of it, as of parabolas, and the last piece ends on the target's own
+ * triangle, which the others may meet. */
+static bool is_chain_blocked(const sp_source *source, const sp_target *target, const sp_flight *flight)
+{
     const sp_evaluator *evaluator = source->evaluator;
-    sp_vec3 velocity = sp_scale(flight->direction, source->speed);
-    double fall = sp_dot(evaluator->gravity, target->normal);
-    double t = -2 * sp_dot(velocity, target->normal) / fall - flight->time;
-    if (fall == 0 || !(t > ends * flight->time && t < (1 - ends) * flight->time))
-        return false;
-    sp_ray ray = {.origin = source->position, .velocity = velocity};
-    double u, v;
-    return sp_triangle_weights(evaluator->setup.mesh, target->triangle, sp_ray_point(&ray, evaluator->gravity, t), &u,
-                               &v);
+    double end = flight->time - fmax(ends * flight->time, target->moved / sp_length(flight->velocity));
+    sp_chain chain = sp_chain_of(source->fronts, source->position, flight);
+    sp_piece piece;
+    while (sp_chain_next(&chain, &piece)) {
+        sp_ray *ray = &piece.ray;
+        double time = flight->time - piece.start;
+        ray->t_min = fmax(0, ends * flight->time - piece.start);
+        ray->t_max = fmin(ray->t_max, end - piece.start);
+        if (piece.last) {
+            ray->skip = target->triangle;
+            if (pierces(evaluator, target, ray, piece.pull, time))
+                return true;
+        }
+        if (ray->t_max > ray->t_min && sp_trace_occluded(evaluator->tracer, ray, piece.pull))
+            return true;
+    }
+    return false;
+}
+
+bool sp_flight_is_blocked(const sp_source *source, const sp_target *target, const sp_flight *flight)
+{
+    if (source->fronts)
+        return is_chain_blocked(source, target, flight);
+    sp_ray ray = sp_flight_ray(source, target, flight);
+    return sp_flight_pierces(source, target, flight) ||
+           sp_trace_occluded(source->evaluator->tracer, &ray, source->evaluator->gravity);
 }
 
 bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, double speed, const sp_flight *flight,
                               uint32_t patch)
 {
-    sp_source source = {evaluator, position, speed};
+    sp_source source = {evaluator, position, speed, NULL};
     sp_target target = sp_patch_target(evaluator, patch);
-    sp_ray ray = sp_flight_ray(&source, &target, flight);
-    return !sp_flight_pierces(&source, &target, flight) &&
-           !sp_trace_occluded(evaluator->tracer, &ray, evaluator->gravity);
+    return !sp_flight_is_blocked(&source, &target, flight);
 }

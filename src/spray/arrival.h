@@ -4,10 +4,13 @@
 
 #include "state.h"
 
+#include <sprayplan/flight.h>
+
 typedef struct {
     const sp_evaluator *evaluator;
-    sp_vec3 position; /* m */
-    double speed;     /* m/s */
+    sp_vec3 position;        /* m */
+    double speed;            /* m/s */
+    const sp_fronts *fronts; /* that leave there, with drag; NULL: lines or parabolas */
 } sp_source;
 
 typedef struct {
@@ -19,13 +22,18 @@ typedef struct {
     double moved;      /* m, from a point of the surface, in the triangle's plane */
 } sp_target;
 
+/* The flights from the source to a point, low arc first: 0, 1 or 2. */
+int sp_source_flights(const sp_source *source, sp_vec3 to, sp_flight flights[2]);
 sp_target sp_patch_target(const sp_evaluator *evaluator, uint32_t patch);
 /* Fills everything but `patch`, `arc`, `part`, `breadth` and `blocked`; false where the flight comes to the dry side.
  */
 bool sp_arrive(const sp_source *source, const sp_target *target, const sp_flight *flight, sp_arrival *arrival);
-/* The flight as a ray that ends at the target and skips the target's own triangle. */
+/* The flight, without drag, as a ray that ends at the target and skips the target's own triangle. */
 sp_ray sp_flight_ray(const sp_source *source, const sp_target *target, const sp_flight *flight);
-/* True where the flight comes through the target's own triangle before it arrives there, which a parabola may. */
+/* True where the flight, without drag, comes through the target's own triangle before it arrives there, which a
+ * parabola may. */
 bool sp_flight_pierces(const sp_source *source, const sp_target *target, const sp_flight *flight);
+/* True where anything lies in the way of a flight with or without drag. */
+bool sp_flight_is_blocked(const sp_source *source, const sp_target *target, const sp_flight *flight);
 
 #endif

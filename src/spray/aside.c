@@ -10,13 +10,13 @@ typedef struct {
     double low_angle, high_angle; /* rad; high_angle < 0: there are none */
 } leaving;
 
-/* False where nothing is known. */
+/* False where nothing is known, as with drag. */
 static bool leaving_for(const sp_source *source, sp_vec3 point, double radius, leaving *leaving)
 {
     sp_vec3 gravity = source->evaluator->gravity, r = sp_sub(point, source->position);
     double distance = sp_length(r), g = sp_length(gravity), speed = source->speed, far = distance + radius;
     double b = speed * speed + sp_dot(r, gravity) - g * radius;
-    if (distance <= radius || b <= 0 || g * far >= b || g * far >= speed * sqrt(2 * b))
+    if (source->fronts || distance <= radius || b <= 0 || g * far >= b || g * far >= speed * sqrt(2 * b))
         return false;
     leaving->low = sp_scale(r, 1 / distance);
     leaving->low_angle = asin(radius / distance) + asin(g * far / (speed * sqrt(2 * b)));

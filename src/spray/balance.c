@@ -2,6 +2,7 @@
 #include "bodies.h"
 #include "emitter.h"
 #include "movers.h"
+#include "spray/drag/chain.h"
 
 #include <stdlib.h>
 
@@ -19,7 +20,7 @@ void sp_balance_add(sp_balance *balance, bool hit, bool clean, double arrived, d
 }
 
 /* What is thrown back is not followed: the inverse evaluator knows the first impact only. */
-static void end_jet(const sp_evaluator *evaluator, const sp_ray *ray, const sp_hit *hit, double flow,
+static void end_jet(const sp_evaluator *evaluator, const sp_hit *hit, sp_vec3 velocity, double flow,
                     sp_balance *balance)
 {
     bool is_hit = hit->triangle != SP_NONE, clean = false;
@@ -27,7 +28,6 @@ static void end_jet(const sp_evaluator *evaluator, const sp_ray *ray, const sp_h
     if (is_hit) {
         const sp_mesh *mesh = evaluator->setup.mesh;
         const sp_surface *surface = &evaluator->setup.surfaces[mesh->part[hit->triangle]];
-        sp_vec3 velocity = sp_ray_velocity(ray, evaluator->gravity, hit->t);
         bool back = sp_dot(velocity, sp_triangle_normal(mesh, hit->triangle)) > 0;
         clean = sp_patch_at(evaluator, hit->triangle, hit->u, hit->v, back) != SP_NONE;
         onward = surface->restitution > 0 ? flow * surface->rebound : 0;
@@ -36,22 +36,45 @@ static void end_jet(const sp_evaluator *evaluator, const sp_ray *ray, const sp_h
     balance->unfollowed += onward;
 }
 
-/* Room for JETS rays, offsets and hits is the caller's: no pattern has more. */
-static void end_pattern(const sp_evaluator *evaluator, const sp_nozzle *pattern, sp_ray *rays, sp_vec3 *offset,
-                        sp_hit *hits, sp_balance *balance)
+/* Room for JETS, which no pattern has more of. */
+typedef struct {
+    sp_ray *rays;
+    sp_vec3 *offset; /* m, of goods that move */
+    sp_hit *hits;
+    sp_landing *landings; /* with drag alone */
+} jets_room;
+
+/* Where jets of one pattern, or drops, come to. */
+static void fly(const sp_evaluator *evaluator, const sp_nozzle *pattern, size_t jets, const jets_room *room)
 {
-    sp_emitter emitter = sp_emitter_of(evaluator, pattern);
+    const sp_setup *setup = &evaluator->setup;
+    sp_drag drag = sp_drag_of(pattern, &setup->liquid, &setup->air);
+    if (room->landings)
+        sp_drag_trace_many(evaluator->tracer, &drag, room->rays, jets, evaluator->gravity,
+                           sp_thread_count(setup->run.threads), room->landings);
+    else
+        sp_jets_hit(evaluator, room->rays, room->offset, jets, setup->run.threads, room->hits);
+}
+
+static void end_pattern(const sp_evaluator *evaluator, const sp_nozzle *pattern, const jets_room *room,
+                        sp_balance *balance)
+{
+    sp_emitter emitter = sp_emitter_of(evaluator, pattern, NULL);
     double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
     size_t jets = (size_t)pattern->jets;
     if (!(emitter.source.speed > 0) || !(flow > 0))
         return;
     for (size_t i = 0; i < jets; i++) {
-        rays[i] = sp_emitter_jet(&emitter, i, jets);
-        offset[i] = sp_jet_offset(evaluator, i);
+        room->rays[i] = sp_emitter_jet(&emitter, i, jets);
+        room->offset[i] = sp_jet_offset(evaluator, i);
     }
-    sp_jets_hit(evaluator, rays, offset, jets, evaluator->setup.run.threads, hits);
-    for (size_t i = 0; i < jets; i++)
-        end_jet(evaluator, &rays[i], &hits[i], flow / (double)jets, balance);
+    fly(evaluator, pattern, jets, room);
+    for (size_t i = 0; i < jets; i++) {
+        const sp_landing *landing = room->landings ? &room->landings[i] : NULL;
+        const sp_hit *hit = landing ? &landing->hit : &room->hits[i];
+        sp_vec3 velocity = landing ? landing->velocity : sp_ray_velocity(&room->rays[i], evaluator->gravity, hit->t);
+        end_jet(evaluator, hit, velocity, flow / (double)jets, balance);
+    }
 }
 
 bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, sp_error *error)
@@ -61,18 +84,19 @@ bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout,
     if (coverage->balance.known)
         return true;
     sp_bodies bodies;
-    sp_ray *rays = malloc(JETS * sizeof *rays);
-    sp_vec3 *offset = malloc(JETS * sizeof *offset);
-    sp_hit *hits = malloc(JETS * sizeof *hits);
+    bool drag = evaluator->fidelity.trajectory == SP_TRAJECTORY_DRAG;
+    jets_room room = {malloc(JETS * sizeof *room.rays), malloc(JETS * sizeof *room.offset),
+                      malloc(JETS * sizeof *room.hits), drag ? malloc(JETS * sizeof *room.landings) : NULL};
     bool done = sp_bodies_create_with(evaluator, layout, JETS, &bodies, error) &&
-                ((rays && offset && hits) || sp_fail_memory(error));
+                ((room.rays && room.offset && room.hits && (room.landings || !drag)) || sp_fail_memory(error));
     sp_balance balance = {.known = true};
     for (size_t n = 0; done && n < bodies.patterns->count; n++)
-        end_pattern(evaluator, &bodies.patterns->nozzles[n], rays, offset, hits, &balance);
+        end_pattern(evaluator, &bodies.patterns->nozzles[n], &room, &balance);
     sp_bodies_free(&bodies);
-    free(rays);
-    free(offset);
-    free(hits);
+    free(room.rays);
+    free(room.offset);
+    free(room.hits);
+    free(room.landings);
     coverage->balance = done ? balance : coverage->balance;
     return done;
 }

@@ -2,12 +2,13 @@
 #ifndef SPRAY_BODIES_H
 #define SPRAY_BODIES_H
 
-#include "state.h"
+#include "emitter.h"
 
 typedef struct sp_bodies {
     const sp_layout *layout; /* borrowed; its nozzles are the bodies */
     sp_layout *patterns;     /* nozzles of one pattern each */
     size_t *first;           /* [layout->count + 1]: body b has the patterns first[b] to first[b + 1] */
+    sp_fronts **fronts;      /* [patterns->count], those alike share theirs; NULL where they are not found */
 } sp_bodies;
 
 /* Fills in *bodies, for sp_bodies_free whatever the outcome. False, with an error, for what the evaluator does not
@@ -17,5 +18,9 @@ bool sp_bodies_create(const sp_evaluator *evaluator, const sp_layout *layout, sp
 bool sp_bodies_create_with(const sp_evaluator *evaluator, const sp_layout *layout, uint64_t jets, sp_bodies *bodies,
                            sp_error *error);
 void sp_bodies_free(sp_bodies *bodies);
+/* With drag finds the fronts, which emitters need that are asked for flights. */
+bool sp_bodies_fly(const sp_evaluator *evaluator, sp_bodies *bodies, sp_error *error);
+/* Pattern i. */
+sp_emitter sp_bodies_emitter(const sp_evaluator *evaluator, const sp_bodies *bodies, size_t i);
 
 #endif

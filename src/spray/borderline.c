@@ -61,7 +61,7 @@ static void find_along(const inquiry *own)
         return;
     for (size_t p = 0; p < patches->count; p++) {
         sp_flight flights[2];
-        int count = sp_flights(source->position, patches->point[p], source->speed, source->evaluator->gravity, flights);
+        int count = sp_source_flights(source, patches->point[p], flights);
         for (int k = 0; k < count; k++)
             if (fabs(sp_dot(flights[k].velocity, patches->normal[p])) <= CLOSE * sp_length(flights[k].velocity) &&
                 sp_emitter_margin(emitter, flights[k].direction) >= -CLOSE)
@@ -138,10 +138,11 @@ bool sp_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, 
         return true;
     bool *found = calloc(count + 1, sizeof *found);
     sp_bodies bodies;
-    bool done = sp_bodies_create(evaluator, layout, &bodies, error) && (found || sp_fail_memory(error));
+    bool done = sp_bodies_create(evaluator, layout, &bodies, error) && sp_bodies_fly(evaluator, &bodies, error) &&
+                (found || sp_fail_memory(error));
     for (size_t i = 0; done && i < bodies.patterns->count; i++) {
         const sp_nozzle *pattern = &bodies.patterns->nozzles[i];
-        sp_emitter emitter = sp_emitter_of(evaluator, pattern);
+        sp_emitter emitter = sp_bodies_emitter(evaluator, &bodies, i);
         double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
         done = !(flow > 0) || inquire(&emitter, flow, found, error);
     }

@@ -177,8 +177,7 @@ static double margin_to(const sp_emitter *emitter, sp_vec3 direction)
  */
 static double share_of(const sp_emitter *emitter, const sp_target *target, const sp_flight *flight)
 {
-    sp_arrival arrival = {.direction = flight->direction,
-                          .breadth = sp_flight_breadth(flight, emitter->source.speed, target->length)};
+    sp_arrival arrival = {.direction = flight->direction, .breadth = sp_flight_breadth(flight, target->length)};
     double share = sp_emitter_share(emitter, &arrival);
     return share > 0 || !sp_emitter_holds(emitter, flight->direction) ? share : -1;
 }
@@ -197,7 +196,7 @@ static void transfer_of(const bounding *b, double v, const bundle *flights, doub
 }
 
 /* The least and the most of a nozzle's flow per solid angle, m³/s/sr, within `reach` (rad) of the way to the patch. Of
- * what rotates, where no flux is asked for, any is enough. */
+ * what rotates, where no flux is asked for, any is enough; what is measured may have gaps. */
 static void flux_of(const spraying *s, sp_vec3 axis, double reach, double threshold, double flux[2])
 {
     const sp_spray *spray = &s->straight.spray;
@@ -207,7 +206,8 @@ static void flux_of(const spraying *s, sp_vec3 axis, double reach, double thresh
     sp_vec3 z = s->straight.frame.z;
     double polar = atan2(sp_length(sp_cross(axis, z)), sp_dot(axis, z)), least, most;
     sp_spray_densities(spray, fmax(0, polar - reach), fmin(M_PI, polar + reach), &least, &most);
-    flux[0] = threshold > 0 ? s->flow * least * (1 - SLACK) : flux[0];
+    if (threshold > 0 || spray->kind == SP_PATTERN_MEASURED)
+        flux[0] = s->flow * least * (1 - SLACK);
     flux[1] = s->flow * most * (1 + SLACK);
 }
 
@@ -260,8 +260,7 @@ static void weigh(const bounding *b, const spraying *s, uint32_t patch, const wo
         (margin < -reach && share[0] == 0 && share[1] == 0))
         return;
     double transfer[2], flux[2];
-    double broad =
-        fmax(sp_flight_breadth(&line[0], v, target.length), sp_flight_breadth(&parabola[0], v, target.length));
+    double broad = fmax(sp_flight_breadth(&line[0], target.length), sp_flight_breadth(&parabola[0], target.length));
     flux_of(s, shaft->axis, reach + sp_spray_fringe(broad), criterion->flux, flux);
     transfer_of(b, v, &flights, &transfer[0], &transfer[1]);
     *most = flux[1] * transfer[1];
@@ -392,8 +391,8 @@ static bool bounding_create(bounding *b, const sp_evaluator *evaluator, const sp
         body += i == bodies->first[body + 1];
         s->body = body;
         s->flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
-        s->straight = sp_emitter_of(&b->straight, pattern);
-        s->falling = sp_emitter_of(&b->falling, pattern);
+        s->straight = sp_emitter_of(&b->straight, pattern, NULL);
+        s->falling = sp_emitter_of(&b->falling, pattern, NULL);
         s->roofed = s->flow > 0 && is_roofed(b, s);
         b->count += s->flow > 0;
     }

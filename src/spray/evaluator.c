@@ -48,6 +48,10 @@ static bool check_sweep(const sp_setup *setup, sp_error *error)
                        "sweep: a way of %g m at %g m/s and %s found; expected parts that move, ends that are apart and "
                        "a speed above 0, or nothing of these",
                        travel, speed, moves ? "parts that move" : "no part that moves");
+    if (moves && setup->fidelity.trajectory == SP_TRAJECTORY_DRAG)
+        return sp_fail(error, SP_ERROR_UNSUPPORTED, NULL, 0, 0,
+                       "trajectory: drag found beside a sweep, for which it is not built yet; expected auto, line or "
+                       "parabola");
     return !moves || !(setup->criterion.film > 0) ||
            sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "film: found beside a sweep, which carries it along; expected a criterion of dose");
@@ -74,6 +78,10 @@ static bool check_setup(const sp_setup *setup, sp_error *error)
         wrong = "a mesh with triangles and a surface for each of its parts";
     else if (!in_range(setup->liquid.density, 1e-300, 1e300))
         wrong = "a positive density of the liquid";
+    else if (fidelity->trajectory == SP_TRAJECTORY_DRAG &&
+             (!in_range(setup->air.density, 0, 1e300) || !in_range(setup->air.viscosity, 1e-300, 1e300) ||
+              !in_range(setup->liquid.surface_tension, 1e-300, 1e300)))
+        wrong = "air with a density of 0 or more and a viscosity, and a surface tension of the liquid, for drag";
     else if (!in_range(setup->gravity, 0, 1e300))
         wrong = "a gravity of 0 or more";
     else if (!in_range(criterion->flux, 0, 1e300) || !in_range(criterion->impact_speed, 0, 1e300) ||

@@ -4,13 +4,14 @@
  * from directions to points of the surface. */
 #include "reserve.h"
 
-#include <sprayplan/evaluator.h>
+#include <sprayplan/flight.h>
 
 static sp_flight parabola(sp_vec3 r, double speed, sp_vec3 gravity, double squared_time, double root)
 {
     sp_flight flight = {.time = sqrt(squared_time), .spread = speed * squared_time * root};
     flight.direction = sp_unit(sp_along(r, -0.5 * squared_time, gravity));
     flight.velocity = sp_along(sp_scale(flight.direction, speed), flight.time, gravity);
+    flight.lever = speed * flight.time;
     return flight;
 }
 
@@ -22,7 +23,9 @@ int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_fligh
         return 0;
     if (g == 0) {
         sp_vec3 direction = sp_scale(r, 1 / distance);
-        flights[0] = (sp_flight){direction, sp_scale(direction, speed), distance / speed, speed * distance * distance};
+        double time = distance / speed;
+        flights[0] =
+            (sp_flight){direction, sp_scale(direction, speed), time, speed * distance * distance, speed * time};
         return 1;
     }
     double b = speed * speed + sp_dot(r, gravity);
@@ -39,11 +42,11 @@ int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_fligh
     return 2;
 }
 
-/* Across the plane of the flight its end moves by v t per angle; in that plane by as much as makes the product of both,
- * the area across the flight per solid angle, spread over arriving speed. */
-double sp_flight_breadth(const sp_flight *flight, double speed, double length)
+/* Across the plane of the flight its end moves by the lever per angle; in that plane by as much as makes the product of
+ * both, the area across the flight per solid angle, spread over arriving speed. */
+double sp_flight_breadth(const sp_flight *flight, double length)
 {
-    double lever = speed * flight->time, across = 1 / lever;
+    double lever = flight->lever, across = 1 / lever;
     double along = sp_length(flight->velocity) / flight->spread * lever;
     return fmin(length * fmax(across, along), SP_BREADTH_MOST);
 }

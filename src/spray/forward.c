@@ -5,6 +5,7 @@
 #include "lit.h"
 #include "movers.h"
 #include "splat.h"
+#include "spray/drag/chain.h"
 #include "tally.h"
 
 #include <stdlib.h>
@@ -32,13 +33,15 @@ typedef struct {
     sp_lit lit;          /* by the pattern in hand */
     sp_balance *balance; /* of all */
     sp_work *work;
-    double lowest;       /* g · x, m²/s², of the geometry's lowest point */
-    double able;         /* m³/s that flies on in the end and may yet be fast enough to count */
-    sp_ray *rays;        /* [BATCH] */
-    sp_vec3 *offset;     /* [BATCH], m, of goods that move, as they are while the jet flies */
-    double *flow;        /* [BATCH], m³/s */
-    sp_hit *hits;        /* [BATCH] */
-    jet_impact *impacts; /* [BATCH] */
+    double lowest;        /* g · x, m²/s², of the geometry's lowest point */
+    double able;          /* m³/s that flies on in the end and may yet be fast enough to count */
+    sp_ray *rays;         /* [BATCH] */
+    sp_vec3 *offset;      /* [BATCH], m, of goods that move, as they are while the jet flies */
+    double *flow;         /* [BATCH], m³/s */
+    sp_hit *hits;         /* [BATCH] */
+    sp_drag drag;         /* of the pattern in hand */
+    sp_landing *landings; /* [BATCH]; NULL without drag */
+    jet_impact *impacts;  /* [BATCH] */
     int threads;
     int reflections;
     double per_jet; /* m³/s that a jet carries; 0: each pattern has jets of its own number */
@@ -46,10 +49,25 @@ typedef struct {
 
 /* What flies on starts a little before the wall, on the way that has been free so far: the impact itself may be rounded
  * to beyond the wall. `across`: the speed at which the flight arrives, across the wall. */
-static sp_vec3 before_the_wall(const jet_flight *flight, const sp_ray *ray, double t, double across)
+static sp_vec3 before_the_wall(const jet_flight *flight, const sp_landing *landing, double across)
 {
     double back = sp_stand_off(flight->evaluator) / fabs(across);
-    return sp_ray_point(ray, flight->evaluator->gravity, fmax(ray->t_min, t - back));
+    const sp_ray *ray = &landing->piece.ray;
+    return sp_ray_point(ray, landing->piece.pull, fmax(ray->t_min, landing->hit.t - back));
+}
+
+/* Where jet i has come to, which hit something; without drag its flight is all one piece. */
+static sp_landing landing_of(const jet_flight *flight, size_t i)
+{
+    sp_vec3 gravity = flight->evaluator->gravity;
+    const sp_ray *ray = &flight->rays[i];
+    const sp_hit *hit = &flight->hits[i];
+    if (flight->landings)
+        return flight->landings[i];
+    return (sp_landing){.hit = *hit,
+                        .piece = {.ray = *ray, .pull = gravity, .last = true},
+                        .velocity = sp_ray_velocity(ray, gravity, hit->t),
+                        .time = hit->t};
 }
 
 /* How high over the wall a flight of duration t comes (m) that meets it at the speed `across` it. */
@@ -73,7 +91,8 @@ static void strike(jet_flight *flight, size_t i)
     if (hit->triangle == SP_NONE)
         return;
 
-    sp_vec3 velocity = sp_ray_velocity(ray, evaluator->gravity, hit->t);
+    sp_landing landing = landing_of(flight, i);
+    sp_vec3 velocity = landing.velocity;
     sp_vec3 normal = sp_triangle_normal(mesh, hit->triangle);
     double along_normal = sp_dot(velocity, normal);
     impact->flow = flight->flow[i];
@@ -88,8 +107,8 @@ static void strike(jet_flight *flight, size_t i)
     impact->cell = sp_lit_cell(evaluator, hit->triangle, hit->u, hit->v);
 
     const sp_surface *surface = &evaluator->setup.surfaces[mesh->part[hit->triangle]];
-    double height = height_over(evaluator->gravity, normal, hit->t, along_normal);
-    ray->origin = before_the_wall(flight, ray, hit->t, along_normal);
+    double height = height_over(evaluator->gravity, normal, landing.time, along_normal);
+    ray->origin = before_the_wall(flight, &landing, along_normal);
     ray->velocity = sp_along(velocity, -(1 + surface->restitution) * along_normal, normal);
     ray->t_min = 0;
     flight->flow[i] *= surface->rebound;
@@ -159,12 +178,27 @@ static bool may_be_fast(const jet_flight *flight, const sp_ray *ray)
     return sp_dot(ray->velocity, ray->velocity) + 2 * fmax(fall, 0) >= least * least;
 }
 
+/* To what each of `count` jets meets next. What has met a wall is drops, whatever it was before. */
+static void fly_on(const jet_flight *flight, size_t count, bool drops)
+{
+    const sp_evaluator *evaluator = flight->evaluator;
+    sp_drag drag = flight->drag;
+    drag.delay = drops ? 0 : drag.delay;
+    if (!flight->landings) {
+        sp_jets_hit(evaluator, flight->rays, flight->offset, count, flight->threads, flight->hits);
+        return;
+    }
+    sp_drag_trace_many(evaluator->tracer, &drag, flight->rays, count, evaluator->gravity, flight->threads,
+                       flight->landings);
+    for (size_t i = 0; i < count; i++)
+        flight->hits[i] = flight->landings[i].hit;
+}
+
 /* Flies `count` jets to their end. */
 static void fly(jet_flight *flight, size_t count)
 {
-    const sp_evaluator *evaluator = flight->evaluator;
     for (int bounce = 0; bounce <= flight->reflections && count > 0; bounce++) {
-        sp_jets_hit(evaluator, flight->rays, flight->offset, count, flight->threads, flight->hits);
+        fly_on(flight, count, bounce > 0);
         flight->work->rays += count;
 #pragma omp parallel for num_threads(flight->threads)
         for (size_t i = 0; i < count; i++)
@@ -191,7 +225,8 @@ static void spray_jets(jet_flight *flight, const sp_nozzle *pattern, uint64_t fi
 {
     uint64_t jets = pattern_jets(flight, pattern);
     double flow = sp_nozzle_flow(pattern, &flight->evaluator->setup.liquid);
-    sp_emitter emitter = sp_emitter_of(flight->evaluator, pattern);
+    sp_emitter emitter = sp_emitter_of(flight->evaluator, pattern, NULL);
+    flight->drag = sp_drag_of(pattern, &flight->evaluator->setup.liquid, &flight->evaluator->setup.air);
 #pragma omp parallel for num_threads(flight->threads)
     for (size_t i = 0; i < count; i++) {
         flight->rays[i] = sp_emitter_jet(&emitter, first + i, jets);
@@ -271,6 +306,7 @@ static void flight_free(jet_flight *flight)
     free(flight->offset);
     free(flight->flow);
     free(flight->hits);
+    free(flight->landings);
     free(flight->impacts);
 }
 
@@ -291,7 +327,10 @@ static bool evaluate_bodies(const sp_evaluator *evaluator, const sp_bodies *bodi
                          .reflections = reflections,
                          .lowest = lowest_point(evaluator),
                          .per_jet = per_jet};
-    bool room = flight.rays && flight.offset && flight.flow && flight.hits && flight.impacts && flight.counted;
+    bool drag = evaluator->fidelity.trajectory == SP_TRAJECTORY_DRAG;
+    flight.landings = drag ? malloc(BATCH * sizeof *flight.landings) : NULL;
+    bool room = (flight.landings || !drag) && flight.rays && flight.offset && flight.flow && flight.hits &&
+                flight.impacts && flight.counted;
     bool done = (room || sp_fail_memory(error)) &&
                 sp_tally_create(evaluator, &coverage->deposits, &flight.tally, error) &&
                 sp_lit_create(evaluator, &flight.lit, error) && fly_bodies(&flight, bodies, error) &&

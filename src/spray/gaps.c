@@ -1,4 +1,5 @@
 /* How far the surface is from the tracks of a two-axis head. */
+#include "bodies.h"
 #include "reach.h"
 
 #include <sprayplan/tracks.h>
@@ -61,9 +62,12 @@ bool sp_find_track_gaps(const sp_evaluator *evaluator, const sp_nozzle *nozzle, 
     *gaps = (sp_track_gaps){.known = false};
     if (nozzle->type->pattern != SP_PATTERN_ROTATING || rotation->jets == 0)
         return true;
-    sp_emitter emitter = sp_emitter_of(evaluator, nozzle);
+    sp_layout one = {.count = 1, .nozzles = (sp_nozzle[]){*nozzle}};
+    sp_bodies bodies;
+    bool flies = sp_bodies_create(evaluator, &one, &bodies, error) && sp_bodies_fly(evaluator, &bodies, error);
+    sp_emitter emitter = flies ? sp_bodies_emitter(evaluator, &bodies, 0) : (sp_emitter){0};
     sp_aim aim = sp_aim_at(emitter.frame.z, sp_spray_reach(&emitter.spray));
-    sp_reach *reach = sp_reach_create(&emitter.source, &aim, error);
+    sp_reach *reach = flies ? sp_reach_create(&emitter.source, &aim, error) : NULL;
     gap_share *shares = reach ? malloc((reach->count + 1) * sizeof *shares) : NULL;
     bool done = shares || (reach && sp_fail_memory(error));
     if (done) {
@@ -73,5 +77,6 @@ bool sp_find_track_gaps(const sp_evaluator *evaluator, const sp_nozzle *nozzle, 
     }
     free(shares);
     sp_reach_destroy(reach);
+    sp_bodies_free(&bodies);
     return done;
 }

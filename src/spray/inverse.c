@@ -57,7 +57,7 @@ static bool lay_bodies(const sp_evaluator *evaluator, const sp_bodies *bodies, s
     for (size_t b = 0; b < bodies->layout->count; b++) {
         for (size_t i = bodies->first[b]; i < bodies->first[b + 1]; i++) {
             const sp_nozzle *pattern = &bodies->patterns->nozzles[i];
-            sp_emitter emitter = sp_emitter_of(evaluator, pattern);
+            sp_emitter emitter = sp_bodies_emitter(evaluator, bodies, i);
             double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
             if (flow > 0 && !lay_pattern(&emitter, flow, tally, work, error))
                 return false;
@@ -74,7 +74,9 @@ sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout 
     sp_bodies bodies;
     sp_tally tally = {0};
     sp_coverage *coverage =
-        sp_bodies_create(evaluator, layout, &bodies, error) ? sp_coverage_create(evaluator, error) : NULL;
+        sp_bodies_create(evaluator, layout, &bodies, error) && sp_bodies_fly(evaluator, &bodies, error)
+            ? sp_coverage_create(evaluator, error)
+            : NULL;
     bool done = coverage && sp_tally_create(evaluator, &coverage->deposits, &tally, error) &&
                 lay_bodies(evaluator, &bodies, &tally, &coverage->work, error) &&
                 sp_coverage_conclude(evaluator, &bodies, coverage, error);

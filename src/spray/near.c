@@ -12,12 +12,14 @@
 #include "aside.h"
 #include "middle.h"
 #include "reserve.h"
+#include "spray/drag/fronts.h"
 
 #include <stdlib.h>
 
 #define RIM 0.25        /* rad, by which flights turn over a cell at the limit of their reach, about */
 #define FINEST 0x1p-40  /* of the patch's length: no cell is halved below it */
 #define CELLS_MOST 4096 /* of one patch: more than it takes a nanometre off a wall */
+#define CLEAR 3         /* lengths of a patch, that one is within reach which the limit does not concern */
 #define CORNERS 14      /* 8 of a piece, and one more for every side of a box */
 #define EQUAL 1e-9      /* share by which a side is no longer than another: the first of equal ones is halved */
 #define ROUND_OFF 1e-12 /* of a cell's area, that a cut may leave of nothing */
@@ -28,45 +30,66 @@ typedef enum {
     TOO_BROAD,
 } bearing;
 
-/* D at the end of a way, and its slope there. */
+/* D at the end of a way, with drag how far (m) it is within reach, and what goes with it. Flights sweep area in their
+ * plane by `turn` times its root (m²/s) per rad. */
 typedef struct {
-    double value;  /* m⁴/s⁴ */
-    sp_vec3 slope; /* m³/s⁴ */
+    double value;    /* m⁴/s⁴ */
+    sp_vec3 slope;   /* of it, m³/s⁴ */
+    double bend;     /* half its second derivatives, at most, m²/s⁴ */
+    double longest;  /* m, of a side that looks not too broad across the plane of a flight at the limit */
+    double arriving; /* m/s, of that flight */
+    double turn;     /* s */
 } reserve;
+
+static reserve reserve_by_parabola(const sp_source *source, sp_vec3 r)
+{
+    sp_vec3 gravity = source->evaluator->gravity;
+    double g = sp_length(gravity), distance = sp_length(r), speed = source->speed, v2 = speed * speed;
+    double b = v2 + sp_dot(r, gravity), time = sqrt(2 * distance / g);
+    sp_vec3 level = sp_cross(gravity, sp_cross(r, gravity)); /* g² times r's part across gravity */
+    return (reserve){.value = sp_reserve(speed, r, gravity) * (b + g * distance),
+                     .slope = sp_along(sp_scale(gravity, 2 * speed * speed), -2, level),
+                     .bend = g * g,
+                     .longest = SP_BREADTH_MOST * speed * time,
+                     .arriving = sqrt(fmax(0, speed * speed + 2 * sp_dot(r, gravity))),
+                     .turn = time};
+}
 
 static reserve reserve_at(const sp_source *source, sp_vec3 r)
 {
-    sp_vec3 gravity = source->evaluator->gravity;
-    double g = sp_length(gravity), distance = sp_length(r), b = source->speed * source->speed + sp_dot(r, gravity);
-    sp_vec3 level = sp_cross(gravity, sp_cross(r, gravity)); /* g² times r's part across gravity */
-    return (reserve){sp_reserve(source->speed, r, gravity) * (b + g * distance),
-                     sp_along(sp_scale(gravity, 2 * source->speed * source->speed), -2, level)};
+    sp_front_limit limit;
+    if (!source->fronts)
+        return reserve_by_parabola(source, r);
+    if (!sp_fronts_limit(source->fronts, sp_v(0, 0, 0), r, &limit))
+        return (reserve){.value = INFINITY};
+    return (reserve){.value = limit.margin,
+                     .slope = limit.slope,
+                     .bend = 1 / limit.lever,
+                     .longest = SP_BREADTH_MOST * limit.lever,
+                     .arriving = limit.arriving,
+                     .turn = limit.turn};
 }
 
 /* How what lies within `radius` of a point, and is `side` long, looks from the source. */
 static bearing bearing_of(const sp_source *source, sp_vec3 point, double side, double radius)
 {
-    sp_vec3 gravity = source->evaluator->gravity, r = sp_sub(point, source->position);
-    double distance = sp_length(r), g = sp_length(gravity), speed = source->speed;
-    if (distance <= radius)
+    sp_vec3 r = sp_sub(point, source->position);
+    if (sp_length(r) <= radius)
         return TOO_BROAD;
-    if (g > 0) {
+    if (sp_length(source->evaluator->gravity) > 0) {
         reserve own = reserve_at(source, r);
-        double change = sp_length(own.slope) * radius + g * g * radius * radius;
+        double change = sp_length(own.slope) * radius + own.bend * radius * radius;
         if (own.value < -change)
             return OUT_OF_REACH;
-        if (own.value < change) {
-            double time = sqrt(2 * distance / g), arriving = sqrt(fmax(0, speed * speed + 2 * sp_dot(r, gravity)));
-            return side > SP_BREADTH_MOST * speed * time || arriving * side > RIM * time * sqrt(change) ? TOO_BROAD
-                                                                                                        : FINE;
-        }
+        if (own.value < change)
+            return side > own.longest || own.arriving * side > RIM * own.turn * sqrt(change) ? TOO_BROAD : FINE;
     }
     sp_flight flights[2]; /* of which the low one looks broader */
-    int count = sp_flights(source->position, point, speed, gravity, flights);
-    return count > 0 && sp_flight_breadth(&flights[0], speed, side) >= SP_BREADTH_MOST ? TOO_BROAD : FINE;
+    int count = sp_source_flights(source, point, flights);
+    return count > 0 && sp_flight_breadth(&flights[0], side) >= SP_BREADTH_MOST ? TOO_BROAD : FINE;
 }
 
-/* The same, rather too often than not, without roots: most patches are neither. */
+/* The same, without drag, rather too often than not, without roots: most patches are neither. */
 static bool may_be_near(const sp_source *source, const sp_target *target)
 {
     sp_vec3 gravity = source->evaluator->gravity, r = sp_sub(target->point, source->position);
@@ -88,25 +111,40 @@ typedef struct limit {
     sp_vec3 along;            /* from the cell's point to where D is the mean of what is within reach, m */
 } limit;
 
-/* False where what is about a target, as large as a square of edge `side`, does not lie across the limit of reach. */
+/* False where what is about a target, as large as a square of edge `side`, does not lie across the limit of reach, nor,
+ * with drag, which gathers much of a fine spray there, close to it. */
 static bool limit_across(const sp_source *source, const sp_target *target, double side, limit *limit)
 {
     reserve own = reserve_at(source, sp_sub(target->point, source->position));
     sp_vec3 along = sp_along(own.slope, -sp_dot(own.slope, target->normal), target->normal);
     double steep = sp_length(along), half = 0.5 * side * steep;
-    if (!(fabs(own.value) < half))
+    double close = source->fronts ? 2 * CLEAR * half : half;
+    if (!(own.value > -half && own.value < close))
         return false;
     double most = own.value + half, least = fmax(0, own.value - half), mean = 0.5 * (sqrt(most) + sqrt(least));
     *limit = (struct limit){least, most, half, sp_scale(along, (mean * mean - own.value) / (steep * steep))};
     return true;
 }
 
-bool sp_target_is_near(const sp_source *source, const sp_target *target)
+static bool is_near(const sp_source *source, const sp_target *target)
 {
     limit limit;
-    return source->speed > 0 && may_be_near(source, target) &&
-           (bearing_of(source, target->point, target->length, target->length) == TOO_BROAD ||
-            limit_across(source, target, target->length, &limit));
+    return bearing_of(source, target->point, target->length, target->length) == TOO_BROAD ||
+           limit_across(source, target, target->length, &limit);
+}
+
+bool sp_target_is_near(const sp_source *source, const sp_target *target)
+{
+    return source->speed > 0 && may_be_near(source, target) && is_near(source, target);
+}
+
+bool sp_target_is_near_by(const sp_source *source, const sp_target *target, const sp_flight *flights, int count,
+                          double margin)
+{
+    if (count > 0 && margin > CLEAR * target->length)
+        return sp_flight_breadth(&flights[0], target->length) >= SP_BREADTH_MOST ||
+               sp_distance(source->position, target->point) <= target->length;
+    return is_near(source, target);
 }
 
 /* Convex and flat. */

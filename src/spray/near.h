@@ -8,6 +8,9 @@
 /* Whether the patch behind this target is to be cut: where it looks broader than SP_BREADTH_MOST, or where
  * flights bend by as much as tells within it since it lies at the parabola of safety. */
 bool sp_target_is_near(const sp_source *source, const sp_target *target);
+/* The same with drag, where the flights to the target have been found, with what sp_fronts_reach says of its margin. */
+bool sp_target_is_near_by(const sp_source *source, const sp_target *target, const sp_flight *flights, int count,
+                          double margin);
 
 /* A cell of a patch: where it is judged, and which share of the patch's area it is. */
 typedef void sp_cell_visitor(void *user, const sp_target *target, double part);

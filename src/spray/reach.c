@@ -4,6 +4,7 @@
 #include "aside.h"
 #include "movers.h"
 #include "near.h"
+#include "spray/drag/fronts.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -34,6 +35,7 @@ typedef struct flock {
     bool *blocked;
     passing_ray *passing;
     size_t places; /* that flights were solved for */
+    size_t ways;   /* that were looked along, with drag one by one */
     bool failed;   /* for want of memory */
 } flock;
 
@@ -106,16 +108,23 @@ static bool is_traced(const sp_evaluator *evaluator, const sp_aim *aim, double p
     return !aim->known || part < 1 || evaluator->movers;
 }
 
-/* The flights to a patch, or to a cell that is `part` of it. */
-static void gather_at(void *user, const sp_target *target, double part)
+/* The ray of a flight whose way is to be looked along, which is not known yet. */
+static void look_along(const gathering *own, const sp_target *target, const sp_flight *way)
 {
-    gathering *own = user;
+    flock *flock = own->flock;
+    flock->passing[flock->ray_count] = (passing_ray){own->position, target->triangle};
+    flock->rays[flock->ray_count] = sp_flight_ray(&own->source, target, way);
+    flock->rays[flock->ray_count].origin = sp_add(own->source.position, own->offset);
+    flock->ray_count++;
+}
+
+/* These flights to a patch, or to a cell that is `part` of it. */
+static void take(const gathering *own, const sp_target *target, const sp_flight *flights, int count, double part)
+{
     const sp_source *source = &own->source;
     const sp_aim *aim = own->aim;
     flock *flock = own->flock;
-    sp_flight flights[2];
     part *= own->share;
-    int count = sp_flights(source->position, target->point, source->speed, source->evaluator->gravity, flights);
     if (!make_room(flock, 2))
         return;
     flock->places++;
@@ -128,34 +137,63 @@ static void gather_at(void *user, const sp_target *target, double part)
         if (!sp_arrive(source, target, &flights[k], arrival) || (aim->passing && !arrival->passes))
             continue;
         /* what a spray's edge is blurred over is no less than a step, so that no thin spray falls between two */
-        arrival->breadth = sp_flight_breadth(&flights[k], source->speed, fmax(target->length, own->step));
+        arrival->breadth = sp_flight_breadth(&flights[k], fmax(target->length, own->step));
         sp_flight way = aim->beside ? flight_beside(flights[k], aim->beside) : flights[k];
-        arrival->blocked = traced && sp_flight_pierces(source, target, &way);
-        if (!aimed(aim, arrival) || (arrival->blocked && !aim->blocked))
+        if (!aimed(aim, arrival))
+            continue;
+        arrival->blocked = traced && (source->fronts ? sp_flight_is_blocked(source, target, &way)
+                                                     : sp_flight_pierces(source, target, &way));
+        if (arrival->blocked && !aim->blocked)
             continue;
         arrival->patch = own->patch;
         arrival->arc = (uint8_t)k;
         arrival->part = part;
         arrival->point = sp_add(arrival->point, own->offset);
         flock->count++;
-        if (!traced)
-            continue;
-        flock->passing[flock->ray_count] = (passing_ray){own->position, target->triangle};
-        flock->rays[flock->ray_count] = sp_flight_ray(source, target, &way);
-        flock->rays[flock->ray_count].origin = sp_add(source->position, own->offset);
-        flock->ray_count++;
+        flock->ways += traced;
+        if (traced && !source->fronts)
+            look_along(own, target, &way);
     }
+}
+
+/* All flights there. */
+static void gather_at(void *user, const sp_target *target, double part)
+{
+    const gathering *own = user;
+    sp_flight flights[2];
+    take(own, target, flights, sp_source_flights(&own->source, target->point, flights), part);
+}
+
+static void cut(gathering *own)
+{
+    const sp_aim *aim = own->aim;
+    if (!sp_patch_cut(&own->source, own->patch, aim->axis, aim->half_angle + sp_spray_fringe(SP_BREADTH_MOST),
+                      gather_at, own))
+        own->flock->failed = true;
+}
+
+/* With drag finding the flights is what takes long. */
+static void gather_with_drag(gathering *own, const sp_target *target)
+{
+    const sp_source *source = &own->source;
+    sp_flight flights[2];
+    double margin;
+    int count = sp_fronts_reach(source->fronts, source->position, target->point, flights, &margin);
+    if (sp_target_is_near_by(source, target, flights, count, margin))
+        cut(own);
+    else
+        take(own, target, flights, count, 1);
 }
 
 /* The patch, whole or in cells. */
 static void gather_patch(gathering *own, const sp_target *target)
 {
-    const sp_aim *aim = own->aim;
-    if (!sp_target_is_near(&own->source, target))
+    if (own->source.fronts)
+        gather_with_drag(own, target);
+    else if (!sp_target_is_near(&own->source, target))
         gather_at(own, target, 1);
-    else if (!sp_patch_cut(&own->source, own->patch, aim->axis, aim->half_angle + sp_spray_fringe(SP_BREADTH_MOST),
-                           gather_at, own))
-        own->flock->failed = true;
+    else
+        cut(own);
 }
 
 /* Whether the spray surely misses a patch at all positions from one to another. */
@@ -244,7 +282,7 @@ static double free_share(const sp_evaluator *evaluator, const flock *flock, uint
 static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uint32_t end, flock *flock,
                  harvest *harvest)
 {
-    flock->count = flock->ray_count = flock->places = 0;
+    flock->count = flock->ray_count = flock->places = flock->ways = 0;
     if (!make_room(flock, 2 * (size_t)(end - first)))
         return false;
     for (uint32_t patch = first; patch < end; patch++)
@@ -255,7 +293,7 @@ static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uin
     size_t kept = 0;
     for (size_t i = 0, ray = 0; i < flock->count; i++) {
         sp_arrival *arrival = &flock->arrivals[i];
-        bool traced = is_traced(source->evaluator, aim, arrival->part);
+        bool traced = !source->fronts && is_traced(source->evaluator, aim, arrival->part);
         if (traced && source->evaluator->movers && !flock->blocked[ray])
             arrival->part *= free_share(source->evaluator, flock, arrival->patch, ray);
         if (traced && (flock->blocked[ray++] || !(arrival->part > 0)))
@@ -263,8 +301,8 @@ static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uin
         if (!arrival->blocked || aim->blocked)
             flock->arrivals[kept++] = *arrival;
     }
-    *harvest = (struct harvest){
-        kept, kept ? malloc(kept * sizeof *harvest->arrivals) : NULL, {flock->places, flock->ray_count}};
+    *harvest =
+        (struct harvest){kept, kept ? malloc(kept * sizeof *harvest->arrivals) : NULL, {flock->places, flock->ways}};
     if (harvest->arrivals)
         memcpy(harvest->arrivals, flock->arrivals, kept * sizeof *harvest->arrivals);
     return harvest->arrivals || !kept;
@@ -328,34 +366,42 @@ sp_reach *sp_reach_create(const sp_source *source, const sp_aim *aim, sp_error *
     return sp_fail_memory(error);
 }
 
+/* False, with an error: here nothing says what drops they are. */
+static bool flies_free(const sp_evaluator *evaluator, sp_error *error)
+{
+    return evaluator && (evaluator->fidelity.trajectory != SP_TRAJECTORY_DRAG ||
+                         sp_fail(error, SP_ERROR_UNSUPPORTED, NULL, 0, 0,
+                                 "trajectory: drag found, of which reach knows nothing yet"));
+}
+
 sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                              double half_angle, sp_error *error)
 {
-    sp_source source = {evaluator, position, speed};
+    sp_source source = {evaluator, position, speed, NULL};
     sp_aim aim = sp_aim_at(axis, half_angle);
-    return evaluator ? sp_reach_create(&source, &aim, error) : NULL;
+    return flies_free(evaluator, error) ? sp_reach_create(&source, &aim, error) : NULL;
 }
 
 sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                                      double half_angle, const bool *among, sp_error *error)
 {
-    sp_source source = {evaluator, position, speed};
+    sp_source source = {evaluator, position, speed, NULL};
     sp_aim aim = sp_aim_at(axis, half_angle);
     aim.passing = true;
     aim.among = among;
-    return evaluator ? sp_reach_create(&source, &aim, error) : NULL;
+    return flies_free(evaluator, error) ? sp_reach_create(&source, &aim, error) : NULL;
 }
 
 sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
                                   double half_angle, size_t first, size_t end, const uint8_t *known, sp_error *error)
 {
-    sp_source source = {evaluator, position, speed};
+    sp_source source = {evaluator, position, speed, NULL};
     sp_aim aim = sp_aim_at(axis, half_angle);
     aim.passing = evaluator && !evaluator->everything;
     aim.first = first;
     aim.end = end;
     aim.known = known;
-    return evaluator ? sp_reach_create(&source, &aim, error) : NULL;
+    return flies_free(evaluator, error) ? sp_reach_create(&source, &aim, error) : NULL;
 }
 
 void sp_reach_destroy(sp_reach *reach)

@@ -45,12 +45,16 @@ static void gather(const sp_emitter *emitter, double flow, const sp_point *point
     sp_target target = {
         .point = point->position, .normal = point->normal, .side = point->side, .triangle = point->triangle};
     sp_flight ways[2];
-    int count = sp_flights(source->position, target.point, source->speed, source->evaluator->gravity, ways);
+    int count = sp_source_flights(source, target.point, ways);
     for (int k = 0; k < count; k++) {
         sp_arrival arrival;
         if (!sp_emitter_holds(emitter, ways[k].direction) || !sp_arrive(source, &target, &ways[k], &arrival) ||
-            !arrival.passes || sp_flight_pierces(source, &target, &ways[k]))
+            !arrival.passes)
             continue;
+        if (source->fronts ? sp_flight_is_blocked(source, &target, &ways[k])
+                           : sp_flight_pierces(source, &target, &ways[k]))
+            continue;
+        f->blocked[f->count] = false;
         f->point[f->count] = index;
         f->flux[f->count] = sp_emitter_flux(emitter, flow, &arrival, 0);
         f->rays[f->count++] = sp_flight_ray(source, &target, &ways[k]);
@@ -67,7 +71,8 @@ static void spray(const sp_emitter *emitter, double flow, const sp_point *points
     for (size_t i = 0; i < count; i++)
         if (!covered[i])
             gather(emitter, flow, &points[i], (uint32_t)i, f);
-    sp_trace_occluded_many(evaluator->tracer, f->rays, f->count, evaluator->gravity, 1, f->blocked);
+    if (!emitter->source.fronts)
+        sp_trace_occluded_many(evaluator->tracer, f->rays, f->count, evaluator->gravity, 1, f->blocked);
     for (size_t i = 0; i < f->count; i++) {
         double *received = &f->received[f->point[i]];
         *received += f->blocked[i] ? 0 : f->flux[i];
@@ -85,7 +90,7 @@ static void judge(const sp_evaluator *evaluator, const sp_bodies *bodies, const 
             memset(f->received, 0, count * sizeof *f->received);
         for (size_t n = bodies->first[b]; n < bodies->first[b + 1]; n++) {
             const sp_nozzle *pattern = &bodies->patterns->nozzles[n];
-            sp_emitter emitter = sp_emitter_of(evaluator, pattern);
+            sp_emitter emitter = sp_bodies_emitter(evaluator, bodies, n);
             double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
             if (flow > 0)
                 spray(&emitter, flow, points, count, f, covered);
@@ -125,8 +130,9 @@ bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_
                        "sweep: found goods that move, expected none: points are judged as they stand");
     sp_evaluator truth = *evaluator; /* the same but for how liquid flies */
     truth.gravity = sp_gravity_for(&evaluator->setup, trajectory);
+    truth.fidelity.trajectory = trajectory == SP_TRAJECTORY_AUTO ? SP_TRAJECTORY_PARABOLA : trajectory;
     sp_bodies bodies;
-    bool done = sp_bodies_create(evaluator, layout, &bodies, error) &&
+    bool done = sp_bodies_create(evaluator, layout, &bodies, error) && sp_bodies_fly(&truth, &bodies, error) &&
                 (judge_all(&truth, &bodies, points, count, covered) || sp_fail_memory(error));
     sp_bodies_free(&bodies);
     return done;

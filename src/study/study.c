@@ -191,6 +191,10 @@ sp_study *sp_study_create(const sp_setup *setup, const sp_layout *layout, const 
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "sweep: found, expected none: study judges single points, as they stand"),
                NULL;
+    if (setup->fidelity.trajectory == SP_TRAJECTORY_DRAG)
+        return sp_fail(error, SP_ERROR_UNSUPPORTED, NULL, 0, 0,
+                       "trajectory: drag found, for which study is not built yet; expected auto, line or parabola"),
+               NULL;
     if (layout->count == 0 && !place)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "nozzles: found none, expected at least one to study, or mounts under place:"),

@@ -6,7 +6,7 @@
 
 const char *sp_word_trajectory(const sp_fidelity *fidelity)
 {
-    return fidelity->trajectory == SP_TRAJECTORY_LINE ? "line" : "parabola";
+    return fidelity->trajectory == SP_TRAJECTORY_LINE ? "line" : "parabola"; /* study takes no others */
 }
 
 const char *sp_word_method(const sp_fidelity *fidelity)

@@ -657,6 +657,32 @@ static void film_is_refused_where_it_is_not_counted(void **state)
     refused("check wrong.yaml", "wrong.yaml:3:19: film: found '2 L/min', expected a flow per width");
 }
 
+/* What drops that air holds back do is simulated, compared and told, written back, and not searched for yet. */
+static void drag_is_simulated(void **state)
+{
+    (void)state;
+    write_room_with("drag.yaml", "simulate: {", "simulate: {trajectory: drag, ");
+    json_t *drops = expect_json("simulate drag.yaml -o drops --json", 0);
+    assert_string_equal(json_string_value(json_object_get(json_object_get(drops, "fidelity"), "trajectory")), "drag");
+    json_t *again = expect_json("simulate drops/layout.yaml --json", 0);
+    json_t *set = expect_json("simulate room.yaml --set simulate.trajectory=drag --json", 0);
+    assert_true(json_equal(json_object_get(layout_named(drops, "manual"), "coverage"),
+                           json_object_get(layout_named(again, "manual"), "coverage")));
+    assert_true(json_equal(json_object_get(drops, "layouts"), json_object_get(set, "layouts")));
+    json_decref(drops);
+    json_decref(again);
+    json_decref(set);
+    outcome result = run_program("compare drops/result.json drag.yaml room.yaml -o beside --quiet");
+    assert_int_equal(result.status, 0);
+    forget(&result);
+    char *page = read_file("drops/report.html", NULL);
+    assert_non_null(strstr(page, "far end of a bracket"));
+    free(page);
+    refused("place drag.yaml", "drag.yaml:");
+    refused("place drag.yaml", "trajectory: drag found, for which place is not built yet");
+    refused("study drag.yaml", "trajectory: drag found, for which study is not built yet");
+}
+
 static void atlas_keeps_every_triangle(void **state)
 {
     (void)state;
@@ -819,6 +845,7 @@ int main(void)
         cmocka_unit_test(check_says_where_liquid_stands),
         cmocka_unit_test(film_is_placed_for),
         cmocka_unit_test(film_is_refused_where_it_is_not_counted),
+        cmocka_unit_test(drag_is_simulated),
         cmocka_unit_test(atlas_keeps_every_triangle),
         cmocka_unit_test(out_of_time_place_writes_the_best_so_far),
         cmocka_unit_test(interrupting_place_writes_the_best_so_far),

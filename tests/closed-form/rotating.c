@@ -7,21 +7,9 @@
 
 #define POINTS 0.001 /* of coverage */
 
-/* A room of 2 m x 2 m x 1.6 m about the origin, whose walls face inwards. */
-static sp_mesh *room(void)
-{
-    const double x = 1, y = 1, z = 0.8;
-    const rectangle walls[] = {
-        {{-x, -y, -z}, {2 * x, 0, 0}, {0, 2 * y, 0}}, {{-x, -y, z}, {0, 2 * y, 0}, {2 * x, 0, 0}},
-        {{-x, -y, -z}, {0, 2 * y, 0}, {0, 0, 2 * z}}, {{x, -y, -z}, {0, 0, 2 * z}, {0, 2 * y, 0}},
-        {{-x, -y, -z}, {0, 0, 2 * z}, {2 * x, 0, 0}}, {{-x, y, -z}, {2 * x, 0, 0}, {0, 0, 2 * z}},
-    };
-    return mesh_of_rectangles(walls, 6);
-}
-
 static void open_room(scene *s, double texel)
 {
-    scene_open(s, room(), SP_TRAJECTORY_PARABOLA, texel);
+    scene_open(s, mesh_of_room(), SP_TRAJECTORY_PARABOLA, texel);
     s->setup.criterion.flux = 1.0 / 60 / 1000;
 }
 
@@ -161,7 +149,7 @@ static void two_axis_flux_is_the_closed_form(void **state)
 {
     (void)state;
     scene s;
-    scene_open(&s, room(), SP_TRAJECTORY_LINE, 0.04);
+    scene_open(&s, mesh_of_room(), SP_TRAJECTORY_LINE, 0.04);
     sp_evaluator *evaluator = scene_evaluator(&s);
     sp_nozzle_type type = strong(SP_PATTERN_SOLID_STREAM, 1, 0);
     type.pattern = SP_PATTERN_ROTATING;

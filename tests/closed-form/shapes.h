@@ -71,6 +71,18 @@ static inline void box_rectangles(sp_vec3 low, sp_vec3 size, rectangle faces[6])
     faces[5] = (rectangle){high, sp_scale(y, -1), sp_scale(z, -1)};
 }
 
+/* A room of 2 m x 2 m x 1.6 m about the origin, whose walls face inwards. */
+static inline sp_mesh *mesh_of_room(void)
+{
+    const double x = 1, y = 1, z = 0.8;
+    const rectangle walls[] = {
+        {{-x, -y, -z}, {2 * x, 0, 0}, {0, 2 * y, 0}}, {{-x, -y, z}, {0, 2 * y, 0}, {2 * x, 0, 0}},
+        {{-x, -y, -z}, {0, 2 * y, 0}, {0, 0, 2 * z}}, {{x, -y, -z}, {0, 0, 2 * z}, {0, 2 * y, 0}},
+        {{-x, -y, -z}, {0, 0, 2 * z}, {2 * x, 0, 0}}, {{-x, y, -z}, {2 * x, 0, 0}, {0, 0, 2 * z}},
+    };
+    return mesh_of_rectangles(walls, 6);
+}
+
 /* An icosahedron's faces cut in four `levels` times, on a sphere about the origin, front outwards. */
 static inline sp_mesh *mesh_of_sphere(double radius, int levels)
 {

@@ -228,7 +228,7 @@ static const slip kinds[] = {
      "scene.yaml:19:22: flow: found '12 L/min', expected this key only with an adjustable type, and 'cone' has no "
      "flow_range"},
     {"trajectory: line", "trajectory: curve",
-     "scene.yaml:23:15: trajectory: found 'curve', expected auto, line or parabola"},
+     "scene.yaml:23:15: trajectory: found 'curve', expected auto, line, parabola or drag"},
     {"evaluator: forward", "evaluator: both",
      "scene.yaml:24:14: evaluator: found 'both', expected auto, forward or inverse"},
     {"reflections: 3", "reflections: -1",
@@ -328,8 +328,6 @@ static const slip unsupported[] = {
      "scene.yaml:3:11: file: found 'tank.igs', which is not supported yet, expected an OBJ or STL file"},
     {"file: tank.obj", "file: tank.brep",
      "scene.yaml:3:11: file: found 'tank.brep', which is not supported yet, expected an OBJ or STL file"},
-    {"trajectory: line", "trajectory: drag",
-     "scene.yaml:23:15: trajectory: found 'drag', which is not supported yet, expected auto, line or parabola"},
 };
 
 /* Not YAML, or YAML that is refused. Where libfyaml says what is wrong, only the place is checked. */
@@ -365,9 +363,8 @@ static const slip catalogue_slips[] = {
     {"name: ring", "name: cone", "catalogue.yaml:3:12: name: found 'cone', expected a name that no other type has"},
     {"pattern: hollow_cone, ", "", "catalogue.yaml:3:5: pattern: found nothing, expected this key in a catalogue type"},
     {"pattern: hollow_cone", "pattern: spiral",
-     "catalogue.yaml:3:27: pattern: found 'spiral', expected full_cone, hollow_cone, flat_fan, solid_stream, cluster "
-     "or "
-     "rotating"},
+     "catalogue.yaml:3:27: pattern: found 'spiral', expected full_cone, hollow_cone, flat_fan, solid_stream, cluster, "
+     "rotating or measured"},
     {"angle: 90 deg, flow", "flow", "catalogue.yaml:2:5: angle: found nothing, expected this key in a full_cone"},
     {"angle: 90 deg, flow", "angle: 400 deg, flow",
      "catalogue.yaml:2:45: angle: found '400 deg', expected an angle above 0 to 360 deg such as 30 deg"},
@@ -485,6 +482,29 @@ static const slip catalogue_slips[] = {
     {"pattern: solid_stream",
      "pattern: rotating, rotation: {jet: {pattern: full_cone, angle: 91 deg}, jets: 4, gears: [43, 47]}",
      "catalogue.yaml:5:80: angle: found '91 deg', expected an angle of at most 90 deg beside gears"},
+    {"pattern: solid_stream", "pattern: measured, angle: 90 deg",
+     "catalogue.yaml:5:5: image: found nothing, expected this key in a measured"},
+    {"pattern: solid_stream", "pattern: measured, image: fan.exr",
+     "catalogue.yaml:5:5: angle: found nothing, expected this key in a measured"},
+    {"drop: 2 mm", "image: fan.exr", "catalogue.yaml:4:110: image: found in a flat_fan, expected in a measured only"},
+    {"pattern: solid_stream", "pattern: measured, angle: 90 deg, image: fan.exr, angle_range: [80 deg, 100 deg]",
+     "catalogue.yaml:5:80: angle_range: found in a measured, expected in another pattern only"},
+    {"pattern: solid_stream", "pattern: measured, angle: 361 deg, image: fan.exr",
+     "catalogue.yaml:5:43: angle: found '361 deg', expected an angle above 0 to 360 deg such as 30 deg"},
+    {"pattern: solid_stream", "pattern: measured, angle: 90 deg, image: [fan.exr]",
+     "catalogue.yaml:5:58: image: found a list of 1, expected the path of a file"},
+    {"pattern: solid_stream", "pattern: measured, angle: 90 deg, image: lost.exr",
+     "catalogue.yaml:5:58: image: found 'lost.exr', which cannot be opened (No such file or directory), expected a "
+     "file, relative to the catalogue"},
+    {"pattern: solid_stream", "pattern: measured, angle: 90 deg, image: .",
+     "catalogue.yaml:5:58: image: found '.', which is no regular file, expected a file, relative to the catalogue"},
+    {"pattern: solid_stream", "pattern: measured, angle: 90 deg, image: tank.obj",
+     "catalogue.yaml:5:58: image: found 'tank.obj': cannot be read: ..."},
+    {"pattern: solid_stream", "pattern: rotating, rotation: {jet: {pattern: measured, image: fan.exr, angle: 9 deg}}",
+     "catalogue.yaml:5:62: pattern: found 'measured', expected full_cone, hollow_cone, flat_fan or solid_stream "
+     "in a jet"},
+    {"pattern: solid_stream", "pattern: rotating, image: fan.exr, rotation: {jet: {pattern: solid_stream}}",
+     "catalogue.yaml:5:43: image: found in a rotating, expected in a measured only"},
     {"nozzles:", "types:", "catalogue.yaml:1:1: types: found a key that a catalogue does not have, expected nozzles"},
     {"nozzles:", "nozzles: 3\nother:",
      "catalogue.yaml:2:1: other: found a key that a catalogue does not have, expected nozzles"},
@@ -516,15 +536,14 @@ static const slip clusters[] = {
     {"{pattern: solid_stream, offset", "{offset",
      "catalogue.yaml:13:9: pattern: found nothing, expected this key in a member of a cluster"},
     {"{pattern: solid_stream, offset", "{pattern: cluster, offset",
-     "catalogue.yaml:13:19: pattern: found 'cluster', expected full_cone, hollow_cone, flat_fan or solid_stream in a "
-     "cluster"},
+     "catalogue.yaml:13:19: pattern: found 'cluster', expected full_cone, hollow_cone, flat_fan, solid_stream or "
+     "measured in a cluster"},
     {"{pattern: solid_stream, offset", "{pattern: spiral, offset",
-     "catalogue.yaml:13:19: pattern: found 'spiral', expected full_cone, hollow_cone, flat_fan, solid_stream, cluster "
-     "or "
-     "rotating"},
+     "catalogue.yaml:13:19: pattern: found 'spiral', expected full_cone, hollow_cone, flat_fan, solid_stream, cluster, "
+     "rotating or measured"},
     {"share: 2}", "flow: 2 L/min}",
      "catalogue.yaml:13:56: flow: found a key that a member of a cluster does not have, expected one of pattern, "
-     "angle, hollow, thickness, axis, offset, roll, share, ring"},
+     "angle, hollow, thickness, axis, offset, roll, share, ring, image"},
     {"share: 2}", "share: 0}",
      "catalogue.yaml:13:63: share: found '0', expected a number without unit above 0 to 1e+06 such as 0.5"},
     {"share: 2}", "share: 2 L/min}",
@@ -543,7 +562,7 @@ static const slip clusters[] = {
     {"roll: 90 deg", "angle_range: [50 deg, 70 deg]",
      "catalogue.yaml:14:79: angle_range: found a key that a member of a cluster does not have, expected one of "
      "pattern, "
-     "angle, hollow, thickness, axis, offset, roll, share, ring"},
+     "angle, hollow, thickness, axis, offset, roll, share, ring, image"},
     {"angle: 3 deg, ring", "axis: [0, 0, 1], ring",
      "catalogue.yaml:15:39: axis: found beside a ring, expected one of them"},
     {"count: 12, ", "", "catalogue.yaml:15:53: count: found nothing, expected this key in a ring"},
@@ -557,15 +576,6 @@ static const slip clusters[] = {
      "catalogue.yaml:15:88: radius: found '-14 mm', expected a length of at least 0 such as 250 mm"},
     {"phase: 10 deg", "turn: 10 deg",
      "catalogue.yaml:15:95: turn: found a key that a ring does not have, expected one of count, polar, radius, phase"},
-};
-
-/* Types that are not built yet. */
-static const slip catalogue_later[] = {
-    {"pattern: full_cone, angle: 90 deg, flow: 12 L/min, at: 2 bar", "pattern: measured, image: a.png",
-     "catalogue.yaml:2:27: pattern: found 'measured', which is not supported yet, expected full_cone, hollow_cone, "
-     "flat_fan, solid_stream, cluster or rotating"},
-    {"drop: 2 mm", "image: a.png",
-     "catalogue.yaml:4:110: image: found 'a.png', which is not supported yet, expected a type without this key"},
 };
 
 #define SWEPT "role: obstacle, sweep: {from: [0, 0, -1], to: [0, 0, 2], speed: 3 m/min}}"
@@ -690,7 +700,6 @@ static void catalogues(void **state)
     (void)state;
     try_catalogues(catalogue_slips, COUNT(catalogue_slips), SP_ERROR_INPUT);
     try_catalogues(clusters, COUNT(clusters), SP_ERROR_INPUT);
-    try_catalogues(catalogue_later, COUNT(catalogue_later), SP_ERROR_UNSUPPORTED);
 }
 
 static void expect(const char *path, const char *expected)

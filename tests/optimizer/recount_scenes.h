@@ -21,6 +21,7 @@ typedef struct {
     sp_nozzle kept[2];
     size_t kept_count;
     sp_layout *layout; /* of the kept */
+    sp_patternation *patternation;
     sp_place_options options;
 } recount_scene;
 
@@ -87,6 +88,7 @@ static inline void scene_open(recount_scene *s, const room_builder *b, double te
 static inline void scene_close(recount_scene *s)
 {
     sp_layout_destroy(s->layout);
+    sp_patternation_destroy(s->patternation);
     room_close(&s->room);
 }
 
@@ -470,6 +472,30 @@ static inline void goods_of_few(recount_scene *s, double texel)
     carry_a_block(s, &b, texel);
 }
 
+/* An image with a heavy side, a light one and a gap, so that roll and axis matter; beside it a plain cone. */
+static inline void measured_patterns(recount_scene *s, double texel)
+{
+    enum { COLUMNS = 24, ROWS = 20 };
+    room_builder b;
+    sp_error error = {0};
+    float values[ROWS * COLUMNS];
+    for (int i = 0; i < ROWS * COLUMNS; i++) {
+        double turn = 2 * M_PI * (i % COLUMNS + 0.5) / COLUMNS;
+        values[i] = (float)(i / COLUMNS > 8 && turn > 4 && turn < 5 ? 0 : 1 + 0.8 * cos(turn));
+    }
+    scene_begin(s, &b, false);
+    room_box(&b, sp_v(-0.5, -0.3, 0), sp_v(-0.1, 0.1, 0.5), "box", "top");
+    scene_type(s, SP_PATTERN_MEASURED, 110, 0, 8);
+    scene_type(s, SP_PATTERN_FULL_CONE, 70, 0, 5);
+    s->types[0].patternation = s->patternation = sp_patternation_create(values, COLUMNS, ROWS, 110 * DEGREE, &error);
+    assert_non_null(s->patternation);
+    s->room.setup.fidelity.trajectory = SP_TRAJECTORY_PARABOLA;
+    s->room.setup.criterion.flux = 1.5 * LITRES_PER_MINUTE;
+    s->mounts[0].tilt = 40 * DEGREE;
+    s->options.max_nozzles = 3;
+    scene_open(s, &b, texel);
+}
+
 typedef struct {
     const char *name;
     bool hall;
@@ -493,6 +519,7 @@ static const recount_case recount_cases[] = {
     {"off the wall", false, false, true, off_the_wall},
     {"off the wall, refined", false, true, false, off_the_wall},
     {"feeble, off the wall", false, false, false, feeble_off_the_wall},
+    {"measured patterns", false, true, false, measured_patterns},
     {"film over boxes", false, false, true, film_over_boxes},
     {"film over boxes, refined", false, true, false, film_over_boxes},
     {"film and one alone", false, false, false, film_and_one_alone},

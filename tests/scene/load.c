@@ -85,7 +85,7 @@ static void place_defaults(void **state)
     assert_int_equal(place.max_nozzles, 0);
     assert_true(isinf(place.max_water));
     near(place.clearance, 0);
-    assert_int_equal(place.type_count, 5);
+    assert_int_equal(place.type_count, 6);
     assert_string_equal(place.types[4]->name, "set");
     assert_int_equal(place.pressure_count, 1);
     near(place.refine.position, -1);
@@ -247,7 +247,7 @@ static void types(void **state)
     (void)state;
     sp_scene *scene = load("geometry: [{file: tank.obj}]\ncatalogue: catalogue.yaml\n");
     sp_place_options place = sp_scene_place_options(scene);
-    assert_int_equal(place.type_count, 5);
+    assert_int_equal(place.type_count, 6);
     const sp_nozzle_type *cone = place.types[0], *ring = place.types[1], *fan = place.types[2], *jet = place.types[3];
     assert_int_equal(cone->pattern, SP_PATTERN_FULL_CONE);
     near(cone->angle, M_PI / 2);
@@ -267,14 +267,14 @@ static void types(void **state)
     sp_scene_destroy(scene);
 }
 
-/* 2 + 1 + 12 shares; place does not take it without being told so. */
+/* 2 + 1 + 12 shares; place takes it as any other type. */
 static void clusters(void **state)
 {
     (void)state;
     sp_scene *scene =
         load("geometry: [{file: tank.obj}]\ncatalogue: catalogue.yaml\n"
              "nozzles: [{name: N1, type: ball, position: [0, 0, 0], axis: [0, 0, 1], pressure: 6 bar}]\n");
-    assert_int_equal(sp_scene_place_options(scene).type_count, 5);
+    assert_int_equal(sp_scene_place_options(scene).type_count, 6);
     const sp_nozzle *nozzle = &sp_scene_layout(scene)->nozzles[0];
     const sp_nozzle_type *ball = nozzle->type;
     assert_int_equal(ball->pattern, SP_PATTERN_CLUSTER);

@@ -349,6 +349,9 @@ static void holes_in_a_wall_are_not_placed(void **state)
     assert_int_equal(proposal->layout->count, 1);
     assert_true(fabs(proposal->layout->nozzles[0].position.z - 0.97) < 1e-12);
     sp_proposal_destroy(proposal);
+    type.member_count = 0;
+    assert_null(sp_place(r.evaluator, &options, &error));
+    assert_string_equal(error.message, "type type: a cluster, expected 1 to 1000 members");
     room_close(&r);
 }
 

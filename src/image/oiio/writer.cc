@@ -1,5 +1,5 @@
-// Image files through OpenImageIO 2.4; nothing else in the house includes it.
-#include "image/oiio/writer.h"
+// Image files are written through OpenImageIO 2.4; this folder alone includes it.
+#include "image/oiio/files.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -96,8 +96,8 @@ try {
 
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) const sp_image_writer *sp_image_module_open(void)
+extern "C" __attribute__((visibility("default"))) const sp_image_files *sp_image_module_open(void)
 {
-    static const sp_image_writer writer = {write_png, encode_png, write_exr};
-    return &writer;
+    static const sp_image_files files = {write_png, encode_png, write_exr, sp_image_module_read};
+    return &files;
 }

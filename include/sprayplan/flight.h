@@ -1,0 +1,62 @@
+/* How liquid flies from one point to another: along parabolas in closed form, or as drops that the air holds back. */
+#ifndef SPRAYPLAN_FLIGHT_H
+#define SPRAYPLAN_FLIGHT_H
+
+#include <sprayplan/nozzle.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct {
+    sp_vec3 direction; /* unit, at the start */
+    sp_vec3 velocity;  /* on arrival, m/s */
+    double time;       /* s */
+    double spread; /* m³/s: transfer (1/m²) = |n · velocity| / spread; v r² for a line, v T √D for a parabola */
+    double lever;  /* m: by how much the end moves across the plane of the flight, per rad; v T without drag */
+} sp_flight;
+
+/* The closed-form flights from `from` to `to` at `speed` under `gravity`, without drag, low arc first. Returns 0, 1 or
+ * 2. A line (gravity zero) has one. */
+int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_flight flights[2]);
+/* How broad a square of this edge length (m) about the flight's end looks from where it starts, at most, however it is
+ * turned: by how much the flight's direction has to change for its end to move so far. Never more than SP_BREADTH_MOST
+ * (rad): a patch that looks broader is cut into cells that do not, and the spray's edge is blurred over them by as
+ * much, so that their shares still come to the region's solid angle. */
+#define SP_BREADTH_MOST 0.2
+double sp_flight_breadth(const sp_flight *flight, double length);
+
+/* How air holds single drops back: dv/dt = g - (3 rho_a Cd / 4 rho D) |v| v with Haider and Levenspiel's drag
+ * coefficient of a sphere, Cd = 24/Re (1 + 0.1806 Re^0.6459) + 0.4251/(1 + 6880.95/Re) (Powder Technology 58, 1989).
+ * Where Re goes to 0 that is Stokes' drag, -18 mu_a v / (rho D²), which knows no density of air. */
+typedef struct {
+    double stokes;   /* 1/s: 18 mu_a / (rho D²); 0, with `form`: no drag */
+    double form;     /* 1/m: 0.4251 · 3 rho_a / (4 rho D) */
+    double reynolds; /* s/m: rho_a D / mu_a, Re per speed */
+    double delay;    /* s, in which nothing is held back: what leaves is a stream still */
+} sp_drag;
+
+/* Of what leaves as drops of a diameter (m). No air (density 0), no drag. */
+sp_drag sp_drag_of_drops(double diameter, const sp_fluid *liquid, const sp_fluid *air);
+/* Of what leaves a nozzle of one pattern at its speed and flow: drops of its type's diameter, of solid streams only
+ * once they have broken up. That is 5 We^0.378 of their diameters away, in the time that it takes at the exit speed; We
+ * is the liquid's, rho v² d / sigma, and the diameter d that of a round stream of this flow and speed. With two axes
+ * the jets share the flow. */
+sp_drag sp_drag_of(const sp_nozzle *nozzle, const sp_fluid *liquid, const sp_fluid *air);
+/* m/s², of a drop at a velocity through air at rest. */
+sp_vec3 sp_drag_acceleration(const sp_drag *drag, sp_vec3 velocity, sp_vec3 gravity);
+
+/* All that leaves a point at one speed at once, whatever its direction, moment by moment: the table that flights with
+ * drag are found in, told to about 1e-9 of their length. Read only once it is made. */
+typedef struct sp_fronts sp_fronts;
+/* `far`: m, no flight is asked for to an end farther off than this. NULL on error. */
+sp_fronts *sp_fronts_create(const sp_drag *drag, double speed, sp_vec3 gravity, double far, sp_error *error);
+/* Accepts NULL. */
+void sp_fronts_destroy(sp_fronts *fronts);
+/* As sp_flights, with drag. */
+int sp_fronts_flights(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

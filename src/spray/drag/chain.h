@@ -1,0 +1,42 @@
+/* Flights with drag as chains of parabolas, each with an acceleration of its own, for the tracer. */
+#ifndef SPRAY_DRAG_CHAIN_H
+#define SPRAY_DRAG_CHAIN_H
+
+#include "fronts.h"
+
+typedef struct {
+    sp_ray ray;   /* from its start to its end, by its own clock */
+    sp_vec3 pull; /* m/s², its acceleration */
+    double start; /* s, when it begins */
+    bool last;
+} sp_piece;
+
+/* A flight that was found on the fronts, while it is gone along. */
+typedef struct {
+    const sp_fronts *fronts;
+    sp_vec3 from, level; /* m; unit, or 0 straight up and down */
+    double sine, cosine;
+    double polynomials[SP_FRONT_ORDER]; /* at its elevation */
+    double time;                        /* s, that it takes */
+    size_t next;                        /* joint */
+    sp_vec3 at;                         /* m, where the next piece begins */
+} sp_chain;
+
+sp_chain sp_chain_of(const sp_fronts *fronts, sp_vec3 from, const sp_flight *flight);
+/* The next piece; false behind the last. */
+bool sp_chain_next(sp_chain *chain, sp_piece *piece);
+
+/* What a drop meets first, and how. */
+typedef struct {
+    sp_hit hit; /* its t by the piece's own clock */
+    sp_piece piece;
+    sp_vec3 velocity; /* m/s */
+    double time;      /* s, since it started */
+} sp_landing;
+
+/* Flies drops from their rays' starts until they meet the tracer's mesh, or leave it for good. A ray says where and
+ * from when a drop can meet something, and what it does not meet. landings: [count], the caller's. */
+void sp_drag_trace_many(const sp_tracer *tracer, const sp_drag *drag, const sp_ray *rays, size_t count, sp_vec3 gravity,
+                        int threads, sp_landing *landings);
+
+#endif

@@ -1,0 +1,121 @@
+/* What the table says of a front. */
+#include "fronts.h"
+
+/* A moment's data and their slopes by the elevation: Chebyshev's sums, and the derivatives of their polynomials. */
+typedef struct {
+    double value[SP_FRONT_DATA], slope[SP_FRONT_DATA];
+} sums;
+
+static sums sum_up(const sp_fronts *fronts, size_t i, unsigned terms, double elevation)
+{
+    const double(*sum)[SP_FRONT_DATA] = (const double(*)[SP_FRONT_DATA])fronts->sum + i * fronts->most;
+    double at = elevation / (0.5 * M_PI), now = 1, before = at, slope_now = 0,
+           slope_before = 1; /* the polynomial -1 is the first */
+    sums own = {0};
+    for (unsigned n = 0; n < terms; n++) {
+        for (int k = 0; k < SP_FRONT_DATA; k++) {
+            own.value[k] += now * sum[n][k];
+            own.slope[k] += slope_now * sum[n][k] / (0.5 * M_PI);
+        }
+        double next = 2 * at * now - before, slope_next = 2 * now + 2 * at * slope_now - slope_before;
+        before = now;
+        slope_before = slope_now;
+        now = next;
+        slope_now = slope_next;
+    }
+    return own;
+}
+
+sp_front sp_front_at_moment(const sp_fronts *fronts, size_t i, unsigned terms, double elevation)
+{
+    sums own = sum_up(fronts, i, terms, elevation);
+    return (sp_front){own.value[0], own.value[1], own.slope[0], own.value[3], own.value[4], own.slope[3]};
+}
+
+/* The polynomials of order 5 that give value, first and second derivative at either end of a step of length 1. */
+static void quintic(double x, double weight[6])
+{
+    double x2 = x * x, x3 = x2 * x;
+    weight[3] = x3 * (10 - 15 * x + 6 * x2);
+    weight[4] = x3 * (-4 + 7 * x - 3 * x2);
+    weight[5] = x3 * (0.5 - x + 0.5 * x2);
+    weight[0] = 1 - weight[3];
+    weight[1] = x + x3 * (-6 + 8 * x - 3 * x2);
+    weight[2] = 0.5 * x2 + x3 * (-1.5 + 1.5 * x - 0.5 * x2);
+}
+
+static void quintic_slope(double x, double weight[6])
+{
+    double x2 = x * x;
+    weight[3] = x2 * (30 - 60 * x + 30 * x2);
+    weight[4] = x2 * (-12 + 28 * x - 15 * x2);
+    weight[5] = x2 * (1.5 - 4 * x + 2.5 * x2);
+    weight[0] = -weight[3];
+    weight[1] = 1 + x2 * (-18 + 32 * x - 15 * x2);
+    weight[2] = x + x2 * (-4.5 + 6 * x - 2.5 * x2);
+}
+
+static double blend(const double weight[6], double step, const double *from, const double *to)
+{
+    return weight[0] * from[0] + weight[3] * to[0] +
+           step * (weight[1] * from[1] + weight[4] * to[1] + step * (weight[2] * from[2] + weight[5] * to[2]));
+}
+
+sp_front sp_front_between(const sp_fronts *fronts, size_t i, double time, double elevation)
+{
+    double step = fronts->time[i + 1] - fronts->time[i], x = (time - fronts->time[i]) / step;
+    double weight[6], change[6];
+    sums from = sum_up(fronts, i, fronts->terms[i], elevation);
+    sums to = sum_up(fronts, i + 1, fronts->terms[i + 1], elevation);
+    quintic(x, weight);
+    quintic_slope(x, change);
+    return (sp_front){.q = blend(weight, step, from.value, to.value),
+                      .q_time = blend(change, step, from.value, to.value) / step,
+                      .q_turn = blend(weight, step, from.slope, to.slope),
+                      .d = blend(weight, step, from.value + 3, to.value + 3),
+                      .d_time = blend(change, step, from.value + 3, to.value + 3) / step,
+                      .d_turn = blend(weight, step, from.slope + 3, to.slope + 3)};
+}
+
+size_t sp_front_moment_before(const sp_fronts *fronts, double time)
+{
+    size_t low = 0, high = fronts->count - 1;
+    while (high - low > 1) {
+        size_t middle = (low + high) / 2;
+        if (fronts->time[middle] <= time)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+void sp_front_polynomials(const sp_fronts *fronts, double elevation, double *polynomials)
+{
+    double at = elevation / (0.5 * M_PI);
+    polynomials[0] = 1;
+    polynomials[1] = at;
+    for (unsigned n = 2; n < fronts->most; n++)
+        polynomials[n] = 2 * at * polynomials[n - 1] - polynomials[n - 2];
+}
+
+static void data_at(const sp_fronts *fronts, size_t i, const double *polynomials, double data[SP_FRONT_DATA])
+{
+    const double(*sum)[SP_FRONT_DATA] = (const double(*)[SP_FRONT_DATA])fronts->sum + i * fronts->most;
+    for (int k = 0; k < SP_FRONT_DATA; k++)
+        data[k] = 0;
+    for (unsigned n = 0; n < fronts->terms[i]; n++)
+        for (int k = 0; k < SP_FRONT_DATA; k++)
+            data[k] += polynomials[n] * sum[n][k];
+}
+
+sp_front_place sp_front_place_between(const sp_fronts *fronts, double time, const double *polynomials)
+{
+    size_t i = sp_front_moment_before(fronts, time);
+    double step = fronts->time[i + 1] - fronts->time[i];
+    double from[SP_FRONT_DATA], to[SP_FRONT_DATA], weight[6];
+    data_at(fronts, i, polynomials, from);
+    data_at(fronts, i + 1, polynomials, to);
+    quintic((time - fronts->time[i]) / step, weight);
+    return (sp_front_place){blend(weight, step, from, to), blend(weight, step, from + 3, to + 3)};
+}
