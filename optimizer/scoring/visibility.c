@@ -309,13 +309,13 @@ static double patterns_to_trace(const sp_sites *sites, const sp_candidates *cand
 
 /* Patches on whose texels goods that move are looked at in few enough positions: with p patches of texels t, p t² being
  * the surface, p / t times the way over which they move is what a view has at most. */
-static double patches_that_pass(const sp_evaluator *fine, double views, double poses)
+static double patches_that_pass(const sp_evaluator *fine, double views, double poses, double most)
 {
     const sp_sweep *sweep = &sp_evaluator_setup(fine)->sweep;
     double finer = sp_evaluator_fidelity(fine)->texel, count = (double)sp_evaluator_patches(fine)->count;
     double each = fmin(PASS_RAYS_MOST / views, PASS_SWEEPS_MOST / poses);
     double patches = cbrt(pow(each * finer / sp_distance(sweep->from, sweep->to), 2) * count);
-    return fmax(PATCHES_LEAST, fmin(PASS_PATCHES_MOST, patches));
+    return fmax(PATCHES_LEAST, fmin(fmin(most, PASS_PATCHES_MOST), patches));
 }
 
 bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options, const sp_sites *sites,
@@ -332,7 +332,7 @@ bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options
     double patches = fmax(PATCHES_LEAST, fmin(most, fmin(RAYS_MOST / views, sweeps / poses)));
     double finer = sp_evaluator_fidelity(fine)->texel;
     if (setup->sweep.speed > 0)
-        patches = patches_that_pass(fine, views, poses);
+        patches = patches_that_pass(fine, views, poses, most);
     double texel = finer * sqrt((double)sp_evaluator_patches(fine)->count / patches);
     *resampled = NULL;
     if (film || texel > SAME * finer) {

@@ -300,7 +300,8 @@ static inline void feeble_off_the_wall(recount_scene *s, double texel)
     scene_open(s, &b, texel);
 }
 
-#define FILM_TEXEL 0.08 /* the shortest of which a search with film takes as many as there are, soon enough */
+#define FILM_TEXEL 0.08  /* the shortest of which a search with film takes as many as there are, soon enough */
+#define GOODS_TEXEL 0.07 /* the same of goods that move, where patches have positions besides */
 
 /* Film that runs down from several nozzles together, over boxes that stand on the floor; on the lid and the floor none
  * runs. */
@@ -332,7 +333,8 @@ static inline void film_of_few(recount_scene *s, double texel)
     scene_type(s, SP_PATTERN_FULL_CONE, 70, 0, 9);
     scene_type(s, SP_PATTERN_HOLLOW_CONE, 100, 0.7, 6.4);
     scene_type(s, SP_PATTERN_SOLID_STREAM, 3, 0, 4);
-    s->room.setup.criterion = (sp_criterion){.flux = 6 * LITRES_PER_MINUTE, .film = 4 * LITRES_PER_MINUTE};
+    s->room.setup.criterion =
+        (sp_criterion){.flux = 6 * LITRES_PER_MINUTE, .incidence = 80 * DEGREE, .film = 4 * LITRES_PER_MINUTE};
     s->room.setup.gravity = 9.81;
     s->mounts[0].tilt = 0;
     s->mounts[0].axis = sp_unit(sp_v(0.6, 0.5, 0.2));
@@ -348,8 +350,10 @@ static inline void film_and_one_alone(recount_scene *s, double texel)
     scene_begin(s, &b, false);
     scene_type(s, SP_PATTERN_FULL_CONE, 120, 0, 9);
     scene_type(s, SP_PATTERN_HOLLOW_CONE, 100, 0.8, 7);
-    s->room.setup.criterion =
-        (sp_criterion){.flux = 12 * LITRES_PER_MINUTE, .combine = SP_COMBINE_SINGLE, .film = 4 * LITRES_PER_MINUTE};
+    s->room.setup.criterion = (sp_criterion){.flux = 12 * LITRES_PER_MINUTE,
+                                             .incidence = 80 * DEGREE,
+                                             .combine = SP_COMBINE_SINGLE,
+                                             .film = 4 * LITRES_PER_MINUTE};
     s->room.setup.gravity = 9.81;
     s->mounts[0].tilt = 120 * DEGREE;
     s->options.max_nozzles = 4;
@@ -422,7 +426,8 @@ static inline void bodies_and_film(recount_scene *s, double texel)
     room_builder b;
     scene_begin(s, &b, false);
     scene_bodies(s);
-    s->room.setup.criterion = (sp_criterion){.flux = 8 * LITRES_PER_MINUTE, .film = 5 * LITRES_PER_MINUTE};
+    s->room.setup.criterion =
+        (sp_criterion){.flux = 8 * LITRES_PER_MINUTE, .incidence = 80 * DEGREE, .film = 5 * LITRES_PER_MINUTE};
     s->room.setup.gravity = 9.81;
     s->mounts[0].axis = sp_unit(sp_v(0.6, 0.5, 0.2));
     scene_open(s, &b, fmax(texel, FILM_TEXEL));
@@ -442,7 +447,7 @@ static inline void carry_a_block(recount_scene *s, room_builder *b, double texel
     room_box(b, sp_v(-0.2, -0.3, 0.1), sp_v(0.2, 0.25, 0.4), "block", "block top");
     s->room.moves[2] = s->room.moves[3] = true;
     s->room.setup.sweep = (sp_sweep){.from = {-0.6, 0, 0}, .to = {0.7, 0.05, 0}, .speed = 0.1};
-    scene_open(s, b, texel);
+    scene_open(s, b, fmax(texel, GOODS_TEXEL));
 }
 
 static inline void goods_in_a_chamber(recount_scene *s, double texel)
@@ -451,6 +456,7 @@ static inline void goods_in_a_chamber(recount_scene *s, double texel)
     scene_begin(s, &b, false);
     scene_type(s, SP_PATTERN_FULL_CONE, 70, 0, 12);
     scene_type(s, SP_PATTERN_FLAT_FAN, 80, 6, 7.3);
+    s->room.setup.fidelity.trajectory = SP_TRAJECTORY_PARABOLA;
     s->room.setup.criterion = (sp_criterion){.flux = 1.5 * LITRES_PER_MINUTE, .incidence = 75 * DEGREE};
     s->options.max_nozzles = 4;
     s->options.max_water = 40 * LITRES_PER_MINUTE;
@@ -469,6 +475,19 @@ static inline void goods_of_few(recount_scene *s, double texel)
     s->mounts[0].axis = sp_unit(sp_v(0.4, 0.3, -1));
     s->mounts[0].spacing = 0.25;
     s->options.max_nozzles = 3;
+    carry_a_block(s, &b, texel);
+}
+
+/* Balls and turning fans by which goods pass. */
+static inline void goods_and_bodies(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_bodies(s);
+    s->room.setup.criterion =
+        (sp_criterion){.flux = 1.5 * LITRES_PER_MINUTE, .impact_speed = 5, .incidence = 80 * DEGREE};
+    s->mounts[0].tilt = 0;
+    s->mounts[0].axis = sp_unit(sp_v(0.3, 0.2, -1));
     carry_a_block(s, &b, texel);
 }
 
@@ -530,6 +549,7 @@ static const recount_case recount_cases[] = {
     {"bodies of few, every layout", false, false, true, bodies_of_few},
     {"goods in a chamber, refined", false, false, false, goods_in_a_chamber},
     {"goods of few, every layout", false, false, true, goods_of_few},
+    {"goods and bodies", false, false, true, goods_and_bodies},
 };
 #define RECOUNT_CASES (sizeof recount_cases / sizeof *recount_cases)
 
