@@ -6,6 +6,7 @@
 #define L_MIN 6e4 /* L/min per m³/s, and L/min/m² per m/s */
 #define L 1e3     /* L/m² per m³/m² */
 #define SHADOWS_SHOWN 10
+#define MANY 10.0 /* times as much and more is said so, not in per cent */
 
 typedef double measure(const sp_figures *figures);
 
@@ -106,6 +107,9 @@ static void add_difference(sp_text *text, const row *r, double from, double to)
     sp_text_add(text, "<td>");
     if (!isfinite(from) || !isfinite(to) || (!r->points && !(from > 0))) {
         sp_markup_decimals(text, NAN, 0);
+    } else if (!r->points && to >= MANY * from) {
+        sp_text_add(text, "&times;&thinsp;");
+        sp_markup_significant(text, to / from, 3);
     } else {
         sp_markup_signed(text, r->points ? to - from : 100 * (to / from - 1), r->points ? 1 : 0);
         sp_text_add(text, r->points ? "&nbsp;points" : "&nbsp;%%");
