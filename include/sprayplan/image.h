@@ -29,11 +29,16 @@ typedef struct {
 bool sp_image_write_exr(const char *path, const sp_exr_part *parts, size_t count, const char *const *channel_names,
                         int channels, sp_error *error);
 
-/* The one channel of a PNG, TIFF, OpenEXR or PFM file, as stored (whole numbers over the largest of their kind), rows
- * from the top: malloc'd [*height][*width], the caller frees. NULL on error: the message says of the file, which it
- * does not name, "cannot be read: ..." or "has 3 channels, expected 1"; larger images are refused before their pixels
- * are read. */
-float *sp_image_read(const char *path, int most_width, int most_height, int *width, int *height, sp_error *error);
+/* A PNG, TIFF, OpenEXR or PFM file of one channel, or a TIFF or OpenEXR file of two. */
+typedef struct {
+    int width, height, channels;
+    float *values; /* [height][width][channels], as stored (whole numbers over the largest of their kind), rows from the
+                    * top; malloc'd, the caller frees */
+} sp_image;
+/* Channels are in the file's order; an OpenEXR file, which has none, names two of them as `names` does. NULL values on
+ * error: the message says of the file, which it does not name, "cannot be read: ..." or "has 3 channels, expected 1";
+ * larger images are refused before their pixels are read. */
+sp_image sp_image_read(const char *path, int most_width, int most_height, const char *const names[2], sp_error *error);
 
 #ifdef __cplusplus
 }

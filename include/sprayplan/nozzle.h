@@ -57,6 +57,19 @@ typedef struct sp_patternation sp_patternation;
 sp_patternation *sp_patternation_create(const float *values, size_t columns, size_t rows, double angle,
                                         sp_error *error);
 void sp_patternation_destroy(sp_patternation *patternation);
+/* The liquid of an image that leaves at one speed, or at one near to it. */
+typedef struct {
+    sp_patternation *patternation; /* owned */
+    double share;                  /* of the image's liquid */
+    double speed;                  /* of the nozzle's exit speed */
+} sp_speed_layer;
+#define SP_SPEEDS 16 /* layers of an image at most */
+/* What sp_patternation_create makes of these values, in layers of one speed each. speeds: [rows][columns], of the
+ * nozzle's exit speed, above 0 and at most 10 where there is liquid, of any value where there is none. Layers' speeds
+ * are 5 % apart, or more where SP_SPEEDS would not do; liquid of a speed between two goes to both, so that its mean
+ * speed is its own. Returns how many layers there are, slowest first, 0 on error, which says where a wrong value is. */
+size_t sp_patternation_layers(const float *values, const float *speeds, size_t columns, size_t rows, double angle,
+                              sp_speed_layer layers[SP_SPEEDS], sp_error *error);
 
 /* A catalogue entry. Plain data; angles are full opening angles. */
 typedef struct {
@@ -87,11 +100,12 @@ typedef struct {
 
 /* One pattern of a cluster, such as a hole of a spray ball, in the frame of its body (sp_nozzle_frame). */
 typedef struct sp_member {
-    sp_nozzle_type type; /* its pattern and angles, no cluster; flow and exit speed are the body's */
+    sp_nozzle_type type; /* its pattern and angles, no cluster; its flow and exit speed follow from the body's */
     sp_vec3 offset;      /* m, from the body's position */
     sp_vec3 axis;        /* unit */
     double roll;         /* rad; its own frame follows from axis and roll as a nozzle's does, the body's z being up */
     double share;        /* of the body's flow, in proportion to the other members'; > 0 */
+    double speed;        /* of the body's exit speed; 0: the same */
 } sp_member;
 
 /* True of an http or https address that fits and has neither spaces nor control characters nor quotes: a page may link
@@ -146,7 +160,7 @@ sp_frame sp_nozzle_frame(sp_vec3 axis, double roll, sp_vec3 up);
 /* How many patterns a nozzle has: its cluster's members, else 1. */
 size_t sp_nozzle_pattern_count(const sp_nozzle *nozzle);
 /* Nozzles of one pattern each that together spray what this one does: its members, in their order, or itself. They have
- * the body's name and exit speed, their shares of its flow, and of its jets, where it sets their number, at least one
+ * the body's name and exit speed, or their part of it, their shares of its flow, and of its jets, where it sets their number, at least one
  * each. patterns: [sp_nozzle_pattern_count], the caller's; their types are borrowed from the nozzle's. A member along
  * the body's axis, without offset, that has all the flow is to the bit the plain nozzle. `up` as for sp_nozzle_frame.
  */

@@ -47,8 +47,8 @@ bool sp_image_write_exr(const char *path, const sp_exr_part *parts, size_t count
     return images && images->write_exr(path, parts, count, channel_names, channels, error);
 }
 
-float *sp_image_read(const char *path, int most_width, int most_height, int *width, int *height, sp_error *error)
+sp_image sp_image_read(const char *path, int most_width, int most_height, const char *const names[2], sp_error *error)
 {
     const sp_image_files *images = files(error);
-    return images ? images->read(path, most_width, most_height, width, height, error) : NULL;
+    return images ? images->read(path, most_width, most_height, names, error) : (sp_image){0};
 }

@@ -75,7 +75,7 @@ void sp_nozzle_patterns(const sp_nozzle *nozzle, const sp_fluid *liquid, sp_vec3
         pattern->position = sp_add(nozzle->position, outwards(&body, member->offset));
         pattern->angle = 0;
         pattern->flow = flow * (member->share / all);
-        pattern->speed = speed;
+        pattern->speed = member->speed > 0 ? speed * member->speed : speed;
         pattern->jets = nozzle->jets ? jets_between(nozzle->jets, before / all, after / all) : 0;
         aim(pattern, member, nozzle, &body, up);
         before = after;
@@ -98,6 +98,8 @@ bool sp_type_is_whole(const sp_nozzle_type *type, sp_error *error)
             return false;
         else if (!(type->members[i].share > 0 && type->members[i].share < 1e300)) /* so that they add up */
             wrong = "members with a share of the flow above 0";
+        else if (!(type->members[i].speed >= 0 && type->members[i].speed < 1e300))
+            wrong = "members with a part of the exit speed of 0 (all of it) or more";
     return !wrong ||
            sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "type %s: a cluster, expected %s", type->name, wrong);
 }

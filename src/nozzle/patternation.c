@@ -7,8 +7,7 @@
 
 #define NARROWEST 1e-6 /* rad */
 
-/* False, with an error, of an image that is no pattern. */
-static bool is_pattern(const float *values, size_t columns, size_t rows, double angle, sp_error *error)
+bool sp_patternation_check(const float *values, size_t columns, size_t rows, double angle, sp_error *error)
 {
     bool any = false;
     if (columns < 1 || columns > SP_PATTERNATION_COLUMNS || rows < 1 || rows > SP_PATTERNATION_ROWS)
@@ -108,7 +107,7 @@ static void find_ends(sp_patternation *own)
 
 sp_patternation *sp_patternation_create(const float *values, size_t columns, size_t rows, double angle, sp_error *error)
 {
-    if (!is_pattern(values, columns, rows, angle, error))
+    if (!sp_patternation_check(values, columns, rows, angle, error))
         return NULL;
     sp_patternation *own = calloc(1, sizeof *own);
     if (!own || !allocate(own, columns, rows + 2)) {
@@ -116,9 +115,9 @@ sp_patternation *sp_patternation_create(const float *values, size_t columns, siz
         return sp_fail_memory(error);
     }
     set_nodes(own, values, angle);
-    double all = integrate(own);
+    own->liquid = integrate(own);
     for (size_t i = 0; i < own->rows * columns; i++)
-        own->node[i] /= all;
+        own->node[i] /= own->liquid;
     sum_up(own);
     find_ends(own);
     if (sp_pattern_maps_create(own))

@@ -32,9 +32,12 @@ struct sp_patternation {
     double *least, *most;   /* [rows], of the nodes */
     double low, high;       /* rad, polar angles between which there is liquid */
     double densest;         /* of all nodes, 1/sr */
+    double liquid;          /* all there is, in the image's own measure */
     sp_pattern_map maps[2]; /* towards the axis, and away from it where the pattern comes that far */
 };
 
+/* False, with an error, of an image that is no pattern. */
+bool sp_patternation_check(const float *values, size_t columns, size_t rows, double angle, sp_error *error);
 /* As sp_spray_intensity. */
 double sp_patternation_at(const sp_patternation *own, sp_vec3 direction);
 /* Where the shares u of the liquid leave nearer to the axis, and w of what leaves as near before it in azimuth. */

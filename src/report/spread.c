@@ -35,16 +35,21 @@ static void add_image(sp_text *text, const sp_nozzle_type *type)
     sp_markup_escape(text, name ? name : "");
     sp_text_add(text, " as it was measured, by the image ");
     sp_markup_escape(text, image ? image : "");
+    if (type->pattern == SP_PATTERN_CLUSTER)
+        sp_text_add(text, ", which says how fast besides (in %zu speeds from %.2g to %.2g times the exit speed)",
+                    type->member_count, type->members[0].speed, type->members[type->member_count - 1].speed);
     text->failed |= !name || !image;
     free(name);
     free(image);
 }
 
-/* Of a cluster each image once that members one after another have. */
+/* Of a cluster each image once that members one after another have; its own where that has speeds. */
 static void add_images(sp_text *text, const sp_nozzle_type *type)
 {
-    if (type->pattern == SP_PATTERN_MEASURED)
+    if (type->pattern == SP_PATTERN_MEASURED || type->image[0]) {
         add_image(text, type);
+        return;
+    }
     for (size_t i = 0; i < type->member_count; ++i) {
         const sp_nozzle_type *own = &type->members[i].type;
         if (own->pattern == SP_PATTERN_MEASURED && (i == 0 || strcmp(own->image, type->members[i - 1].type.image) != 0))

@@ -186,7 +186,7 @@ static bool read_type(sp_scene *scene, const sp_reader *reader, const sp_yaml *n
            sp_read_keys(reader, node, "nozzles", "a catalogue type", keys) &&
            sp_read_name(reader, node, "name", type->name) && sp_scene_read_shape(reader, node, type) &&
            read_flow(reader, node, type) && read_source(reader, node, type) &&
-           sp_scene_read_image(scene, reader, node, type) && sp_scene_read_members(scene, reader, node, type);
+           sp_scene_read_members(scene, reader, node, type) && sp_scene_read_image(scene, reader, node, type);
 }
 
 static bool read_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *list)

@@ -26,6 +26,17 @@ static bool read_ring(const sp_reader *reader, const sp_yaml *node, ring *ring)
            sp_read_quantity(reader, map, "phase", &sp_angle_unit, sp_any(), &ring->phase);
 }
 
+/* The image of a member, which has the body's exit speed. */
+static bool read_image(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+{
+    if (!sp_scene_read_image(scene, reader, node, type))
+        return false;
+    if (type->pattern != SP_PATTERN_CLUSTER)
+        return true;
+    free(type->members);
+    return sp_read_fail(reader, sp_yaml_get(node, "image"), "image", "an image without speeds in a cluster");
+}
+
 static bool read_member(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_member *member, ring *ring)
 {
     static const sp_key keys[] = {{"pattern", true}, {"angle", false},  {"hollow", false}, {"thickness", false},
@@ -38,7 +49,7 @@ static bool read_member(sp_scene *scene, const sp_reader *reader, const sp_yaml 
         return sp_read_fail(reader, pattern, "pattern",
                             "full_cone, hollow_cone, flat_fan, solid_stream or measured in a cluster");
     return sp_scene_read_pattern(reader, node, &member->type) && sp_scene_read_shape(reader, node, &member->type) &&
-           sp_scene_read_image(scene, reader, node, &member->type) &&
+           read_image(scene, reader, node, &member->type) &&
            sp_read_axis(reader, node, "axis", &member->axis) &&
            sp_read_vector(reader, node, "offset", &sp_length_unit, &member->offset) &&
            sp_read_quantity(reader, node, "roll", &sp_angle_unit, sp_any(), &member->roll) &&

@@ -8,27 +8,53 @@
 #include <string.h>
 
 /* The scene's own where it was read before. */
-static const sp_patternation *find(const sp_scene *scene, const char *path, double angle)
+static const sp_scene_image *find(const sp_scene *scene, const char *path, double angle)
 {
     for (size_t i = 0; i < scene->image_count; i++)
         if (scene->images[i].angle == angle && strcmp(scene->images[i].path, path) == 0)
-            return scene->images[i].patternation;
+            return &scene->images[i];
     return NULL;
 }
 
-static sp_patternation *read_patternation(const char *path, double angle, sp_error *error)
+/* One channel of two. */
+static float *channel_of(const sp_image *image, int channel, sp_error *error)
 {
-    int width = 0, height = 0;
-    float *values = sp_image_read(path, SP_PATTERNATION_COLUMNS, SP_PATTERNATION_ROWS, &width, &height, error);
-    sp_patternation *patternation =
-        values ? sp_patternation_create(values, (size_t)width, (size_t)height, angle, error) : NULL;
-    free(values);
-    return patternation;
+    size_t count = (size_t)image->width * (size_t)image->height;
+    float *own = malloc(count * sizeof *own);
+    for (size_t i = 0; own && i < count; i++)
+        own[i] = image->values[i * (size_t)image->channels + (size_t)channel];
+    return own ? own : sp_fail_memory(error);
 }
 
-/* Reads it for the scene, which then owns path and patternation. */
-static const sp_patternation *add(sp_scene *scene, const sp_reader *reader, const sp_yaml *image, char *path,
-                                  double angle)
+static size_t make_layers(const sp_image *image, double angle, sp_speed_layer *layers, sp_error *error)
+{
+    size_t columns = (size_t)image->width, rows = (size_t)image->height, count = 0;
+    if (image->channels == 1) {
+        layers[0] = (sp_speed_layer){sp_patternation_create(image->values, columns, rows, angle, error), 1, 1};
+        return layers[0].patternation != NULL;
+    }
+    float *liquid = channel_of(image, 0, error), *speeds = liquid ? channel_of(image, 1, error) : NULL;
+    if (speeds)
+        count = sp_patternation_layers(liquid, speeds, columns, rows, angle, layers, error);
+    free(liquid);
+    free(speeds);
+    return count;
+}
+
+static bool read_layers(sp_scene_image *own, sp_error *error)
+{
+    static const char *const names[2] = {"liquid", "speed"};
+    sp_image image = sp_image_read(own->path, SP_PATTERNATION_COLUMNS, SP_PATTERNATION_ROWS, names, error);
+    own->speeds = image.channels == 2;
+    if (image.values)
+        own->layer_count = make_layers(&image, own->angle, own->layers, error);
+    free(image.values);
+    return own->layer_count > 0;
+}
+
+/* Reads it for the scene, which then owns path and patternations. */
+static const sp_scene_image *add(sp_scene *scene, const sp_reader *reader, const sp_yaml *image, char *path,
+                                 double angle)
 {
     sp_scene_image *images = realloc(scene->images, (scene->image_count + 1) * sizeof *images);
     sp_error problem = {0};
@@ -38,16 +64,34 @@ static const sp_patternation *add(sp_scene *scene, const sp_reader *reader, cons
     }
     scene->images = images;
     sp_scene_image *added = &images[scene->image_count++];
-    *added = (sp_scene_image){path, angle, read_patternation(path, angle, &problem)};
-    if (!added->patternation && problem.kind == SP_ERROR_MEMORY)
+    *added = (sp_scene_image){.path = path, .angle = angle};
+    if (read_layers(added, &problem))
+        return added;
+    if (problem.kind == SP_ERROR_MEMORY)
         return sp_fail_memory(reader->error);
-    if (!added->patternation)
-        sp_read_message(
-            reader, image, "image",
-            "found '%.200s': %.200s; expected an image of liquid per solid angle, in one channel (a second, "
-            "of exit speed, is not supported yet)",
-            image->text, problem.message);
-    return added->patternation;
+    sp_read_message(reader, image, "image",
+                    "found '%.200s': %.200s; expected an image of liquid per solid angle, and perhaps of its speed as "
+                    "a second channel",
+                    image->text, problem.message);
+    return NULL;
+}
+
+/* The type becomes a cluster of its layers, in one place. */
+static bool take_layers(const sp_scene_image *image, sp_nozzle_type *type, sp_error *error)
+{
+    sp_member *members = calloc(image->layer_count, sizeof *members);
+    if (!members)
+        return sp_fail_memory(error);
+    for (size_t i = 0; i < image->layer_count; i++) {
+        const sp_speed_layer *layer = &image->layers[i];
+        members[i] = (sp_member){.type = *type, .axis = {0, 0, 1}, .share = layer->share, .speed = layer->speed};
+        members[i].type.patternation = layer->patternation;
+    }
+    type->pattern = SP_PATTERN_CLUSTER;
+    type->angle = type->angle_min = type->angle_max = 0;
+    type->members = members;
+    type->member_count = image->layer_count;
+    return true;
 }
 
 bool sp_scene_read_image(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
@@ -66,10 +110,13 @@ bool sp_scene_read_image(sp_scene *scene, const sp_reader *reader, const sp_yaml
                                strlen(image->text), sizeof type->image - 1);
     }
     snprintf(type->image, sizeof type->image, "%s", image->text);
-    type->patternation = find(scene, path, type->angle);
-    if (type->patternation)
+    const sp_scene_image *own = find(scene, path, type->angle);
+    if (own)
         free(path);
     else
-        type->patternation = add(scene, reader, image, path, type->angle);
-    return type->patternation != NULL;
+        own = add(scene, reader, image, path, type->angle);
+    if (own && own->speeds)
+        return take_layers(own, type, reader->error);
+    type->patternation = own ? own->layers[0].patternation : NULL;
+    return own != NULL;
 }

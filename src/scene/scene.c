@@ -86,7 +86,8 @@ void sp_scene_destroy(sp_scene *scene)
     free(scene->types);
     for (size_t i = 0; i < scene->image_count; i++) {
         free(scene->images[i].path);
-        sp_patternation_destroy(scene->images[i].patternation);
+        for (size_t k = 0; k < scene->images[i].layer_count; k++)
+            sp_patternation_destroy(scene->images[i].layers[k].patternation);
     }
     free(scene->images);
     free(scene->caps);

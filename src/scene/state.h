@@ -13,7 +13,9 @@ enum { SP_MAX_ITEMS = 10000 }; /* of nozzles, types, mounts, geometry files */
 typedef struct {
     char *path; /* seen from the working directory */
     double angle;
-    sp_patternation *patternation;
+    bool speeds;                      /* it says how fast */
+    size_t layer_count;               /* 1 where it does not */
+    sp_speed_layer layers[SP_SPEEDS]; /* [layer_count], which types borrow */
 } sp_scene_image;
 
 struct sp_scene {
@@ -27,7 +29,7 @@ struct sp_scene {
     size_t type_count;
     sp_nozzle_type *types;
     size_t image_count;
-    sp_scene_image *images; /* [image_count], what types borrow */
+    sp_scene_image *images; /* [image_count] */
     sp_setup setup;
     sp_layout *layout;
     sp_place_options place;
@@ -59,7 +61,9 @@ bool sp_scene_read_pattern(const sp_reader *reader, const sp_yaml *node, sp_nozz
 bool sp_scene_read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
 /* flow_points.c: flow, pressure and exponent of a catalogue type. */
 bool sp_scene_read_flow(const sp_reader *reader, const sp_yaml *map, sp_nozzle_type *type);
-/* patternation.c: the image of a measured type, whose angle has been read, into the scene. */
+/* patternation.c: the image of a measured type, whose angle has been read, into the scene. With speeds it becomes a
+ * cluster of patterns in one place, each as fast as its layer, malloc'd into type->members, which no member of one can
+ * be. */
 bool sp_scene_read_image(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
 /* cluster.c: the members of a cluster, malloc'd into type->members, also where it fails. */
 bool sp_scene_read_members(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);

@@ -30,12 +30,11 @@ static float *values_of(const char *folder, const char *name, int *count)
 {
     char path[1024];
     sp_error error = {0};
-    int width = 0, height = 0;
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    float *values = sp_image_read(path, 100, 100, &width, &height, &error);
-    assert_non_null(values);
-    *count = width * height;
-    return values;
+    sp_image image = sp_image_read(path, 100, 100, (const char *const[]){"liquid", "speed"}, &error);
+    assert_non_null(image.values);
+    *count = image.width * image.height;
+    return image.values;
 }
 
 /* By the generator. */

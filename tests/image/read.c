@@ -20,6 +20,7 @@ enum { STEP = 5 };
 #endif
 
 static const char path[] = BINARY_DIR "/image-read-test";
+static const char *const names[2] = {"liquid", "speed"}, *const grey_name[] = {"Y"};
 
 static void write_bytes(const void *bytes, size_t size)
 {
@@ -39,7 +40,7 @@ static size_t read_bytes(char *bytes, size_t room)
 }
 
 /* A TIFF of one strip, uncompressed: its header, the pixels, then one directory. */
-static void write_tiff(int width, int height, int bits, const void *pixels, size_t size)
+static void write_tiff(int width, int height, int samples, int bits, const void *pixels, size_t size)
 {
     const uint32_t entries[][3] = {/* tag and type, count, value */
                                    {256 | 4 << 16, 1, (uint32_t)width},
@@ -48,7 +49,7 @@ static void write_tiff(int width, int height, int bits, const void *pixels, size
                                    {259 | 3 << 16, 1, 1},
                                    {262 | 3 << 16, 1, 1},
                                    {273 | 4 << 16, 1, 8},
-                                   {277 | 3 << 16, 1, 1},
+                                   {277 | 3 << 16, 1, (uint32_t)samples},
                                    {278 | 4 << 16, 1, (uint32_t)height},
                                    {279 | 4 << 16, 1, (uint32_t)size}};
     const uint16_t count = sizeof entries / sizeof *entries;
@@ -62,42 +63,45 @@ static void write_tiff(int width, int height, int bits, const void *pixels, size
     write_bytes(bytes, directory + 2 + sizeof entries + 4);
 }
 
-static void write_exr(const float *pixels, int width, int height, int channels)
+static void write_exr(const float *pixels, int width, int height, int channels, const char *const *names)
 {
-    static const char *const names[] = {"Y", "S"};
     const sp_exr_part part = {"pattern", width, height, pixels};
     sp_error error = {0};
     assert_true(sp_image_write_exr(path, &part, 1, names, channels, &error));
 }
 
-static void assert_reads(int width, int height, const float *expected)
+static void assert_reads(int width, int height, int channels, const float *expected)
 {
     sp_error error = {0};
-    int found[2] = {0, 0};
-    float *pixels = sp_image_read(path, 100, 100, &found[0], &found[1], &error);
-    if (!pixels)
+    sp_image image = sp_image_read(path, 100, 100, names, &error);
+    if (!image.values)
         fail_msg("%s", error.message);
-    assert_int_equal(found[0], width);
-    assert_int_equal(found[1], height);
-    for (int i = 0; i < width * height; i++)
-        assert_true(fabsf(pixels[i] - expected[i]) <= 1e-6f * fabsf(expected[i]));
-    free(pixels);
+    assert_int_equal(image.width, width);
+    assert_int_equal(image.height, height);
+    assert_int_equal(image.channels, channels);
+    for (int i = 0; i < width * height * channels; i++)
+        assert_true(fabsf(image.values[i] - expected[i]) <= 1e-6f * fabsf(expected[i]));
+    free(image.values);
 }
 
 static void values_are_as_stored(void **state)
 {
     (void)state;
     const float pixels[6] = {0, 0.25f, 3.5f, 1e-30f, 7e20f, 1};
-    write_exr(pixels, 3, 2, 1);
-    assert_reads(3, 2, pixels);
+    write_exr(pixels, 3, 2, 1, grey_name);
+    assert_reads(3, 2, 1, pixels);
     const uint8_t bytes[6] = {0, 1, 128, 254, 255, 51};
     const float shares[6] = {0, 1 / 255.f, 128 / 255.f, 254 / 255.f, 1, 0.2f};
-    write_tiff(3, 2, 8, bytes, sizeof bytes);
-    assert_reads(3, 2, shares);
+    write_tiff(3, 2, 1, 8, bytes, sizeof bytes);
+    assert_reads(3, 2, 1, shares);
     const uint16_t words[4] = {0, 1, 13107, 65535};
     const float finer[4] = {0, 1 / 65535.f, 0.2f, 1};
-    write_tiff(1, 4, 16, words, sizeof words);
-    assert_reads(1, 4, finer);
+    write_tiff(1, 4, 1, 16, words, sizeof words);
+    assert_reads(1, 4, 1, finer);
+    write_exr(pixels, 3, 1, 2, names);
+    assert_reads(3, 1, 2, pixels);
+    write_tiff(3, 1, 2, 8, bytes, sizeof bytes);
+    assert_reads(3, 1, 2, shares);
     /* a PNG of 2 x 2 pixels of 16 bits: 0, 13107, 65535, 1; its gamma of 1/2.2 is not applied */
     static const uint8_t png[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49,
                                   0x48, 0x44, 0x52, 0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x02, 0x10, 0x00,
@@ -108,22 +112,21 @@ static void values_are_as_stored(void **state)
                                   0x39, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
     const float grey[4] = {0, 0.2f, 1, 1 / 65535.f};
     write_bytes(png, sizeof png);
-    assert_reads(2, 2, grey);
+    assert_reads(2, 2, 1, grey);
     static const char header[] = "Pf\n2 2\n-1.0\n"; /* a PFM's rows go upwards */
     const float rows[4] = {1, 2, 3, 4}, upwards[4] = {3, 4, 1, 2};
     char map[sizeof header - 1 + sizeof upwards];
     memcpy(map, header, sizeof header - 1);
     memcpy(map + sizeof header - 1, upwards, sizeof upwards);
     write_bytes(map, sizeof map);
-    assert_reads(2, 2, rows);
+    assert_reads(2, 2, 1, rows);
     unlink(path);
 }
 
 static void refuse(int most_width, const char *expected)
 {
     sp_error error = {0};
-    int width, height;
-    assert_null(sp_image_read(path, most_width, 100, &width, &height, &error));
+    assert_null(sp_image_read(path, most_width, 100, names, &error).values);
     if (strncmp(error.message, expected, strlen(expected)) || strchr(error.message, '\n'))
         fail_msg("%s, expected %s", error.message, expected);
 }
@@ -140,15 +143,16 @@ static void other_images_are_refused(void **state)
     refuse(100, "cannot be read: ");
     write_bytes("what is this", 12);
     refuse(100, "cannot be read: ");
-    write_exr(pixels, 2, 2, 2);
-    refuse(100, "has 2 channels, expected 1");
+    write_exr(pixels, 2, 2, 2, (const char *const[]){"A", "Y"});
+    refuse(100, "has channels Y and A, expected liquid and speed");
+    write_exr(pixels, 2, 1, 3, (const char *const[]){"R", "G", "B"});
+    refuse(100, "has 3 channels, expected 1 or 2");
     assert_true(sp_image_write_png(path, colours, 2, 1, 3, &error));
     refuse(100, "has 3 channels, expected 1");
-    write_exr(pixels, 4, 2, 1);
+    write_exr(pixels, 4, 2, 1, grey_name);
     refuse(3, "has 4 x 2 pixels, expected 1 x 1 to 3 x 100");
     const sp_exr_part parts[2] = {{"one", 2, 1, pixels}, {"two", 2, 1, pixels}};
-    static const char *const names[] = {"Y"};
-    assert_true(sp_image_write_exr(path, parts, 2, names, 1, &error));
+    assert_true(sp_image_write_exr(path, parts, 2, grey_name, 1, &error));
     refuse(100, "has several images, expected one");
     unlink(path);
 }
@@ -164,10 +168,10 @@ static void survive(const char *bytes, size_t size)
             damaged[at] = (char)(way ? ~damaged[at] : 0x7f);
             write_bytes(damaged, way ? size : at);
             sp_error error = {0};
-            int width = 0, height = 0;
-            float *pixels = sp_image_read(path, 100, 100, &width, &height, &error);
-            assert_true(pixels ? width > 0 && width <= 100 && height > 0 && height <= 100 : error.message[0] != 0);
-            free(pixels);
+            sp_image image = sp_image_read(path, 100, 100, names, &error);
+            assert_true(image.values ? image.width > 0 && image.width <= 100 && image.height > 0 && image.height <= 100
+                                     : error.message[0] != 0);
+            free(image.values);
         }
     }
     free(damaged);
@@ -180,9 +184,9 @@ static void damage_is_no_crash(void **state)
     char bytes[4000];
     for (int i = 0; i < 60; i++)
         pixels[i] = (float)(i % 7);
-    write_exr(pixels, 10, 6, 1);
+    write_exr(pixels, 10, 6, 1, grey_name);
     survive(bytes, read_bytes(bytes, sizeof bytes));
-    write_tiff(10, 6, 32, pixels, sizeof pixels);
+    write_tiff(10, 6, 1, 32, pixels, sizeof pixels);
     survive(bytes, read_bytes(bytes, sizeof bytes));
     unlink(path);
 }

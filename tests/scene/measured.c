@@ -33,10 +33,10 @@ static const char scene_text[] =
 
 static void write_image(const char *path, const float *pixels, int width, int height, int channels)
 {
-    static const char *const names[] = {"Y", "speed"};
+    static const char *const names[][3] = {{"Y"}, {"liquid", "speed"}, {"R", "G", "B"}};
     const sp_exr_part part = {"pattern", width, height, pixels};
     sp_error error = {0};
-    if (!sp_image_write_exr(path, &part, 1, names, channels, &error))
+    if (!sp_image_write_exr(path, &part, 1, names[channels - 1], channels, &error))
         fail_msg("%s", error.message);
 }
 
@@ -83,6 +83,42 @@ static void types_share_their_image(void **state)
     sp_scene_destroy(scene);
 }
 
+/* The plain types' catalogue, where no cluster has the image. */
+static void with_speeds_a_type_is_a_cluster(void **state)
+{
+    (void)state;
+    static const float pixels[12] = {1, 1, 2, 1, 3, 1, 4, 0.5f, 5, 0.5f, 6, 0.5f};
+    sp_error error = {0};
+    char text[2000];
+    scratch_write("maker/types.yaml", types);
+    write_image("maker/own/rim.exr", pixels, 3, 2, 2);
+    assert_null(sp_scene_load("scene.yaml", &error));
+    sp_error_text(&error, text, sizeof text);
+    assert_string_equal(text,
+                        "maker/types.yaml:10:36: image: found 'own/rim.exr', expected an image without speeds in a "
+                        "cluster");
+    snprintf(text, sizeof text, "%.*s", (int)(strstr(types, "  - name: pair") - types), types);
+    scratch_write("maker/types.yaml", text);
+    scratch_write("speeds.yaml",
+                  "geometry: [{file: tank.obj}]\ncatalogue: maker/types.yaml\nnozzles:\n"
+                  "  - {name: ours, type: rim, position: [0.1, 0.1, 0.1], axis: [1, 1, 1], pressure: 2 bar}\n");
+    error = (sp_error){0};
+    sp_scene *scene = sp_scene_load("speeds.yaml", &error);
+    assert_string_equal(error.message, "");
+    const sp_nozzle *nozzle = &sp_scene_layout(scene)->nozzles[0];
+    sp_fluid water = sp_scene_setup(scene)->liquid;
+    sp_nozzle patterns[2];
+    assert_int_equal(sp_nozzle_pattern_count(nozzle), 2);
+    sp_nozzle_patterns(nozzle, &water, sp_v(0, 0, 1), patterns);
+    assert_true(fabs(sp_nozzle_angle(nozzle) - 80 * M_PI / 180) < 1e-9);
+    assert_true(fabs(sp_nozzle_speed(&patterns[0], &water) / sp_nozzle_speed(nozzle, &water) - 0.5) < 1e-7);
+    assert_true(fabs(sp_nozzle_speed(&patterns[1], &water) / sp_nozzle_speed(nozzle, &water) - 1) < 1e-7);
+    assert_true(fabs(patterns[0].flow + patterns[1].flow - sp_nozzle_flow(nozzle, &water)) < 1e-12);
+    assert_true(patterns[0].flow > patterns[1].flow);
+    sp_scene_destroy(scene);
+    scratch_write("maker/types.yaml", types);
+}
+
 /* No command writes over an image that it read. */
 static void images_are_input_files(void **state)
 {
@@ -125,8 +161,8 @@ static void refuse(const char *expected)
     sp_error error = {0};
     char text[2000], whole[2000];
     snprintf(whole, sizeof whole,
-             "maker/types.yaml:3:43: image: found 'own/rim.exr': %s; expected an image of liquid per solid angle, in "
-             "one channel (a second, of exit speed, is not supported yet)",
+             "maker/types.yaml:3:43: image: found 'own/rim.exr': %s; expected an image of liquid per solid angle, and "
+             "perhaps of its speed as a second channel",
              expected);
     sp_scene *scene = sp_scene_load("scene.yaml", &error);
     sp_error_text(&error, text, sizeof text);
@@ -139,8 +175,8 @@ static void wrong_images_are_named(void **state)
     (void)state;
     const char *path = "maker/own/rim.exr";
     float pixels[6] = {1, 2, 3, 4, 5, 6}, *wide = calloc(4097, sizeof *wide);
-    write_image(path, pixels, 3, 1, 2);
-    refuse("has 2 channels, expected 1");
+    write_image(path, pixels, 2, 1, 3);
+    refuse("has 3 channels, expected 1 or 2");
     pixels[4] = -0.5f;
     write_image(path, pixels, 3, 2, 1);
     refuse("-0.5 found in column 2 of row 2, expected finite values of 0 or more");
@@ -183,7 +219,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(types_share_their_image),    cmocka_unit_test(images_are_input_files),
         cmocka_unit_test(what_is_written_reads_back), cmocka_unit_test(wrong_images_are_named),
-        cmocka_unit_test(cut_images_are_no_crash),
+        cmocka_unit_test(cut_images_are_no_crash),    cmocka_unit_test(with_speeds_a_type_is_a_cluster),
     };
     return cmocka_run_group_tests(tests, make, scratch_remove);
 }

@@ -14,15 +14,15 @@ typedef struct {
     uint8_t *(*encode_png)(const uint8_t *pixels, int width, int height, int channels, size_t *size, sp_error *error);
     bool (*write_exr)(const char *path, const sp_exr_part *parts, size_t count, const char *const *channel_names,
                       int channels, sp_error *error);
-    float *(*read)(const char *path, int most_width, int most_height, int *width, int *height, sp_error *error);
+    sp_image (*read)(const char *path, int most_width, int most_height, const char *const names[2], sp_error *error);
 } sp_image_files;
 
 /* The one function of the module. */
 const sp_image_files *sp_image_module_open(void);
 
 /* reader.cc */
-float *sp_image_module_read(const char *path, int most_width, int most_height, int *width, int *height,
-                            sp_error *error);
+sp_image sp_image_module_read(const char *path, int most_width, int most_height, const char *const names[2],
+                              sp_error *error);
 
 #ifdef __cplusplus
 }
