@@ -50,9 +50,9 @@ typedef struct {
     sp_vec3 minimum, maximum;   /* box around all vertices in use, m; both zero for an empty mesh */
 } sp_mesh_diagnosis;
 
-/* Reads an OBJ or STL file (told by its extension, .obj or .stl in any case; STL text or binary told by its content).
+/* Reads an OBJ, STL or PLY file (told by its extension in any case; text or binary told by its content).
  * Coordinates are multiplied by `unit` (m per unit of the file). Triangles before any group get the part "default"
- * (STL: the solid's name, or "default"). Returns NULL with file and line for whatever does not follow the format, for
+ * (STL: the solid's name, or "default"; PLY knows no groups). Returns NULL with file and line for whatever does not follow the format, for
  * indices out of range, numbers that are not finite or beyond 1e30 m, and for files without a triangle of some area.
  * Names of parts are UTF-8; what is not is taken for Latin-1. The caller destroys. */
 sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error);

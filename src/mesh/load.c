@@ -51,7 +51,9 @@ static read_function *reader_for(const char *path, sp_error *error)
         return sp_obj_read;
     if (dot && strcasecmp(dot, ".stl") == 0)
         return sp_stl_read;
-    sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found a file of unknown kind, expected .obj or .stl");
+    if (dot && strcasecmp(dot, ".ply") == 0)
+        return sp_ply_read;
+    sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found a file of unknown kind, expected .obj, .stl or .ply");
     return NULL;
 }
 

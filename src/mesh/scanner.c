@@ -90,20 +90,26 @@ bool sp_scan_next_line(sp_scanner *scanner)
     return false;
 }
 
-bool sp_scan_any_token(sp_scanner *scanner, sp_token *token)
+bool sp_scan_blank_lines(sp_scanner *scanner)
 {
     do {
-        if (sp_scan_token(scanner, token))
+        skip_blanks(scanner);
+        if (scanner->at < scanner->end && !line_end(scanner, scanner->at))
             return true;
     } while (sp_scan_next_line(scanner));
     return false;
+}
+
+bool sp_scan_any_token(sp_scanner *scanner, sp_token *token)
+{
+    return sp_scan_blank_lines(scanner) && sp_scan_token(scanner, token);
 }
 
 bool sp_token_is(const sp_scanner *scanner, const sp_token *token, const char *word)
 {
     for (size_t i = 0; i < token->length; i++) {
         char c = scanner->obj ? token->text[i] : (char)tolower((unsigned char)token->text[i]);
-        if (c != word[i])
+        if (!word[i] || c != word[i]) /* a token may hold a zero byte */
             return false;
     }
     return word[token->length] == '\0';

@@ -24,12 +24,14 @@ typedef struct {
 sp_scanner sp_scanner_open(const char *path, const char *text, size_t size, bool obj);
 /* The next token of this line; false at the line's or the file's end. */
 bool sp_scan_token(sp_scanner *scanner, sp_token *token);
+/* Steps over lines without a token; false at the file's end. */
+bool sp_scan_blank_lines(sp_scanner *scanner);
 /* The next token whatever the line; false at the file's end. */
 bool sp_scan_any_token(sp_scanner *scanner, sp_token *token);
 /* Leaves what is left of this line behind; false at the file's end. */
 bool sp_scan_next_line(sp_scanner *scanner);
 
-/* Whether the token is `word`, lower case; in STL in any case. */
+/* Whether the token is `word`, lower case; in any case but in OBJ. */
 bool sp_token_is(const sp_scanner *scanner, const sp_token *token, const char *word);
 /* The token as a finite number, decimal notation only. Needs the "C" locale. */
 bool sp_token_number(const sp_scanner *scanner, const sp_token *token, double *number, sp_error *error);

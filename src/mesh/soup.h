@@ -26,6 +26,7 @@ uint32_t sp_soup_part(sp_soup *soup, const char *name, sp_error *error);
 /* The readers. Coordinates are multiplied by `unit`. */
 bool sp_obj_read(const char *path, const char *text, size_t size, double unit, sp_soup *soup, sp_error *error);
 bool sp_stl_read(const char *path, const char *text, size_t size, double unit, sp_soup *soup, sp_error *error);
+bool sp_ply_read(const char *path, const char *text, size_t size, double unit, sp_soup *soup, sp_error *error);
 
 /* The largest magnitude of a coordinate, m: cubes of it stay far from overflow. */
 #define SP_COORDINATE_LIMIT 1e30

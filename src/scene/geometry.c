@@ -72,17 +72,19 @@ static bool read_piece(sp_scene *scene, const sp_reader *reader, const sp_yaml *
 
 static bool check_extension(const sp_reader *reader, const sp_yaml *node)
 {
-    static const char *const later[] = {".ply", ".step", ".stp", ".iges", ".igs", ".brep", ".brp"};
+    static const char *const now[] = {".obj", ".stl", ".ply"};
+    static const char *const later[] = {".step", ".stp", ".iges", ".igs", ".brep", ".brp"};
     const char *name = sp_read_text(reader, node, "file", "the path of a file");
     if (!name)
         return false;
     const char *dot = strrchr(name, '.');
-    if (dot && (strcasecmp(dot, ".obj") == 0 || strcasecmp(dot, ".stl") == 0))
-        return true;
+    for (size_t i = 0; dot && i < sizeof now / sizeof *now; i++)
+        if (strcasecmp(dot, now[i]) == 0)
+            return true;
     for (size_t i = 0; dot && i < sizeof later / sizeof *later; i++)
         if (strcasecmp(dot, later[i]) == 0)
-            return sp_read_unsupported(reader, node, "file", "an OBJ or STL file");
-    return sp_read_fail(reader, node, "file", "a file that ends in .obj or .stl");
+            return sp_read_unsupported(reader, node, "file", "an OBJ, STL or PLY file");
+    return sp_read_fail(reader, node, "file", "a file that ends in .obj, .stl or .ply");
 }
 
 static sp_mesh *load_piece(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, const piece *p)

@@ -250,6 +250,21 @@ static void files_that_cannot_be_read(void **state)
     assert_int_equal(error.kind, SP_ERROR_ARGUMENT);
 }
 
+/* A keyword goes on behind a zero byte. */
+static void zero_bytes_end_no_word(void **state)
+{
+    (void)state;
+    static const char *const words[] = {"v", "vt", "fo", "trace_obj"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        char bytes[200] = {0};
+        sp_error error = {0};
+        strcpy(bytes, words[i]);
+        strcpy(bytes + 150, " 1 2 3\n");
+        assert_null(read_bytes(".obj", bytes, 157, &error));
+        assert_non_null(strstr(error.message, "a statement of the OBJ format"));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -268,6 +283,7 @@ int main(void)
         cmocka_unit_test(zero_bytes_and_binary_are_refused),
         cmocka_unit_test(truncated_at_every_length),
         cmocka_unit_test(files_that_cannot_be_read),
+        cmocka_unit_test(zero_bytes_end_no_word),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -294,8 +294,9 @@ static const slip missing_files[] = {
 /* Files that are something else, parts that are not in them. */
 static const slip files[] = {
     {"file: tank.obj", "file: tank.xyz",
-     "scene.yaml:3:11: file: found 'tank.xyz', expected a file that ends in .obj or .stl"},
-    {"file: tank.obj", "file: tank", "scene.yaml:3:11: file: found 'tank', expected a file that ends in .obj or .stl"},
+     "scene.yaml:3:11: file: found 'tank.xyz', expected a file that ends in .obj, .stl or .ply"},
+    {"file: tank.obj", "file: tank",
+     "scene.yaml:3:11: file: found 'tank', expected a file that ends in .obj, .stl or .ply"},
     {"file: tank.obj", "file: [tank.obj]", "scene.yaml:3:11: file: found a list of 1, expected the path of a file"},
     {"file: tank.obj", "file: \"\"", "scene.yaml:3:11: file: found '', expected the path of a file"},
     {"catalogue: catalogue.yaml\n", "",
@@ -320,14 +321,12 @@ static const slip files[] = {
 
 /* Well formed, but not built yet. */
 static const slip unsupported[] = {
-    {"file: tank.obj", "file: tank.ply",
-     "scene.yaml:3:11: file: found 'tank.ply', which is not supported yet, expected an OBJ or STL file"},
     {"file: tank.obj", "file: tank.STEP",
-     "scene.yaml:3:11: file: found 'tank.STEP', which is not supported yet, expected an OBJ or STL file"},
+     "scene.yaml:3:11: file: found 'tank.STEP', which is not supported yet, expected an OBJ, STL or PLY file"},
     {"file: tank.obj", "file: tank.igs",
-     "scene.yaml:3:11: file: found 'tank.igs', which is not supported yet, expected an OBJ or STL file"},
+     "scene.yaml:3:11: file: found 'tank.igs', which is not supported yet, expected an OBJ, STL or PLY file"},
     {"file: tank.obj", "file: tank.brep",
-     "scene.yaml:3:11: file: found 'tank.brep', which is not supported yet, expected an OBJ or STL file"},
+     "scene.yaml:3:11: file: found 'tank.brep', which is not supported yet, expected an OBJ, STL or PLY file"},
 };
 
 /* Not YAML, or YAML that is refused. Where libfyaml says what is wrong, only the place is checked. */
