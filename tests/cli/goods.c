@@ -1,0 +1,97 @@
+/* Goods that pass a few nozzles, as their user runs them: check, place for any number of threads, and what it wrote. */
+#include "workplace.h"
+
+static const char crate_obj[] = "v -0.2 -0.2 0\nv 0.2 -0.2 0\nv 0.2 0.2 0\nv -0.2 0.2 0\n"
+                                "v -0.2 -0.2 0.3\nv 0.2 -0.2 0.3\nv 0.2 0.2 0.3\nv -0.2 0.2 0.3\n"
+                                "g bottom\nf 4 3 2 1\ng top\nf 5 6 7 8\n"
+                                "g sides\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+static const char belt_yaml[] =
+    "geometry:\n"
+    "  - file: crate.obj\n"
+    "    clean_parts: [top, sides]\n"
+    "    sweep: {from: [-0.6 m, 0 m, 0 m], to: [0.6 m, 0 m, 0 m], speed: 6 m/min}\n"
+    "cavity: outside\n"
+    "criterion: {dose: 1 L/m2, incidence: 80 deg}\n"
+    "catalogue: catalogue.yaml\n"
+    "nozzles:\n"
+    "  - {name: N1, type: cone, position: [0 m, 0 m, 0.7 m], axis: [0, 0, -1], pressure: 2 bar}\n"
+    "simulate: {texel: 90 mm}\n"
+    "place:\n"
+    "  objective: max_coverage\n"
+    "  max_water: 36 L/min\n"
+    "  coverage: 30 %\n"
+    "  types: [cone]\n"
+    "  pressure: 2 bar\n"
+    "  mounts:\n"
+    "    - line: {from: [0 m, -0.6 m, 0.7 m], to: [0 m, 0.6 m, 0.7 m], spacing: 400 mm, axis: [0, 0, -1], tilt: 40 "
+    "deg}\n";
+
+static int open_belt(void **state)
+{
+    if (open_workplace(state))
+        return -1;
+    write_file("crate.obj", crate_obj);
+    write_file("belt.yaml", belt_yaml);
+    return 0;
+}
+
+static double number(const json_t *object, const char *key)
+{
+    assert_true(json_is_number(json_object_get(object, key)));
+    return json_number_value(json_object_get(object, key));
+}
+
+static json_t *layout_of(const json_t *object, const char *name)
+{
+    json_t *layouts = json_object_get(object, "layouts");
+    for (size_t i = 0; i < json_array_size(layouts); i++)
+        if (!strcmp(json_string_value(json_object_get(json_array_get(layouts, i), "name")), name))
+            return json_array_get(layouts, i);
+    fail_msg("no layout %s", name);
+    return NULL;
+}
+
+/* The pass takes 1.2 m at 0.1 m/s; liquid that lands on what is cleaned is the mean dose on all of it. */
+static void doses_are_told(void **state)
+{
+    (void)state;
+    json_t *object = expect_json("simulate belt.yaml --set simulate.texel=40mm -o belt --json", 0),
+           *own = layout_of(object, "manual");
+    double area = number(json_object_get(object, "geometry"), "clean_area_m2"), pass = number(own, "pass_s");
+    double landed = number(json_object_get(own, "liquid_l_min"), "on_clean_surface") / 60;
+    double dose = number(json_object_get(own, "dose_l_m2"), "mean");
+    assert_true(pass > 11.999 && pass < 12.001);
+    if (!(dose > 0 && dose * area < 1.03 * landed * pass && dose * area > 0.97 * landed * pass))
+        fail_msg("%g L/m2 on %g m2, of %g L/s in %g s", dose, area, landed, pass);
+    char *report = read_file("belt/report.html", NULL);
+    assert_non_null(strstr(report, "a dose of at least 1&nbsp;L per m"));
+    assert_non_null(strstr(report, "move 1.2&nbsp;m past the nozzles at 0.1&nbsp;m/s"));
+    free(report);
+    json_decref(object);
+}
+
+static void goods_are_placed_for_whatever_the_threads(void **state)
+{
+    (void)state;
+    json_t *object = expect_json("place belt.yaml --threads 1 -o one --json", 0),
+           *proposed = layout_of(object, "proposed");
+    assert_true(number(proposed, "coverage") > number(layout_of(object, "manual"), "coverage") + 0.1);
+    json_t *again = expect_json("simulate one/layout.yaml --json", 0);
+    assert_true(number(layout_of(again, "manual"), "coverage") == number(proposed, "coverage"));
+    json_decref(again);
+    json_t *more = expect_json("place belt.yaml --threads 3 --json", 0);
+    assert_true(json_equal(layout_of(more, "proposed"), proposed));
+    assert_true(json_equal(json_object_get(more, "certificate"), json_object_get(object, "certificate")));
+    json_decref(more);
+    json_decref(object);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(doses_are_told),
+        cmocka_unit_test(goods_are_placed_for_whatever_the_threads),
+    };
+    return cmocka_run_group_tests(tests, open_belt, close_workplace);
+}
