@@ -64,9 +64,6 @@ static bool check(const sp_evaluator *evaluator, const sp_place_options *options
             error, SP_ERROR_INPUT, NULL, 0, 0,
             "combine: found single beside a sweep, expected sum: place adds up what goods that move take from "
             "all nozzles");
-    if (sp_evaluator_fidelity(evaluator)->trajectory == SP_TRAJECTORY_DRAG)
-        return sp_fail(error, SP_ERROR_UNSUPPORTED, NULL, 0, 0,
-                       "trajectory: drag found, for which place is not built yet; expected auto, line or parabola");
     for (size_t i = 0; i < options->mount_count; i++)
         if (!are_whole(options->mounts[i].types, options->mounts[i].type_count, error))
             return false;

@@ -158,8 +158,8 @@ bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout,
 bool sp_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
                         bool *patches, sp_borderline *borderline, sp_error *error);
 
-/* How liquid from one position at one speed arrives at a patch: nothing here depends on the nozzle's axis, roll, angle,
- * type or flow. The flux (m/s) at the patch is Q · intensity(direction) · transfer. A patch so near to the position, or
+/* How liquid from one position arrives at a patch that leaves as a launch says: nothing else here depends on the
+ * nozzle, its axis, roll, angle, type or flow. The flux (m/s) at the patch is Q · intensity(direction) · transfer. A patch so near to the position, or
  * to the limits of reach, that its one point does not tell how liquid arrives there is cut into cells, each an arrival
  * of its own; what is said of the patch then is of the cell. */
 typedef struct {
@@ -183,28 +183,37 @@ typedef struct {
     sp_work work;         /* that it took */
 } sp_reach;
 
-/* All unoccluded arrivals from `position` at `speed` within `half_angle` (rad, π for all) about the unit `axis`, or so
- * near beyond it that a spray which ends there may have a share of their patch (sp_spray_fringe).
- * The caller destroys. Uses the setup's threads; inside a parallel region it runs on one. */
-sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
+/* All unoccluded arrivals from `position` of what leaves there so, within `half_angle` (rad, π for all) about the unit
+ * `axis`, or so near beyond it that a spray which ends there may have a share of their patch (sp_spray_fringe).
+ * The caller destroys. Uses the setup's threads; inside a parallel region it runs on one. Fails where the launch has no
+ * fronts and the evaluator flies with drag, or the other way round: see sp_launch_table. */
+sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch, sp_vec3 axis,
                              double half_angle, sp_error *error);
 /* The same, of arrivals that pass the criterion's speed and incidence alone, at the patches that `among` [patches]
  * holds, all where it is NULL: less is traced. */
-sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
+sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch, sp_vec3 axis,
                                      double half_angle, const bool *among, sp_error *error);
 /* The same of the patches first to end alone, and where film runs from patch to patch of all arrivals, for callers with
  * little memory: it takes no more than SP_REACH_WORK bytes for each of these patches and for each arrival of a cell,
  * the answer included. `known` is NULL, or holds the answer of an earlier call, bit 2 patch + arc (least bits first)
  * set for every arrival: then the same is told again, and nothing is traced but the way to cells. */
 #define SP_REACH_WORK 1024
-sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
+sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch, sp_vec3 axis,
                                   double half_angle, size_t first, size_t end, const uint8_t *known, sp_error *error);
 void sp_reach_destroy(sp_reach *reach);
 
-/* True where nothing lies in the way of a flight without drag that leaves `position` (m) at `speed` (m/s) for the
- * patch's point. */
-bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, double speed, const sp_flight *flight,
-                              uint32_t patch);
+/* True where nothing lies in the way of a flight, one of what leaves `position` (m) so, to the patch's point. */
+bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch,
+                              const sp_flight *flight, uint32_t patch);
+
+/* What liquid meets first that flies along a ray from its start. */
+typedef struct {
+    sp_hit hit;       /* t: s, from the start of the ray, or with drag of a piece of its way */
+    sp_vec3 point;    /* m */
+    sp_vec3 velocity; /* there, m/s */
+} sp_meeting;
+/* `drops`: it has met a wall, so that it is a stream no longer, whatever it was when it left. */
+sp_meeting sp_evaluator_meet(const sp_evaluator *evaluator, sp_launch launch, const sp_ray *ray, bool drops);
 
 #ifdef __cplusplus
 }

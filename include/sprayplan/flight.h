@@ -56,6 +56,24 @@ void sp_fronts_destroy(sp_fronts *fronts);
 /* As sp_flights, with drag. */
 int sp_fronts_flights(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2]);
 
+/* How a flight with drag changes as its end moves from where it is: derivatives by the share of the move. */
+typedef struct {
+    sp_vec3 direction; /* per unit */
+    sp_vec3 velocity;  /* on arrival, m/s */
+    double spread;     /* of its logarithm */
+} sp_flight_change;
+/* `flight` is one that sp_fronts_flights has found; `move` in m. Nothing is finite at the limit of reach. */
+sp_flight_change sp_fronts_change(const sp_fronts *fronts, const sp_flight *flight, sp_vec3 move);
+
+/* How liquid leaves a nozzle of one pattern, wherever that is and however it is turned. */
+typedef struct {
+    double speed;            /* m/s */
+    const sp_fronts *fronts; /* borrowed, of what leaves so; NULL: it flies without drag */
+} sp_launch;
+
+/* The flights of what leaves so, low arc first: 0, 1 or 2; `gravity` for those without drag. */
+int sp_launch_flights(const sp_launch *launch, sp_vec3 from, sp_vec3 to, sp_vec3 gravity, sp_flight flights[2]);
+
 #ifdef __cplusplus
 }
 #endif

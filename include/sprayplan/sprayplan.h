@@ -15,6 +15,7 @@
 #include <sprayplan/evaluator.h>
 #include <sprayplan/flight.h>
 #include <sprayplan/image.h>
+#include <sprayplan/launch.h>
 #include <sprayplan/mesh.h>
 #include <sprayplan/nozzle.h>
 #include <sprayplan/place.h>

@@ -39,7 +39,7 @@ static double best_intensity(const sp_make *make, const sp_scope *scope, double 
 }
 
 /* Adds what one arrival offers; true where something got better. */
-static bool offer(const sp_reckoning *reckoning, const sp_site *site, size_t speed, sp_vec3 direction, double transfer,
+static bool offer(const sp_reckoning *reckoning, const sp_site *site, size_t launch, sp_vec3 direction, double transfer,
                   double area, sp_place_offers *offers)
 {
     const sp_search *search = reckoning->search;
@@ -50,7 +50,7 @@ static bool offer(const sp_reckoning *reckoning, const sp_site *site, size_t spe
     for (size_t k = 0; k < search->candidates->make_count; k++) {
         const sp_make *make = &search->candidates->makes[k];
         const sp_scope *scope = &reckoning->scopes[k];
-        if (make->speed_class != speed || !sp_is_swept(make->type) ||
+        if (make->launch != launch || !sp_is_swept(make->type) ||
             !sp_candidates_axes(search->candidates, site->mount, k)->count || scope->flow_low > reckoning->water_left)
             continue;
         /* a jet narrower than the patch is spread over it */
@@ -99,13 +99,13 @@ static sp_reason judge(const sp_reckoning *reckoning, const sp_flight *flight, s
     return SP_REASON_FLUX;
 }
 
-/* Whether any make at this speed can be aimed so. */
-static bool aimable(const sp_reckoning *reckoning, const sp_site *site, size_t speed, sp_vec3 direction)
+/* Whether any make of this launch can be aimed so. */
+static bool aimable(const sp_reckoning *reckoning, const sp_site *site, size_t launch, sp_vec3 direction)
 {
     const sp_search *search = reckoning->search;
     double away = acos(fmin(1, fmax(-1, sp_dot(direction, site->axis))));
     for (size_t k = 0; k < search->candidates->make_count; k++)
-        if (search->candidates->makes[k].speed_class == speed &&
+        if (search->candidates->makes[k].launch == launch &&
             sp_candidates_axes(search->candidates, site->mount, k)->count &&
             best_intensity(&search->candidates->makes[k], &reckoning->scopes[k], away,
                            search->options->mounts[site->mount].tilt) > 0)
@@ -122,17 +122,18 @@ static bool site_offers(const sp_reckoning *reckoning, const sp_site *site, size
     bool better = false;
     if (search->options->mounts[site->mount].kind == SP_MOUNT_PORT && search->port_taken[site->mount])
         return false;
-    for (size_t s = 0; s < search->candidates->speed_count; s++) {
-        double speed = search->candidates->speeds[s], transfer = 0;
+    for (size_t s = 0; s < search->candidates->launch_count; s++) {
+        sp_launch launch = search->candidates->launches[s];
+        double transfer = 0;
         sp_flight flights[2];
-        int count =
-            sp_flights(site->position, patches->point[patch], speed, sp_evaluator_gravity(reckoning->fine), flights);
+        int count = sp_launch_flights(&launch, site->position, patches->point[patch],
+                                      sp_evaluator_gravity(reckoning->fine), flights);
         for (int f = 0; f < count; f++) {
             if (!aimable(reckoning, site, s, flights[f].direction))
                 continue;
             sp_reason near = judge(reckoning, &flights[f], patch, &transfer);
             if ((near < SP_REASON_FLUX && near <= *reason) ||
-                !sp_evaluator_flight_free(reckoning->fine, site->position, speed, &flights[f], (uint32_t)patch))
+                !sp_evaluator_flight_free(reckoning->fine, site->position, launch, &flights[f], (uint32_t)patch))
                 continue;
             *reason = near > *reason ? near : *reason;
             if (near == SP_REASON_FLUX)
@@ -188,13 +189,13 @@ static bool reckon(const sp_reckoning *reckoning, sp_watch *watch, sp_reason *re
     return true;
 }
 
-static sp_scope *scopes_create(const sp_search *search, const sp_fluid *liquid)
+static sp_scope *scopes_create(const sp_search *search, const sp_setup *setup)
 {
     sp_scope *scopes = malloc(search->candidates->make_count * sizeof *scopes);
     for (size_t k = 0; scopes && k < search->candidates->make_count; k++) {
         const sp_make *make = &search->candidates->makes[k];
         sp_angle_range(search->options, make->type, &scopes[k].angle_low, &scopes[k].angle_high);
-        sp_flow_range(search->options, liquid, make->type, make->pressure, &scopes[k].flow_low, &scopes[k].flow_high);
+        sp_flow_range(search->options, setup, make->type, make->pressure, &scopes[k].flow_low, &scopes[k].flow_high);
     }
     return scopes;
 }
@@ -212,7 +213,7 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *
                                                   : 0};
     sp_layout *layout = sp_layout_create(search->kept, search->kept_count, error);
     sp_coverage *kept = layout ? sp_evaluate_inverse(fine, layout, error) : NULL;
-    sp_scope *scopes = scopes_create(search, &sp_evaluator_setup(fine)->liquid);
+    sp_scope *scopes = scopes_create(search, sp_evaluator_setup(fine));
     bool done = kept != NULL;
     if (done && !scopes)
         done = sp_fail_memory(error);

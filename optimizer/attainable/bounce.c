@@ -5,22 +5,21 @@
 #include <stdlib.h>
 
 #define JETS 1048576.0   /* all together */
-#define JETS_LEAST 256.0 /* of a mounting point at a speed */
+#define JETS_LEAST 256.0 /* of a mounting point and a launch */
 #define JETS_MOST 16384.0
 #define BOUNCES 3
 #define MOUTH 1e-7 /* texels that a jet flies off a wall before anything stops it */
 
 /* One jet, from wall to wall; marks the patches that it meets after its first reflection. */
-static void follow(const sp_evaluator *coarse, sp_ray ray, bool *met)
+static void follow(const sp_evaluator *coarse, sp_launch launch, sp_ray ray, bool *met)
 {
     const sp_setup *setup = sp_evaluator_setup(coarse);
-    sp_vec3 gravity = sp_evaluator_gravity(coarse);
     for (int bounce = 0; bounce <= BOUNCES; bounce++) {
-        sp_hit hit = sp_trace_nearest(sp_evaluator_tracer(coarse), &ray, gravity);
+        sp_meeting meeting = sp_evaluator_meet(coarse, launch, &ray, bounce > 0);
+        sp_hit hit = meeting.hit;
         if (hit.triangle == SP_NONE)
             return;
-        sp_vec3 velocity = sp_ray_velocity(&ray, gravity, hit.t),
-                normal = sp_triangle_normal(setup->mesh, hit.triangle);
+        sp_vec3 velocity = meeting.velocity, normal = sp_triangle_normal(setup->mesh, hit.triangle);
         double across = sp_dot(velocity, normal);
         uint32_t patch = bounce ? sp_patch_of(coarse, hit.triangle, hit.u, hit.v, across > 0) : SP_NONE;
         if (patch != SP_NONE) {
@@ -30,7 +29,7 @@ static void follow(const sp_evaluator *coarse, sp_ray ray, bool *met)
         const sp_surface *surface = &setup->surfaces[setup->mesh->part[hit.triangle]];
         if (!(surface->restitution > 0) || !(surface->rebound > 0))
             return;
-        ray.origin = sp_ray_point(&ray, gravity, hit.t);
+        ray.origin = meeting.point;
         ray.velocity = sp_along(velocity, -(1 + surface->restitution) * across, normal);
         double speed = sp_length(ray.velocity);
         if (!(speed > 0))
@@ -40,10 +39,11 @@ static void follow(const sp_evaluator *coarse, sp_ray ray, bool *met)
 }
 
 /* Jets over all directions that a site's nozzles can be aimed at, spread evenly (Swinbank and Purser 2006). */
-static void follow_site(const sp_search *search, const sp_site *site, size_t speed, size_t jets, bool *met)
+static void follow_site(const sp_search *search, const sp_site *site, size_t launch, size_t jets, bool *met)
 {
     static const double golden = 0.61803398874989484820;
-    double half_angle = sp_visibility_needed(search->options, search->candidates, site, speed);
+    double half_angle = sp_visibility_needed(search->options, search->candidates, site, launch);
+    sp_launch own = search->candidates->launches[launch];
     sp_frame frame = sp_nozzle_frame(site->axis, 0, sp_evaluator_setup(search->coarse)->up);
     if (half_angle < 0)
         return;
@@ -52,10 +52,10 @@ static void follow_site(const sp_search *search, const sp_site *site, size_t spe
         double longitude = 2 * M_PI * (turns - floor(turns)), radius = sqrt(fmax(0, 1 - z * z));
         sp_vec3 direction = sp_v(radius * cos(longitude), radius * sin(longitude), z);
         sp_ray ray = {.origin = site->position,
-                      .velocity = sp_scale(sp_frame_axis(&frame, direction), search->candidates->speeds[speed]),
+                      .velocity = sp_scale(sp_frame_axis(&frame, direction), own.speed),
                       .t_max = INFINITY,
                       .skip = SP_NONE};
-        follow(search->coarse, ray, met);
+        follow(search->coarse, own, ray, met);
     }
 }
 
@@ -69,7 +69,7 @@ static bool anything_reflects(const sp_setup *setup)
 
 bool sp_bounces(const sp_evaluator *fine, const sp_search *search, sp_reason *reasons, sp_error *error)
 {
-    size_t patches = sp_evaluator_patches(fine)->count, views = search->sites->count * search->candidates->speed_count;
+    size_t patches = sp_evaluator_patches(fine)->count, views = search->sites->count * search->candidates->launch_count;
     size_t unseen = 0;
     for (size_t p = 0; p < patches; p++)
         unseen += reasons[p] == SP_REASON_NO_LINE;
@@ -82,8 +82,8 @@ bool sp_bounces(const sp_evaluator *fine, const sp_search *search, sp_reason *re
     int threads = sp_threads(&search->options->run);
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
     for (size_t i = 0; i < views; i++)
-        follow_site(search, &search->sites->items[i / search->candidates->speed_count],
-                    i % search->candidates->speed_count, jets, met);
+        follow_site(search, &search->sites->items[i / search->candidates->launch_count],
+                    i % search->candidates->launch_count, jets, met);
     for (size_t p = 0; p < patches; p++) {
         uint32_t patch = reasons[p] == SP_REASON_NO_LINE ? sp_coarse_patch(fine, search->coarse, p) : SP_NONE;
         if (patch != SP_NONE && met[patch])

@@ -14,12 +14,12 @@ static sp_reason reason_of(const sp_criterion *criterion, const sp_arrival *arri
 }
 
 /* What a view comes to: the nearest of all, whichever thread came first. */
-static bool look(const sp_search *search, const sp_site *site, size_t speed, sp_reason *nearest, sp_error *error)
+static bool look(const sp_search *search, const sp_site *site, size_t launch, sp_reason *nearest, sp_error *error)
 {
-    double half_angle = sp_visibility_needed(search->options, search->candidates, site, speed);
+    double half_angle = sp_visibility_needed(search->options, search->candidates, site, launch);
     if (half_angle < 0)
         return true;
-    sp_reach *reach = sp_evaluator_reach(search->coarse, site->position, search->candidates->speeds[speed], site->axis,
+    sp_reach *reach = sp_evaluator_reach(search->coarse, site->position, search->candidates->launches[launch], site->axis,
                                          half_angle, error);
     if (!reach)
         return false;
@@ -35,14 +35,14 @@ static bool look(const sp_search *search, const sp_site *site, size_t speed, sp_
 
 static bool look_from_all(const sp_search *search, sp_watch *watch, sp_reason *nearest, sp_error *error)
 {
-    size_t speeds = search->candidates->speed_count;
+    size_t launches = search->candidates->launch_count;
     sp_error failure = {0};
 #pragma omp parallel for num_threads(sp_sweeper_threads(search)) schedule(dynamic, 1)
-    for (size_t i = 0; i < search->sites->count * speeds; i++) {
+    for (size_t i = 0; i < search->sites->count * launches; i++) {
         sp_error own = {0};
         /* a time limit does not stop this, as it does not stop the rest of what is attainable */
         bool stopped = !sp_watch_goes_on(watch, "attainable", 1) && watch->cancelled;
-        if (!stopped && !look(search, &search->sites->items[i / speeds], i % speeds, nearest, &own))
+        if (!stopped && !look(search, &search->sites->items[i / launches], i % launches, nearest, &own))
 #pragma omp critical(sp_passing)
             failure = own;
     }

@@ -92,7 +92,7 @@ static void look_at_sites(const running *r, const sp_draft *nothing)
     for (size_t site = 0; site < r->search->sites->count; site++)
         for (uint32_t k = 0; k < candidates->make_count; k++) {
             int thread = omp_get_thread_num();
-            sp_sweeper_look(&r->sweepers[thread], r->search, nothing, (uint32_t)site, candidates->makes[k].speed_class);
+            sp_sweeper_look(&r->sweepers[thread], r->search, nothing, (uint32_t)site, candidates->makes[k].launch);
             /* a time limit does not stop this, as it does not stop the rest of what is attainable */
             bool stopped = !sp_watch_goes_on(r->watch, "attainable", 1) && r->watch->cancelled,
                  swept = sp_is_swept(candidates->makes[k].type);

@@ -1,5 +1,7 @@
 #include "candidates/candidates.h"
 
+#include "candidates/launches.h"
+
 #include <stdlib.h>
 
 /* Axes lie at most about a third of the pattern's half-angle apart, and closer, down to a twelfth, while there are
@@ -21,14 +23,15 @@ void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type,
     *high = fmin(type->angle_max, type->angle + change);
 }
 
-void sp_flow_range(const sp_place_options *options, const sp_fluid *liquid, const sp_nozzle_type *type, double pressure,
+void sp_flow_range(const sp_place_options *options, const sp_setup *setup, const sp_nozzle_type *type, double pressure,
                    double *low, double *high)
 {
-    double change = sp_is_swept(type) ? options->refine.flow : 0;
+    bool breaks_up = setup->fidelity.trajectory == SP_TRAJECTORY_DRAG && type->pattern == SP_PATTERN_SOLID_STREAM;
+    double change = sp_is_swept(type) && !breaks_up ? options->refine.flow : 0;
     double least = fmax(type->flow_min, type->flow * (1 - change));
     double most = fmin(type->flow_max, type->flow * (1 + change));
-    *low = sp_type_flow(type, least, pressure, liquid);
-    *high = sp_type_flow(type, most, pressure, liquid);
+    *low = sp_type_flow(type, least, pressure, &setup->liquid);
+    *high = sp_type_flow(type, most, pressure, &setup->liquid);
 }
 
 static size_t rolls_of(const sp_nozzle_type *type)
@@ -38,34 +41,43 @@ static size_t rolls_of(const sp_nozzle_type *type)
     return sp_is_swept(type) || type->pattern == SP_PATTERN_ROTATING ? 1 : BODY_ROLLS;
 }
 
+static bool is_same(const sp_launch *a, const sp_launch *b)
+{
+    return a->speed == b->speed && a->fronts == b->fronts;
+}
+
+/* False, with an error, where it sprays nothing. */
 static bool make_create(const sp_setup *setup, const sp_nozzle_type *type, double pressure, double angle,
-                        sp_candidates *candidates)
+                        sp_candidates *candidates, sp_error *error)
 {
     sp_nozzle nozzle = {.type = type, .pressure = pressure};
+    sp_launch launch;
     sp_make make = {.type = type, .pressure = pressure, .angle = angle, .spray = sp_spray_create(type, angle)};
     make.flow = sp_nozzle_flow(&nozzle, &setup->liquid);
-    make.speed = sp_nozzle_speed(&nozzle, &setup->liquid);
     make.reach = type->pattern == SP_PATTERN_CLUSTER ? 0.5 * sp_nozzle_angle(&nozzle) : sp_spray_reach(&make.spray);
     make.roll_count = rolls_of(type);
-    if (!(make.flow > 0) || !(make.speed > 0))
+    if (!(make.flow > 0) || !(sp_nozzle_speed(&nozzle, &setup->liquid) > 0))
+        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: type %s at %g Pa sprays nothing", type->name,
+                       pressure);
+    if (!sp_launch_table_find(candidates->table, &nozzle, &launch, error))
         return false;
-    while (make.speed_class < candidates->speed_count && candidates->speeds[make.speed_class] != make.speed)
-        make.speed_class++;
-    if (make.speed_class == candidates->speed_count)
-        candidates->speeds[candidates->speed_count++] = make.speed;
+    while (make.launch < candidates->launch_count && !is_same(&candidates->launches[make.launch], &launch))
+        make.launch++;
+    if (make.launch == candidates->launch_count)
+        candidates->launches[candidates->launch_count++] = launch;
     candidates->makes[candidates->make_count++] = make;
     return true;
 }
 
 /* An adjustable type at its own angle and at the ends of what refinement may set: the search must see that it helps. */
 static bool type_makes(const sp_setup *setup, const sp_place_options *options, const sp_nozzle_type *type,
-                       double pressure, sp_candidates *candidates)
+                       double pressure, sp_candidates *candidates, sp_error *error)
 {
     double low, high;
     sp_angle_range(options, type, &low, &high);
-    return make_create(setup, type, pressure, type->angle, candidates) &&
-           (low >= type->angle || make_create(setup, type, pressure, low, candidates)) &&
-           (high <= type->angle || make_create(setup, type, pressure, high, candidates));
+    return make_create(setup, type, pressure, type->angle, candidates, error) &&
+           (low >= type->angle || make_create(setup, type, pressure, low, candidates, error)) &&
+           (high <= type->angle || make_create(setup, type, pressure, high, candidates, error));
 }
 
 static bool makes_create(const sp_setup *setup, const sp_place_options *options, sp_candidates *candidates,
@@ -78,14 +90,13 @@ static bool makes_create(const sp_setup *setup, const sp_place_options *options,
         return sp_fail_memory(error);
     size_t most = options->type_count * options->pressure_count * ANGLES;
     candidates->makes = calloc(most, sizeof *candidates->makes);
-    candidates->speeds = calloc(most, sizeof *candidates->speeds);
-    if (!candidates->makes || !candidates->speeds)
+    candidates->launches = calloc(most, sizeof *candidates->launches);
+    if (!candidates->makes || !candidates->launches)
         return sp_fail_memory(error);
     for (size_t t = 0; t < options->type_count; t++)
         for (size_t p = 0; p < options->pressure_count; p++)
-            if (!type_makes(setup, options, options->types[t], options->pressures[p], candidates))
-                return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: type %s at %g Pa sprays nothing",
-                               options->types[t]->name, options->pressures[p]);
+            if (!type_makes(setup, options, options->types[t], options->pressures[p], candidates, error))
+                return false;
     return true;
 }
 
@@ -181,9 +192,9 @@ static bool axes_create(const sp_place_options *options, const sp_sites *sites, 
 bool sp_candidates_create(const sp_evaluator *evaluator, const sp_place_options *options, const sp_sites *sites,
                           sp_candidates *candidates, sp_error *error)
 {
-    *candidates = (sp_candidates){0};
     const sp_setup *setup = sp_evaluator_setup(evaluator);
-    if (!makes_create(setup, options, candidates, error) || !axes_create(options, sites, candidates, error)) {
+    *candidates = (sp_candidates){.table = sp_launches_create(evaluator, options, sites, error)};
+    if (!candidates->table || !makes_create(setup, options, candidates, error) || !axes_create(options, sites, candidates, error)) {
         sp_candidates_free(candidates);
         return false;
     }
@@ -207,7 +218,8 @@ void sp_candidates_free(sp_candidates *candidates)
         free(candidates->axes[i].axes);
     free(candidates->axes);
     free(candidates->makes);
-    free(candidates->speeds);
+    free(candidates->launches);
+    sp_launch_table_destroy(candidates->table);
     free(candidates->pose_start);
     *candidates = (sp_candidates){0};
 }

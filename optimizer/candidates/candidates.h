@@ -4,14 +4,15 @@
 
 #include "candidates/mounts.h"
 
+#include <sprayplan/launch.h>
+
 /* A type at a pressure and an angle. */
 typedef struct {
     const sp_nozzle_type *type;
     double pressure; /* Pa */
     double angle;    /* rad */
     double flow;     /* m³/s */
-    double speed;    /* m/s */
-    size_t speed_class;
+    size_t launch;   /* of the candidates' launches */
     sp_spray spray;
     double reach;      /* rad, half-angle of the cone that holds the pattern */
     size_t roll_count; /* 1 where it is the same at every roll */
@@ -34,8 +35,9 @@ typedef struct {
 typedef struct {
     size_t make_count;
     sp_make *makes; /* by type, then pressure, then angle */
-    size_t speed_count;
-    double *speeds; /* m/s, distinct */
+    sp_launch_table *table; /* of all that a layout may hold */
+    size_t launch_count;
+    sp_launch *launches; /* of makes, distinct */
     size_t mount_count;
     sp_axes *axes;      /* [mount_count x make_count] */
     size_t *pose_start; /* [site_count + 1], poses of site i are [start[i], start[i + 1]) */
@@ -58,9 +60,10 @@ static inline const sp_axes *sp_candidates_axes(const sp_candidates *candidates,
 size_t sp_candidates_number(const sp_candidates *candidates, const sp_sites *sites, sp_pose pose);
 /* Turns an axis about +z to lie about the z of a frame: for a site sp_nozzle_frame(site->axis, 0, up). */
 sp_vec3 sp_frame_axis(const sp_frame *frame, sp_vec3 axis);
-/* What refinement may set: angle (rad), and flow (m³/s) of a type at a pressure. */
+/* What refinement may set: angle (rad), and flow (m³/s) of a type at a pressure. With drag the flow of a stream stays:
+ * how far it flies before it breaks up depends on it, and with that all flights. */
 void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high);
-void sp_flow_range(const sp_place_options *options, const sp_fluid *liquid, const sp_nozzle_type *type, double pressure,
+void sp_flow_range(const sp_place_options *options, const sp_setup *setup, const sp_nozzle_type *type, double pressure,
                    double *low, double *high);
 /* The roll of step i. */
 double sp_make_roll(const sp_make *make, size_t i);

@@ -224,7 +224,7 @@ static size_t count_places(const sp_search *search)
     size_t count = 0;
     for (uint32_t i = 0; i < search->sites->count; i++) {
         bool known = false;
-        for (size_t s = 0; s < search->candidates->speed_count; s++)
+        for (size_t s = 0; s < search->candidates->launch_count; s++)
             known |= sp_visibility_known(search->visibility, i, s);
         count += known && !search->port_taken[search->sites->items[i].mount];
     }

@@ -229,7 +229,7 @@ static bool turn_to(const sp_aim_prices *prices, scratch *own, const sp_aim_cell
     const sp_aim_kind *kind = &prices->kinds->items[cell->kind];
     for (size_t i = 0; i < CULLS; i++)
         own->culls[i].used = false;
-    own->view = sp_visibility_look(search->visibility, cell->site, kind->speed_class, &own->desk);
+    own->view = sp_visibility_look(search->visibility, cell->site, kind->launch, &own->desk);
     if (!own->view->start)
         return false;
     sp_pose_prices_worth(prices->poses, own->view, (float)least_strength_of(prices, cell),
@@ -405,7 +405,7 @@ static bool hand_out_one(sp_aim_prices *prices, const sp_aim_cell *cell, sp_rows
                             .frame = sp_aim_cell_frame(&middle, &disc, sp_evaluator_setup(search->coarse)->up),
                             .strength = strength_of(prices, cell)};
     sp_desk *desk = NULL;
-    const sp_view *view = sp_visibility_look(search->visibility, cell->site, kind->speed_class, &desk);
+    const sp_view *view = sp_visibility_look(search->visibility, cell->site, kind->launch, &desk);
     sp_field_view(search, view, &posed, prices->field);
     sp_visibility_leave(search->visibility, &desk);
     return sp_pose_prices_row(prices->poses, prices->field, KEY_FIRST + prices->keys++, prices->ports[site->mount],

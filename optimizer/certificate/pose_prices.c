@@ -358,7 +358,7 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
         *found = (best){.price = 0};
         if (!sp_candidates_axes(candidates, mount, k)->count || !isfinite(least) || prices->search->port_taken[mount])
             continue;
-        const sp_view *view = sp_visibility_look(prices->search->visibility, site, make->speed_class, &own->desk);
+        const sp_view *view = sp_visibility_look(prices->search->visibility, site, make->launch, &own->desk);
         if (!view->start && sp_is_swept(make->type))
             continue;
         sp_region region = prepare_worth(prices, own, view, make, &frame, u);
@@ -443,7 +443,7 @@ static void price_block(sp_pose_prices *prices, scratch *own, size_t block, cons
     memset(price + poses->start, 0, (end - poses->start) * sizeof *price);
     if (!memchr(alive + poses->start, 1, end - poses->start))
         return;
-    const sp_view *view = sp_visibility_look(search->visibility, poses->site, make->speed_class, &own->desk);
+    const sp_view *view = sp_visibility_look(search->visibility, poses->site, make->launch, &own->desk);
     if (!view->start && sp_is_swept(make->type))
         return;
     sp_region region = prepare_worth(prices, own, view, make, &frame, u);

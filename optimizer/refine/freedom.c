@@ -128,7 +128,7 @@ sp_freedom sp_freedom_create(const sp_search *search, const sp_placed *placed)
     double low, high;
     sp_angle_range(options, type, &low, &high);
     add(&freedom, SP_UNKNOWN_ANGLE, none, sp_nozzle_angle(&placed->nozzle), low, high);
-    sp_flow_range(options, &setup->liquid, type, placed->nozzle.pressure, &low, &high);
+    sp_flow_range(options, setup, type, placed->nozzle.pressure, &low, &high);
     add(&freedom, SP_UNKNOWN_FLOW, none, placed->flow, low, high);
     return freedom;
 }

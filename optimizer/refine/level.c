@@ -128,14 +128,19 @@ static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool sl
     return true;
 }
 
-/* Derivatives of a flight when its start moves along `move`, differentiated from |r - g t²/2| = v t; with u the
+/* Derivatives of a flight when its start moves along `move`, without drag differentiated from |r - g t²/2| = v t; with u the
  * direction, w the velocity on arrival: t' = u·r'/u·w, u' = (r' - w t')/(v t). Returns that of log transfer, and u'. */
 static double shift(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, sp_vec3 move, sp_vec3 *turn)
 {
     sp_vec3 g = sp_evaluator_gravity(posed->search->coarse);
     sp_vec3 r = sp_sub(seen->point, posed->nozzle.position), by = sp_scale(move, -1);
     sp_vec3 u = borne->flight.direction, w = borne->flight.velocity;
-    double v = posed->sight->speed, t = borne->flight.time;
+    if (posed->sight->launch.fronts) {
+        sp_flight_change change = sp_fronts_change(posed->sight->launch.fronts, &borne->flight, by);
+        *turn = change.direction;
+        return sp_dot(seen->normal, change.velocity) / sp_dot(seen->normal, w) - change.spread;
+    }
+    double v = posed->sight->launch.speed, t = borne->flight.time;
     double later = sp_dot(u, by) / sp_dot(u, w);
     *turn = sp_scale(sp_along(by, -later, w), 1 / (v * t));
     sp_vec3 faster = sp_along(sp_scale(*turn, v), later, g);

@@ -58,11 +58,16 @@ static bool equal(sp_vec3 a, sp_vec3 b)
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
+static bool is_same(const sp_launch *a, const sp_launch *b)
+{
+    return a->speed == b->speed && a->fronts == b->fronts;
+}
+
 static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
 {
-    sp_reach *reach = search->all_feeds ? sp_evaluator_reach(search->coarse, sight->position, sight->speed, sight->axis,
+    sp_reach *reach = search->all_feeds ? sp_evaluator_reach(search->coarse, sight->position, sight->launch, sight->axis,
                                                              sight->half_angle, error)
-                                        : sp_evaluator_reach_passing(search->coarse, sight->position, sight->speed,
+                                        : sp_evaluator_reach_passing(search->coarse, sight->position, sight->launch,
                                                                      sight->axis, sight->half_angle, NULL, error);
     if (!reach)
         return false;
@@ -90,7 +95,7 @@ static sp_sight *known(const sp_sights *sights, const sp_sight *wanted)
     double nearest = sights->tolerance;
     for (size_t i = 0; i < sights->capacity; i++) {
         sp_sight *item = &sights->items[i];
-        if (!item->seen || item->speed != wanted->speed || item->half_angle < wanted->half_angle ||
+        if (!item->seen || !is_same(&item->launch, &wanted->launch) || item->half_angle < wanted->half_angle ||
             (item->half_angle < M_PI && !equal(item->axis, wanted->axis)))
             continue;
         double distance = sp_distance(item->position, wanted->position);
@@ -109,9 +114,10 @@ const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_er
     if (!sp_is_swept(placed->nozzle.type))
         return &nothing;
     sp_sight wanted = {.position = placed->nozzle.position,
-                       .speed = sp_nozzle_speed(&placed->nozzle, &sp_evaluator_setup(search->coarse)->liquid),
                        .axis = placed->origin.axis,
                        .half_angle = needed(search, placed)};
+    if (!sp_launch_table_find(search->candidates->table, &placed->nozzle, &wanted.launch, error))
+        return NULL;
     sp_sight *sight = known(sights, &wanted);
     if (!sight) {
         sight = &sights->items[0];
@@ -134,7 +140,8 @@ bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen 
                   sp_flight *flight, double *transfer)
 {
     sp_flight flights[2];
-    int count = sp_flights(position, seen->point, sight->speed, sp_evaluator_gravity(search->coarse), flights);
+    sp_vec3 gravity = sp_evaluator_gravity(search->coarse);
+    int count = sp_launch_flights(&sight->launch, position, seen->point, gravity, flights);
     if ((int)seen->arc >= count)
         return false;
     *flight = flights[seen->arc];

@@ -18,7 +18,7 @@ typedef struct {
 
 typedef struct {
     sp_vec3 position;
-    double speed;
+    sp_launch launch;
     sp_vec3 axis; /* what lies within half_angle about it */
     double half_angle;
     size_t count;

@@ -133,7 +133,7 @@ void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
         sp_footprint_field(search, sp_footprints_look(search->footprints, pose), field);
         return;
     }
-    const sp_view *view = sp_visibility_look(search->visibility, pose.site, make->speed_class, &desk);
+    const sp_view *view = sp_visibility_look(search->visibility, pose.site, make->launch, &desk);
     sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
     sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
     sp_posed_spray posed = {.spray = make->spray,
@@ -150,17 +150,19 @@ void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
 static sp_reach *reach_of(const sp_search *search, const sp_nozzle *nozzle, const sp_draft *draft, sp_error *error)
 {
     sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
-    double speed = sp_nozzle_speed(nozzle, &sp_evaluator_setup(search->coarse)->liquid);
     double half_angle = fmin(M_PI, sp_spray_reach(&spray) + 1e-6);
+    sp_launch launch;
+    if (!sp_launch_table_find(search->candidates->table, nozzle, &launch, error))
+        return NULL;
     if (search->all_feeds)
-        return sp_evaluator_reach(search->coarse, nozzle->position, speed, nozzle->axis, half_angle, error);
+        return sp_evaluator_reach(search->coarse, nozzle->position, launch, nozzle->axis, half_angle, error);
     bool *dry = draft ? malloc((search->patch_count + 1) * sizeof *dry) : NULL;
     if (draft && !dry)
         return sp_fail_memory(error);
     for (size_t p = 0; dry && p < search->patch_count; p++)
         dry[p] = draft->wet[p] < SP_ENOUGH;
     sp_reach *reach =
-        sp_evaluator_reach_passing(search->coarse, nozzle->position, speed, nozzle->axis, half_angle, dry, error);
+        sp_evaluator_reach_passing(search->coarse, nozzle->position, launch, nozzle->axis, half_angle, dry, error);
     free(dry);
     return reach;
 }

@@ -93,11 +93,13 @@ static bool lay_pattern(const sp_nozzle *nozzle, sum *s, sp_error *error)
     posed pattern = {.spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle)),
                      .frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up),
                      .flow = sp_nozzle_flow(nozzle, &setup->liquid)};
-    double speed = sp_nozzle_speed(nozzle, &setup->liquid),
-           half_angle = fmin(M_PI, sp_spray_reach(&pattern.spray) + 1e-6);
+    double half_angle = fmin(M_PI, sp_spray_reach(&pattern.spray) + 1e-6);
+    sp_launch launch;
+    if (!sp_launch_table_find(search->candidates->table, nozzle, &launch, error))
+        return false;
     sp_reach *reach = search->all_feeds
-                          ? sp_evaluator_reach(search->coarse, nozzle->position, speed, nozzle->axis, half_angle, error)
-                          : sp_evaluator_reach_passing(search->coarse, nozzle->position, speed, nozzle->axis,
+                          ? sp_evaluator_reach(search->coarse, nozzle->position, launch, nozzle->axis, half_angle, error)
+                          : sp_evaluator_reach_passing(search->coarse, nozzle->position, launch, nozzle->axis,
                                                        half_angle, NULL, error);
     if (!reach)
         return false;

@@ -66,16 +66,16 @@ void sp_sweepers_destroy(sp_sweeper *sweepers, int count)
     free(sweepers);
 }
 
-void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, uint32_t site, size_t speed)
+void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, uint32_t site, size_t launch)
 {
-    if (sweeper->search == search && sweeper->site == site && sweeper->speed == speed)
+    if (sweeper->search == search && sweeper->site == site && sweeper->launch == launch)
         return;
-    const sp_view *view = sp_visibility_look(search->visibility, site, speed, &sweeper->desk);
+    const sp_view *view = sp_visibility_look(search->visibility, site, launch, &sweeper->desk);
     sweeper->search = search;
     sweeper->make = SIZE_MAX;
     sweeper->view = view;
     sweeper->site = site;
-    sweeper->speed = speed;
+    sweeper->launch = launch;
     sweeper->frame = sp_nozzle_frame(search->sites->items[site].axis, 0, sp_evaluator_setup(search->coarse)->up);
     sweeper->draft = draft;
     sweeper->fields.view = view;
@@ -167,7 +167,7 @@ sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t rol
 
 sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose, double least)
 {
-    sp_sweeper_look(sweeper, search, draft, pose.site, search->candidates->makes[pose.make].speed_class);
+    sp_sweeper_look(sweeper, search, draft, pose.site, search->candidates->makes[pose.make].launch);
     sp_sweeper_take(sweeper, pose.make);
     return sp_sweeper_score(sweeper, pose.axis, pose.roll, least);
 }
@@ -175,6 +175,6 @@ sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_dr
 bool sp_search_knows(const sp_search *search, uint32_t site, size_t make)
 {
     const sp_make *own = &search->candidates->makes[make];
-    return sp_is_swept(own->type) ? sp_visibility_known(search->visibility, site, own->speed_class)
+    return sp_is_swept(own->type) ? sp_visibility_known(search->visibility, site, own->launch)
                                   : sp_footprints_know(search->footprints, site, (uint32_t)make);
 }

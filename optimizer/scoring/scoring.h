@@ -18,7 +18,7 @@ typedef struct {
     const sp_view *view;
     sp_desk *desk; /* NULL, or what the view lies on */
     uint32_t site;
-    size_t speed;
+    size_t launch;
     size_t make;      /* SIZE_MAX: none */
     sp_frame frame;   /* the site's */
     sp_region region; /* the make's, about the site's axis */
@@ -33,9 +33,9 @@ void sp_sweepers_destroy(sp_sweeper *sweepers, int count);
 /* Says that what is wet, or the search's credit, has changed, and leaves the desk: all sweepers of a loop are to forget
  * at its end, before anyone else looks. */
 void sp_sweepers_forget(sp_sweeper *sweepers, int count);
-/* Turns to what a site's nozzles at a speed class would add to a draft. */
-void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, uint32_t site, size_t speed);
-/* Then to a make of that speed class. Both do nothing where the sweeper has not turned elsewhere since, nor forgotten.
+/* Turns to what a site's nozzles of a launch would add to a draft. */
+void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, uint32_t site, size_t launch);
+/* Then to a make of that launch. Both do nothing where the sweeper has not turned elsewhere since, nor forgotten.
  */
 void sp_sweeper_take(sp_sweeper *sweeper, size_t make);
 /* Then to its poses; where the gain is less than `least`, m², either may come out higher, the gain still below that. */

@@ -96,7 +96,7 @@ static bool take(const sp_reach *reach, double all, sp_sightings *sightings)
     return true;
 }
 
-bool sp_sightings_trace(const sp_evaluator *evaluator, const sp_site *site, double speed, double half_angle,
+bool sp_sightings_trace(const sp_evaluator *evaluator, const sp_site *site, sp_launch launch, double half_angle,
                         const uint8_t *known, sp_sightings *sightings, sp_error *error)
 {
     size_t patches = sp_evaluator_patches(evaluator)->count;
@@ -106,7 +106,7 @@ bool sp_sightings_trace(const sp_evaluator *evaluator, const sp_site *site, doub
     if (!sightings->size || !sightings->part)
         return sp_fail_memory(error);
     for (size_t first = 0; first < patches; first += PART) {
-        sp_reach *reach = sp_evaluator_reach_part(evaluator, site->position, speed, site->axis, half_angle, first,
+        sp_reach *reach = sp_evaluator_reach_part(evaluator, site->position, launch, site->axis, half_angle, first,
                                                   first + PART < patches ? first + PART : patches, known, error);
         if (!reach)
             return false;

@@ -1,4 +1,4 @@
-/* Views: what a mounting point can reach at one speed, sorted by direction. */
+/* Views: what a mounting point can reach by one launch, sorted by direction. */
 #ifndef OPTIMIZER_VIEW_H
 #define OPTIMIZER_VIEW_H
 
@@ -67,10 +67,10 @@ typedef struct {
     bool any_marked;                 /* some is of a cell, of a patch that has others, or fails */
 } sp_sightings;
 
-/* Traces what `site` can reach at `speed` (m/s) within half_angle (rad) about its axis; or, where `known` is not NULL,
+/* Traces what `site` can reach by a launch within half_angle (rad) about its axis; or, where `known` is not NULL,
  * tells again what was traced before. While it runs it takes no more than sp_sightings_work() bytes besides the
  * sightings, for as many `cells` as they then have. The caller frees, also on failure. */
-bool sp_sightings_trace(const sp_evaluator *evaluator, const sp_site *site, double speed, double half_angle,
+bool sp_sightings_trace(const sp_evaluator *evaluator, const sp_site *site, sp_launch launch, double half_angle,
                         const uint8_t *known, sp_sightings *sightings, sp_error *error);
 /* Sets bit 2 patch + arc of `known` for every sighting. */
 void sp_sightings_note(const sp_sightings *sightings, uint8_t *known);

@@ -36,11 +36,11 @@ static double memory_of(const sp_place_options *options)
 }
 
 double sp_visibility_needed(const sp_place_options *options, const sp_candidates *candidates, const sp_site *site,
-                            size_t speed)
+                            size_t launch)
 {
     double reach = -1;
     for (size_t k = 0; k < candidates->make_count; k++)
-        if (candidates->makes[k].speed_class == speed && sp_is_swept(candidates->makes[k].type) &&
+        if (candidates->makes[k].launch == launch && sp_is_swept(candidates->makes[k].type) &&
             sp_candidates_axes(candidates, site->mount, k)->count)
             reach = fmax(reach, candidates->makes[k].reach);
     return reach < 0 ? reach : fmin(M_PI, reach + options->mounts[site->mount].tilt + 1e-6);
@@ -72,12 +72,12 @@ static uint8_t *sights_of(const sp_visibility *visibility, size_t at)
 /* Traces view `at`, or works it out again; false also where there is nothing to see: then error stays as it is. */
 static bool trace(const sp_visibility *visibility, size_t at, sp_sightings *sightings, sp_error *error)
 {
-    const sp_site *site = &visibility->sites->items[at / visibility->speed_count];
-    size_t speed = at % visibility->speed_count;
-    double half_angle = sp_visibility_needed(visibility->options, visibility->candidates, site, speed);
+    const sp_site *site = &visibility->sites->items[at / visibility->launch_count];
+    size_t launch = at % visibility->launch_count;
+    double half_angle = sp_visibility_needed(visibility->options, visibility->candidates, site, launch);
     const uint8_t *known = visibility->known[at] ? sights_of(visibility, at) : NULL;
     *sightings = (sp_sightings){0};
-    return half_angle >= 0 && sp_sightings_trace(visibility->evaluator, site, visibility->candidates->speeds[speed],
+    return half_angle >= 0 && sp_sightings_trace(visibility->evaluator, site, visibility->candidates->launches[launch],
                                                  half_angle, known, sightings, error);
 }
 
@@ -150,12 +150,12 @@ static bool pass_on(const sp_error *failure, sp_error *error)
 static bool survey_batch(sp_survey *survey, size_t first, size_t end, bool keep, sp_error *error)
 {
     sp_visibility *visibility = survey->visibility;
-    size_t speeds = visibility->speed_count, sites = visibility->site_count;
+    size_t launches = visibility->launch_count, sites = visibility->site_count;
 #pragma omp parallel for num_threads(survey->threads) schedule(dynamic, 1)
-    for (size_t i = first * speeds; i < end * speeds; i++)
-        survey_view(survey, strided(i / speeds, sites) * speeds + i % speeds, keep);
-    for (size_t i = first * speeds; i < end * speeds; i++) {
-        size_t at = strided(i / speeds, sites) * speeds + i % speeds;
+    for (size_t i = first * launches; i < end * launches; i++)
+        survey_view(survey, strided(i / launches, sites) * launches + i % launches, keep);
+    for (size_t i = first * launches; i < end * launches; i++) {
+        size_t at = strided(i / launches, sites) * launches + i % launches;
         visibility->largest = survey->sizes[at] > visibility->largest ? survey->sizes[at] : visibility->largest;
         visibility->cells = survey->cells[at] > visibility->cells ? survey->cells[at] : visibility->cells;
         survey->twice_at_all |= survey->any_marked[at];
@@ -173,7 +173,7 @@ static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
     const sp_place_options *options = visibility->options;
     size_t sites = visibility->site_count, most = most_arrivals(visibility->evaluator);
     double memory = memory_of(options), work = desk_bytes(most, most_cells(visibility->evaluator), true);
-    survey->kept = (double)(sites * visibility->speed_count) * (double)visibility->sight_bytes;
+    survey->kept = (double)(sites * visibility->launch_count) * (double)visibility->sight_bytes;
     survey->threads = sp_threads(&options->run);
     if ((double)survey->threads * work > memory)
         survey->threads = 1;
@@ -185,7 +185,7 @@ static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
             watch->interrupted = true;
             break;
         }
-        double batch = BATCH * (double)visibility->speed_count * (double)sp_view_bytes(most, true);
+        double batch = BATCH * (double)visibility->launch_count * (double)sp_view_bytes(most, true);
         bool keep = survey->kept + batch + (double)survey->threads * work <= memory;
         if (!survey_batch(survey, first, first + BATCH < sites ? first + BATCH : sites, keep, error))
             return false;
@@ -200,7 +200,7 @@ static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
 static bool fill(sp_survey *survey, double room, sp_error *error)
 {
     sp_visibility *visibility = survey->visibility;
-    size_t views = visibility->site_count * visibility->speed_count;
+    size_t views = visibility->site_count * visibility->launch_count;
     survey->threads = visibility->desk_count;
     for (size_t first = 0, end; first < views && survey->failure.kind == SP_OK; first = end) {
         bool chosen[BATCH] = {0};
@@ -241,7 +241,7 @@ static bool desks_create(sp_visibility *visibility, bool any_marked, sp_error *e
 static bool furnish(sp_survey *survey, sp_error *error)
 {
     sp_visibility *visibility = survey->visibility;
-    size_t views = visibility->site_count * visibility->speed_count, missing = 0;
+    size_t views = visibility->site_count * visibility->launch_count, missing = 0;
     double memory = memory_of(visibility->options),
            work = desk_bytes(visibility->largest, visibility->cells, survey->twice_at_all);
     double sights = (double)views * (double)visibility->sight_bytes;
@@ -263,13 +263,13 @@ static bool furnish(sp_survey *survey, sp_error *error)
 bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
                           const sp_candidates *candidates, sp_watch *watch, sp_visibility *visibility, sp_error *error)
 {
-    size_t views = sites->count * candidates->speed_count;
+    size_t views = sites->count * candidates->launch_count;
     *visibility = (sp_visibility){.evaluator = coarse,
                                   .options = options,
                                   .sites = sites,
                                   .candidates = candidates,
                                   .site_count = sites->count,
-                                  .speed_count = candidates->speed_count,
+                                  .launch_count = candidates->launch_count,
                                   .sight_bytes = sp_evaluator_patches(coarse)->count / 4 + 1};
     sp_survey survey = {.visibility = visibility};
     sp_bins_create(&visibility->bins);
@@ -322,7 +322,7 @@ bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options
                        const sp_candidates *candidates, sp_watch *watch, sp_evaluator **resampled,
                        sp_visibility *visibility, sp_error *error)
 {
-    double views = (double)sites->count * (double)candidates->speed_count, footprints = 0;
+    double views = (double)sites->count * (double)candidates->launch_count, footprints = 0;
     double poses = (double)candidates->pose_start[sites->count];
     views += patterns_to_trace(sites, candidates, &footprints);
     const sp_setup *setup = sp_evaluator_setup(fine);
@@ -350,7 +350,7 @@ bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options
 void sp_visibility_free(sp_visibility *visibility)
 {
     sp_desks *desks = visibility->desks;
-    for (size_t i = 0; visibility->views && i < visibility->site_count * visibility->speed_count; i++)
+    for (size_t i = 0; visibility->views && i < visibility->site_count * visibility->launch_count; i++)
         free(visibility->views[i].start);
     for (int i = 0; desks && desks->items && i < visibility->desk_count; i++)
         free(desks->items[i].block);
@@ -395,9 +395,9 @@ void sp_visibility_leave(const sp_visibility *visibility, sp_desk **desk)
     pthread_mutex_unlock(&desks->lock);
 }
 
-const sp_view *sp_visibility_look(const sp_visibility *visibility, uint32_t site, size_t speed, sp_desk **desk)
+const sp_view *sp_visibility_look(const sp_visibility *visibility, uint32_t site, size_t launch, sp_desk **desk)
 {
-    size_t at = site * visibility->speed_count + speed;
+    size_t at = site * visibility->launch_count + launch;
     const sp_view *kept = &visibility->views[at];
     if (kept->start || !visibility->known[at])
         return kept;

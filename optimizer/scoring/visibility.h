@@ -1,4 +1,4 @@
-/* Visibility: what each mounting point can reach at each speed, whatever the nozzle's axis, roll and type. Traced once
+/* Visibility: what each mounting point can reach by each launch, whatever the nozzle's axis, roll and type. Traced once
  * and kept as far as the options' memory allows; of what does not fit only what is in sight is kept, two bits a patch,
  * and the rest is worked out again whenever it is looked at, and is the same then. */
 #ifndef OPTIMIZER_VISIBILITY_H
@@ -23,12 +23,12 @@ typedef struct {
     const sp_place_options *options;
     const sp_sites *sites;
     const sp_candidates *candidates;
-    size_t site_count, speed_count;
+    size_t site_count, launch_count;
     size_t largest;  /* most arrivals of a view */
     size_t cells;    /* most of them, of cells, that one part of the tracing has */
-    sp_view *views;  /* [site_count x speed_count], those that are kept */
-    bool *known;     /* [site_count x speed_count], traced before the time was up */
-    uint8_t *sights; /* [site_count x speed_count][sight_bytes], bit 2 patch + arc: whether the way is free */
+    sp_view *views;  /* [site_count x launch_count], those that are kept */
+    bool *known;     /* [site_count x launch_count], traced before the time was up */
+    uint8_t *sights; /* [site_count x launch_count][sight_bytes], bit 2 patch + arc: whether the way is free */
     size_t sight_bytes;
     double bytes;   /* most that views, desks and tracing take at any time */
     int desk_count; /* threads that may look at a time */
@@ -36,10 +36,10 @@ typedef struct {
     sp_bins bins;
 } sp_visibility;
 
-/* Half-angle (rad) about the site's axis that holds all that its candidates at this speed can reach, those that sweeps
+/* Half-angle (rad) about the site's axis that holds all that its candidates of this launch can reach, those that sweeps
  * know; negative: there are none. */
 double sp_visibility_needed(const sp_place_options *options, const sp_candidates *candidates, const sp_site *site,
-                            size_t speed);
+                            size_t launch);
 /* Traces all views on patches as fine as time allows: those of *resampled, or of `fine` itself where that stays NULL.
  * The caller destroys it. */
 bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options, const sp_sites *sites,
@@ -57,13 +57,13 @@ bool sp_visibility_sound(const sp_visibility *visibility, sp_error *error);
  * it holds until the next look with the same desk or until that is left. Waits for a desk where others have all, so no
  * thread may hold two, nor more than desk_count threads hold one and wait for each other. Safe to call from many
  * threads. */
-const sp_view *sp_visibility_look(const sp_visibility *visibility, uint32_t site, size_t speed, sp_desk **desk);
+const sp_view *sp_visibility_look(const sp_visibility *visibility, uint32_t site, size_t launch, sp_desk **desk);
 /* Gives the desk back, if there is one. */
 void sp_visibility_leave(const sp_visibility *visibility, sp_desk **desk);
 
-static inline bool sp_visibility_known(const sp_visibility *visibility, uint32_t site, size_t speed)
+static inline bool sp_visibility_known(const sp_visibility *visibility, uint32_t site, size_t launch)
 {
-    return visibility->known[site * visibility->speed_count + speed];
+    return visibility->known[site * visibility->launch_count + launch];
 }
 
 #endif

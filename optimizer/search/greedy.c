@@ -164,12 +164,12 @@ static void scan_site(sp_rounds *rounds, const sp_draft *draft, sp_sweeper *swee
         rounds->best[site * candidates->make_count + k] = (sp_round_best){0};
     if (!sp_draft_has_place(rounds->search, draft, mount))
         return;
-    for (size_t s = 0; s < candidates->speed_count; s++) {
+    for (size_t s = 0; s < candidates->launch_count; s++) {
         size_t number = candidates->pose_start[site];
         sp_sweeper_look(sweeper, rounds->search, draft, site, s);
         for (size_t k = 0; k < candidates->make_count; k++) {
             const sp_make *make = &candidates->makes[k];
-            if (make->speed_class == s && draft->flow + make->flow <= rounds->budget)
+            if (make->launch == s && draft->flow + make->flow <= rounds->budget)
                 scan_make(rounds, sweeper, (uint32_t)k, number, least);
             number += sp_candidates_axes(candidates, mount, k)->count * make->roll_count;
         }

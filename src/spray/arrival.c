@@ -100,10 +100,10 @@ bool sp_flight_is_blocked(const sp_source *source, const sp_target *target, cons
            sp_trace_occluded(source->evaluator->tracer, &ray, source->evaluator->gravity);
 }
 
-bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, double speed, const sp_flight *flight,
-                              uint32_t patch)
+bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch,
+                              const sp_flight *flight, uint32_t patch)
 {
-    sp_source source = {evaluator, position, speed, NULL};
+    sp_source source = {evaluator, position, launch.speed, launch.fronts};
     sp_target target = sp_patch_target(evaluator, patch);
     return !sp_flight_is_blocked(&source, &target, flight);
 }

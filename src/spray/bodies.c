@@ -1,10 +1,8 @@
 #include "bodies.h"
 
-#include "spray/drag/fronts.h"
+#include "launch.h"
 
 #include <stdlib.h>
-
-#define DROP_LEAST 1e-9 /* m */
 
 static bool are_whole(const sp_layout *layout, sp_error *error)
 {
@@ -34,14 +32,11 @@ static bool take_apart(const sp_evaluator *evaluator, uint64_t jets, sp_bodies *
     return bodies->patterns != NULL;
 }
 
-/* Drops so small that air stops them at once are none; nor is anything said of them. */
 static bool are_drops(const sp_layout *patterns, sp_error *error)
 {
     for (size_t i = 0; i < patterns->count; i++)
-        if (!(patterns->nozzles[i].type->drop >= DROP_LEAST))
-            return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                           "trajectory: drag found with drops of %g m from nozzle %s; expected at least %g m",
-                           patterns->nozzles[i].type->drop, patterns->nozzles[i].name, DROP_LEAST);
+        if (!sp_are_drops(&patterns->nozzles[i], error))
+            return false;
     return true;
 }
 
@@ -68,52 +63,35 @@ static double farthest_from(const sp_mesh *mesh, sp_vec3 point)
                           fmax(high.z - point.z, point.z - low.z)));
 }
 
-static bool is_like(const sp_drag *a, double speed, const sp_drag *b, double other)
-{
-    return speed == other && a->stokes == b->stokes && a->form == b->form && a->delay == b->delay;
-}
-
 bool sp_bodies_fly(const sp_evaluator *evaluator, sp_bodies *bodies, sp_error *error)
 {
-    if (evaluator->fidelity.trajectory != SP_TRAJECTORY_DRAG)
-        return true;
-    const sp_setup *setup = &evaluator->setup;
     const sp_layout *patterns = bodies->patterns;
     double far = 0;
-    bodies->fronts = calloc(patterns->count + 1, sizeof *bodies->fronts);
-    if (!bodies->fronts)
+    if (evaluator->fidelity.trajectory != SP_TRAJECTORY_DRAG)
+        return true;
+    for (size_t i = 0; i < patterns->count; i++)
+        far = fmax(far, farthest_from(evaluator->setup.mesh, patterns->nozzles[i].position));
+    bodies->table = sp_launch_table_create(evaluator, far, error);
+    bodies->launches = calloc(patterns->count + 1, sizeof *bodies->launches);
+    if (!bodies->table || !bodies->launches)
         return sp_fail_memory(error);
     for (size_t i = 0; i < patterns->count; i++)
-        far = fmax(far, farthest_from(setup->mesh, patterns->nozzles[i].position));
-    for (size_t i = 0; i < patterns->count; i++) {
-        const sp_nozzle *pattern = &patterns->nozzles[i];
-        double speed = sp_nozzle_speed(pattern, &setup->liquid);
-        sp_drag drag = sp_drag_of(pattern, &setup->liquid, &setup->air);
-        for (size_t k = 0; k < i && !bodies->fronts[i]; k++)
-            if (bodies->fronts[k] && is_like(&drag, speed, &bodies->fronts[k]->drag, bodies->fronts[k]->speed))
-                bodies->fronts[i] = bodies->fronts[k];
-        if (speed > 0 && !bodies->fronts[i])
-            bodies->fronts[i] = sp_fronts_create(&drag, speed, evaluator->gravity, far, error);
-        if (speed > 0 && !bodies->fronts[i])
+        if (!sp_launch_table_add(bodies->table, &patterns->nozzles[i], error) ||
+            !sp_launch_table_find(bodies->table, &patterns->nozzles[i], &bodies->launches[i], error))
             return false;
-    }
     return true;
 }
 
 sp_emitter sp_bodies_emitter(const sp_evaluator *evaluator, const sp_bodies *bodies, size_t i)
 {
-    return sp_emitter_of(evaluator, &bodies->patterns->nozzles[i], bodies->fronts ? bodies->fronts[i] : NULL);
+    return sp_emitter_of(evaluator, &bodies->patterns->nozzles[i],
+                         bodies->launches ? bodies->launches[i].fronts : NULL);
 }
 
 void sp_bodies_free(sp_bodies *bodies)
 {
-    for (size_t i = 0; bodies->fronts && i < bodies->patterns->count; i++) {
-        sp_fronts *own = bodies->fronts[i];
-        for (size_t k = i; k < bodies->patterns->count; k++)
-            bodies->fronts[k] = bodies->fronts[k] == own ? NULL : bodies->fronts[k];
-        sp_fronts_destroy(own);
-    }
-    free(bodies->fronts);
+    free(bodies->launches);
+    sp_launch_table_destroy(bodies->table);
     sp_layout_destroy(bodies->patterns);
     free(bodies->first);
     *bodies = (sp_bodies){0};

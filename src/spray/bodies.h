@@ -4,11 +4,14 @@
 
 #include "emitter.h"
 
+#include <sprayplan/launch.h>
+
 typedef struct sp_bodies {
     const sp_layout *layout; /* borrowed; its nozzles are the bodies */
     sp_layout *patterns;     /* nozzles of one pattern each */
     size_t *first;           /* [layout->count + 1]: body b has the patterns first[b] to first[b + 1] */
-    sp_fronts **fronts;      /* [patterns->count], those alike share theirs; NULL where they are not found */
+    sp_launch_table *table;  /* NULL without drag, and where flights are not asked for, as what follows */
+    sp_launch *launches;     /* [patterns->count] */
 } sp_bodies;
 
 /* Fills in *bodies, for sp_bodies_free whatever the outcome. False, with an error, for what the evaluator does not

@@ -366,42 +366,47 @@ sp_reach *sp_reach_create(const sp_source *source, const sp_aim *aim, sp_error *
     return sp_fail_memory(error);
 }
 
-/* False, with an error: here nothing says what drops they are. */
-static bool flies_free(const sp_evaluator *evaluator, sp_error *error)
+/* Where it is known how what leaves flies; else false, with an error. */
+static bool source_of(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch, sp_source *source,
+                      sp_error *error)
 {
-    return evaluator && (evaluator->fidelity.trajectory != SP_TRAJECTORY_DRAG ||
-                         sp_fail(error, SP_ERROR_UNSUPPORTED, NULL, 0, 0,
-                                 "trajectory: drag found, of which reach knows nothing yet"));
+    if (!evaluator)
+        return false;
+    bool drag = evaluator->fidelity.trajectory == SP_TRAJECTORY_DRAG;
+    *source = (sp_source){evaluator, position, launch.speed, launch.fronts};
+    return drag == (launch.fronts != NULL) || !(launch.speed > 0) ||
+           sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "trajectory: %s drag found, and a launch %s",
+                   drag ? "with" : "without", drag ? "without fronts" : "with fronts");
 }
 
-sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
+sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch, sp_vec3 axis,
                              double half_angle, sp_error *error)
 {
-    sp_source source = {evaluator, position, speed, NULL};
+    sp_source source;
     sp_aim aim = sp_aim_at(axis, half_angle);
-    return flies_free(evaluator, error) ? sp_reach_create(&source, &aim, error) : NULL;
+    return source_of(evaluator, position, launch, &source, error) ? sp_reach_create(&source, &aim, error) : NULL;
 }
 
-sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
+sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch, sp_vec3 axis,
                                      double half_angle, const bool *among, sp_error *error)
 {
-    sp_source source = {evaluator, position, speed, NULL};
+    sp_source source;
     sp_aim aim = sp_aim_at(axis, half_angle);
     aim.passing = true;
     aim.among = among;
-    return flies_free(evaluator, error) ? sp_reach_create(&source, &aim, error) : NULL;
+    return source_of(evaluator, position, launch, &source, error) ? sp_reach_create(&source, &aim, error) : NULL;
 }
 
-sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 position, double speed, sp_vec3 axis,
+sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch, sp_vec3 axis,
                                   double half_angle, size_t first, size_t end, const uint8_t *known, sp_error *error)
 {
-    sp_source source = {evaluator, position, speed, NULL};
+    sp_source source;
     sp_aim aim = sp_aim_at(axis, half_angle);
     aim.passing = evaluator && !evaluator->everything;
     aim.first = first;
     aim.end = end;
     aim.known = known;
-    return flies_free(evaluator, error) ? sp_reach_create(&source, &aim, error) : NULL;
+    return source_of(evaluator, position, launch, &source, error) ? sp_reach_create(&source, &aim, error) : NULL;
 }
 
 void sp_reach_destroy(sp_reach *reach)

@@ -174,7 +174,7 @@ static void stage_close(stage *s)
 static double worth(const stage *s, uint32_t site, size_t speed, const sp_spray *spray, const sp_frame *frame,
                     double flow)
 {
-    const sp_view *view = &s->visibility.views[site * s->visibility.speed_count + speed];
+    const sp_view *view = &s->visibility.views[site * s->visibility.launch_count + speed];
     float *field = calloc(s->search.patch_count, sizeof *field);
     double price = 0;
     assert_non_null(field);
@@ -218,7 +218,7 @@ static double worth_of_some(const stage *s, const sp_aim_cell *cell, const sp_ai
     frame.x = turned(frame.x, axis, roll);
     frame.y = turned(frame.y, axis, roll);
     sp_spray spray = sp_spray_create(kind->type, angle);
-    return worth(s, cell->site, kind->speed_class, &spray, &frame, low + (high - low) * next_random(random));
+    return worth(s, cell->site, kind->launch, &spray, &frame, low + (high - low) * next_random(random));
 }
 
 /* A piece of a piece of all aims, and so on. False where it has come to nothing. */

@@ -288,7 +288,7 @@ static inline sp_nozzle recount_aim(recount *r, const sp_nozzle *old, size_t *po
     const sp_make *own = &r->candidates.makes[make];
     double low, high, least, most;
     sp_angle_range(options, own->type, &low, &high);
-    sp_flow_range(options, &r->scene->room.setup.liquid, own->type, own->pressure, &least, &most);
+    sp_flow_range(options, &r->scene->room.setup, own->type, own->pressure, &least, &most);
     sp_frame frame = sp_nozzle_frame(at->axis, 2 * M_PI * recount_random(r), r->scene->room.setup.up);
     double polar = mount->tilt * sqrt(recount_random(r));
     sp_nozzle nozzle = {.type = own->type,

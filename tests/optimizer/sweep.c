@@ -88,7 +88,7 @@ static void stage_open(stage *s, sp_criterion criterion, sp_trajectory trajector
     assert_true(sp_search_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->visibility, &s->search,
                                  &error));
     assert_int_equal(s->sites.count, 4);
-    assert_int_equal(s->candidates.speed_count, 2);
+    assert_int_equal(s->candidates.launch_count, 2);
 }
 
 static void stage_close(stage *s)
@@ -153,11 +153,11 @@ static void views_hold_what_single_rays_find(void **state)
             if (is_cut[p])
                 continue;
             int count =
-                sp_flights(s.sites.items[site].position, patches->point[p], s.candidates.speeds[1], gravity, flights);
+                sp_flights(s.sites.items[site].position, patches->point[p], s.candidates.launches[1], gravity, flights);
             for (int k = 0; k < count; k++) {
                 sp_vec3 w = flights[k].velocity;
                 double against = -sp_dot(w, patches->normal[p]) / sp_length(w);
-                sp_ray ray = {s.sites.items[site].position, sp_scale(flights[k].direction, s.candidates.speeds[1]),
+                sp_ray ray = {s.sites.items[site].position, sp_scale(flights[k].direction, s.candidates.launches[1]),
                               1e-7 * flights[k].time, (1 - 1e-7) * flights[k].time, patches->triangle[p]};
                 if (against <= 0 || acos(against) > 80 * DEGREE || sp_length(w) < 3 ||
                     sp_trace_occluded(sp_evaluator_tracer(s.room.evaluator), &ray, gravity))
@@ -257,7 +257,7 @@ static void every_instruction_set_gives_the_same_bits(void **state)
     for (size_t number = 0; number < poses; number += poses / 300) {
         sp_pose pose = pose_of(&s, number);
         const sp_make *make = &s.candidates.makes[pose.make];
-        const sp_view *view = &s.visibility.views[pose.site * 2 + make->speed_class];
+        const sp_view *view = &s.visibility.views[pose.site * 2 + make->launch];
         sp_nozzle nozzle = sp_pose_nozzle(&s.candidates, &s.sites, pose, sp_v(0, 0, 1));
         sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, sp_v(0, 0, 1));
         /* of some arrivals enough for one nozzle alone */
