@@ -5,7 +5,7 @@ static sp_reach *reach_of(const sp_evaluator *evaluator, sp_vec3 position, doubl
                           double half_angle)
 {
     sp_error error = {0};
-    sp_reach *reach = sp_evaluator_reach(evaluator, position, speed, axis, half_angle, &error);
+    sp_reach *reach = sp_evaluator_reach(evaluator, position, (sp_launch){.speed = speed}, axis, half_angle, &error);
     assert_no_error(&error);
     assert_non_null(reach);
     return reach;

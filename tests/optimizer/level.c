@@ -1,4 +1,4 @@
-/* Soft levels: their derivatives by every unknown, against differences, for cones and fans, lines and parabolas. */
+/* Soft levels: their derivatives by every unknown, against differences, for cones and fans, lines, parabolas and drops. */
 #include "room.h"
 
 #include "refine/level.h"
@@ -152,12 +152,12 @@ static void slopes_are_differences(void **state)
 {
     (void)state;
     const sp_pattern patterns[] = {SP_PATTERN_FULL_CONE, SP_PATTERN_HOLLOW_CONE, SP_PATTERN_FLAT_FAN};
-    for (int i = 0; i < 18; i++) {
+    const sp_trajectory trajectories[] = {SP_TRAJECTORY_LINE, SP_TRAJECTORY_PARABOLA, SP_TRAJECTORY_DRAG};
+    for (int i = 0; i < 27; i++) {
         bench b;
         sp_error error = {0};
-        sp_trajectory trajectory = i / 3 % 2 ? SP_TRAJECTORY_PARABOLA : SP_TRAJECTORY_LINE;
-        double flux = i < 6 ? 0 : 2 * LITRES_PER_MINUTE;
-        bench_open(&b, patterns[i % 3], trajectory, flux, i < 12 ? SP_COMBINE_SUM : SP_COMBINE_SINGLE);
+        double flux = i < 9 ? 0 : 2 * LITRES_PER_MINUTE;
+        bench_open(&b, patterns[i % 3], trajectories[i / 3 % 3], flux, i < 18 ? SP_COMBINE_SUM : SP_COMBINE_SINGLE);
         const sp_sight *sight = sp_sights_look(&b.sights, &b.draft.items[0], &error);
         assert_non_null(sight);
         assert_true(sight->count > 300);

@@ -392,15 +392,20 @@ static inline void scene_bodies(recount_scene *s)
     s->options.max_nozzles = 3;
 }
 
-static inline void bodies_and_boxes(recount_scene *s, double texel)
+static inline void open_bodies_and_boxes(recount_scene *s, sp_trajectory trajectory, double texel)
 {
     room_builder b;
     scene_begin(s, &b, false);
     room_box(&b, sp_v(-0.5, -0.3, 0), sp_v(-0.1, 0.1, 0.5), "box", "top");
     scene_bodies(s);
-    s->room.setup.fidelity.trajectory = SP_TRAJECTORY_PARABOLA;
+    s->room.setup.fidelity.trajectory = trajectory;
     s->room.setup.criterion.flux = 1.5 * LITRES_PER_MINUTE;
     scene_open(s, &b, texel);
+}
+
+static inline void bodies_and_boxes(recount_scene *s, double texel)
+{
+    open_bodies_and_boxes(s, SP_TRAJECTORY_PARABOLA, texel);
 }
 
 /* One body alone must do, with all its holes; a kept ball. */
@@ -515,6 +520,64 @@ static inline void measured_patterns(recount_scene *s, double texel)
     scene_open(s, &b, texel);
 }
 
+/* Drops of a tenth of a millimetre and of one in one chamber, which fall steeply; some fall from where they stop. */
+static inline void mist_and_drops(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    room_box(&b, sp_v(-0.5, -0.3, 0), sp_v(-0.1, 0.1, 0.5), "box", "top");
+    scene_type(s, SP_PATTERN_FULL_CONE, 90, 0, 9);
+    scene_type(s, SP_PATTERN_FULL_CONE, 70, 0, 6);
+    scene_type(s, SP_PATTERN_FLAT_FAN, 80, 9, 5);
+    s->types[0].drop = 1e-4;
+    s->types[0].flow_min = 0.7 * s->types[0].flow;
+    s->types[0].flow_max = 1.3 * s->types[0].flow;
+    s->types[1].drop = 1e-3;
+    s->types[2].drop = 2.5e-4;
+    s->room.setup.fidelity.trajectory = SP_TRAJECTORY_DRAG;
+    s->room.setup.criterion = (sp_criterion){.flux = 2.5 * LITRES_PER_MINUTE, .incidence = 80 * DEGREE};
+    s->mounts[0].from.z = s->mounts[0].to.z = 0.8;
+    s->mounts[0].tilt = 120 * DEGREE;
+    s->options.max_nozzles = 3;
+    scene_open(s, &b, texel);
+}
+
+/* Streams that break up on their way, one of them soon, beside a fan of drops; one is kept, of a flow of its own. */
+static inline void streams_that_break_up(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_type(s, SP_PATTERN_SOLID_STREAM, 12, 0, 4);
+    scene_type(s, SP_PATTERN_SOLID_STREAM, 20, 0, 0.6);
+    scene_type(s, SP_PATTERN_FLAT_FAN, 100, 8, 7);
+    s->types[0].drop = s->types[1].drop = 3e-4;
+    s->types[1].flow_min = 0.5 * s->types[1].flow;
+    s->types[1].flow_max = 2 * s->types[1].flow;
+    s->types[2].drop = 5e-4;
+    s->room.setup.fidelity.trajectory = SP_TRAJECTORY_DRAG;
+    s->room.setup.criterion = (sp_criterion){.flux = LITRES_PER_MINUTE, .impact_speed = 2};
+    s->pressures[0] = 0.6e5;
+    s->options.pressure_count = 2;
+    s->mounts[0].tilt = 70 * DEGREE;
+    s->options.max_nozzles = 4;
+    s->kept[0] = (sp_nozzle){.name = "first",
+                             .type = &s->types[1],
+                             .position = sp_v(0.5, 0.3, 0.7),
+                             .axis = sp_unit(sp_v(0.3, 0.2, -1)),
+                             .pressure = 2e5,
+                             .flow = 0.9 * LITRES_PER_MINUTE,
+                             .keep = true};
+    s->kept_count = 1;
+    scene_open(s, &b, texel);
+}
+
+/* What no sweep knows, with drag. */
+static inline void bodies_of_drops(recount_scene *s, double texel)
+{
+    open_bodies_and_boxes(s, SP_TRAJECTORY_DRAG, texel);
+    s->mounts[0].tilt = 0;
+}
+
 typedef struct {
     const char *name;
     bool hall;
@@ -550,6 +613,10 @@ static const recount_case recount_cases[] = {
     {"goods in a chamber, refined", false, false, false, goods_in_a_chamber},
     {"goods of few, every layout", false, false, false, goods_of_few},
     {"goods and bodies", false, false, true, goods_and_bodies},
+    {"mist and drops", false, false, false, mist_and_drops},
+    {"mist and drops, refined", false, true, false, mist_and_drops},
+    {"streams that break up", false, true, true, streams_that_break_up},
+    {"bodies of drops", false, false, false, bodies_of_drops},
 };
 #define RECOUNT_CASES (sizeof recount_cases / sizeof *recount_cases)
 

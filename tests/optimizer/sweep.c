@@ -141,6 +141,7 @@ static void views_hold_what_single_rays_find(void **state)
     stage_open(&s, criterion_of_all, SP_TRAJECTORY_PARABOLA);
     const sp_patches *patches = sp_evaluator_patches(s.room.evaluator);
     sp_vec3 gravity = sp_evaluator_gravity(s.room.evaluator);
+    double speed = s.candidates.launches[1].speed;
     bool *is_cut = calloc(patches->count, sizeof *is_cut);
     for (uint32_t site = 0; site < s.sites.count; site++) {
         const sp_view *view = &s.visibility.views[site * 2 + 1];
@@ -153,11 +154,11 @@ static void views_hold_what_single_rays_find(void **state)
             if (is_cut[p])
                 continue;
             int count =
-                sp_flights(s.sites.items[site].position, patches->point[p], s.candidates.launches[1], gravity, flights);
+                sp_flights(s.sites.items[site].position, patches->point[p], speed, gravity, flights);
             for (int k = 0; k < count; k++) {
                 sp_vec3 w = flights[k].velocity;
                 double against = -sp_dot(w, patches->normal[p]) / sp_length(w);
-                sp_ray ray = {s.sites.items[site].position, sp_scale(flights[k].direction, s.candidates.launches[1]),
+                sp_ray ray = {s.sites.items[site].position, sp_scale(flights[k].direction, speed),
                               1e-7 * flights[k].time, (1 - 1e-7) * flights[k].time, patches->triangle[p]};
                 if (against <= 0 || acos(against) > 80 * DEGREE || sp_length(w) < 3 ||
                     sp_trace_occluded(sp_evaluator_tracer(s.room.evaluator), &ray, gravity))

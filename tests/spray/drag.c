@@ -218,8 +218,8 @@ static void drops_without_size_are_refused(void **state)
     assert_null(sp_evaluate(evaluator, layout, &error));
     assert_non_null(strstr(error.message, "trajectory: drag found with drops of 0 m"));
     error = (sp_error){0};
-    assert_null(sp_evaluator_reach(evaluator, nozzle.position, 10, nozzle.axis, 1, &error));
-    assert_int_equal(error.kind, SP_ERROR_UNSUPPORTED);
+    assert_null(sp_evaluator_reach(evaluator, nozzle.position, (sp_launch){.speed = 10}, nozzle.axis, 1, &error));
+    assert_int_equal(error.kind, SP_ERROR_ARGUMENT);
     sp_layout_destroy(layout);
     sp_evaluator_destroy(evaluator);
     sp_mesh_destroy(r.mesh);
