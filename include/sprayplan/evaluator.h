@@ -173,6 +173,7 @@ typedef struct {
     double speed;      /* at impact, m/s */
     double incidence;  /* rad */
     double breadth;    /* rad, of the patch as seen from the nozzle */
+    double time;       /* s, that it takes */
     sp_vec3 point;     /* m, where it arrives */
     sp_vec3 normal;    /* unit, as the patch's */
 } sp_arrival;

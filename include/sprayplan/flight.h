@@ -56,6 +56,9 @@ void sp_fronts_destroy(sp_fronts *fronts);
 /* As sp_flights, with drag. */
 int sp_fronts_flights(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2]);
 
+/* The flight on the same arc as one near by, of which direction and time are asked; false where it is not found so. */
+bool sp_fronts_flight_near(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, const sp_flight *near, sp_flight *flight);
+
 /* How a flight with drag changes as its end moves from where it is: derivatives by the share of the move. */
 typedef struct {
     sp_vec3 direction; /* per unit */
@@ -73,6 +76,10 @@ typedef struct {
 
 /* The flights of what leaves so, low arc first: 0, 1 or 2; `gravity` for those without drag. */
 int sp_launch_flights(const sp_launch *launch, sp_vec3 from, sp_vec3 to, sp_vec3 gravity, sp_flight flights[2]);
+/* The same of one arc alone, 0 or 1, where a flight on it to or from a place near by, of which direction and time are
+ * asked, is known: with drag that is quicker. False where there is none. */
+bool sp_launch_flight_near(const sp_launch *launch, sp_vec3 from, sp_vec3 to, sp_vec3 gravity, int arc,
+                           const sp_flight *near, sp_flight *flight);
 
 #ifdef __cplusplus
 }

@@ -82,7 +82,8 @@ static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
                                                 .normal = arrival->normal,
                                                 .direction = arrival->direction,
                                                 .transfer = arrival->transfer,
-                                                .breadth = arrival->breadth};
+                                                .breadth = arrival->breadth,
+                                                .time = arrival->time};
     }
     sp_reach_destroy(reach);
     return sight->seen || sp_fail_memory(error);
@@ -139,12 +140,10 @@ const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_er
 bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen *seen, sp_vec3 position,
                   sp_flight *flight, double *transfer)
 {
-    sp_flight flights[2];
-    sp_vec3 gravity = sp_evaluator_gravity(search->coarse);
-    int count = sp_launch_flights(&sight->launch, position, seen->point, gravity, flights);
-    if ((int)seen->arc >= count)
+    sp_flight near = {.direction = seen->direction, .time = seen->time};
+    if (!sp_launch_flight_near(&sight->launch, position, seen->point, sp_evaluator_gravity(search->coarse),
+                               (int)seen->arc, &near, flight))
         return false;
-    *flight = flights[seen->arc];
     double against = -sp_dot(flight->velocity, seen->normal);
     if (sp_evaluator_patches(search->coarse)->side[seen->patch] == SP_SIDE_BOTH)
         against = fabs(against);

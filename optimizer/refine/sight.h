@@ -14,6 +14,7 @@ typedef struct {
     sp_vec3 direction;
     double transfer; /* 1/m² */
     double breadth;  /* rad */
+    double time;     /* s */
 } sp_seen;
 
 typedef struct {

@@ -29,6 +29,7 @@ bool sp_arrive(const sp_source *source, const sp_target *target, const sp_flight
         return false;
     const sp_criterion *criterion = &source->evaluator->setup.criterion;
     arrival->direction = flight->direction;
+    arrival->time = flight->time;
     arrival->point = target->point;
     arrival->normal = target->normal;
     arrival->transfer = against / flight->spread;

@@ -20,6 +20,18 @@ int sp_launch_flights(const sp_launch *launch, sp_vec3 from, sp_vec3 to, sp_vec3
                           : sp_flights(from, to, launch->speed, gravity, flights);
 }
 
+bool sp_launch_flight_near(const sp_launch *launch, sp_vec3 from, sp_vec3 to, sp_vec3 gravity, int arc,
+                           const sp_flight *near, sp_flight *flight)
+{
+    sp_flight flights[2];
+    if (launch->fronts && sp_fronts_flight_near(launch->fronts, from, to, near, flight))
+        return true;
+    if (arc >= sp_launch_flights(launch, from, to, gravity, flights))
+        return false;
+    *flight = flights[arc];
+    return true;
+}
+
 sp_launch_table *sp_launch_table_create(const sp_evaluator *evaluator, double far, sp_error *error)
 {
     sp_launch_table *table = calloc(1, sizeof *table);

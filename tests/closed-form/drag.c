@@ -247,6 +247,50 @@ static void transfer_is_the_jacobian(void **state)
     sp_fronts_destroy(fronts);
 }
 
+/* What a flight changes by, against neighbouring flights, and these found from it. */
+static void neighbours_follow_from_a_flight(void **state)
+{
+    (void)state;
+    const double diameters[3] = {1e-4, 5e-4, 3e-3}, step = 1e-6;
+    int compared = 0, found = 0;
+    for (int d = 0; d < 3; d++) {
+        sp_fronts *fronts = fronts_of(diameters[d], 12, down, 3);
+        for (int i = 0; i < 100; i++) {
+            double a = 2.1 * i, b = 1.3 * i, r = d ? 0.2 + 0.02 * i : 0.1 + 0.003 * i;
+            sp_vec3 to = sp_v(r * cos(a), r * sin(a), 0.6 * r * sin(5. * i));
+            sp_vec3 move = sp_v(r * cos(b), r * sin(b), r * cos(0.7 * i));
+            sp_flight flights[2], beside[2][2], moved[2], near;
+            int count = sp_fronts_flights(fronts, sp_v(0, 0, 0), to, flights);
+            int there = sp_fronts_flights(fronts, sp_v(0, 0, 0), sp_along(to, 0.01, move), moved);
+            for (int m = 0; m < 2; m++)
+                assert_int_equal(sp_fronts_flights(fronts, sp_v(0, 0, 0), sp_along(to, m ? -step : step, move), beside[m]),
+                                 count);
+            for (int k = 0; k < count; k++) {
+                const sp_flight *ahead = &beside[0][k], *behind = &beside[1][k];
+                sp_flight_change change = sp_fronts_change(fronts, &flights[k], move);
+                double by = 0.5 / step;
+                sp_vec3 turn = sp_scale(sp_sub(ahead->direction, behind->direction), by);
+                sp_vec3 velocity = sp_scale(sp_sub(ahead->velocity, behind->velocity), by);
+                double spread = by * log(ahead->spread / behind->spread);
+                double size = fmax(1, fabs(spread));
+                if (sp_distance(turn, change.direction) > 1e-4 * size ||
+                    sp_distance(velocity, change.velocity) > 1e-3 * size ||
+                    fabs(spread - change.spread) > 1e-3 * size * size)
+                    fail_msg("drops of %g m, end %d, arc %d: turns off by %g, velocity by %g, spread by %g of %g",
+                             diameters[d], i, k, sp_distance(turn, change.direction),
+                             sp_distance(velocity, change.velocity), spread - change.spread, spread);
+                compared++;
+                if (k >= there || !sp_fronts_flight_near(fronts, sp_v(0, 0, 0), sp_along(to, 0.01, move), &flights[k], &near))
+                    continue;
+                assert_alike(&near, &moved[k], 1e-6);
+                found++;
+            }
+        }
+        sp_fronts_destroy(fronts);
+    }
+    assert_true(compared > 300 && found > 0.8 * compared);
+}
+
 /* A stream of 5 L/min at 19.4 m/s is 2.34 mm thick and breaks up .4 m away; until then it falls freely. */
 static void streams_fly_free_at_first(void **state)
 {
@@ -283,6 +327,7 @@ int main(void)
         cmocka_unit_test(speed_tends_to_the_terminal_from_either_side),
         cmocka_unit_test(parabolas_and_lines_are_the_limits),
         cmocka_unit_test(transfer_is_the_jacobian),
+        cmocka_unit_test(neighbours_follow_from_a_flight),
         cmocka_unit_test(streams_fly_free_at_first),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
