@@ -8,6 +8,8 @@
 #define SAME 1.2           /* times longer texels are not worth patches of the search's own */
 #define RAYS_MOST 1e8      /* patches times views */
 #define SWEEPS_MOST 1.2e10 /* patches times poses */
+#define DRAG_PATCHES_MOST 10000.0
+#define DRAG_RAYS_MOST 7e6 /* the same with drag, where flights have to be looked for */
 #define FILM_PATCHES_MOST 8000.0
 #define FILM_SWEEPS_MOST 2e9 /* the same, where film runs down */
 #define PASS_PATCHES_MOST 8000.0
@@ -326,10 +328,12 @@ bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options
     double poses = (double)candidates->pose_start[sites->count];
     views += patterns_to_trace(sites, candidates, &footprints);
     const sp_setup *setup = sp_evaluator_setup(fine);
-    bool film = setup->criterion.film > 0;
+    bool film = setup->criterion.film > 0, drag = sp_evaluator_fidelity(fine)->trajectory == SP_TRAJECTORY_DRAG;
     double most = film ? FILM_PATCHES_MOST : PATCHES_MOST, sweeps = film ? FILM_SWEEPS_MOST : SWEEPS_MOST;
     most = fmin(most, PRINTS_SHARE * memory_of(options) / (PRINT * fmax(1, footprints)));
-    double patches = fmax(PATCHES_LEAST, fmin(most, fmin(RAYS_MOST / views, sweeps / poses)));
+    most = drag ? fmin(most, DRAG_PATCHES_MOST) : most;
+    double rays = drag ? DRAG_RAYS_MOST : RAYS_MOST;
+    double patches = fmax(PATCHES_LEAST, fmin(most, fmin(rays / views, sweeps / poses)));
     double finer = sp_evaluator_fidelity(fine)->texel;
     if (setup->sweep.speed > 0)
         patches = patches_that_pass(fine, views, poses, most);

@@ -70,12 +70,24 @@ static reserve reserve_at(const sp_source *source, sp_vec3 r)
                      .turn = limit.turn};
 }
 
+/* With drag, where the limit of reach takes longest to find: whether a square of this edge about a point surely is
+ * within it. */
+static bool is_clear(const sp_source *source, sp_vec3 point, double length, sp_flight flights[2])
+{
+    double margin;
+    return source->fronts && sp_fronts_reach(source->fronts, source->position, point, flights, &margin) > 0 &&
+           margin > CLEAR * length;
+}
+
 /* How what lies within `radius` of a point, and is `side` long, looks from the source. */
 static bearing bearing_of(const sp_source *source, sp_vec3 point, double side, double radius)
 {
     sp_vec3 r = sp_sub(point, source->position);
+    sp_flight flights[2]; /* of which the low one looks broader */
     if (sp_length(r) <= radius)
         return TOO_BROAD;
+    if (is_clear(source, point, 2 * radius, flights))
+        return sp_flight_breadth(&flights[0], side) >= SP_BREADTH_MOST ? TOO_BROAD : FINE;
     if (sp_length(source->evaluator->gravity) > 0) {
         reserve own = reserve_at(source, r);
         double change = sp_length(own.slope) * radius + own.bend * radius * radius;
@@ -84,7 +96,6 @@ static bearing bearing_of(const sp_source *source, sp_vec3 point, double side, d
         if (own.value < change)
             return side > own.longest || own.arriving * side > RIM * own.turn * sqrt(change) ? TOO_BROAD : FINE;
     }
-    sp_flight flights[2]; /* of which the low one looks broader */
     int count = sp_source_flights(source, point, flights);
     return count > 0 && sp_flight_breadth(&flights[0], side) >= SP_BREADTH_MOST ? TOO_BROAD : FINE;
 }
@@ -115,6 +126,9 @@ typedef struct limit {
  * with drag, which gathers much of a fine spray there, close to it. */
 static bool limit_across(const sp_source *source, const sp_target *target, double side, limit *limit)
 {
+    sp_flight flights[2];
+    if (is_clear(source, target->point, side, flights))
+        return false;
     reserve own = reserve_at(source, sp_sub(target->point, source->position));
     sp_vec3 along = sp_along(own.slope, -sp_dot(own.slope, target->normal), target->normal);
     double steep = sp_length(along), half = 0.5 * side * steep;

@@ -520,6 +520,8 @@ static inline void measured_patterns(recount_scene *s, double texel)
     scene_open(s, &b, texel);
 }
 
+#define DRAG_TEXEL 0.07 /* the same: flights take long to find */
+
 /* Drops of a tenth of a millimetre and of one in one chamber, which fall steeply; some fall from where they stop. */
 static inline void mist_and_drops(recount_scene *s, double texel)
 {
@@ -539,7 +541,7 @@ static inline void mist_and_drops(recount_scene *s, double texel)
     s->mounts[0].from.z = s->mounts[0].to.z = 0.8;
     s->mounts[0].tilt = 120 * DEGREE;
     s->options.max_nozzles = 3;
-    scene_open(s, &b, texel);
+    scene_open(s, &b, fmax(texel, DRAG_TEXEL));
 }
 
 /* Streams that break up on their way, one of them soon, beside a fan of drops; one is kept, of a flow of its own. */
@@ -568,13 +570,13 @@ static inline void streams_that_break_up(recount_scene *s, double texel)
                              .flow = 0.9 * LITRES_PER_MINUTE,
                              .keep = true};
     s->kept_count = 1;
-    scene_open(s, &b, texel);
+    scene_open(s, &b, fmax(texel, DRAG_TEXEL));
 }
 
 /* What no sweep knows, with drag. */
 static inline void bodies_of_drops(recount_scene *s, double texel)
 {
-    open_bodies_and_boxes(s, SP_TRAJECTORY_DRAG, texel);
+    open_bodies_and_boxes(s, SP_TRAJECTORY_DRAG, fmax(texel, DRAG_TEXEL));
     s->mounts[0].tilt = 0;
 }
 
