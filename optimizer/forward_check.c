@@ -6,6 +6,7 @@
  * of a thousand faces, in a second or two. Fewer come within a point, and are enough where they agree much better than
  * they have to. Their number is part of the answer. */
 static const uint64_t jets_flown[] = {500000, 2000000};
+#define PATCHES_MOST 20000.0
 #define MUCH_BETTER 0.5 /* of the tolerance */
 #define TELLS 0.005
 #define SECONDS 1
@@ -14,6 +15,14 @@ static const uint64_t jets_flown[] = {500000, 2000000};
 static double hit_share(const sp_coverage *coverage)
 {
     return coverage->area > 0 ? (coverage->covered_area - coverage->film.area) / coverage->area : 0;
+}
+
+/* With drag, where each of them takes long, no more to a patch than where there are most. */
+static uint64_t jets_for(const sp_evaluator *evaluator, uint64_t jets)
+{
+    double share = (double)sp_evaluator_patches(evaluator)->count / PATCHES_MOST;
+    bool drag = sp_evaluator_fidelity(evaluator)->trajectory == SP_TRAJECTORY_DRAG;
+    return drag ? (uint64_t)ceil((double)jets * fmin(share, 1)) : jets;
 }
 
 static void compare(const sp_evaluator *evaluator, const sp_coverage *inverse, const sp_coverage *forward,
@@ -39,13 +48,14 @@ bool sp_check_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp
     sp_error failure = {0};
     sp_coverage *inverse = sp_evaluate_inverse(evaluator, layout, &failure), *forward = NULL;
     for (size_t i = 0; inverse && i < sizeof jets_flown / sizeof *jets_flown; i++) {
+        uint64_t jets = jets_for(evaluator, jets_flown[i]);
         sp_coverage_destroy(forward);
-        forward = sp_evaluate_forward(evaluator, layout, jets_flown[i], &failure);
+        forward = sp_evaluate_forward(evaluator, layout, jets, &failure);
         if (!forward) {
             *check = (sp_forward_check){0};
             break;
         }
-        compare(evaluator, inverse, forward, jets_flown[i], check);
+        compare(evaluator, inverse, forward, jets, check);
         if (fabs(check->difference) <= MUCH_BETTER * check->tolerance)
             break;
     }
