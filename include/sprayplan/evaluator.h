@@ -159,9 +159,9 @@ bool sp_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, 
                         bool *patches, sp_borderline *borderline, sp_error *error);
 
 /* How liquid from one position arrives at a patch that leaves as a launch says: nothing else here depends on the
- * nozzle, its axis, roll, angle, type or flow. The flux (m/s) at the patch is Q · intensity(direction) · transfer. A patch so near to the position, or
- * to the limits of reach, that its one point does not tell how liquid arrives there is cut into cells, each an arrival
- * of its own; what is said of the patch then is of the cell. */
+ * nozzle, its axis, roll, angle, type or flow. The flux (m/s) at the patch is Q · intensity(direction) · transfer. A
+ * patch so near to the position, or to the limits of reach, that its one point does not tell how liquid arrives there
+ * is cut into cells, each an arrival of its own; what is said of the patch then is of the cell. */
 typedef struct {
     uint32_t patch;
     bool passes;       /* impact speed and incidence meet the criterion */

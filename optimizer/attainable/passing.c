@@ -19,8 +19,8 @@ static bool look(const sp_search *search, const sp_site *site, size_t launch, sp
     double half_angle = sp_visibility_needed(search->options, search->candidates, site, launch);
     if (half_angle < 0)
         return true;
-    sp_reach *reach = sp_evaluator_reach(search->coarse, site->position, search->candidates->launches[launch], site->axis,
-                                         half_angle, error);
+    sp_reach *reach = sp_evaluator_reach(search->coarse, site->position, search->candidates->launches[launch],
+                                         site->axis, half_angle, error);
     if (!reach)
         return false;
 #pragma omp critical(sp_passing)

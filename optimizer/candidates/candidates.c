@@ -194,7 +194,8 @@ bool sp_candidates_create(const sp_evaluator *evaluator, const sp_place_options 
 {
     const sp_setup *setup = sp_evaluator_setup(evaluator);
     *candidates = (sp_candidates){.table = sp_launches_create(evaluator, options, sites, error)};
-    if (!candidates->table || !makes_create(setup, options, candidates, error) || !axes_create(options, sites, candidates, error)) {
+    if (!candidates->table || !makes_create(setup, options, candidates, error) ||
+        !axes_create(options, sites, candidates, error)) {
         sp_candidates_free(candidates);
         return false;
     }

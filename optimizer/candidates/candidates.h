@@ -34,7 +34,7 @@ typedef struct {
 
 typedef struct {
     size_t make_count;
-    sp_make *makes; /* by type, then pressure, then angle */
+    sp_make *makes;         /* by type, then pressure, then angle */
     sp_launch_table *table; /* of all that a layout may hold */
     size_t launch_count;
     sp_launch *launches; /* of makes, distinct */

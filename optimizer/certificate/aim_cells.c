@@ -17,8 +17,7 @@ static bool kind_create(const sp_search *search, const sp_make *make, sp_aim_kin
     double low, high;
     *kind = (sp_aim_kind){.type = make->type, .pressure = make->pressure, .launch = make->launch};
     sp_angle_range(search->options, make->type, &kind->angle_low, &kind->angle_high);
-    sp_flow_range(search->options, sp_evaluator_setup(search->coarse), make->type, make->pressure, &low,
-                  &high);
+    sp_flow_range(search->options, sp_evaluator_setup(search->coarse), make->type, make->pressure, &low, &high);
     kind->step_count = high > low * (1 + 1e-9) ? FLOW_STEPS : 1;
     kind->edge = malloc((kind->step_count + 1) * sizeof *kind->edge);
     for (size_t i = 0; kind->edge && i <= kind->step_count; i++)

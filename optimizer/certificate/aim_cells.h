@@ -13,7 +13,7 @@
 typedef struct {
     const sp_nozzle_type *type;
     double pressure;              /* Pa */
-    size_t launch, make;     /* make: the first of the candidates' makes that are of this kind */
+    size_t launch, make;          /* make: the first of the candidates' makes that are of this kind */
     double angle_low, angle_high; /* rad */
     size_t step_count;            /* flows from edge[i] to edge[i + 1], m³/s */
     double *edge;                 /* [step_count + 1] */

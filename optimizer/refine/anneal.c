@@ -19,8 +19,8 @@ typedef struct {
 double sp_least_flow(const sp_search *search, const sp_placed *placed)
 {
     double low, high;
-    sp_flow_range(search->options, sp_evaluator_setup(search->coarse), placed->nozzle.type,
-                  placed->nozzle.pressure, &low, &high);
+    sp_flow_range(search->options, sp_evaluator_setup(search->coarse), placed->nozzle.type, placed->nozzle.pressure,
+                  &low, &high);
     return high > low * (1 + 1e-9) ? fmin(low, placed->flow) : placed->flow;
 }
 

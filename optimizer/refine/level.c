@@ -128,8 +128,9 @@ static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool sl
     return true;
 }
 
-/* Derivatives of a flight when its start moves along `move`, without drag differentiated from |r - g t²/2| = v t; with u the
- * direction, w the velocity on arrival: t' = u·r'/u·w, u' = (r' - w t')/(v t). Returns that of log transfer, and u'. */
+/* Derivatives of a flight when its start moves along `move`, without drag differentiated from |r - g t²/2| = v t; with
+ * u the direction, w the velocity on arrival: t' = u·r'/u·w, u' = (r' - w t')/(v t). Returns that of log transfer, and
+ * u'. */
 static double shift(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, sp_vec3 move, sp_vec3 *turn)
 {
     sp_vec3 g = sp_evaluator_gravity(posed->search->coarse);

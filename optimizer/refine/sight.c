@@ -65,8 +65,8 @@ static bool is_same(const sp_launch *a, const sp_launch *b)
 
 static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
 {
-    sp_reach *reach = search->all_feeds ? sp_evaluator_reach(search->coarse, sight->position, sight->launch, sight->axis,
-                                                             sight->half_angle, error)
+    sp_reach *reach = search->all_feeds ? sp_evaluator_reach(search->coarse, sight->position, sight->launch,
+                                                             sight->axis, sight->half_angle, error)
                                         : sp_evaluator_reach_passing(search->coarse, sight->position, sight->launch,
                                                                      sight->axis, sight->half_angle, NULL, error);
     if (!reach)
@@ -114,9 +114,8 @@ const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_er
     const sp_search *search = sights->search;
     if (!sp_is_swept(placed->nozzle.type))
         return &nothing;
-    sp_sight wanted = {.position = placed->nozzle.position,
-                       .axis = placed->origin.axis,
-                       .half_angle = needed(search, placed)};
+    sp_sight wanted = {
+        .position = placed->nozzle.position, .axis = placed->origin.axis, .half_angle = needed(search, placed)};
     if (!sp_launch_table_find(search->candidates->table, &placed->nozzle, &wanted.launch, error))
         return NULL;
     sp_sight *sight = known(sights, &wanted);

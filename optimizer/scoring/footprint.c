@@ -97,10 +97,10 @@ static bool lay_pattern(const sp_nozzle *nozzle, sum *s, sp_error *error)
     sp_launch launch;
     if (!sp_launch_table_find(search->candidates->table, nozzle, &launch, error))
         return false;
-    sp_reach *reach = search->all_feeds
-                          ? sp_evaluator_reach(search->coarse, nozzle->position, launch, nozzle->axis, half_angle, error)
-                          : sp_evaluator_reach_passing(search->coarse, nozzle->position, launch, nozzle->axis,
-                                                       half_angle, NULL, error);
+    sp_reach *reach = search->all_feeds ? sp_evaluator_reach(search->coarse, nozzle->position, launch, nozzle->axis,
+                                                             half_angle, error)
+                                        : sp_evaluator_reach_passing(search->coarse, nozzle->position, launch,
+                                                                     nozzle->axis, half_angle, NULL, error);
     if (!reach)
         return false;
     for (size_t i = 0, end; i < reach->count; i = end) {

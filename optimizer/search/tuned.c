@@ -19,8 +19,7 @@ static bool list_makes(const sp_search *search, sp_candidates *candidates, size_
     for (size_t k = 0; k < from->make_count; k++) {
         double low, high;
         sp_make make = from->makes[k];
-        sp_flow_range(search->options, sp_evaluator_setup(search->coarse), make.type, make.pressure, &low,
-                      &high);
+        sp_flow_range(search->options, sp_evaluator_setup(search->coarse), make.type, make.pressure, &low, &high);
         for (size_t i = 0; i < FLOWS && high > low * (1 + FLOW_APART); i++) {
             make.flow = low + (high - low) * (double)i / (FLOWS - 1);
             if (fabs(make.flow - from->makes[k].flow) <= FLOW_APART * make.flow)

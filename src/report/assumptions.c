@@ -196,14 +196,17 @@ static void add_check(sp_text *text, const sp_forward_check *check)
     sp_text_add(text, "&nbsp;%%</dd>\n");
 }
 
-static void add_search(sp_text *text, const sp_proposal *proposal)
+static void add_search(sp_text *text, const sp_evaluator *evaluator, const sp_proposal *proposal)
 {
     add_item(text, "Search");
     sp_text_add(
         text,
         "%zu poses at %zu mounting points; greedy choice by gain per water, then refinement, accepted only where "
-        "the re-traced result improved</dd>\n",
-        proposal->candidates, proposal->positions);
+        "the re-traced result improved%s</dd>\n",
+        proposal->candidates, proposal->positions,
+        sp_evaluator_fidelity(evaluator)->trajectory == SP_TRAJECTORY_DRAG
+            ? "; solid streams keep their type&#39;s flow, which tells where they break up"
+            : "");
     if (proposal->forward_check.computed)
         add_check(text, &proposal->forward_check);
     add_item(text, "Not proved");
@@ -234,7 +237,7 @@ void sp_page_assumptions(const sp_page *page, sp_text *text)
         add_errors(page, text, evaluator);
         add_scene(page, text, evaluator);
         if (page->result->proposal)
-            add_search(text, page->result->proposal);
+            add_search(text, evaluator, page->result->proposal);
         sp_text_add(text, "</dl>\n");
     }
     sp_text_add(

@@ -263,8 +263,8 @@ static void neighbours_follow_from_a_flight(void **state)
             int count = sp_fronts_flights(fronts, sp_v(0, 0, 0), to, flights);
             int there = sp_fronts_flights(fronts, sp_v(0, 0, 0), sp_along(to, 0.01, move), moved);
             for (int m = 0; m < 2; m++)
-                assert_int_equal(sp_fronts_flights(fronts, sp_v(0, 0, 0), sp_along(to, m ? -step : step, move), beside[m]),
-                                 count);
+                assert_int_equal(
+                    sp_fronts_flights(fronts, sp_v(0, 0, 0), sp_along(to, m ? -step : step, move), beside[m]), count);
             for (int k = 0; k < count; k++) {
                 const sp_flight *ahead = &beside[0][k], *behind = &beside[1][k];
                 sp_flight_change change = sp_fronts_change(fronts, &flights[k], move);
@@ -280,7 +280,8 @@ static void neighbours_follow_from_a_flight(void **state)
                              diameters[d], i, k, sp_distance(turn, change.direction),
                              sp_distance(velocity, change.velocity), spread - change.spread, spread);
                 compared++;
-                if (k >= there || !sp_fronts_flight_near(fronts, sp_v(0, 0, 0), sp_along(to, 0.01, move), &flights[k], &near))
+                if (k >= there ||
+                    !sp_fronts_flight_near(fronts, sp_v(0, 0, 0), sp_along(to, 0.01, move), &flights[k], &near))
                     continue;
                 assert_alike(&near, &moved[k], 1e-6);
                 found++;

@@ -100,8 +100,8 @@ static void same_bytes_for_any_number_of_threads(void **state)
         sp_evaluator *evaluator = scene_evaluator(&s);
         for (int inverse = 0; inverse < 2; inverse++)
             found[i][inverse] = scene_cover(evaluator, nozzles, COUNT, inverse);
-        reaches[i] = sp_evaluator_reach(evaluator, sp_v(0.1, 0.2, 0.1), (sp_launch){.speed = 6}, sp_v(0, 0, 1), 2.5,
-                                        NULL);
+        reaches[i] =
+            sp_evaluator_reach(evaluator, sp_v(0.1, 0.2, 0.1), (sp_launch){.speed = 6}, sp_v(0, 0, 1), 2.5, NULL);
         assert_non_null(reaches[i]);
         sp_evaluator_destroy(evaluator);
     }

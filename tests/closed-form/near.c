@@ -230,7 +230,8 @@ static void told_again_in_parts(void **state)
         size_t patches = sp_evaluator_patches(evaluator)->count, at = 0, cells = 0;
         uint8_t *known = calloc(patches / 4 + 1, 1);
         sp_vec3 position = sp_v(0.001, 0.013, 0.017), axis = sp_v(0, 0, -1);
-        sp_reach *whole = sp_evaluator_reach_passing(evaluator, position, (sp_launch){.speed = 2}, axis, M_PI, NULL, &error);
+        sp_reach *whole =
+            sp_evaluator_reach_passing(evaluator, position, (sp_launch){.speed = 2}, axis, M_PI, NULL, &error);
         assert_non_null(whole);
         for (size_t i = 0; i < whole->count; i++) {
             size_t bit = 2 * (size_t)whole->arrivals[i].patch + whole->arrivals[i].arc;
@@ -238,7 +239,8 @@ static void told_again_in_parts(void **state)
         }
         for (size_t first = 0; first < patches; first += 700) {
             size_t end = first + 700 < patches ? first + 700 : patches;
-            sp_reach *part = sp_evaluator_reach_part(evaluator, position, (sp_launch){.speed = 2}, axis, M_PI, first, end, known, &error);
+            sp_reach *part = sp_evaluator_reach_part(evaluator, position, (sp_launch){.speed = 2}, axis, M_PI, first,
+                                                     end, known, &error);
             assert_non_null(part);
             for (size_t i = 0; i < part->count; i++) {
                 const sp_arrival *a = &whole->arrivals[at++], *b = &part->arrivals[i];

@@ -1,4 +1,5 @@
-/* Soft levels: their derivatives by every unknown, against differences, for cones and fans, lines, parabolas and drops. */
+/* Soft levels: their derivatives by every unknown, against differences, for cones and fans, lines, parabolas and drops.
+ */
 #include "room.h"
 
 #include "refine/level.h"

@@ -558,8 +558,7 @@ static inline void streams_that_break_up(recount_scene *s, double texel)
     s->types[1].flow_max = 2 * s->types[1].flow;
     s->types[2].drop = 5e-4;
     s->room.setup.fidelity.trajectory = SP_TRAJECTORY_DRAG;
-    s->room.setup.criterion =
-        (sp_criterion){.flux = LITRES_PER_MINUTE, .impact_speed = 2, .incidence = 85 * DEGREE};
+    s->room.setup.criterion = (sp_criterion){.flux = LITRES_PER_MINUTE, .impact_speed = 2, .incidence = 85 * DEGREE};
     s->pressures[0] = 0.6e5;
     s->options.pressure_count = 2;
     s->mounts[0].spacing = 1.4;

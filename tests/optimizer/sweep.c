@@ -153,8 +153,7 @@ static void views_hold_what_single_rays_find(void **state)
             sp_flight flights[2];
             if (is_cut[p])
                 continue;
-            int count =
-                sp_flights(s.sites.items[site].position, patches->point[p], speed, gravity, flights);
+            int count = sp_flights(s.sites.items[site].position, patches->point[p], speed, gravity, flights);
             for (int k = 0; k < count; k++) {
                 sp_vec3 w = flights[k].velocity;
                 double against = -sp_dot(w, patches->normal[p]) / sp_length(w);

@@ -12,8 +12,8 @@ static const double speeds[] = {8, 12, 100};
 static size_t count_flights(const sp_evaluator *evaluator, sp_vec3 place, double speed, double half_angle)
 {
     sp_error error = {0};
-    sp_reach *reach =
-        sp_evaluator_reach(evaluator, place, (sp_launch){.speed = speed}, sp_unit(sp_v(0.1, 0.4, -0.5)), deg(half_angle), &error);
+    sp_reach *reach = sp_evaluator_reach(evaluator, place, (sp_launch){.speed = speed}, sp_unit(sp_v(0.1, 0.4, -0.5)),
+                                         deg(half_angle), &error);
     assert_no_error(&error);
     size_t count = reach->count;
     sp_reach_destroy(reach);

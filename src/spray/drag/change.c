@@ -3,12 +3,13 @@
  * on the same way how all else does with these. */
 #include "fronts.h"
 
-#define STEP 1e-4   /* rad, and share of the time, that is looked before and behind */
-#define ROUNDS 8    /* of Newton's method */
-#define FAR 0.1     /* rad, and share of the time, that is not near */
-#define DONE 1e-12  /* of the way, that an end may be missed by */
-#define STEEP 0.05  /* of the lengths of both directions that an end moves in, that their area is at least: else the
-                     * flight is so close to the limit of reach that its neighbour may be on the other arc */
+#define STEP 1e-4  /* rad, and share of the time, that is looked before and behind */
+#define ROUNDS 8   /* of Newton's method */
+#define FAR 0.1    /* rad, and share of the time, that is not near */
+#define DONE 1e-12 /* of the way, that an end may be missed by */
+#define STEEP                                                                                                          \
+    0.05 /* of the lengths of both directions that an end moves in, that their area is at least: else the              \
+          * flight is so close to the limit of reach that its neighbour may be on the other arc */
 
 /* The upright plane of a flight. */
 typedef struct {
@@ -37,12 +38,12 @@ static arrival arrival_at(const sp_fronts *fronts, double elevation, double time
 {
     sp_front front = sp_front_between(fronts, sp_front_moment_before(fronts, time), time, elevation);
     double sine = sin(elevation), cosine = cos(elevation);
-    arrival own = {.q = front.q,
-                   .q_time = front.q_time,
-                   .place = {front.q * cosine, front.q * sine + front.d},
-                   .velocity = {front.q_time * cosine, front.q_time * sine + front.d_time},
-                   .along = {front.q_turn * cosine - front.q * sine,
-                             front.q_turn * sine + front.q * cosine + front.d_turn}};
+    arrival own = {
+        .q = front.q,
+        .q_time = front.q_time,
+        .place = {front.q * cosine, front.q * sine + front.d},
+        .velocity = {front.q_time * cosine, front.q_time * sine + front.d_time},
+        .along = {front.q_turn * cosine - front.q * sine, front.q_turn * sine + front.q * cosine + front.d_turn}};
     own.area = own.along[0] * own.velocity[1] - own.along[1] * own.velocity[0];
     return own;
 }
@@ -109,11 +110,10 @@ bool sp_fronts_flight_near(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, co
     }
     if (!clear || !(hypot(ahead - at.place[0], up - at.place[1]) <= DONE * distance))
         return false;
-    *flight = (sp_flight){
-        .direction = sp_along(sp_scale(plane.ahead, cos(elevation)), sin(elevation), plane.up),
-        .velocity = sp_along(sp_scale(plane.ahead, at.velocity[0]), at.velocity[1], plane.up),
-        .time = time,
-        .spread = at.q * fabs(at.area),
-        .lever = at.q};
+    *flight = (sp_flight){.direction = sp_along(sp_scale(plane.ahead, cos(elevation)), sin(elevation), plane.up),
+                          .velocity = sp_along(sp_scale(plane.ahead, at.velocity[0]), at.velocity[1], plane.up),
+                          .time = time,
+                          .spread = at.q * fabs(at.area),
+                          .lever = at.q};
     return true;
 }
