@@ -1,5 +1,5 @@
-/* What film costs: building its linear map on the cells of a scene, cut to a texel (m), and running it, in one thread.
- * Each as many times as the third argument says, or ten times. */
+/* What film costs, in seconds of one core: building its linear map on the cells of a scene, cut to a texel (m), and
+ * running it. Each as many times as the third argument says, or ten times. */
 #include "film/film.h"
 #include "spray/state.h"
 
@@ -9,10 +9,10 @@
 #include <stdlib.h>
 #include <time.h>
 
-static double now(void)
+static double spent(void)
 {
     struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
@@ -28,12 +28,12 @@ static bool measure(const sp_film_surface *surface, size_t times, double *build,
     double *per_width = calloc(surface->cells->count + 1, sizeof *per_width);
     bool done = per_width || sp_fail_memory(error);
     for (size_t i = 0; done && i < times; i++) {
-        double start = now();
+        double start = spent();
         sp_film *film = sp_film_create(surface, error);
-        build[i] = now() - start;
-        start = now();
+        build[i] = spent() - start;
+        start = spent();
         done = film && sp_film_run(film, surface->cells->area, per_width, NULL, error);
-        run[i] = now() - start;
+        run[i] = spent() - start;
         sp_film_destroy(film);
     }
     free(per_width);

@@ -1,6 +1,6 @@
 #include "film/shares.h"
 
-#include "atlas/order.h"
+#include "mesh/counting_sort.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -86,14 +86,16 @@ static void put_back(sp_film *film)
 }
 
 static bool line_up(sp_film *film, const sp_film_shares *shares, const sp_film_basins *basins,
-                    const sp_film_order *order)
+                    const sp_film_order *order, sp_error *error)
 {
-    uint64_t *keys = malloc((shares->count + 1) * sizeof *keys);
+    uint32_t *keys = malloc((shares->count + 1) * sizeof *keys);
     sorting s = {shares, malloc((shares->count + 1) * sizeof(uint32_t)), calloc(film->count + 1, sizeof(uint32_t))};
     bool done = keys && s.by_rank && s.step_of;
-    for (size_t i = 0; done && i < shares->count; i++)
-        keys[i] = film->count - order->rank[shares->items[i].from];
-    done = done && sp_order_by_key(keys, shares->count, s.by_rank);
+    for (uint32_t i = 0; done && i < shares->count; i++) {
+        s.by_rank[i] = i;
+        keys[i] = (uint32_t)film->count - 1 - order->rank[shares->items[i].from];
+    }
+    done = done && sp_counting_sort(s.by_rank, shares->count, keys, film->count, error);
     if (done) {
         number_steps(film, &s, basins);
         draw_links(film, &s);
@@ -134,7 +136,7 @@ static bool list_pools(sp_film *film, const sp_film_surface *surface, const sp_f
 }
 
 static bool assemble(sp_film *film, const sp_film_surface *surface, const sp_film_basins *basins,
-                     const sp_film_order *order, const sp_film_shares *shares)
+                     const sp_film_order *order, const sp_film_shares *shares, sp_error *error)
 {
     size_t room = film->count + ENDS + 1, links = shares->count + room;
     film->slot = malloc(room * sizeof *film->slot);
@@ -144,7 +146,7 @@ static bool assemble(sp_film *film, const sp_film_surface *surface, const sp_fil
     film->share = malloc(links * sizeof *film->share);
     film->pools = malloc(room * sizeof *film->pools);
     return film->slot && film->per_metre && film->start && film->from && film->share && film->pools &&
-           line_up(film, shares, basins, order) && list_pools(film, surface, basins, shares);
+           line_up(film, shares, basins, order, error) && list_pools(film, surface, basins, shares);
 }
 
 sp_film *sp_film_create(const sp_film_surface *surface, sp_error *error)
@@ -162,7 +164,7 @@ sp_film *sp_film_create(const sp_film_surface *surface, sp_error *error)
                 sp_film_shares_create(surface, &links, ends, &order, &basins, &shares, error);
     if (done) {
         film->count = links.count;
-        done = assemble(film, surface, &basins, &order, &shares);
+        done = assemble(film, surface, &basins, &order, &shares, error);
     }
     sp_film_links_free(&links);
     sp_film_order_free(&order);

@@ -36,7 +36,8 @@ static bool sort(const sp_mesh *mesh, uint32_t *order, size_t count, sp_error *e
     return good;
 }
 
-size_t sp_half_edges_of_edge(const sp_mesh *mesh, const sp_half_edges *half_edges, size_t first)
+/* How many half edges from order[first] on have the same ends. */
+static size_t count_alike(const sp_mesh *mesh, const sp_half_edges *half_edges, size_t first)
 {
     uint32_t h = half_edges->order[first], from = lower(mesh, h), to = higher(mesh, h);
     size_t end = first + 1;
@@ -46,11 +47,19 @@ size_t sp_half_edges_of_edge(const sp_mesh *mesh, const sp_half_edges *half_edge
     return end - first;
 }
 
+size_t sp_half_edges_of_edge(const sp_mesh *mesh, const sp_half_edges *half_edges, size_t first)
+{
+    sp_edge_kind kind = half_edges->kind[half_edges->order[first]];
+    if (kind == SP_EDGE_NON_MANIFOLD)
+        return count_alike(mesh, half_edges, first);
+    return kind == SP_EDGE_OPEN ? 1 : 2;
+}
+
 static void pair(const sp_mesh *mesh, sp_half_edges *half_edges)
 {
     size_t of_edge;
     for (size_t i = 0; i < 3 * mesh->triangle_count; i += of_edge) {
-        of_edge = sp_half_edges_of_edge(mesh, half_edges, i);
+        of_edge = count_alike(mesh, half_edges, i);
         const uint32_t *edge = half_edges->order + i;
         sp_edge_kind kind = of_edge == 1 ? SP_EDGE_OPEN : SP_EDGE_NON_MANIFOLD;
         if (of_edge == 2)

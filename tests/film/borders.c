@@ -5,30 +5,47 @@
 
 #define MOST 400000
 
+/* A border as one of the texels that share it sees it, on one side of the surface. */
+typedef struct {
+    uint32_t texel, triangle, other;
+    int side, other_side;
+    sp_vec3 outward;
+} seen;
+
 typedef struct {
     sp_mesh *mesh;
     sp_atlas *atlas;
     double texel;
     size_t count;
-    sp_border *borders;
+    seen *borders;
 } bordered;
+
+static void keep_seen(bordered *b, const sp_border *border, int k, int side)
+{
+    int sides[2] = {side, border->turned ? 1 - side : side};
+    seen one = {border->texel[k], border->triangle[k], border->texel[1 - k],
+                sides[k],         sides[1 - k],        border->outward[k]};
+    assert_true(b->count < MOST);
+    assert_true(one.texel < b->atlas->texel_count && one.triangle < b->mesh->triangle_count);
+    assert_true(one.other < b->atlas->texel_count || one.other == SP_NONE);
+    assert_true(sp_length(one.outward) < 2 * b->texel);
+    b->borders[b->count++] = one;
+}
 
 static bool keep(void *user, const sp_border *border)
 {
-    bordered *b = user;
-    assert_true(b->count < MOST);
-    assert_true(border->texel < b->atlas->texel_count && border->triangle < b->mesh->triangle_count);
-    assert_true(border->other < b->atlas->texel_count || border->other == SP_NONE);
-    assert_true(border->side <= 1 && border->other_side <= 1);
-    assert_true(sp_length(border->outward) < 2 * b->texel);
-    b->borders[b->count++] = *border;
+    assert_true(border->on_front || border->on_back);
+    for (int k = 0; k < 2; k++)
+        for (int side = 0; side < 2; side++)
+            if (border->texel[k] != SP_NONE && (side ? border->on_back : border->on_front))
+                keep_seen(user, border, k, side);
     return true;
 }
 
 static bordered find_borders(sp_mesh *mesh, double texel)
 {
     sp_error error = {0};
-    bordered b = {.mesh = mesh, .texel = texel, .borders = malloc(MOST * sizeof(sp_border))};
+    bordered b = {.mesh = mesh, .texel = texel, .borders = malloc(MOST * sizeof(seen))};
     sp_charts *charts = sp_charts_create(mesh, INFINITY, &error);
     assert_non_null(charts);
     b.atlas = sp_atlas_create(mesh, charts, &(sp_atlas_options){.texel = texel}, &error);
@@ -49,12 +66,12 @@ static void forget(bordered *b)
 /* By texel, triangle and side; where these are the same, as they came. */
 static int by_piece(const void *left, const void *right)
 {
-    const sp_border *a = left, *b = right;
+    const seen *a = left, *b = right;
     if (a->texel != b->texel)
         return a->texel < b->texel ? -1 : 1;
     if (a->triangle != b->triangle)
         return a->triangle < b->triangle ? -1 : 1;
-    return (int)a->side - (int)b->side;
+    return a->side - b->side;
 }
 
 /* Of every texel in one triangle, on either side: its outward vectors sum to 0. Edges of the mesh inside a texel are no
@@ -66,7 +83,7 @@ static void assert_closed(bordered *b, bool plane)
     assert_true(sp_fragments_create(&fragments, b->atlas, b->mesh, &error));
     qsort(b->borders, b->count, sizeof *b->borders, by_piece);
     size_t closed = 0;
-    for (size_t side = 0; side < 2; side++)
+    for (int side = 0; side < 2; side++)
         for (size_t i = 0, end; i < b->count; i = end) {
             uint32_t texel = b->borders[i].texel;
             sp_vec3 sum = {0};
@@ -77,7 +94,7 @@ static void assert_closed(bordered *b, bool plane)
                 continue;
             closed++;
             if (!(sp_length(sum) <= 1e-12 * b->texel))
-                fail_msg("texel %u of %zu, side %zu: outward vectors sum to %g texels", texel, b->atlas->texel_count,
+                fail_msg("texel %u of %zu, side %d: outward vectors sum to %g texels", texel, b->atlas->texel_count,
                          side, sp_length(sum) / b->texel);
         }
     assert_true(closed > 0);
@@ -104,7 +121,7 @@ static size_t sum_crossings(const bordered *b, bool reverse, crossing *sums)
     size_t count = 0;
     crossing *all = malloc((b->count + 1) * sizeof *all);
     for (size_t i = 0; i < b->count; i++) {
-        const sp_border *border = &b->borders[i];
+        const seen *border = &b->borders[i];
         if (border->other == SP_NONE)
             continue;
         uint64_t from = 2 * (uint64_t)border->texel + border->side;
@@ -230,7 +247,7 @@ static void check_book(const double *angles, int count, unsigned flipped)
     assert_true(sp_fragments_create(&fragments, b.atlas, b.mesh, &error));
     double from_sheet[8][2] = {0};
     for (size_t i = 0; i < b.count; i++) {
-        const sp_border *border = &b.borders[i];
+        const seen *border = &b.borders[i];
         if (border->other == SP_NONE)
             continue;
         uint32_t beyond = triangle_of(&fragments, border->other);
@@ -274,7 +291,7 @@ static void flipped_neighbours_map_front_to_back(void **state)
         bordered b = find_borders(shape_mesh(&s), 0.13);
         double across[2] = {0};
         for (size_t i = 0; i < b.count; i++) {
-            const sp_border *border = &b.borders[i];
+            const seen *border = &b.borders[i];
             bool changes = border->other != SP_NONE && border->side != border->other_side;
             if (!changes)
                 continue;

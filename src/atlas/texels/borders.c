@@ -14,16 +14,6 @@ typedef struct {
     void *user;
 } walk;
 
-static bool visit_sides(const walk *w, sp_border border)
-{
-    for (uint8_t side = 0; side < 2; side++) {
-        border.side = border.other_side = side;
-        if (!w->visit(w->user, &border))
-            return false;
-    }
-    return true;
-}
-
 /* One triangle on its page, and how far one goes on the surface for a pixel along x and along y. */
 typedef struct {
     const walk *walk;
@@ -57,8 +47,12 @@ static bool visit_between(void *user, uint32_t a, uint32_t b, uint32_t x, uint32
         return true;
     sp_vec3 step = sp_scale(s->along[above ? 0 : 1], length);
     sp_vec3 outward = above ? sp_cross(s->normal, step) : sp_cross(step, s->normal);
-    return visit_sides(s->walk, (sp_border){a, s->triangle, b, 0, 0, outward}) &&
-           visit_sides(s->walk, (sp_border){b, s->triangle, a, 0, 0, sp_scale(outward, -1)});
+    sp_border border = {.texel = {a, b},
+                        .triangle = {s->triangle, s->triangle},
+                        .outward = {outward, sp_scale(outward, -1)},
+                        .on_front = true,
+                        .on_back = true};
+    return s->walk->visit(s->walk->user, &border);
 }
 
 static bool is_in_one_pixel(const double (*uv)[2])
@@ -143,20 +137,21 @@ static fold fold_of(const walk *w, sp_edge_walk *edge, uint32_t a, uint32_t b)
                   sp_cross(step_of(w->mesh, b), sp_triangle_normal(w->mesh, b / 3))};
 }
 
-/* The piece that the walk is at, from both triangles: `side` of one goes on in `other_side` of the other. */
-static bool visit_piece(const fold *f, uint8_t side, uint8_t other_side)
+/* The piece that the walk is at; the border says on which sides. */
+static bool visit_piece(const fold *f, sp_border border)
 {
     const sp_edge_walk *edge = f->edge;
     double part = edge->to - edge->from;
     bool ends = f->a == f->b;
     if (!ends && edge->texel_a == edge->texel_b)
         return true;
-    sp_border out = {.texel = edge->texel_a, .triangle = f->a / 3, .other = ends ? SP_NONE : edge->texel_b};
-    out.side = side;
-    out.other_side = other_side;
-    out.outward = sp_scale(f->out_of_a, part);
-    sp_border back = {edge->texel_b, f->b / 3, edge->texel_a, other_side, side, sp_scale(f->out_of_b, part)};
-    return f->walk->visit(f->walk->user, &out) && (ends || f->walk->visit(f->walk->user, &back));
+    border.texel[0] = edge->texel_a;
+    border.texel[1] = ends ? SP_NONE : edge->texel_b;
+    border.triangle[0] = f->a / 3;
+    border.triangle[1] = f->b / 3;
+    border.outward[0] = sp_scale(f->out_of_a, part);
+    border.outward[1] = sp_scale(f->out_of_b, part);
+    return f->walk->visit(f->walk->user, &border);
 }
 
 /* True where the two triangles of an edge lie side by side on the page: they share all texels that it crosses, unless
@@ -182,11 +177,11 @@ static bool visit_plain(const walk *w, sp_edge_walk *edge, uint32_t a, uint32_t 
     if (is_inside(w, a, b))
         return true;
     fold f = fold_of(w, edge, a, b);
-    uint8_t front = a == b || sp_edge_is_opposite(w->mesh, a, b) ? 0 : 1; /* where the front of `a` goes on */
+    sp_border both = {.on_front = true, .on_back = true, .turned = a != b && !sp_edge_is_opposite(w->mesh, a, b)};
     if (!sp_edge_walk_begin(edge, w->atlas, w->mesh, a, b))
         return false;
     while (sp_edge_walk_next(edge, w->atlas))
-        if (!visit_piece(&f, 0, front) || !visit_piece(&f, 1, 1 - front))
+        if (!visit_piece(&f, both))
             return false;
     return true;
 }
@@ -195,10 +190,11 @@ static bool visit_plain(const walk *w, sp_edge_walk *edge, uint32_t a, uint32_t 
 static bool visit_leaf(const walk *w, sp_edge_walk *edge, const leaf *own, const leaf *next)
 {
     fold f = fold_of(w, edge, own->half_edge, next->half_edge);
+    sp_border ahead = {.on_front = own->ahead, .on_back = !own->ahead, .turned = own->ahead == next->ahead};
     if (!sp_edge_walk_begin(edge, w->atlas, w->mesh, f.a, f.b))
         return false;
     while (sp_edge_walk_next(edge, w->atlas))
-        if (!visit_piece(&f, own->ahead ? 0 : 1, next->ahead ? 1 : 0))
+        if (!visit_piece(&f, ahead))
             return false;
     return true;
 }

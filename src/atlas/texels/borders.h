@@ -4,20 +4,21 @@
 
 #include <sprayplan/atlas.h>
 
-/* A piece of a texel's border, in one triangle and seen from one side of the surface. */
+/* A piece of the border of two texels. */
 typedef struct {
-    uint32_t texel, triangle; /* of which it is the border, and in whose plane it lies */
-    uint32_t other;           /* the texel that the surface goes on in; SP_NONE where it ends */
-    uint8_t side, other_side; /* of triangle and of what lies beyond: 0 front, 1 back */
-    sp_vec3 outward; /* m, as long as the border: out of the texel, across the border, in the triangle's plane */
+    uint32_t texel[2];    /* that share it; the second SP_NONE where the surface ends */
+    uint32_t triangle[2]; /* in whose plane it lies, to either */
+    sp_vec3 outward[2]; /* m, as long as the border: out of either texel, across the border, in its triangle's plane */
+    bool on_front, on_back; /* of the first texel's triangle: on which sides of the surface the texels share it */
+    bool turned;            /* the front goes on in the back */
 } sp_border;
 
 typedef bool sp_border_visitor(void *user, const sp_border *border);
 
-/* Visits all borders, from both of the texels that share one and from both sides of the surface, always in the same
- * order. Where three triangles or more meet in an edge, either side of one goes on in the next about that edge. The
- * outward vectors of a texel sum to 0 where it lies in one triangle, or in several of one plane; edges of the mesh
- * inside a texel are no borders. False, with the error set, where memory runs out or the visitor returns false. */
+/* Visits all borders, always in the same order. Where three triangles or more meet in an edge, either side of one goes
+ * on in the next about that edge. The outward vectors of a texel sum to 0 where it lies in one triangle, or in several
+ * of one plane; edges of the mesh inside a texel are no borders. False, with the error set, where memory runs out or
+ * the visitor returns false. */
 bool sp_atlas_visit_borders(const sp_atlas *atlas, const sp_mesh *mesh, sp_border_visitor *visit, void *user,
                             sp_error *error);
 

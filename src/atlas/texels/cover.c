@@ -38,6 +38,7 @@ bool sp_cover_begin(sp_cover *cover, const double uv[3][2], sp_cover_kind kind)
     cover->columns = (uint32_t)sp_most(ceil(high[0] + slack), 1);
     cover->rows = (uint32_t)sp_most(ceil(high[1] + slack), 1);
     cover->row = 0;
+    cover->cut_at = -1;
     cover->flat = 0.5 * ((c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[1][1] - c[0][1]) * (c[2][0] - c[0][0]));
     sort_by_height(c);
     cover->height = c[2][1] - c[0][1];
@@ -78,14 +79,22 @@ typedef struct {
     bool bent; /* the middle corner lies between them */
 } strip;
 
-static strip cut(const sp_cover *cover, double low, double high)
+static strip cut(sp_cover *cover, double low, double high)
 {
     const double(*c)[2] = (const double(*)[2])cover->corner;
     strip s = {sp_most(low, c[0][1]), sp_least(high, c[2][1]), 0, 0, 0, 0, false};
-    s.long_low = at_height(c[0], c[2], s.low);
+    if (s.low == cover->cut_at) {
+        s.long_low = cover->cut_long;
+        s.short_low = cover->cut_short;
+    } else {
+        s.long_low = at_height(c[0], c[2], s.low);
+        s.short_low = s.low < c[1][1] ? at_height(c[0], c[1], s.low) : at_height(c[1], c[2], s.low);
+    }
     s.long_high = at_height(c[0], c[2], s.high);
-    s.short_low = s.low < c[1][1] ? at_height(c[0], c[1], s.low) : at_height(c[1], c[2], s.low);
     s.short_high = s.high <= c[1][1] ? at_height(c[0], c[1], s.high) : at_height(c[1], c[2], s.high);
+    cover->cut_at = s.high;
+    cover->cut_long = s.long_high;
+    cover->cut_short = s.short_high;
     s.bent = c[1][1] > s.low && c[1][1] < s.high;
     return s;
 }

@@ -25,7 +25,8 @@ typedef struct {
     double flat; /* the triangle's area, pixels²; not above 0 where rounding left none */
     sp_cover_kind kind;
     uint32_t base_x, base_y, columns, rows, row;
-    size_t capacity; /* of area */
+    double cut_at, cut_long, cut_short; /* the upper end of the row before: its height, and where it cuts the edges */
+    size_t capacity;                    /* of area */
 } sp_cover;
 
 /* Begins with an anticlockwise triangle of finite corners, none below 0, with SP_COVER_TOUCHED none below its slack.
