@@ -32,12 +32,26 @@ static uint32_t beneath(const sp_film_surface *surface, sp_vec3 from)
     return met_by(surface, from, surface->down, INFINITY, &fall);
 }
 
-/* Beyond the end of a wall, in the direction in which liquid runs. */
-static uint32_t beyond_wall(const sp_film_surface *surface, uint32_t cell)
+/* True where it is the cell itself, which goes round an edge, or one beside it. */
+static bool is_beside(const sp_film_links *links, uint32_t cell, uint32_t other)
+{
+    bool beside = other == cell;
+    for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++)
+        beside = beside || links->to[k] == other;
+    return beside;
+}
+
+/* Beyond the end of a wall, in the direction in which liquid runs; where that is into the other side of a valley, which
+ * ends here as well, straight out of it. */
+static uint32_t beyond_wall(const sp_film_surface *surface, const sp_film_links *links, uint32_t cell)
 {
     sp_vec3 along = sp_film_tangent(surface->cells->normal[cell], surface->down), from = before(surface, cell);
     double reach = REACH * surface->cells->length[cell], distance;
     uint32_t met = met_by(surface, from, along, reach, &distance);
+    if (is_beside(links, cell, met)) {
+        along = sp_unit(links->end[cell]);
+        met = met_by(surface, from, along, reach, &distance);
+    }
     return met != SP_FILM_LEFT ? met : beneath(surface, sp_along(from, reach, along));
 }
 
@@ -62,7 +76,7 @@ uint32_t *sp_film_ends_find(const sp_film_surface *surface, const sp_film_links 
         if (links->drips[i])
             ends[i] = beneath(surface, before(surface, i));
         else if (sp_film_is_open(surface, links, i))
-            ends[i] = sp_film_is_flat(surface, i) ? beyond_flat(surface, links, i) : beyond_wall(surface, i);
+            ends[i] = sp_film_is_flat(surface, i) ? beyond_flat(surface, links, i) : beyond_wall(surface, links, i);
     }
     return ends;
 }

@@ -52,7 +52,7 @@ bool sp_film_is_open(const sp_film_surface *surface, const sp_film_links *links,
 /* What of a border is an end to one cell on it. */
 static void take_end(sp_film_links *links, uint32_t cell, double across, double length, sp_vec3 outward)
 {
-    links->end_across[cell] += across;
+    links->end_across[cell] += fmax(0, across); /* nothing comes in from there */
     links->end_length[cell] += length;
     if (length > sp_length(links->end[cell]))
         links->end[cell] = outward;
