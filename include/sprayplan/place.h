@@ -53,9 +53,10 @@ typedef struct {
     size_t pressure_count;
     const double *pressures; /* Pa, borrowed */
     double clearance;        /* m */
-    double memory; /* bytes that what the mounting points can reach may take; 0: 1 GB. Less takes longer: what is not
-                    * kept is worked out again. The answer does not depend on it; too little for one mounting point is
-                    * SP_ERROR_INPUT */
+    double memory; /* bytes that all that the candidates can reach may take; 0: 1 GB. Less takes longer: what is not
+                    * kept is worked out again. The answer does not depend on it, but where clusters, measured types or
+                    * rotating ones are among the types, whose poses are all kept, on texels that leave room for them;
+                    * too little for one mounting point, or for those poses, is SP_ERROR_INPUT */
     bool prove; /* goes on lowering the certificate's bounds by branch and bound, until the time limit or, where there
                  * is none, until all are within 0.1 % of what was found or much was tried */
     size_t mount_count;

@@ -115,7 +115,8 @@ sp_figures *sp_result_figures(const sp_result *result, sp_error *error);
 char *sp_result_json(const sp_result *result, sp_error *error);
 /* nozzles.csv: one row a nozzle of `layout`, a layout of the setup:
  * name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s,order_code,url.
- * Malloc'd. */
+ * A text that begins with =, +, -, @, a tab or a line's end has an apostrophe in front, so that no spreadsheet takes it
+ * for a formula. Malloc'd. */
 char *sp_nozzles_csv(const sp_layout *layout, const sp_setup *setup, sp_error *error);
 
 /* A set of files that is written whole or not at all: each goes to a temporary name in `directory` (created where

@@ -8,7 +8,8 @@
 extern "C" {
 #endif
 
-/* Loading, writing and sp_quantity_parse are for one thread at a time: the parser of udunits2 is not reentrant. */
+/* Any number of threads may load, write and parse at a time, each its own scene. udunits2, which is not reentrant, is
+ * entered by one of them at a time; nobody else in the program may call it meanwhile. */
 typedef struct sp_scene sp_scene;
 
 /* Reads a scene, its catalogue and its geometry. What lies four diagonals of the geometry or more from (0, 0, 0) is

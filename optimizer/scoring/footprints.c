@@ -3,8 +3,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-#define MEMORY 1e9 /* bytes, where the options do not say */
-#define BATCH 64   /* poses between two looks at clock and memory */
+#define BATCH 64 /* poses between two looks at clock and memory */
 
 struct sp_footprints {
     sp_search search;     /* of which only what does not change is used */
@@ -146,14 +145,15 @@ static sp_pose *list_poses(const sp_search *search, size_t *count)
     return poses;
 }
 
+/* Beside the views. */
 static bool has_room(const sp_footprints *footprints, size_t poses, sp_error *error)
 {
-    double most = footprints->search.options->memory > 0 ? footprints->search.options->memory : MEMORY;
-    return footprints->bytes <= most ||
+    const sp_visibility *views = footprints->search.visibility;
+    return views->bytes + footprints->bytes <= views->memory ||
            sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "memory: %g bytes found, expected more for what %zu poses of clusters, and of types that do not "
                    "spray evenly, bring to %zu patches; or fewer mounting points, or less tilt",
-                   most, poses, footprints->search.patch_count);
+                   views->memory, poses, footprints->search.patch_count);
 }
 
 /* Where some poses and the last one's whole block end. */

@@ -12,8 +12,9 @@ typedef struct sp_footprints sp_footprints;
 bool sp_footprints_create(const sp_search *search, sp_footprints **footprints, sp_error *error);
 /* Accepts NULL. */
 void sp_footprints_destroy(sp_footprints *footprints);
-/* Traces all of them as far as time and the options' memory allow, all poses of a make at a site or none. Those that
- * are left out when the time ends bring nothing from then on; where memory ends it fails with SP_ERROR_INPUT. */
+/* Traces all of them as far as time and what views leave of the options' memory allow, all poses of a make at a site or
+ * none. Those that are left out when the time ends bring nothing from then on; where memory ends it fails with
+ * SP_ERROR_INPUT. */
 bool sp_footprints_fill(sp_footprints *footprints, sp_watch *watch, sp_error *error);
 /* The footprint of a pose, owned by the footprints. Safe to call from many threads. */
 const sp_footprint *sp_footprints_look(sp_footprints *footprints, sp_pose pose);

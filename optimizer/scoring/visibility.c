@@ -15,8 +15,8 @@
 #define PASS_PATCHES_MOST 8000.0
 #define PASS_RAYS_MOST 5e6   /* patches times positions times views, where goods move */
 #define PASS_SWEEPS_MOST 2e9 /* patches times positions times poses */
-#define MEMORY 1e9           /* bytes, for all views, where the options do not say */
-#define PRINT 16.0           /* bytes of a patch's part of a footprint */
+#define MEMORY 1e9           /* bytes, for all views and footprints, where the options do not say */
+#define PRINT 16.0           /* bytes of a patch's part of a footprint, and of the footprint itself */
 #define PRINTS_SHARE 0.5     /* of the memory, that all footprints may take */
 #define CELLS                                                                                                          \
     4000               /* arrivals of cells in a view that has not been traced yet: nearer to a wall than a hundredth  \
@@ -35,6 +35,12 @@ struct sp_desks {
 static double memory_of(const sp_place_options *options)
 {
     return options->memory > 0 ? options->memory : MEMORY;
+}
+
+/* Bytes that views may take. */
+static double room_of(const sp_visibility *visibility)
+{
+    return visibility->memory - fmin(PRINTS_SHARE * visibility->memory, visibility->prints);
 }
 
 double sp_visibility_needed(const sp_place_options *options, const sp_candidates *candidates, const sp_site *site,
@@ -174,10 +180,10 @@ static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
     sp_visibility *visibility = survey->visibility;
     const sp_place_options *options = visibility->options;
     size_t sites = visibility->site_count, most = most_arrivals(visibility->evaluator);
-    double memory = memory_of(options), work = desk_bytes(most, most_cells(visibility->evaluator), true);
+    double room = room_of(visibility), work = desk_bytes(most, most_cells(visibility->evaluator), true);
     survey->kept = (double)(sites * visibility->launch_count) * (double)visibility->sight_bytes;
     survey->threads = sp_threads(&options->run);
-    if ((double)survey->threads * work > memory)
+    if ((double)survey->threads * work > room)
         survey->threads = 1;
     for (size_t first = 0; first < sites; first += BATCH) {
         /* out of time the first batch is traced all the same, so that there is something to choose from */
@@ -188,7 +194,7 @@ static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
             break;
         }
         double batch = BATCH * (double)visibility->launch_count * (double)sp_view_bytes(most, true);
-        bool keep = survey->kept + batch + (double)survey->threads * work <= memory;
+        bool keep = survey->kept + batch + (double)survey->threads * work <= room;
         if (!survey_batch(survey, first, first + BATCH < sites ? first + BATCH : sites, keep, error))
             return false;
         visibility->bytes =
@@ -244,17 +250,16 @@ static bool furnish(sp_survey *survey, sp_error *error)
 {
     sp_visibility *visibility = survey->visibility;
     size_t views = visibility->site_count * visibility->launch_count, missing = 0;
-    double memory = memory_of(visibility->options),
-           work = desk_bytes(visibility->largest, visibility->cells, survey->twice_at_all);
-    double sights = (double)views * (double)visibility->sight_bytes;
-    if (sights + work > memory)
+    double room = room_of(visibility), work = desk_bytes(visibility->largest, visibility->cells, survey->twice_at_all);
+    double sights = (double)views * (double)visibility->sight_bytes, needed = sights + work;
+    if (needed > room)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "memory: %g bytes found, expected %.0f or more for what is in sight of %zu mounting points and "
                        "to trace one of them",
-                       memory, sights + work, visibility->site_count);
-    visibility->desk_count = (int)fmin(sp_threads(&visibility->options->run), floor((memory - sights) / work));
+                       visibility->memory, needed + fmin(needed, visibility->prints), visibility->site_count);
+    visibility->desk_count = (int)fmin(sp_threads(&visibility->options->run), floor((room - sights) / work));
     double desks = visibility->desk_count * work;
-    if (!fill(survey, memory - desks, error))
+    if (!fill(survey, room - desks, error))
         return false;
     for (size_t at = 0; at < views; at++)
         missing += visibility->known[at] && !visibility->views[at].start;
@@ -262,17 +267,37 @@ static bool furnish(sp_survey *survey, sp_error *error)
     return !missing || desks_create(visibility, survey->twice_at_all, error);
 }
 
+/* Of poses that no sweep knows, each of which is traced by itself; and how many such poses there are. */
+static double patterns_to_trace(const sp_sites *sites, const sp_candidates *candidates, double *poses)
+{
+    double patterns = 0;
+    for (size_t i = 0; i < sites->count; i++)
+        for (size_t k = 0; k < candidates->make_count; k++) {
+            const sp_make *make = &candidates->makes[k];
+            double count = (double)(sp_candidates_axes(candidates, sites->items[i].mount, k)->count * make->roll_count);
+            if (sp_is_swept(make->type))
+                continue;
+            *poses += count;
+            patterns += count * (double)sp_nozzle_pattern_count(&(sp_nozzle){.type = make->type});
+        }
+    return patterns;
+}
+
 bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
                           const sp_candidates *candidates, sp_watch *watch, sp_visibility *visibility, sp_error *error)
 {
-    size_t views = sites->count * candidates->launch_count;
+    size_t views = sites->count * candidates->launch_count, patches = sp_evaluator_patches(coarse)->count;
+    double footprints = 0;
+    patterns_to_trace(sites, candidates, &footprints);
     *visibility = (sp_visibility){.evaluator = coarse,
                                   .options = options,
                                   .sites = sites,
                                   .candidates = candidates,
                                   .site_count = sites->count,
                                   .launch_count = candidates->launch_count,
-                                  .sight_bytes = sp_evaluator_patches(coarse)->count / 4 + 1};
+                                  .sight_bytes = patches / 4 + 1,
+                                  .memory = memory_of(options),
+                                  .prints = footprints * PRINT * ((double)patches + 1)};
     sp_survey survey = {.visibility = visibility};
     sp_bins_create(&visibility->bins);
     visibility->views = calloc(views + 1, sizeof *visibility->views);
@@ -291,22 +316,6 @@ bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *op
     if (!done)
         sp_visibility_free(visibility);
     return done;
-}
-
-/* Of poses that no sweep knows, each of which is traced by itself; and how many such poses there are. */
-static double patterns_to_trace(const sp_sites *sites, const sp_candidates *candidates, double *poses)
-{
-    double patterns = 0;
-    for (size_t i = 0; i < sites->count; i++)
-        for (size_t k = 0; k < candidates->make_count; k++) {
-            const sp_make *make = &candidates->makes[k];
-            double count = (double)(sp_candidates_axes(candidates, sites->items[i].mount, k)->count * make->roll_count);
-            if (sp_is_swept(make->type))
-                continue;
-            *poses += count;
-            patterns += count * (double)sp_nozzle_pattern_count(&(sp_nozzle){.type = make->type});
-        }
-    return patterns;
 }
 
 /* Patches on whose texels goods that move are looked at in few enough positions: with p patches of texels t, p t² being

@@ -30,7 +30,9 @@ typedef struct {
     bool *known;     /* [site_count x launch_count], traced before the time was up */
     uint8_t *sights; /* [site_count x launch_count][sight_bytes], bit 2 patch + arc: whether the way is free */
     size_t sight_bytes;
-    double bytes;   /* most that views, desks and tracing take at any time */
+    double memory;  /* bytes that the options allow it and footprints together */
+    double prints;  /* of them, what footprints come to at most */
+    double bytes;   /* most that views, desks and tracing take at any time; the rest is left to footprints */
     int desk_count; /* threads that may look at a time */
     sp_desks *desks;
     sp_bins bins;
@@ -45,8 +47,9 @@ double sp_visibility_needed(const sp_place_options *options, const sp_candidates
 bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options, const sp_sites *sites,
                        const sp_candidates *candidates, sp_watch *watch, sp_evaluator **resampled,
                        sp_visibility *visibility, sp_error *error);
-/* Traces all views on the patches of `coarse`. Sites left out when the time ends see nothing. Fails with
- * SP_ERROR_INPUT where the options' memory does not hold one view and what tracing it takes. */
+/* Traces all views on the patches of `coarse`. Sites left out when the time ends see nothing. Footprints, which are all
+ * kept, are left what they may come to, or half of the memory. Fails with SP_ERROR_INPUT where the rest does not hold
+ * one view and what tracing it takes. */
 bool sp_visibility_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
                           const sp_candidates *candidates, sp_watch *watch, sp_visibility *visibility, sp_error *error);
 void sp_visibility_free(sp_visibility *visibility);

@@ -5,13 +5,16 @@
 
 #include <string.h>
 
+/* Names come from strangers' files. What spreadsheets would compute as a formula gets an apostrophe in front, as OWASP
+ * advises (CSV injection); what any of them would divide is quoted. */
 static void add_field(sp_text *text, const char *value)
 {
-    if (!strpbrk(value, ",\"\r\n")) {
-        sp_text_append(text, value, strlen(value));
+    const char *mark = *value && strchr("=+-@\t\r\n", *value) ? "'" : "";
+    if (!strpbrk(value, ",;\"\t\r\n")) {
+        sp_text_add(text, "%s%s", mark, value);
         return;
     }
-    sp_text_append(text, "\"", 1);
+    sp_text_add(text, "\"%s", mark);
     for (const char *at = value; *at; ++at)
         sp_text_append(text, *at == '"' ? "\"\"" : at, *at == '"' ? 2 : 1);
     sp_text_append(text, "\"", 1);

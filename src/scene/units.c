@@ -4,14 +4,31 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct sp_units {
     ut_system *system;
-    ut_error_message_handler handler; /* the one to put back */
 };
+
+/* udunits keeps the state of its parsers, its tables of units and its handler of messages in static variables, whatever
+ * the system: one thread at a time is inside of it, and messages are swallowed meanwhile. */
+static pthread_mutex_t inside = PTHREAD_MUTEX_INITIALIZER;
+
+/* Returns the handler to put back. */
+static ut_error_message_handler enter(void)
+{
+    pthread_mutex_lock(&inside);
+    return ut_set_error_message_handler(ut_ignore);
+}
+
+static void leave(ut_error_message_handler handler)
+{
+    ut_set_error_message_handler(handler);
+    pthread_mutex_unlock(&inside);
+}
 
 /* 1 US gallon = 231 cubic inches = 3.785411784 L, exactly. */
 static const double us_gallon = 3.785411784e-3;
@@ -31,10 +48,12 @@ sp_units *sp_units_create(sp_error *error)
     sp_units *units = calloc(1, sizeof *units);
     if (!units)
         return sp_fail_memory(error);
-    units->handler = ut_set_error_message_handler(ut_ignore);
+    ut_error_message_handler handler = enter();
     units->system = ut_read_xml(NULL);
-    if (units->system && add_unit(units->system, "deg", acos(-1) / 180, "rad") &&
-        add_unit(units->system, "gpm", us_gallon / 60, "m3/s"))
+    bool good = units->system && add_unit(units->system, "deg", acos(-1) / 180, "rad") &&
+                add_unit(units->system, "gpm", us_gallon / 60, "m3/s");
+    leave(handler);
+    if (good)
         return units;
     sp_fail(error, SP_ERROR_FILE, NULL, 0, 0, "cannot read the units database of udunits2");
     sp_units_destroy(units);
@@ -45,8 +64,9 @@ void sp_units_destroy(sp_units *units)
 {
     if (!units)
         return;
+    ut_error_message_handler handler = enter();
     ut_free_system(units->system);
-    ut_set_error_message_handler(units->handler);
+    leave(handler);
     free(units);
 }
 
@@ -112,6 +132,7 @@ bool sp_units_factor(const sp_units *units, const char *unit, const sp_dimension
         snprintf(why, size, "gal is the Galileo here: write gpm for US gallons per minute, or L/min");
         return false;
     }
+    ut_error_message_handler handler = enter();
     ut_unit *from = plain_unit(unit) ? ut_parse(units->system, unit, UT_UTF8) : NULL;
     ut_unit *to = ut_parse(units->system, dimension->unit, UT_UTF8);
     bool good = from && to && convert(from, to, factor);
@@ -119,6 +140,7 @@ bool sp_units_factor(const sp_units *units, const char *unit, const sp_dimension
         snprintf(why, size, from ? "'%.60s' measures something else" : "'%.60s' is no known unit", unit);
     ut_free(from);
     ut_free(to);
+    leave(handler);
     return good;
 }
 

@@ -1,4 +1,4 @@
-/* Quantities by udunits2. A unit system belongs to whoever created it; udunits' parser itself is not reentrant. */
+/* Quantities by udunits2. A unit system belongs to whoever created it; any number of threads may do so at a time. */
 #ifndef SCENE_UNITS_H
 #define SCENE_UNITS_H
 

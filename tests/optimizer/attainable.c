@@ -1,7 +1,7 @@
 /* What is attainable, and why the rest is not, where it is known in closed form. */
 #include "room.h"
 
-#include "scoring/visibility.h"
+#include "scoring/footprints.h"
 
 #define TEXEL 0.04
 
@@ -237,13 +237,18 @@ typedef struct {
     size_t kept;
 } outlook;
 
+static void outlook_begin(const job *j, outlook *o)
+{
+    sp_error error = {0};
+    *o = (outlook){.watch = sp_watch_start(&j->options.run)};
+    assert_true(sp_sites_create(j->room.evaluator, &j->options, &o->sites, &error));
+    assert_true(sp_candidates_create(j->room.evaluator, &j->options, &o->sites, &o->candidates, &error));
+}
+
 static void look_around(const job *j, outlook *o)
 {
     sp_error error = {0};
-    o->kept = 0;
-    o->watch = sp_watch_start(&j->options.run);
-    assert_true(sp_sites_create(j->room.evaluator, &j->options, &o->sites, &error));
-    assert_true(sp_candidates_create(j->room.evaluator, &j->options, &o->sites, &o->candidates, &error));
+    outlook_begin(j, o);
     assert_true(sp_visibility_fit(j->room.evaluator, &j->options, &o->sites, &o->candidates, &o->watch, &o->resampled,
                                   &o->visibility, &error));
     for (size_t v = 0; v < o->sites.count; v++)
@@ -346,6 +351,66 @@ static void views_keep_within_memory(void **state)
     job_end(&j);
 }
 
+/* Bytes of all footprints; the search has traced them. */
+static double footprints_bytes(const sp_search *search)
+{
+    const sp_candidates *candidates = search->candidates;
+    double bytes = 0;
+    for (uint32_t site = 0; site < search->sites->count; site++)
+        for (uint32_t k = 0; k < candidates->make_count; k++) {
+            size_t axes = sp_candidates_axes(candidates, search->sites->items[site].mount, k)->count;
+            for (uint32_t a = 0; a < axes && !sp_is_swept(candidates->makes[k].type); a++)
+                for (uint32_t r = 0; r < candidates->makes[k].roll_count; r++) {
+                    const sp_footprint *found = sp_footprints_look(search->footprints, (sp_pose){site, k, a, r});
+                    bytes += (double)(sizeof *found + found->count * sizeof *found->prints);
+                }
+        }
+    return bytes;
+}
+
+/* Views and footprints of one scene, each for itself in less than the memory there is, both together in no more. */
+static void views_and_footprints_share_memory(void **state)
+{
+    (void)state;
+    job j;
+    sp_member hole = {.type = room_cone("hole", 40 * DEGREE, 1), .axis = sp_v(0, 0, 1), .share = 1};
+    sp_nozzle_type ball = room_cone("ball", 0, 10);
+    const sp_nozzle_type *types[2] = {&ball, &j.type};
+    ball.pattern = SP_PATTERN_CLUSTER;
+    ball.members = &hole;
+    ball.member_count = 1;
+    job_begin(&j, 60 * DEGREE);
+    j.mount.from = sp_v(-2, -2, HEIGHT);
+    j.mount.to = sp_v(2, 2, HEIGHT);
+    j.mount.spacing = 0.5;
+    room_open(&j.room, &j.builder, 0.1);
+    j.options.types = types;
+    j.options.type_count = 2;
+    j.options.pressures = &j.pressure;
+    j.options.pressure_count = 1;
+    j.options.mounts = &j.mount;
+    j.options.mount_count = 1;
+    double memory = 0;
+    for (int scarce = 0; scarce < 2; scarce++) {
+        outlook o;
+        sp_search search;
+        sp_error error = {0};
+        j.options.memory = memory; /* at first what is the default */
+        outlook_begin(&j, &o);
+        assert_true(sp_visibility_create(j.room.evaluator, &j.options, &o.sites, &o.candidates, &o.watch, &o.visibility,
+                                         &error)); /* on the same patches twice */
+        assert_true(sp_search_create(o.visibility.evaluator, &j.options, &o.sites, &o.candidates, &o.visibility,
+                                     &search, &error));
+        assert_true(sp_footprints_fill(search.footprints, &o.watch, &error));
+        double views = o.visibility.bytes, footprints = footprints_bytes(&search);
+        assert_true(footprints > 0 && (!scarce || views + footprints <= memory));
+        memory = 0.8 * views; /* enough for either alone */
+        sp_search_free(&search);
+        look_away(&o);
+    }
+    room_close(&j.room);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -356,6 +421,7 @@ int main(void)
         cmocka_unit_test(together_or_each_alone),
         cmocka_unit_test(little_memory_is_enough),
         cmocka_unit_test(views_keep_within_memory),
+        cmocka_unit_test(views_and_footprints_share_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -56,8 +57,39 @@ static void rows_read_back(void **state)
     sp_layout_destroy(layout);
 }
 
+/* Numbers may begin with a minus; texts that do are marked. */
+static void no_text_is_a_formula(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *field;
+    } texts[] = {{"=1+1", "'=1+1"},         {"+x", "'+x"},         {"-x", "'-x"},
+                 {"@SUM(A1)", "'@SUM(A1)"}, {"\t=x", "\"'\t=x\""}, {"=a,\"b\"", "\"'=a,\"\"b\"\"\""},
+                 {"a;=x", "\"a;=x\""},      {"a=x", "a=x"},        {"", ""}};
+    const sp_setup setup = sp_setup_default();
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        sp_nozzle_type type = {.pattern = SP_PATTERN_FULL_CONE, .angle = 1, .flow = 1, .at = 1, .exponent = 0.5};
+        sp_nozzle nozzle = {.type = &type, .position = {-1, 0, 0}, .axis = {0, 0, -1}, .pressure = 1e5};
+        snprintf(nozzle.name, sizeof nozzle.name, "%s", texts[i].name);
+        snprintf(type.name, sizeof type.name, "%s", texts[i].name);
+        snprintf(type.order_code, sizeof type.order_code, "%s", texts[i].name);
+        snprintf(type.url, sizeof type.url, "%s", texts[i].name);
+        sp_error error = {0};
+        sp_layout *layout = sp_layout_create(&nozzle, 1, &error);
+        char *csv = sp_nozzles_csv(layout, &setup, &error), expected[256];
+        assert_non_null(csv);
+        const char *row = strchr(csv, '\n') + 1, *field = texts[i].field;
+        snprintf(expected, sizeof expected, "%s,%s,-1,0,0,", field, field);
+        assert_memory_equal(row, expected, strlen(expected));
+        snprintf(expected, sizeof expected, ",%s,%s\n", field, field);
+        assert_string_equal(row + strlen(row) - strlen(expected), expected);
+        free(csv);
+        sp_layout_destroy(layout);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rows_read_back)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(rows_read_back), cmocka_unit_test(no_text_is_a_formula)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
