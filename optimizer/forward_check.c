@@ -7,6 +7,7 @@
  * they have to. Their number is part of the answer. */
 static const uint64_t jets_flown[] = {500000, 2000000};
 #define PATCHES_MOST 20000.0
+#define SHARE_LEAST 0.25 /* of the jets */
 #define MUCH_BETTER 0.5 /* of the tolerance */
 #define TELLS 0.005
 #define SECONDS 1
@@ -17,10 +18,10 @@ static double hit_share(const sp_coverage *coverage)
     return coverage->area > 0 ? (coverage->covered_area - coverage->film.area) / coverage->area : 0;
 }
 
-/* With drag, where each of them takes long, no more to a patch than where there are most. */
+/* With drag, where each of them takes long, fewer where there are few patches. */
 static uint64_t jets_for(const sp_evaluator *evaluator, uint64_t jets)
 {
-    double share = (double)sp_evaluator_patches(evaluator)->count / PATCHES_MOST;
+    double share = fmax(SHARE_LEAST, (double)sp_evaluator_patches(evaluator)->count / PATCHES_MOST);
     bool drag = sp_evaluator_fidelity(evaluator)->trajectory == SP_TRAJECTORY_DRAG;
     return drag ? (uint64_t)ceil((double)jets * fmin(share, 1)) : jets;
 }
