@@ -12,6 +12,8 @@
 #define FINENESS_LEAST 0.25
 #define FINENESS_STEP 0.95
 #define POSES_ENOUGH 1.1e6
+#define COARSENESS_MOST 4.0
+#define TRACED_ENOUGH 40000.0 /* patterns, each of which takes about as long as a view */
 #define FAN_ROLLS 8
 #define BODY_ROLLS 4 /* of what no sweep knows, each of which has to be traced */
 #define ANGLES 3
@@ -128,10 +130,14 @@ static bool fits(const sp_mount *mount, const sp_nozzle_type *type)
     return false;
 }
 
-/* How far apart a make's axes lie, and how far out. Few poses do not make footprints finer: each has to be traced. */
-static double axis_step(const sp_make *make, double fineness)
+/* How close axes lie: of poses that are swept, and of those that have to be traced one by one. */
+typedef struct {
+    double swept, traced; /* times the usual step */
+} spacing;
+
+static double axis_step(const sp_make *make, const spacing *spacing)
 {
-    return (sp_is_swept(make->type) ? fineness : 1) *
+    return (sp_is_swept(make->type) ? spacing->swept : spacing->traced) *
            fmin(AXIS_STEP_MOST, fmax(AXIS_STEP_LEAST, AXIS_SHARE * make->reach));
 }
 
@@ -143,33 +149,51 @@ static double axis_tilt(const sp_make *make, const sp_mount *mount)
     return all_round ? 0 : fmin(M_PI, mount->tilt);
 }
 
-static double count_poses(const sp_place_options *options, const sp_sites *sites, const sp_candidates *candidates,
-                          double fineness)
+/* Of all, and the patterns of those that are traced. */
+typedef struct {
+    double poses, traced;
+} census;
+
+static census take_census(const sp_place_options *options, const sp_sites *sites, const sp_candidates *candidates,
+                          const spacing *spacing)
 {
-    double poses = 0, per_site = 0;
+    census all = {0, 0}, per_site = {0, 0};
     uint32_t counted = SP_NONE; /* the mount that per_site is of: sites come mount by mount */
-    for (size_t i = 0; i < sites->count; i++, poses += per_site) {
+    for (size_t i = 0; i < sites->count; i++, all.poses += per_site.poses, all.traced += per_site.traced) {
         const sp_mount *mount = &options->mounts[sites->items[i].mount];
         if (sites->items[i].mount == counted)
             continue;
         counted = sites->items[i].mount;
-        per_site = 0;
+        per_site = (census){0, 0};
         for (size_t k = 0; k < candidates->make_count; k++) {
             const sp_make *make = &candidates->makes[k];
-            if (fits(mount, make->type))
-                per_site +=
-                    (double)make->roll_count * (double)rings(axis_tilt(make, mount), axis_step(make, fineness), NULL);
+            if (!fits(mount, make->type))
+                continue;
+            double poses =
+                (double)make->roll_count * (double)rings(axis_tilt(make, mount), axis_step(make, spacing), NULL);
+            per_site.poses += poses;
+            if (!sp_is_swept(make->type))
+                per_site.traced += poses * (double)sp_nozzle_pattern_count(&(sp_nozzle){.type = make->type});
         }
     }
-    return poses;
+    return all;
+}
+
+/* Few poses lie closer; many that have to be traced farther apart, until a mounting point has few of them. */
+static spacing spacing_for(const sp_place_options *options, const sp_sites *sites, const sp_candidates *candidates)
+{
+    spacing spacing = {1, 1};
+    while (spacing.traced < COARSENESS_MOST && take_census(options, sites, candidates, &spacing).traced > TRACED_ENOUGH)
+        spacing.traced /= FINENESS_STEP;
+    while (spacing.swept > FINENESS_LEAST && take_census(options, sites, candidates, &spacing).poses < POSES_ENOUGH)
+        spacing.swept *= FINENESS_STEP;
+    return spacing;
 }
 
 static bool axes_create(const sp_place_options *options, const sp_sites *sites, sp_candidates *candidates,
                         sp_error *error)
 {
-    double fineness = 1;
-    while (fineness > FINENESS_LEAST && count_poses(options, sites, candidates, fineness) < POSES_ENOUGH)
-        fineness *= FINENESS_STEP;
+    spacing spacing = spacing_for(options, sites, candidates);
     candidates->mount_count = options->mount_count;
     candidates->axes = calloc(options->mount_count * candidates->make_count, sizeof *candidates->axes);
     if (!candidates->axes)
@@ -179,7 +203,7 @@ static bool axes_create(const sp_place_options *options, const sp_sites *sites, 
             const sp_make *make = &candidates->makes[k];
             if (!fits(&options->mounts[m], make->type))
                 continue;
-            double step = axis_step(make, fineness), tilt = axis_tilt(make, &options->mounts[m]);
+            double step = axis_step(make, &spacing), tilt = axis_tilt(make, &options->mounts[m]);
             sp_axes *axes = &candidates->axes[m * candidates->make_count + k];
             axes->axes = malloc(rings(tilt, step, NULL) * sizeof *axes->axes);
             if (!axes->axes)

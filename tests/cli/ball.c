@@ -15,7 +15,7 @@ static int open_with_ball(void **state)
     if (open_workplace(state))
         return -1;
     snprintf(line, sizeof line,
-             "cd '%s' && cp '%s/scenes/spray_ball.yaml' '%s/scenes/catalogue.yaml' . && '%s/scenes/plain_vessel' "
+             "cd '%s' && cp '%s/scenes/spray_ball.yaml' '%s/scenes/balls.yaml' . && '%s/scenes/plain_vessel' "
              "plain_vessel.obj",
              workplace, SOURCE_DIR, SOURCE_DIR, BINARY_DIR);
     return system(line);
