@@ -6,6 +6,9 @@
 #include <signal.h>
 #include <time.h>
 
+/* Where what is asserted holds of any texels, and finer ones take long. */
+#define COARSE "--set simulate.texel=100mm"
+
 static json_t *layout_named(json_t *result, const char *name)
 {
     size_t i;
@@ -395,12 +398,6 @@ static void compare_sets_scenes_side_by_side(void **state)
     object = expect_json("compare room.yaml other.yaml room.yaml other.yaml --json", 0);
     assert_int_equal(json_array_size(json_object_get(object, "stages")), 4);
     json_decref(object);
-    outcome result = run_program("compare room.yaml other.yaml -o compared --quiet");
-    assert_int_equal(result.status, 0);
-    forget(&result);
-    char *report = read_file("compared/report.html", NULL);
-    assert_non_null(report);
-    free(report);
 }
 
 /* The room with another text in place of a part of its scene. */
@@ -574,7 +571,7 @@ static void film_runs_down_the_walls(void **state)
     (void)state;
     write_room_with("film.yaml", "flux: 1 L/min/m2", "flux: 20 L/min/m2, film: 2 L/min/m");
     write_room_with("impact.yaml", "flux: 1 L/min/m2", "flux: 20 L/min/m2");
-    json_t *object = expect_json("simulate film.yaml -o film --json", 0), *layout = layout_named(object, "manual");
+    json_t *object = expect_json("simulate film.yaml --json", 0), *layout = layout_named(object, "manual");
     json_t *film = json_object_get(layout, "film"), *impact = expect_json("simulate impact.yaml --json", 0);
     double arriving = number(film, "arriving_l_min"), held = number(film, "held_l_min");
     assert_true(fabs(arriving - 12) < 0.02 * 12); /* as far as patches tell how much falls on them */
@@ -584,7 +581,10 @@ static void film_runs_down_the_walls(void **state)
     double alone = number(film, "covered_area_m2"), covered = number(layout, "covered_area_m2");
     assert_true(alone > 0.1);
     assert_true(fabs(number(layout_named(impact, "manual"), "covered_area_m2") + alone - covered) < 1e-9);
-    json_t *read = expect_json("compare film/result.json impact.yaml --json", 0);
+    char *text = json_dumps(object, 0);
+    write_file("film.json", text);
+    free(text);
+    json_t *read = expect_json("compare film.json impact.yaml --json", 0);
     json_t *again = json_object_get(json_array_get(json_object_get(read, "layouts"), 0), "film");
     assert_true(fabs(number(again, "covered_area_m2") - alone) < 1e-12);
     json_decref(object);
@@ -633,8 +633,8 @@ static void film_is_placed_for(void **state)
 {
     (void)state;
     write_room_with("film.yaml", "{flux: 1 L/min/m2}", "{flux: 20 L/min/m2, film: 3 L/min/m}");
-    json_t *one = expect_json("place film.yaml -o proposed --json --threads 1", 4);
-    json_t *three = expect_again(one, "place film.yaml --json --threads 3", 4);
+    json_t *one = expect_json("place film.yaml " COARSE " -o proposed --json --threads 1", 4);
+    json_t *three = expect_again(one, "place film.yaml " COARSE " --json --threads 3", 4);
     json_t *layout = layout_named(one, "proposed"), *certificate = json_object_get(one, "certificate");
     assert_true(number(json_object_get(layout, "film"), "covered_area_m2") > 0);
     assert_true(number(certificate, "coverage_bound_same_water") >= number(certificate, "coverage"));
@@ -664,9 +664,9 @@ static void drag_is_placed(void **state)
 {
     (void)state;
     write_room_with("mist.yaml", "simulate: {", "simulate: {trajectory: drag, ");
-    json_t *one = expect_json("place mist.yaml -o one --threads 1 --json", 0);
-    json_t *three = expect_again(one, "place mist.yaml --threads 3 --json", 0);
-    json_t *again = expect_json("simulate one/layout.yaml --json", 0);
+    json_t *one = expect_json("place mist.yaml " COARSE " -o mist --threads 1 --json", 0);
+    json_t *three = expect_again(one, "place mist.yaml " COARSE " --threads 3 --json", 0);
+    json_t *again = expect_json("simulate mist/layout.yaml --json", 0);
     const char *same[] = {"layouts", "front", "certificate", "fidelity"};
     for (size_t i = 0; i < sizeof same / sizeof *same; i++)
         assert_true(json_equal(json_object_get(one, same[i]), json_object_get(three, same[i])));
@@ -684,20 +684,18 @@ static void drag_is_placed(void **state)
 static void drag_is_simulated(void **state)
 {
     (void)state;
-    write_room_with("drag.yaml", "simulate: {", "simulate: {trajectory: drag, ");
+    write_room_with("drag.yaml", "simulate: {texel: " ROOM_TEXEL, "simulate: {trajectory: drag, texel: 100 mm");
     json_t *drops = expect_json("simulate drag.yaml -o drops --json", 0);
     assert_string_equal(json_string_value(json_object_get(json_object_get(drops, "fidelity"), "trajectory")), "drag");
     json_t *again = expect_json("simulate drops/layout.yaml --json", 0);
-    json_t *set = expect_json("simulate room.yaml --set simulate.trajectory=drag --json", 0);
+    json_t *set = expect_json("simulate room.yaml " COARSE " --set simulate.trajectory=drag --json", 0);
     assert_true(json_equal(json_object_get(layout_named(drops, "manual"), "coverage"),
                            json_object_get(layout_named(again, "manual"), "coverage")));
     assert_true(json_equal(json_object_get(drops, "layouts"), json_object_get(set, "layouts")));
     json_decref(drops);
     json_decref(again);
     json_decref(set);
-    outcome result = run_program("compare drops/result.json drag.yaml room.yaml -o beside --quiet");
-    assert_int_equal(result.status, 0);
-    forget(&result);
+    json_decref(expect_json("compare drops/result.json drag.yaml room.yaml --json", 0));
     char *page = read_file("drops/report.html", NULL);
     assert_non_null(strstr(page, "far end of a bracket"));
     free(page);
