@@ -424,7 +424,7 @@ static void threads_do_not_matter(void **state)
 {
     (void)state;
     job j;
-    job_open_coarse(&j, 2 * SMALL_TEXEL);
+    job_open_coarse(&j, 0.1);
     j.mounts[0].tilt = 40 * DEGREE;
     j.mounts[0].spacing = 0.8;
     j.types[0].angle_min = 80 * DEGREE;
