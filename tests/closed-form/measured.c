@@ -1,15 +1,9 @@
 /* Measured nozzles: an image of a full cone in the place of the built-in one, profiles whose flux on a floor is known,
  * jets beside the closed form, and clusters of images. */
-#include "measure.h"
-
-#include <sprayplan/deviation.h>
-
-#include <string.h>
+#include "room_of_nozzles.h"
 
 #define POINTS 0.001 /* of coverage */
 #define SOME_JETS (JETS / 16)
-
-static const sp_vec3 place = {0.21, -0.13, 0.3}, body = {0.2, 0.1, -1};
 
 /* Liquid per steradian in any measure at an azimuth and a polar angle, rad. */
 typedef double profile(double azimuth, double polar);
@@ -56,12 +50,6 @@ static sp_nozzle_type measured(profile *profile, size_t columns, size_t rows, do
 static void forget(sp_nozzle_type *type)
 {
     sp_patternation_destroy((sp_patternation *)type->patternation);
-}
-
-static void open_room(scene *s, double texel)
-{
-    scene_open(s, mesh_of_room(), SP_TRAJECTORY_PARABOLA, texel);
-    s->setup.criterion.flux = 1.0 / 60 / 1000;
 }
 
 /* Both evaluators find the built-in cone's coverage, within .1 points of it; `area`, m². */
@@ -212,23 +200,6 @@ static void a_member_may_be_measured(void **state)
     forget(&type);
 }
 
-static sp_coverage *fly(const sp_nozzle *nozzle, sp_trajectory trajectory, double flux, double *bound, bool *decided)
-{
-    sp_error error = {0};
-    scene s;
-    open_room(&s, 0.05);
-    s.setup.criterion.flux = flux;
-    s.setup.fidelity.trajectory = trajectory;
-    sp_evaluator *evaluator = scene_evaluator(&s);
-    sp_layout *layout = sp_layout_create(nozzle, 1, &error);
-    assert_true(!decided || sp_bound_lines(evaluator, layout, bound, decided, &error));
-    sp_coverage *coverage = scene_cover(evaluator, nozzle, 1, true);
-    sp_layout_destroy(layout);
-    sp_evaluator_destroy(evaluator);
-    scene_close(&s);
-    return coverage;
-}
-
 /* Where it is proved that lines and parabolas say the same, they do, also where the image has gaps. */
 static void bound_on_lines_holds(void **state)
 {
@@ -237,53 +208,19 @@ static void bound_on_lines_holds(void **state)
                               measured(narrow_cone, 1, 45, 110)};
     for (size_t t = 0; t < 6; t++) {
         sp_nozzle nozzle = nozzle_at(&types[t / 2], place, body, 25);
-        bool *decided = calloc(1 << 16, sizeof *decided);
-        assert_non_null(decided);
-        double bound = 1, flux = t % 2 ? 1.0 / 60 / 1000 : 0;
-        sp_coverage *falling = fly(&nozzle, SP_TRAJECTORY_PARABOLA, flux, NULL, NULL),
-                    *straight = fly(&nozzle, SP_TRAJECTORY_LINE, flux, &bound, decided);
-        assert_true(falling->deposits.count == straight->deposits.count && falling->deposits.count < 1 << 16);
-        for (size_t i = 0; i < straight->deposits.count; i++)
-            if (decided[i] && straight->deposits.share[i] != falling->deposits.share[i])
-                fail_msg("image %zu: patch %zu is decided, and %g by lines, %g by parabolas", t / 2, i,
-                         straight->deposits.share[i], falling->deposits.share[i]);
-        print_message("image %zu, flux %g: lines change %.2f points, proved: no more than %.1f\n", t / 2, flux,
-                      100 * fabs(straight->fraction - falling->fraction), 100 * bound);
-        assert_true(fabs(straight->fraction - falling->fraction) <= bound && bound < 0.4 * COARSER);
-        free(decided);
-        sp_coverage_destroy(falling);
-        sp_coverage_destroy(straight);
+        double bound = assert_bound_on_lines("image", t / 2, &nozzle, t % 2 ? 1.0 / 60 / 1000 : 0);
+        assert_true(bound < 0.4 * COARSER);
     }
     for (size_t t = 0; t < 3; t++)
         forget(&types[t]);
 }
 
-/* The same bytes of every field by either evaluator, whatever the number of threads. */
 static void threads_change_nothing(void **state)
 {
     (void)state;
     sp_nozzle_type type = measured(lopsided, 36, 30, 100);
     sp_nozzle nozzle = nozzle_at(&type, place, body, 0);
-    for (int inverse = 0; inverse < 2; inverse++) {
-        sp_coverage *first = NULL;
-        for (int threads = 1; threads <= 3; threads++) {
-            scene s;
-            open_room(&s, 0.1);
-            s.setup.run.threads = threads;
-            s.setup.fidelity.jets = 20000;
-            sp_evaluator *evaluator = scene_evaluator(&s);
-            sp_coverage *coverage = scene_cover(evaluator, &nozzle, 1, inverse);
-            size_t size = coverage->deposits.count * sizeof *coverage->deposits.flux;
-            assert_true(!first || (!memcmp(first->deposits.flux, coverage->deposits.flux, size) &&
-                                   !memcmp(first->deposits.share, coverage->deposits.share, size)));
-            if (first)
-                sp_coverage_destroy(coverage);
-            first = first ? first : coverage;
-            sp_evaluator_destroy(evaluator);
-            scene_close(&s);
-        }
-        sp_coverage_destroy(first);
-    }
+    assert_threads_change_nothing(&nozzle, 1);
     forget(&type);
 }
 

@@ -1,17 +1,7 @@
 /* Rotating nozzles in a room: as many fixed ones in the place of one, jets, and the closed form of two-axis heads. */
-#include "measure.h"
-
-#include <sprayplan/deviation.h>
-
-#include <string.h>
+#include "room_of_nozzles.h"
 
 #define POINTS 0.001 /* of coverage */
-
-static void open_room(scene *s, double texel)
-{
-    scene_open(s, mesh_of_room(), SP_TRAJECTORY_PARABOLA, texel);
-    s->setup.criterion.flux = 1.0 / 60 / 1000;
-}
 
 static sp_nozzle_type turned(sp_nozzle_type jet, double tilt, double roll)
 {
@@ -19,8 +9,6 @@ static sp_nozzle_type turned(sp_nozzle_type jet, double tilt, double roll)
     jet.pattern = SP_PATTERN_ROTATING;
     return jet;
 }
-
-static const sp_vec3 place = {0.21, -0.13, 0.3}, body = {0.2, 0.1, -1};
 
 /* Position k of the jet, as a nozzle that stands still; the frame is sp_rotation's. */
 static sp_nozzle standing(const sp_nozzle *turning, const sp_nozzle_type *jet, int k, int fixed)
@@ -170,22 +158,6 @@ static void two_axis_flux_is_the_closed_form(void **state)
     scene_close(&s);
 }
 
-static sp_coverage *fly(const sp_nozzle *nozzle, sp_trajectory trajectory, double *bound, bool *decided)
-{
-    sp_error error = {0};
-    scene s;
-    open_room(&s, 0.05);
-    s.setup.fidelity.trajectory = trajectory;
-    sp_evaluator *evaluator = scene_evaluator(&s);
-    sp_layout *layout = sp_layout_create(nozzle, 1, &error);
-    assert_true(!decided || sp_bound_lines(evaluator, layout, bound, decided, &error));
-    sp_coverage *coverage = scene_cover(evaluator, nozzle, 1, true);
-    sp_layout_destroy(layout);
-    sp_evaluator_destroy(evaluator);
-    scene_close(&s);
-    return coverage;
-}
-
 /* Where it is proved that lines and parabolas say the same, they do; and of a two-axis head that is most of the room.
  */
 static void bound_on_lines_holds(void **state)
@@ -198,27 +170,11 @@ static void bound_on_lines_holds(void **state)
     types[2].rotation = (sp_rotation){.jet = SP_PATTERN_SOLID_STREAM, .jets = 4, .gears = {43, 47}};
     for (size_t t = 0; t < sizeof types / sizeof *types; t++) {
         sp_nozzle nozzle = nozzle_at(&types[t], place, body, 0);
-        bool *decided = calloc(1 << 16, sizeof *decided);
-        assert_non_null(decided);
-        double bound = 1;
-        sp_coverage *falling = fly(&nozzle, SP_TRAJECTORY_PARABOLA, NULL, NULL),
-                    *straight = fly(&nozzle, SP_TRAJECTORY_LINE, &bound, decided);
-        assert_true(falling->deposits.count == straight->deposits.count && falling->deposits.count < 1 << 16);
-        for (size_t i = 0; i < straight->deposits.count; i++)
-            if (decided[i] && straight->deposits.share[i] != falling->deposits.share[i])
-                fail_msg("type %zu: patch %zu is decided, and %g by lines, %g by parabolas", t, i,
-                         straight->deposits.share[i], falling->deposits.share[i]);
-        print_message("type %zu: lines change %.2f points, proved: no more than %.1f\n", t,
-                      100 * fabs(straight->fraction - falling->fraction), 100 * bound);
-        assert_true(fabs(straight->fraction - falling->fraction) <= bound);
+        double bound = assert_bound_on_lines("type", t, &nozzle, 1.0 / 60 / 1000);
         assert_true(t < 2 || bound < 0.3 * COARSER);
-        free(decided);
-        sp_coverage_destroy(falling);
-        sp_coverage_destroy(straight);
     }
 }
 
-/* The same bytes of every field by either evaluator, whatever the number of threads. */
 static void threads_change_nothing(void **state)
 {
     (void)state;
@@ -227,26 +183,7 @@ static void threads_change_nothing(void **state)
     types[1].pattern = SP_PATTERN_ROTATING;
     types[1].rotation = (sp_rotation){.jet = SP_PATTERN_SOLID_STREAM, .jets = 3, .gears = {7, 11}};
     sp_nozzle nozzles[] = {nozzle_at(&types[0], place, body, 0), nozzle_at(&types[1], place, body, 0)};
-    for (int inverse = 0; inverse < 2; inverse++) {
-        sp_coverage *first = NULL;
-        for (int threads = 1; threads <= 3; threads++) {
-            scene s;
-            open_room(&s, 0.1);
-            s.setup.run.threads = threads;
-            s.setup.fidelity.jets = 20000;
-            sp_evaluator *evaluator = scene_evaluator(&s);
-            sp_coverage *coverage = scene_cover(evaluator, nozzles, 2, inverse);
-            size_t size = coverage->deposits.count * sizeof *coverage->deposits.flux;
-            assert_true(!first || (!memcmp(first->deposits.flux, coverage->deposits.flux, size) &&
-                                   !memcmp(first->deposits.share, coverage->deposits.share, size)));
-            if (first)
-                sp_coverage_destroy(coverage);
-            first = first ? first : coverage;
-            sp_evaluator_destroy(evaluator);
-            scene_close(&s);
-        }
-        sp_coverage_destroy(first);
-    }
+    assert_threads_change_nothing(nozzles, 2);
 }
 
 int main(void)
