@@ -55,10 +55,9 @@ bool sp_bodies_create(const sp_evaluator *evaluator, const sp_layout *layout, sp
 }
 
 /* m, as far as anything of the geometry is from a point. */
-static double farthest_from(const sp_mesh *mesh, sp_vec3 point)
+static double farthest_from(const sp_evaluator *evaluator, sp_vec3 point)
 {
-    sp_vec3 low, high;
-    sp_mesh_box(mesh, &low, &high);
+    sp_vec3 low = evaluator->low, high = evaluator->high;
     return sp_length(sp_v(fmax(high.x - point.x, point.x - low.x), fmax(high.y - point.y, point.y - low.y),
                           fmax(high.z - point.z, point.z - low.z)));
 }
@@ -70,7 +69,7 @@ bool sp_bodies_fly(const sp_evaluator *evaluator, sp_bodies *bodies, sp_error *e
     if (evaluator->fidelity.trajectory != SP_TRAJECTORY_DRAG)
         return true;
     for (size_t i = 0; i < patterns->count; i++)
-        far = fmax(far, farthest_from(evaluator->setup.mesh, patterns->nozzles[i].position));
+        far = fmax(far, farthest_from(evaluator, patterns->nozzles[i].position));
     bodies->table = sp_launch_table_create(evaluator, far, error);
     bodies->launches = calloc(patterns->count + 1, sizeof *bodies->launches);
     if (!bodies->table || !bodies->launches)

@@ -374,12 +374,11 @@ static bool is_roofed(const bounding *b, const spraying *s)
 static bool bounding_create(bounding *b, const sp_evaluator *evaluator, const sp_bodies *bodies, sp_error *error)
 {
     const sp_mesh *mesh = evaluator->setup.mesh;
-    sp_vec3 low, high, gravity = sp_gravity_for(&evaluator->setup, SP_TRAJECTORY_PARABOLA);
+    sp_vec3 gravity = sp_gravity_for(&evaluator->setup, SP_TRAJECTORY_PARABOLA);
     *b = (bounding){.straight = *evaluator, .falling = *evaluator, .g = sp_length(gravity), .up = evaluator->setup.up};
     b->straight.gravity = sp_v(0, 0, 0);
     b->falling.gravity = gravity;
-    sp_mesh_box(mesh, &low, &high);
-    b->round_off = ROUND_OFF * (sp_length(low) + sp_length(high));
+    b->round_off = ROUND_OFF * (sp_length(evaluator->low) + sp_length(evaluator->high));
     b->sprayings = calloc(bodies->patterns->count + 1, sizeof *b->sprayings);
     if (!b->sprayings)
         return sp_fail_memory(error);

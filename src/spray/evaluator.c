@@ -192,8 +192,9 @@ sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *la
         return NULL;
     }
     evaluator->gravity = sp_gravity_for(setup, evaluator->fidelity.trajectory);
-    evaluator->farthest =
-        sp_farthest_coordinate(setup->mesh) + fmax(sp_length(setup->sweep.from), sp_length(setup->sweep.to));
+    sp_mesh_box(setup->mesh, &evaluator->low, &evaluator->high);
+    evaluator->farthest = sp_farthest_coordinate(evaluator->low, evaluator->high) +
+                          fmax(sp_length(setup->sweep.from), sp_length(setup->sweep.to));
     if (!build(evaluator, layout, error) || !sp_rundown_create(evaluator, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;
@@ -217,6 +218,8 @@ sp_evaluator *sp_evaluator_share(const sp_evaluator *fine, double texel, sp_erro
     evaluator->fidelity.texel = texel;
     evaluator->choice = fine->choice;
     evaluator->gravity = fine->gravity;
+    evaluator->low = fine->low;
+    evaluator->high = fine->high;
     evaluator->farthest = fine->farthest;
     evaluator->origin = origin;
     evaluator->tracer = origin->tracer;

@@ -8,16 +8,9 @@
 #define FINEST_TEXEL 0x1p-46   /* of the farthest coordinate */
 #define SLOWEST_SQUARE 0x1p-58 /* of g times the diagonal, that v² is told beside */
 
-static double farthest_of(sp_vec3 low, sp_vec3 high)
+double sp_farthest_coordinate(sp_vec3 low, sp_vec3 high)
 {
     return fmax(fmax(fmax(-low.x, high.x), fmax(-low.y, high.y)), fmax(-low.z, high.z));
-}
-
-double sp_farthest_coordinate(const sp_mesh *mesh)
-{
-    sp_vec3 low, high;
-    sp_mesh_box(mesh, &low, &high);
-    return farthest_of(low, high);
 }
 
 bool sp_geometry_is_resolved(const sp_setup *setup, sp_error *error)
@@ -25,7 +18,7 @@ bool sp_geometry_is_resolved(const sp_setup *setup, sp_error *error)
     sp_vec3 low, high;
     double diagonal = sp_mesh_box(setup->mesh, &low, &high);
     /* as they were read: about an origin of the setup's own they are no better told */
-    double farthest = farthest_of(sp_setup_outside(setup, low), sp_setup_outside(setup, high));
+    double farthest = sp_farthest_coordinate(sp_setup_outside(setup, low), sp_setup_outside(setup, high));
     if (!(diagonal >= 1 / MOST_LENGTH && diagonal <= MOST_LENGTH))
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "geometry: %g m across found, expected %g m to %g m",
                        diagonal, 1 / MOST_LENGTH, MOST_LENGTH);
@@ -72,9 +65,8 @@ static bool is_flying(const sp_evaluator *evaluator, const sp_nozzle *nozzle, do
 bool sp_evaluator_takes(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
 {
     const sp_setup *setup = &evaluator->setup;
-    sp_vec3 low, high;
     double gravity = setup->fidelity.trajectory == SP_TRAJECTORY_LINE ? 0 : setup->gravity;
-    double slowest = sqrt(SLOWEST_SQUARE * gravity) * sqrt(sp_mesh_box(setup->mesh, &low, &high));
+    double slowest = sqrt(SLOWEST_SQUARE * gravity) * sqrt(sp_distance(evaluator->low, evaluator->high));
     for (size_t i = 0; i < layout->count; i++)
         if (!is_flying(evaluator, &layout->nozzles[i], slowest, error))
             return false;

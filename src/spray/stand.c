@@ -39,8 +39,7 @@ static bool admits_exit(const sp_evaluator *evaluator, const sp_nozzle *exit, sp
 {
     const sp_mesh *mesh = standing(evaluator);
     sp_vec3 p = exit->position, told = sp_setup_outside(&evaluator->setup, p);
-    sp_vec3 low, high;
-    double touch = TOUCH * sp_mesh_box(evaluator->setup.mesh, &low, &high);
+    double touch = TOUCH * sp_distance(evaluator->low, evaluator->high);
     if (!is_out_of_the_way(evaluator, p, touch))
         return sp_fail(
             error, SP_ERROR_INPUT, NULL, 0, 0,

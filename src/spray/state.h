@@ -11,7 +11,8 @@ struct sp_evaluator {
     sp_fidelity fidelity;       /* resolved: nothing left to auto */
     sp_choice choice;           /* why */
     sp_vec3 gravity;            /* zero for lines */
-    double farthest;            /* m, the geometry's farthest coordinate */
+    sp_vec3 low, high;          /* m, the geometry's box */
+    double farthest;            /* m, the geometry's farthest coordinate, wherever it moves */
     bool everything;            /* counts every wet side, whatever is to be cleaned: film runs over it all */
     const sp_evaluator *origin; /* of a resampled evaluator: owns tracer, charts and wet; else NULL */
     sp_tracer *tracer;
@@ -45,8 +46,8 @@ static inline double sp_stand_off(const sp_evaluator *evaluator)
     return 0x1p-40 * evaluator->farthest; /* flights are told to 2^-42 of it */
 }
 
-/* limits.c: the largest coordinate of all triangles, whatever its sign, m. */
-double sp_farthest_coordinate(const sp_mesh *mesh);
+/* limits.c: the largest coordinate of a box, whatever its sign, m. */
+double sp_farthest_coordinate(sp_vec3 low, sp_vec3 high);
 /* False, with an error, where double precision does not tell what is asked: a geometry too large, too small or too far
  * off the origin, too strong a gravity; too short a texel; what leaves a nozzle too fast or too slowly. */
 bool sp_geometry_is_resolved(const sp_setup *setup, sp_error *error);
