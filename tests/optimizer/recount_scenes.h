@@ -317,7 +317,7 @@ static inline void film_over_boxes(recount_scene *s, double texel)
     s->room.setup.criterion =
         (sp_criterion){.flux = 8 * LITRES_PER_MINUTE, .incidence = 60 * DEGREE, .film = 5 * LITRES_PER_MINUTE};
     s->room.setup.gravity = 9.81;
-    s->mounts[0].tilt = 60 * DEGREE;
+    s->mounts[0].tilt = 40 * DEGREE;
     s->mounts[0].axis = sp_unit(sp_v(0.4, 0.3, -1));
     s->options.max_nozzles = 4;
     s->options.max_water = 40 * LITRES_PER_MINUTE;

@@ -15,7 +15,7 @@ static sums sum_up(const sp_fronts *fronts, size_t i, unsigned terms, double ele
     for (unsigned n = 0; n < terms; n++) {
         for (int k = 0; k < SP_FRONT_DATA; k++) {
             own.value[k] += now * sum[n][k];
-            own.slope[k] += slope_now * sum[n][k] / (0.5 * M_PI);
+            own.slope[k] += slope_now * sum[n][k];
         }
         double next = 2 * at * now - before, slope_next = 2 * now + 2 * at * slope_now - slope_before;
         before = now;
@@ -23,6 +23,8 @@ static sums sum_up(const sp_fronts *fronts, size_t i, unsigned terms, double ele
         now = next;
         slope_now = slope_next;
     }
+    for (int k = 0; k < SP_FRONT_DATA; k++)
+        own.slope[k] /= 0.5 * M_PI;
     return own;
 }
 
