@@ -2,6 +2,7 @@
 #ifndef SPRAYPLAN_SCENE_H
 #define SPRAYPLAN_SCENE_H
 
+#include <sprayplan/cad.h>
 #include <sprayplan/place.h>
 
 #ifdef __cplusplus
@@ -17,8 +18,10 @@ typedef struct sp_scene sp_scene;
  * names file, line, column and key, what was found and what was expected. */
 sp_scene *sp_scene_load(const char *path, sp_error *error);
 /* The same with settings of `simulate:` and `place:` overridden, each "simulate.jets=20000" or "place.refine=none"; the
- * value is YAML as it would stand in the file. Errors in an override name it in place of the file. */
-sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, size_t count, sp_error *error);
+ * value is YAML as it would stand in the file. Errors in an override name it in place of the file. `run`: who is told
+ * how far CAD files have been read, and may cancel; NULL for nobody. */
+sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, size_t count, const sp_run *run,
+                             sp_error *error);
 /* Accepts NULL. Everything that the functions below return belongs to the scene. */
 void sp_scene_destroy(sp_scene *scene);
 
@@ -27,6 +30,9 @@ const sp_setup *sp_scene_setup(const sp_scene *scene);          /* NULL for NULL
 const sp_layout *sp_scene_layout(const sp_scene *scene);        /* the engineer's own, may have no nozzles */
 sp_place_options sp_scene_place_options(const sp_scene *scene); /* defaults for NULL */
 bool sp_scene_has_place(const sp_scene *scene);                 /* the file has a `place:` block with mounts */
+
+/* How the CAD file of geometry entry `geometry` was cut into triangles; NULL for entries that are none. */
+const sp_cad_account *sp_scene_cad(const sp_scene *scene, size_t geometry);
 
 /* The files that the scene was read from: its own, the geometry, the catalogue. The path is malloc'd, NULL with an
  * error. */
@@ -37,8 +43,8 @@ char *sp_scene_file_path(const sp_scene *scene, size_t index, sp_error *error);
 void sp_scene_locate(const sp_scene *scene, sp_error *error);
 
 /* The scene as YAML text with `layout` in place of its nozzles and `fidelity` (nothing left to auto) under `simulate:`,
- * its paths relative to `directory`, its numbers reading back exactly. Lines that auto took stay `trajectory: auto`:
- * written as `line` they would pass for the truth. Malloc'd, the caller frees. */
+ * its paths relative to `directory`, its numbers reading back exactly, CAD files as finely cut. Lines that auto took
+ * stay `trajectory: auto`: written as `line` they would pass for the truth. Malloc'd, the caller frees. */
 char *sp_scene_text(const sp_scene *scene, const sp_layout *layout, const sp_fidelity *fidelity, const char *directory,
                     sp_error *error);
 

@@ -9,6 +9,7 @@
 #define SP_VERSION "0.1.0"
 
 #include <sprayplan/atlas.h>
+#include <sprayplan/cad.h>
 #include <sprayplan/coverage.h>
 #include <sprayplan/deviation.h>
 #include <sprayplan/error.h>

@@ -10,6 +10,7 @@ enum { MAX_WARNINGS = 100, MAX_OPENINGS = 3 };
 #define LARGEST_SIZE 100.0
 #define SMALLEST_SIZE 0.01
 #define NOTHING 1e-6 /* of a part's area: round-off */
+#define FAR_OFF 0.01 /* of a body's volume, for that of its triangles */
 
 typedef struct {
     const cli_scene *opened;
@@ -17,7 +18,8 @@ typedef struct {
     double *part_area;         /* [part_count], m² */
     sp_part_sides *part_sides; /* [part_count] */
     size_t *part_triangles;
-    cli_box *part_box; /* [part_count] */
+    double *part_volume; /* [part_count], m³, of its triangles; 0 where they are not closed */
+    cli_box *part_box;   /* [part_count] */
     char warnings[MAX_WARNINGS][256];
     size_t warning_count;
 } findings;
@@ -44,14 +46,15 @@ static bool measure_parts(findings *found, sp_error *error)
     found->part_sides = calloc(mesh->part_count, sizeof *found->part_sides);
     found->part_triangles = calloc(mesh->part_count, sizeof *found->part_triangles);
     found->part_box = cli_part_boxes(mesh);
-    if (!found->part_area || !found->part_sides || !found->part_triangles || !found->part_box)
+    found->part_volume = calloc(mesh->part_count, sizeof *found->part_volume);
+    if (!found->part_area || !found->part_sides || !found->part_triangles || !found->part_box || !found->part_volume)
         return sp_fail_memory(error);
     for (size_t i = 0; i < mesh->triangle_count; i++) {
         found->part_area[mesh->part[i]] += sp_triangle_area(mesh, (uint32_t)i);
         found->part_triangles[mesh->part[i]]++;
     }
     sp_evaluator_part_sides(found->opened->evaluator, found->part_sides);
-    return true;
+    return sp_mesh_volumes(mesh, found->part_volume, error);
 }
 
 /* Boxes in the coordinates of the scene's file. */
@@ -103,6 +106,27 @@ static void warn_of_size(findings *found)
         if (size > LARGEST_SIZE || size < SMALLEST_SIZE)
             warn(found, "geometry: file %lu is %.4g m across: is `unit` the unit of its coordinates?",
                  (unsigned long)geometry, size);
+    }
+}
+
+/* What a CAD file says that cannot be, and bodies that their triangles do not give. */
+static void warn_of_cad(findings *found)
+{
+    const sp_mesh *mesh = setup_of(found)->mesh;
+    uint32_t last = mesh->part_count ? mesh->parts[mesh->part_count - 1].geometry : 0;
+    for (uint32_t i = 0; i <= last; i++) {
+        const sp_cad_account *cad = sp_scene_cad(found->opened->scene, i);
+        if (cad && cad->faults)
+            warn(found, "geometry: file %lu has %zu faults that may cost it surface, the first: %s", (unsigned long)i,
+                 cad->faults, cad->fault);
+    }
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        double body = mesh->parts[i].volume, own = found->part_volume[i];
+        if (fabs(body) > 0 && !(fabs(own) > 0))
+            warn(found, "part \"%s\": a solid in its file, but its triangles are not closed", mesh->parts[i].name);
+        else if (fabs(own - body) > FAR_OFF * fabs(body) && fabs(body) > 0)
+            warn(found, "part \"%s\": its triangles enclose %.6g m3, its body %.6g m3; a shorter `chord` may help",
+                 mesh->parts[i].name, own, body);
     }
 }
 
@@ -218,6 +242,45 @@ static void print_parts(const findings *found)
     }
 }
 
+/* How CAD files were cut. */
+static void print_cad(const findings *found)
+{
+    const sp_mesh *mesh = setup_of(found)->mesh;
+    uint32_t last = mesh->part_count ? mesh->parts[mesh->part_count - 1].geometry : 0;
+    for (uint32_t i = 0; i <= last; i++) {
+        const sp_cad_account *cad = sp_scene_cad(found->opened->scene, i);
+        if (!cad)
+            continue;
+        printf("CAD         file %lu: chord %.4g mm, angle %.4g deg, %zu triangles", (unsigned long)i, 1e3 * cad->chord,
+               cad->angle * 180 / M_PI, cad->triangles);
+        if (cad->mended)
+            printf("; %zu without area mended", cad->mended);
+        if (cad->sewn)
+            printf("; %zu loose faces sewn within %.2g mm", cad->sewn, 1e3 * cad->sewing);
+        printf("\n");
+    }
+}
+
+/* Beside what CAD files say of their bodies. */
+static void print_volumes(const findings *found)
+{
+    const sp_mesh *mesh = setup_of(found)->mesh;
+    bool any = false;
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        double body = mesh->parts[i].volume, own = found->part_volume[i];
+        if (!(fabs(body) > 0))
+            continue;
+        if (!any)
+            printf("\n%-8s %-24s %14s %14s %8s\n", "geometry", "body", "volume m3", "triangles m3", "off %");
+        any = true;
+        printf("%-8lu %-24s %14.8f ", (unsigned long)mesh->parts[i].geometry, mesh->parts[i].name, body);
+        if (fabs(own) > 0)
+            printf("%14.8f %8.3f\n", own, 100 * (own / body - 1));
+        else
+            printf("%14s\n", "not closed");
+    }
+}
+
 static void print_openings(const findings *found)
 {
     size_t count;
@@ -256,12 +319,14 @@ static void print_table(const findings *found, const char *output)
            "triangles\n",
            found->mesh.shells, found->mesh.closed_shells, found->mesh.open_edges, found->mesh.non_manifold_edges,
            found->mesh.flipped_edges, found->mesh.degenerate, found->mesh.duplicate_triangles);
+    print_cad(found);
     print_cavity(setup);
     print_sweep(found->opened->evaluator);
     printf("to clean    %.4f m2 in %zu patches of texels of %.4g m\n\n", patches->total_area, patches->count,
            fidelity->texel);
     print_parts(found);
     print_boxes(found);
+    print_volumes(found);
     print_openings(found);
     print_hollows(found);
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
@@ -301,21 +366,45 @@ static json_t *vector_json(sp_vec3 v)
     return isfinite(v.x) ? json_pack("[fff]", v.x, v.y, v.z) : json_null();
 }
 
+/* null: of what is not closed, or no body of a CAD file. */
+static json_t *volume_json(double volume)
+{
+    return fabs(volume) > 0 ? json_real(volume) : json_null();
+}
+
 static json_t *parts_json(const findings *found)
 {
     const sp_setup *setup = setup_of(found);
     json_t *parts = json_array();
     for (size_t i = 0; i < setup->mesh->part_count; i++)
         json_array_append_new(
-            parts,
-            json_pack("{s:I, s:s, s:s, s:I, s:f, s:f, s:f, s:f, s:f, s:o, s:o}", "geometry",
-                      (json_int_t)setup->mesh->parts[i].geometry, "name", setup->mesh->parts[i].name, "role",
-                      setup->surfaces[i].clean ? "clean" : "obstacle", "triangles",
-                      (json_int_t)found->part_triangles[i], "area_m2", found->part_area[i], "wet_area_m2",
-                      found->part_sides[i].wet, "dry_area_m2", found->part_sides[i].dry, "inside_area_m2",
-                      found->part_sides[i].inside, "touching_area_m2", found->part_sides[i].touching, "minimum_m",
-                      vector_json(found->part_box[i].minimum), "maximum_m", vector_json(found->part_box[i].maximum)));
+            parts, json_pack("{s:I, s:s, s:s, s:I, s:f, s:f, s:f, s:f, s:f, s:o, s:o, s:o, s:o}", "geometry",
+                             (json_int_t)setup->mesh->parts[i].geometry, "name", setup->mesh->parts[i].name, "role",
+                             setup->surfaces[i].clean ? "clean" : "obstacle", "triangles",
+                             (json_int_t)found->part_triangles[i], "area_m2", found->part_area[i], "wet_area_m2",
+                             found->part_sides[i].wet, "dry_area_m2", found->part_sides[i].dry, "inside_area_m2",
+                             found->part_sides[i].inside, "touching_area_m2", found->part_sides[i].touching,
+                             "minimum_m", vector_json(found->part_box[i].minimum), "maximum_m",
+                             vector_json(found->part_box[i].maximum), "volume_m3", volume_json(found->part_volume[i]),
+                             "body_volume_m3", volume_json(setup->mesh->parts[i].volume)));
     return parts;
+}
+
+static json_t *cad_json(const findings *found)
+{
+    const sp_mesh *mesh = setup_of(found)->mesh;
+    uint32_t last = mesh->part_count ? mesh->parts[mesh->part_count - 1].geometry : 0;
+    json_t *list = json_array();
+    for (uint32_t i = 0; i <= last; i++) {
+        const sp_cad_account *cad = sp_scene_cad(found->opened->scene, i);
+        if (cad)
+            json_array_append_new(list, json_pack("{s:I, s:f, s:f, s:I, s:I, s:I, s:f, s:I}", "geometry", (json_int_t)i,
+                                                  "chord_m", cad->chord, "angle_rad", cad->angle, "triangles",
+                                                  (json_int_t)cad->triangles, "mended_triangles",
+                                                  (json_int_t)cad->mended, "sewn_faces", (json_int_t)cad->sewn,
+                                                  "sewing_m", cad->sewing, "faults", (json_int_t)cad->faults));
+    }
+    return list;
 }
 
 static json_t *openings_json(const findings *found)
@@ -369,16 +458,16 @@ static bool print_json(const findings *found)
     json_t *warnings = json_array();
     for (size_t i = 0; i < found->warning_count; i++)
         json_array_append_new(warnings, json_string(found->warnings[i]));
-    json_t *object =
-        json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}", "sprayplan",
-                  SP_VERSION, "command", "check", "scene", sp_scene_path(found->opened->scene), "mesh",
-                  mesh_json(found), "parts", parts_json(found), "cavity_m", cavity_json(setup_of(found)), "sweep",
-                  sweep_json(found->opened->evaluator), "openings", openings_json(found), "hollows",
-                  hollows_json(found), "outdoors_m2", sp_evaluator_outdoors(found->opened->evaluator), "clean_area_m2",
-                  sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
-                  (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
-                  sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",
-                  (json_int_t)sp_scene_layout(found->opened->scene)->count, "warnings", warnings);
+    json_t *object = json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}",
+                               "sprayplan", SP_VERSION, "command", "check", "scene",
+                               sp_scene_path(found->opened->scene), "mesh", mesh_json(found), "cad", cad_json(found),
+                               "parts", parts_json(found), "cavity_m", cavity_json(setup_of(found)), "sweep",
+                               sweep_json(found->opened->evaluator), "openings", openings_json(found), "hollows",
+                               hollows_json(found), "outdoors_m2", sp_evaluator_outdoors(found->opened->evaluator),
+                               "clean_area_m2", sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
+                               (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
+                               sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",
+                               (json_int_t)sp_scene_layout(found->opened->scene)->count, "warnings", warnings);
     bool good = object && json_dumpf(object, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) == 0;
     puts("");
     json_decref(object);
@@ -392,6 +481,7 @@ static bool examine(const cli_options *options, findings *found, sp_error *error
     tell_boxes(found);
     warn_of_mesh(found);
     warn_of_size(found);
+    warn_of_cad(found);
     warn_of_cavity(found);
     warn_of_sides(found);
     warn_of_openings(found);
@@ -420,6 +510,7 @@ static int check(const cli_options *options, const cli_scene *opened, cli_clock 
     free(found->part_area);
     free(found->part_sides);
     free(found->part_triangles);
+    free(found->part_volume);
     free(found->part_box);
     free(found);
     return good ? EXIT_DONE : cli_fail_in(opened, error);

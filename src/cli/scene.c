@@ -5,12 +5,13 @@ bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *opti
                     sp_error *error)
 {
     *opened = (cli_scene){0};
-    opened->scene = sp_scene_load_with(path, options->overrides, options->override_count, error);
+    const sp_run run = cli_run(options);
+    opened->scene = sp_scene_load_with(path, options->overrides, options->override_count, &run, error);
     if (!opened->scene)
         return false;
     cli_clock_stage(clock, "load");
     sp_setup setup = *sp_scene_setup(opened->scene);
-    setup.run = cli_run(options);
+    setup.run = run;
     opened->evaluator = sp_evaluator_create_for(&setup, evaluates ? sp_scene_layout(opened->scene) : NULL, error);
     cli_clock_stage(clock, "atlas");
     if (!opened->evaluator) {

@@ -62,7 +62,9 @@ static sp_study *measure(const cli_options *options, const sp_scene *scene, sp_e
 int cli_study(const cli_options *options)
 {
     sp_error error = {0};
-    sp_scene *scene = sp_scene_load_with(options->inputs[0], options->overrides, options->override_count, &error);
+    const sp_run run = cli_run(options);
+    sp_scene *scene =
+        sp_scene_load_with(options->inputs[0], options->overrides, options->override_count, &run, &error);
     bool ready = scene && cli_output_ready(options, NULL, &error);
     sp_study *study = ready ? measure(options, scene, &error) : NULL;
     bool good = study && write_files(options, scene, study, &error) && print(options, study, &error);

@@ -56,6 +56,8 @@ static sp_mesh *move(const sp_mesh *mesh, const sp_transform *transform, size_t 
     } else {
         sp_fail_memory(error);
     }
+    for (size_t i = 0; moved && i < mesh->part_count; i++)
+        moved->parts[i].volume = mesh->parts[i].volume * transform->scale * transform->scale * transform->scale;
     free(vertices);
     free(names);
     return moved;
@@ -86,7 +88,7 @@ static void append(sp_mesh *joined, sp_mesh *mesh, size_t sources, size_t parts,
     for (size_t i = 0; i < mesh->triangle_count; i++)
         joined->source[triangles + i] = mesh->source[i] + (uint32_t)sources;
     for (size_t i = 0; i < mesh->part_count; i++) {
-        joined->parts[parts + i] = (sp_part){mesh->parts[i].name, geometry};
+        joined->parts[parts + i] = (sp_part){mesh->parts[i].name, geometry, mesh->parts[i].volume};
         mesh->parts[i].name = NULL;
     }
     joined->vertex_count += mesh->vertex_count;

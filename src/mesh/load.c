@@ -1,3 +1,5 @@
+#include <sprayplan/cad.h>
+
 #include "mesh/file.h"
 #include "mesh/soup.h"
 
@@ -53,7 +55,7 @@ static read_function *reader_for(const char *path, sp_error *error)
         return sp_stl_read;
     if (dot && strcasecmp(dot, ".ply") == 0)
         return sp_ply_read;
-    sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found a file of unknown kind, expected .obj, .stl or .ply");
+    sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found a file of unknown kind, expected .obj, .stl, .ply, .step, .iges or .brep");
     return NULL;
 }
 
@@ -94,6 +96,10 @@ sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error)
     if (!(unit > 0) || !isfinite(unit)) {
         sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0, "found a unit of %g m, expected a positive one", unit);
         return NULL;
+    }
+    if (sp_cad_kind_of(path) != SP_CAD_NONE) {
+        const sp_cad_options options = sp_cad_options_default();
+        return sp_cad_load(path, unit, &options, NULL, error);
     }
     size_t size;
     read_function *read = reader_for(path, error);

@@ -1,4 +1,5 @@
 #include "mesh/scanner.h"
+#include "mesh/utf8.h"
 
 #include <ctype.h>
 #include <limits.h>
@@ -184,54 +185,6 @@ bool sp_token_number(const sp_scanner *scanner, const sp_token *token, double *n
     return isfinite(*number) || sp_token_unexpected(scanner, token, "a number that a double can hold", error);
 }
 
-/* Length of the UTF-8 character at `at`, 0 where the bytes are none (RFC 3629: no overlong forms, no surrogates). */
-static size_t utf8_length(const unsigned char *at, const unsigned char *end)
-{
-    if (at[0] < 0x80)
-        return 1;
-    size_t length = at[0] < 0xC2 ? 0 : at[0] < 0xE0 ? 2 : at[0] < 0xF0 ? 3 : at[0] < 0xF5 ? 4 : 0;
-    if (length == 0 || (size_t)(end - at) < length)
-        return 0;
-    for (size_t i = 1; i < length; i++)
-        if ((at[i] & 0xC0) != 0x80)
-            return 0;
-    bool overlong = (at[0] == 0xE0 && at[1] < 0xA0) || (at[0] == 0xF0 && at[1] < 0x90);
-    bool surrogate = at[0] == 0xED && at[1] >= 0xA0;
-    bool beyond = at[0] == 0xF4 && at[1] >= 0x90;
-    return overlong || surrogate || beyond ? 0 : length;
-}
-
-static bool is_utf8(const sp_token *token)
-{
-    const unsigned char *at = (const unsigned char *)token->text, *end = at + token->length;
-    while (at < end) {
-        size_t length = utf8_length(at, end);
-        if (length == 0)
-            return false;
-        at += length;
-    }
-    return true;
-}
-
-/* Appends the token to a name with room for twice its length. Bytes that are no UTF-8 are taken for Latin-1, which
- * older programs write: every byte a character, so that different names stay different. */
-static size_t append_token(char *name, size_t length, const sp_token *token)
-{
-    if (is_utf8(token)) {
-        memcpy(name + length, token->text, token->length);
-        return length + token->length;
-    }
-    for (size_t i = 0; i < token->length; i++) {
-        unsigned char c = (unsigned char)token->text[i];
-        if (c >= 0x80) {
-            name[length++] = (char)(0xC0 | c >> 6);
-            c = 0x80 | (c & 0x3F);
-        }
-        name[length++] = (char)c;
-    }
-    return length;
-}
-
 static bool has_control_character(const sp_token *token)
 {
     for (size_t i = 0; i < token->length; i++)
@@ -259,7 +212,7 @@ char *sp_scan_name(sp_scanner *scanner, const char *fallback, sp_error *error)
         name = longer;
         if (length)
             name[length++] = ' ';
-        length = append_token(name, length, &token);
+        length += sp_utf8_append(name + length, token.text, token.length);
         name[length] = '\0';
     }
     if (!name && !(name = strdup(fallback)))

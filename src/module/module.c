@@ -6,8 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* What lies below a prefix, and the prefix: of the program's folder in the build and when installed, then absolute. */
-static const char below[] = SPRAYPLAN_MODULES_BELOW;
+/* What lies below a prefix: of the program's folder in the build and when installed, then absolute. */
 static const char *const prefixes[] = {"", "../", NULL};
 
 /* The folder of the running program with its slash, at most `size` bytes with the zero; empty where unknown. */
@@ -19,17 +18,30 @@ static void program_folder(char *folder, size_t size)
     folder[length > 0 ? length : 0] = '\0';
 }
 
-static void *open_file(const char *file)
+/* The path of a file `below` the program's folder, or else in `installed`. */
+static void find_file(const char *below, const char *installed, const char *file, char *path, size_t size)
 {
-    char folder[2048], path[4096];
+    char folder[2048];
     program_folder(folder, sizeof folder);
     for (const char *const *prefix = prefixes; folder[0] && *prefix; prefix++) {
-        snprintf(path, sizeof path, "%s%s%s/%s", folder, *prefix, below, file);
+        snprintf(path, size, "%s%s%s/%s", folder, *prefix, below, file);
         if (access(path, R_OK) == 0)
-            return dlopen(path, RTLD_LAZY | RTLD_LOCAL);
+            return;
     }
-    snprintf(path, sizeof path, "%s/%s", SPRAYPLAN_MODULES, file);
+    snprintf(path, size, "%s/%s", installed, file);
+}
+
+static void *open_file(const char *file)
+{
+    char path[4096];
+    find_file(SPRAYPLAN_MODULES_BELOW, SPRAYPLAN_MODULES, file, path, sizeof path);
     return dlopen(path, RTLD_LAZY | RTLD_LOCAL);
+}
+
+bool sp_module_program(const char *file, char *path, size_t size)
+{
+    find_file(SPRAYPLAN_PROGRAMS_BELOW, SPRAYPLAN_PROGRAMS, file, path, size);
+    return access(path, X_OK) == 0;
 }
 
 static void find(sp_module *module)

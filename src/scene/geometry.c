@@ -14,7 +14,25 @@ typedef struct {
     sp_transform transform;
     bool obstacle, moves;
     double restitution, rebound;
+    sp_cad_kind cad;
+    sp_cad_options cut; /* of a CAD file */
 } piece;
+
+static bool read_kind(const sp_reader *reader, const sp_yaml *node, sp_cad_kind *cad)
+{
+    static const char *const others[] = {".obj", ".stl", ".ply"};
+    const sp_yaml *file = sp_yaml_get(node, "file");
+    const char *name = sp_read_text(reader, file, "file", "the path of a file");
+    if (!name)
+        return false;
+    *cad = sp_cad_kind_of(name);
+    const char *dot = strrchr(name, '.');
+    bool known = *cad != SP_CAD_NONE;
+    for (size_t i = 0; dot && i < sizeof others / sizeof *others; i++)
+        known |= strcasecmp(dot, others[i]) == 0;
+    return known || sp_read_fail(reader, file, "file",
+                                 "a file that ends in .obj, .stl, .ply, .step, .stp, .iges, .igs, .brep or .brp");
+}
 
 static bool read_unit(const sp_reader *reader, const sp_yaml *node, double *unit)
 {
@@ -28,6 +46,25 @@ static bool read_unit(const sp_reader *reader, const sp_yaml *node, double *unit
     if (sp_units_factor(reader->units, text, &sp_length_unit, unit, why, sizeof why))
         return true;
     return sp_read_fail(reader, child, "unit", "a unit of length such as mm (%s)", why);
+}
+
+/* The keys that a file has because it is a CAD file, or may not have. */
+static bool read_cad(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, piece *p)
+{
+    static const char *const keys[] = {"chord", "angle"};
+    const sp_yaml *unit = sp_yaml_get(node, "unit");
+    double texel = scene->setup.fidelity.texel;
+    for (int k = 0; p->cad == SP_CAD_NONE && k < 2; k++)
+        if (sp_yaml_get(node, keys[k]))
+            return sp_read_message(reader, sp_yaml_get(node, keys[k]), keys[k],
+                                   "found beside a file of triangles, expected beside STEP, IGES and BREP only");
+    if ((p->cad == SP_CAD_STEP || p->cad == SP_CAD_IGES) && unit)
+        return sp_read_message(reader, unit, "unit",
+                               "found beside a STEP or IGES file, which knows its own, expected beside others only");
+    p->cut.chord_most = texel / (10 * p->transform.scale);
+    p->cut.run = scene->run;
+    return sp_read_quantity(reader, node, "chord", &sp_length_unit, sp_above(0), &p->cut.chord) &&
+           sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_above_to(0, M_PI / 2), &p->cut.angle);
 }
 
 static bool read_rotation(const sp_reader *reader, const sp_yaml *node, sp_transform *transform)
@@ -49,18 +86,20 @@ static bool read_piece(sp_scene *scene, const sp_reader *reader, const sp_yaml *
 {
     static const sp_key keys[] = {{"file", true},         {"unit", false},   {"scale", false},       {"role", false},
                                   {"translate", false},   {"rotate", false}, {"restitution", false}, {"rebound", false},
-                                  {"clean_parts", false}, {"sweep", false},  {NULL, false}};
+                                  {"clean_parts", false}, {"sweep", false},  {"chord", false},       {"angle", false},
+                                  {NULL, false}};
     static const char *const roles[] = {"clean", "obstacle", NULL};
     int role = 0;
-    *p = (piece){.unit = 1, .transform = sp_transform_default(), .rebound = 1};
-    if (!sp_read_keys(reader, node, "geometry", "a geometry file", keys) || !read_unit(reader, node, &p->unit) ||
+    *p = (piece){.unit = 1, .transform = sp_transform_default(), .rebound = 1, .cut = sp_cad_options_default()};
+    if (!sp_read_keys(reader, node, "geometry", "a geometry file", keys) || !read_kind(reader, node, &p->cad) ||
+        !read_unit(reader, node, &p->unit) ||
         !sp_read_quantity(reader, node, "scale", &sp_ratio_unit, sp_above(0), &p->transform.scale) ||
         !sp_read_choice(reader, node, "role", roles, &role) ||
         !sp_read_vector(reader, node, "translate", &sp_length_unit, &p->transform.translate) ||
         !read_rotation(reader, node, &p->transform) ||
         !sp_read_quantity(reader, node, "restitution", &sp_share_unit, sp_between(0, 1), &p->restitution) ||
         !sp_read_quantity(reader, node, "rebound", &sp_share_unit, sp_between(0, 1), &p->rebound) ||
-        !sp_scene_read_sweep(scene, reader, node, &p->moves))
+        !sp_scene_read_sweep(scene, reader, node, &p->moves) || !read_cad(scene, reader, node, p))
         return false;
     p->obstacle = role == 1;
     const sp_yaml *parts = sp_yaml_get(node, "clean_parts");
@@ -70,30 +109,15 @@ static bool read_piece(sp_scene *scene, const sp_reader *reader, const sp_yaml *
     return true;
 }
 
-static bool check_extension(const sp_reader *reader, const sp_yaml *node)
+static sp_mesh *load_piece(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, const piece *p,
+                           sp_cad_account *account)
 {
-    static const char *const now[] = {".obj", ".stl", ".ply"};
-    static const char *const later[] = {".step", ".stp", ".iges", ".igs", ".brep", ".brp"};
-    const char *name = sp_read_text(reader, node, "file", "the path of a file");
-    if (!name)
-        return false;
-    const char *dot = strrchr(name, '.');
-    for (size_t i = 0; dot && i < sizeof now / sizeof *now; i++)
-        if (strcasecmp(dot, now[i]) == 0)
-            return true;
-    for (size_t i = 0; dot && i < sizeof later / sizeof *later; i++)
-        if (strcasecmp(dot, later[i]) == 0)
-            return sp_read_unsupported(reader, node, "file", "an OBJ, STL or PLY file");
-    return sp_read_fail(reader, node, "file", "a file that ends in .obj, .stl or .ply");
-}
-
-static sp_mesh *load_piece(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, const piece *p)
-{
-    const sp_yaml *file = sp_yaml_get(node, "file");
-    if (!check_extension(reader, file))
-        return NULL;
-    char *path = sp_scene_file(scene->directory, "the scene", reader, file, "file");
-    sp_mesh *mesh = path ? sp_mesh_load(path, p->unit, reader->error) : NULL;
+    char *path = sp_scene_file(scene->directory, "the scene", reader, sp_yaml_get(node, "file"), "file");
+    sp_mesh *mesh = NULL;
+    if (path && p->cad != SP_CAD_NONE)
+        mesh = sp_cad_load(path, p->unit, &p->cut, account, reader->error);
+    else if (path)
+        mesh = sp_mesh_load(path, p->unit, reader->error);
     free(path);
     return mesh;
 }
@@ -197,7 +221,7 @@ static bool read_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml 
     size_t count = 0;
     for (const sp_yaml *node = list->first; node; node = node->next, count++)
         if (!read_piece(scene, reader, node, &pieces[count]) ||
-            !(meshes[count] = load_piece(scene, reader, node, &pieces[count])))
+            !(meshes[count] = load_piece(scene, reader, node, &pieces[count], &scene->cads[count])))
             return false;
     if (!join_pieces(scene, reader, (const sp_mesh *const *)meshes, pieces, count))
         return false;
@@ -215,8 +239,10 @@ bool sp_scene_read_geometry(sp_scene *scene, const sp_reader *reader)
         return sp_read_fail(reader, list, "geometry", "a list of 1 to %d files", SP_MAX_ITEMS);
     sp_mesh **meshes = calloc(list->count, sizeof *meshes);
     piece *pieces = calloc(list->count, sizeof *pieces);
-    bool good =
-        meshes && pieces ? read_pieces(scene, reader, list, meshes, pieces) : sp_fail_memory(reader->error) != NULL;
+    scene->cads = calloc(list->count, sizeof *scene->cads);
+    scene->cad_count = list->count;
+    bool good = meshes && pieces && scene->cads ? read_pieces(scene, reader, list, meshes, pieces)
+                                                : sp_fail_memory(reader->error) != NULL;
     for (size_t i = 0; meshes && i < list->count; i++)
         sp_mesh_destroy(meshes[i]);
     free(meshes);

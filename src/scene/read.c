@@ -54,14 +54,6 @@ bool sp_read_fail(const sp_reader *reader, const sp_yaml *node, const char *key,
                    key, found, expected);
 }
 
-bool sp_read_unsupported(const sp_reader *reader, const sp_yaml *node, const char *key, const char *expected)
-{
-    char found[TEXT];
-    describe(node, found);
-    return sp_fail(reader->error, SP_ERROR_UNSUPPORTED, node->file, node->line, node->column,
-                   "%s: found %s, which is not supported yet, expected %s", key, found, expected);
-}
-
 bool sp_read_message(const sp_reader *reader, const sp_yaml *node, const char *key, const char *format, ...)
 {
     char message[TEXT];

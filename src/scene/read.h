@@ -57,8 +57,6 @@ extern const sp_dimension sp_length_unit, sp_angle_unit, sp_ratio_unit, sp_share
 /* "key: found WHAT STANDS AT node, expected ..." at the node's place. False always. */
 bool sp_read_fail(const sp_reader *reader, const sp_yaml *node, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-/* The same for what is well formed but not built yet. */
-bool sp_read_unsupported(const sp_reader *reader, const sp_yaml *node, const char *key, const char *expected);
 /* A free message, "key: message" at the node's place. */
 bool sp_read_message(const sp_reader *reader, const sp_yaml *node, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

@@ -38,7 +38,8 @@ static bool load(sp_scene *scene, const char *path, const char *const *overrides
     return good;
 }
 
-sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, size_t count, sp_error *error)
+sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, size_t count, const sp_run *run,
+                             sp_error *error)
 {
     sp_error local = {0}, *kept = error ? error : &local;
     sp_locale change;
@@ -50,6 +51,8 @@ sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, siz
     if (!scene)
         return sp_fail_memory(kept);
     scene->setup = sp_setup_default();
+    if (run)
+        scene->run = *run;
     scene->place = sp_place_options_default();
     bool entered = sp_locale_enter(&change, kept);
     bool good = entered && load(scene, path, overrides, count, kept);
@@ -67,7 +70,7 @@ sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, siz
 
 sp_scene *sp_scene_load(const char *path, sp_error *error)
 {
-    return sp_scene_load_with(path, NULL, 0, error);
+    return sp_scene_load_with(path, NULL, 0, NULL, error);
 }
 
 void sp_scene_destroy(sp_scene *scene)
@@ -93,6 +96,7 @@ void sp_scene_destroy(sp_scene *scene)
     free(scene->caps);
     sp_mesh_destroy(scene->mesh);
     free(scene->surfaces);
+    free(scene->cads);
     sp_yaml_destroy(scene->tree);
     free(scene->directory);
     free(scene->path);
@@ -114,6 +118,10 @@ const sp_layout *sp_scene_layout(const sp_scene *scene)
 sp_place_options sp_scene_place_options(const sp_scene *scene)
 {
     return scene ? scene->place : sp_place_options_default();
+}
+const sp_cad_account *sp_scene_cad(const sp_scene *scene, size_t geometry)
+{
+    return scene && geometry < scene->cad_count && scene->cads[geometry].triangles ? &scene->cads[geometry] : NULL;
 }
 bool sp_scene_has_place(const sp_scene *scene)
 {

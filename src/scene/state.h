@@ -24,6 +24,9 @@ struct sp_scene {
     sp_yaml *tree;   /* the scene as it stands, overrides applied */
     sp_mesh *mesh;
     sp_surface *surfaces; /* [mesh->part_count] */
+    sp_run run;           /* while it is read */
+    size_t cad_count;
+    sp_cad_account *cads; /* [cad_count], one for each geometry entry; all zeros where that is no CAD file */
     sp_cap *caps;         /* [setup.cap_count] */
     double dose;          /* m³/m², of the criterion; 0: none */
     size_t type_count;

@@ -138,6 +138,19 @@ static bool move_files(const sp_scene *scene, sp_yaml *tree, const char *directo
     return move_file(scene, tree, "catalogue", directory, w);
 }
 
+/* How finely a CAD file was cut follows from the texel, which may have been chosen since: the same triangles again. */
+static void keep_fineness(const sp_scene *scene, sp_yaml *tree, writer *w)
+{
+    size_t index = 0;
+    for (sp_yaml *child = sp_yaml_get(tree, "geometry")->first; child; child = child->next, index++) {
+        const sp_cad_account *cad = sp_scene_cad(scene, index);
+        if (cad && !sp_yaml_get(child, "chord"))
+            put_number(w, child, "chord", cad->chord, "m");
+        if (cad && !sp_yaml_get(child, "angle"))
+            put_number(w, child, "angle", cad->angle, "rad");
+    }
+}
+
 /* What is about to be written must load again: names twice, angles that a type cannot have, numbers that are not
  * finite. */
 static bool check_readable(const sp_scene *scene, sp_yaml *tree, sp_error *error)
@@ -161,6 +174,7 @@ static char *write_tree(const sp_scene *scene, sp_yaml *tree, const sp_layout *l
         sp_yaml_replace(tree, nozzles);
     if (simulate)
         sp_yaml_replace(tree, simulate);
+    keep_fineness(scene, tree, &w);
     if (w.failed || !move_files(scene, tree, directory, &w) || !check_readable(scene, tree, error))
         return NULL;
     return sp_yaml_text(tree, "Written by sprayplan: a complete scene that holds this layout.", error);

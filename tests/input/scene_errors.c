@@ -294,9 +294,26 @@ static const slip missing_files[] = {
 /* Files that are something else, parts that are not in them. */
 static const slip files[] = {
     {"file: tank.obj", "file: tank.xyz",
-     "scene.yaml:3:11: file: found 'tank.xyz', expected a file that ends in .obj, .stl or .ply"},
+     "scene.yaml:3:11: file: found 'tank.xyz', expected a file that ends in .obj, .stl, .ply, .step, .stp, .iges, "
+     ".igs, .brep or .brp"},
     {"file: tank.obj", "file: tank",
-     "scene.yaml:3:11: file: found 'tank', expected a file that ends in .obj, .stl or .ply"},
+     "scene.yaml:3:11: file: found 'tank', expected a file that ends in .obj, .stl, .ply, .step, .stp, .iges, .igs, "
+     ".brep or .brp"},
+    {"file: tank.obj", "file: tank.STEP",
+     "scene.yaml:4:11: unit: found beside a STEP or IGES file, which knows its own, expected beside others only"},
+    {"file: tank.obj", "file: tank.igs",
+     "scene.yaml:4:11: unit: found beside a STEP or IGES file, which knows its own, expected beside others only"},
+    {"file: tank.obj", "file: tank.brep",
+     "scene.yaml:3:11: file: found 'tank.brep', which cannot be opened (No such file or directory), expected a file, "
+     "relative to the scene"},
+    {"file: tank.obj", "file: tank.obj\n    chord: 1 mm",
+     "scene.yaml:4:12: chord: found beside a file of triangles, expected beside STEP, IGES and BREP only"},
+    {"file: tank.obj", "file: tank.obj\n    angle: 5 deg",
+     "scene.yaml:4:12: angle: found beside a file of triangles, expected beside STEP, IGES and BREP only"},
+    {"file: tank.obj", "file: tank.brep\n    chord: 0 mm",
+     "scene.yaml:4:12: chord: found '0 mm', expected a length above 0 such as 250 mm"},
+    {"file: tank.obj", "file: tank.brep\n    angle: 91 deg",
+     "scene.yaml:4:12: angle: found '91 deg', expected ..."},
     {"file: tank.obj", "file: [tank.obj]", "scene.yaml:3:11: file: found a list of 1, expected the path of a file"},
     {"file: tank.obj", "file: \"\"", "scene.yaml:3:11: file: found '', expected the path of a file"},
     {"catalogue: catalogue.yaml\n", "",
@@ -317,16 +334,6 @@ static const slip files[] = {
      "{axis: [0, 0, 2], angle: 90 deg}\n    restitution: 0.5\n    rebound: 80 %\n    clean_parts: [floor, "
      "\"wall_*\"]\n  - {file: stirrer.obj, role: obstacle}\n",
      "geometry: []\n", "scene.yaml:2:11: geometry: found an empty list, expected a list of 1 to 10000 files"},
-};
-
-/* Well formed, but not built yet. */
-static const slip unsupported[] = {
-    {"file: tank.obj", "file: tank.STEP",
-     "scene.yaml:3:11: file: found 'tank.STEP', which is not supported yet, expected an OBJ, STL or PLY file"},
-    {"file: tank.obj", "file: tank.igs",
-     "scene.yaml:3:11: file: found 'tank.igs', which is not supported yet, expected an OBJ, STL or PLY file"},
-    {"file: tank.obj", "file: tank.brep",
-     "scene.yaml:3:11: file: found 'tank.brep', which is not supported yet, expected an OBJ, STL or PLY file"},
 };
 
 /* Not YAML, or YAML that is refused. Where libfyaml says what is wrong, only the place is checked. */
@@ -682,12 +689,6 @@ static void scene_files(void **state)
     try_scenes(files, COUNT(files), SP_ERROR_INPUT);
 }
 
-static void scene_unsupported(void **state)
-{
-    (void)state;
-    try_scenes(unsupported, COUNT(unsupported), SP_ERROR_UNSUPPORTED);
-}
-
 static void scene_syntax(void **state)
 {
     (void)state;
@@ -774,7 +775,7 @@ static void wrong_overrides(void **state)
     for (size_t i = 0; i < COUNT(overrides); i++) {
         sp_error error = {0};
         char text[2000];
-        sp_scene *scene = sp_scene_load_with("scene.yaml", &overrides[i].setting, 1, &error);
+        sp_scene *scene = sp_scene_load_with("scene.yaml", &overrides[i].setting, 1, NULL, &error);
         sp_error_text(&error, text, sizeof text);
         compare(overrides[i].setting, scene ? "a scene" : text, overrides[i].expected);
         sp_scene_destroy(scene);
@@ -786,7 +787,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scene_quantities), cmocka_unit_test(scene_keys),  cmocka_unit_test(scene_kinds),
-        cmocka_unit_test(scene_sweeps),     cmocka_unit_test(scene_files), cmocka_unit_test(scene_unsupported),
+        cmocka_unit_test(scene_sweeps),     cmocka_unit_test(scene_files),
         cmocka_unit_test(scene_syntax),     cmocka_unit_test(catalogues),  cmocka_unit_test(whole_files),
         cmocka_unit_test(wrong_overrides),
     };

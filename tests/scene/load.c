@@ -308,7 +308,7 @@ static void overrides(void **state)
                                     "place.pressure=[1.5 bar]", "simulate.reflections=auto"};
     sp_error error = {0};
     scratch_write("scene.yaml", full_scene);
-    sp_scene *scene = sp_scene_load_with("scene.yaml", settings, 5, &error);
+    sp_scene *scene = sp_scene_load_with("scene.yaml", settings, 5, NULL, &error);
     assert_non_null(scene);
     sp_place_options place = sp_scene_place_options(scene);
     assert_int_equal(sp_scene_setup(scene)->fidelity.jets, 777);
@@ -321,7 +321,7 @@ static void overrides(void **state)
     /* Blocks that the file does not have. */
     const char *const deep[] = {"place.refine.axis=3 deg", "simulate.seed=7"};
     scratch_write("scene.yaml", least);
-    scene = sp_scene_load_with("scene.yaml", deep, 2, &error);
+    scene = sp_scene_load_with("scene.yaml", deep, 2, NULL, &error);
     assert_non_null(scene);
     near(sp_scene_place_options(scene).refine.axis, M_PI / 60);
     assert_int_equal(sp_scene_setup(scene)->fidelity.seed, 7);

@@ -237,7 +237,7 @@ static void overridden(void **state)
     const char *const settings[] = {"place.max_water=7 L/min", "place.refine={angle: 1 deg}"};
     sp_error error = {0};
     scratch_write("scene.yaml", full_scene);
-    sp_scene *scene = sp_scene_load_with("scene.yaml", settings, 2, &error);
+    sp_scene *scene = sp_scene_load_with("scene.yaml", settings, 2, NULL, &error);
     assert_non_null(scene);
     check_in(scene, sp_scene_layout(scene), ".", "set.yaml");
     sp_scene_destroy(scene);

@@ -1,0 +1,456 @@
+/* sprayplan-cad: the triangles of a STEP, IGES or BREP file by OpenCASCADE, written to standard output as records.h
+ * says. A program of its own, since OpenCASCADE may crash, hang or eat all memory on a bad file. */
+#include "mesh/cad/records.h"
+
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepGProp.hxx>
+#include <BRepLib.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
+#include <IGESControl_Reader.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
+#include <Interface_InterfaceModel.hxx>
+#include <Interface_Static.hxx>
+#include <Message_ProgressIndicator.hxx>
+#include <Message_ProgressScope.hxx>
+#include <Poly_Triangulation.hxx>
+#include <STEPCAFControl_Reader.hxx>
+#include <Standard_Failure.hxx>
+#include <TDF_LabelSequence.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <stdexcept>
+#include <string>
+#include <sys/resource.h>
+#include <unistd.h>
+#include <vector>
+
+namespace
+{
+
+const double CHORD_SHARE = 1e-3;     // of the diagonal
+const double SEWING_SHARE = 1e-5;    // of the diagonal
+const size_t RECORD_VERTICES = 4096; // in a record
+
+FILE *pipe_out;
+double unit; // m, of OpenCASCADE's lengths
+
+void put(uint32_t kind, const void *bytes, size_t size)
+{
+    sp_cad_record record = {kind, (uint32_t)size};
+    if (fwrite(&record, sizeof record, 1, pipe_out) != 1 || fwrite(bytes, 1, size, pipe_out) != size)
+        _exit(1);
+}
+
+void put_text(uint32_t kind, const std::string &before, const char *text)
+{
+    std::string bytes = before + std::string(text).substr(0, 600);
+    put(kind, bytes.data(), bytes.size());
+}
+
+/* Nothing of OpenCASCADE is torn down: that may crash too. */
+[[noreturn]] void leave(int status)
+{
+    fflush(pipe_out);
+    _exit(ferror(pipe_out) ? 1 : status);
+}
+
+class Progress : public Message_ProgressIndicator
+{
+    double told = -1;
+
+  protected:
+    void Show(const Message_ProgressScope &, const Standard_Boolean) override
+    {
+        double done = GetPosition();
+        if (!(done >= told + 0.01))
+            return;
+        told = done;
+        put(SP_CAD_PROGRESS, &done, sizeof done);
+        fflush(pipe_out);
+    }
+};
+
+/* A body is what becomes a part: a solid, a shell that was sewn, or what is left of loose faces. */
+struct Body {
+    TopoDS_Shape shape;
+    double volume; // m³, of a solid, else 0
+};
+struct Leaf {
+    TopoDS_Shape shape;
+    std::vector<Body> bodies;
+};
+struct Copy {
+    std::string path; // texts as in a part's record
+    TopLoc_Location where;
+    size_t leaf;
+};
+struct Model {
+    TopTools_IndexedMapOfShape known; // leaf i is known(i + 1)
+    std::vector<Leaf> leaves;
+    std::vector<Copy> copies;
+    uint64_t fault_count = 0;
+    std::string fault;
+    sp_cad_fineness fineness = {};
+
+    void add(const TopoDS_Shape &shape, const TopLoc_Location &where, const std::string &path);
+    void add_fault(const std::string &text);
+    void add_faults(const Handle(XSControl_WorkSession) & session);
+    Bnd_Box box() const;
+    void divide(double diagonal, const Message_ProgressRange &range);
+    void mesh(double diagonal, const Message_ProgressRange &range);
+    void write() const;
+};
+
+void Model::add(const TopoDS_Shape &shape, const TopLoc_Location &where, const std::string &path)
+{
+    if (shape.IsNull())
+        return;
+    size_t leaf = (size_t)known.Add(shape.Located(TopLoc_Location())) - 1;
+    if (leaf == leaves.size())
+        leaves.push_back({known((int)leaf + 1), {}});
+    copies.push_back({path, where * shape.Location(), leaf});
+}
+
+void Model::add_fault(const std::string &text)
+{
+    if (fault_count++ == 0)
+        fault = text;
+}
+
+/* What could not be read of the file's entities, or not be made into shapes. */
+void Model::add_faults(const Handle(XSControl_WorkSession) & session)
+{
+    Handle(Interface_InterfaceModel) model = session->Model();
+    for (int i = 1; !model.IsNull() && i <= model->NbEntities(); i++) {
+        Handle(Interface_Check) check = model->Check(i, Standard_True);
+        for (int k = 1; !check.IsNull() && k <= check->NbFails(); k++)
+            add_fault("entity " + std::to_string(i) + ": " + check->CFail(k));
+    }
+    Interface_CheckIterator transfer = session->TransferReader()->TransientProcess()->CheckList(Standard_True);
+    for (transfer.Start(); transfer.More(); transfer.Next())
+        for (int k = 1; k <= transfer.Value()->NbFails(); k++)
+            add_fault("entity " + std::to_string(transfer.Number()) + ": " + transfer.Value()->CFail(k));
+}
+
+Bnd_Box Model::box() const
+{
+    Bnd_Box whole;
+    std::vector<Bnd_Box> boxes(leaves.size());
+    for (size_t i = 0; i < leaves.size(); i++)
+        BRepBndLib::Add(leaves[i].shape, boxes[i], Standard_False);
+    for (const Copy &copy : copies)
+        if (!boxes[copy.leaf].IsVoid())
+            whole.Add(boxes[copy.leaf].Transformed(copy.where.Transformation()));
+    return whole;
+}
+
+double volume_of(const TopoDS_Shape &solid)
+{
+    GProp_GProps properties;
+    BRepGProp::VolumeProperties(solid, properties);
+    return properties.Mass() * unit * unit * unit;
+}
+
+/* A sewn shell that is closed is a solid, its faces turned outwards. */
+Body body_of(const TopoDS_Shell &shell)
+{
+    if (!BRep_Tool::IsClosed(shell))
+        return {shell, 0};
+    TopoDS_Solid solid;
+    BRep_Builder builder;
+    builder.MakeSolid(solid);
+    builder.Add(solid, shell);
+    BRepLib::OrientClosedSolid(solid);
+    return {solid, volume_of(solid)};
+}
+
+std::vector<Body> sew(const std::vector<TopoDS_Shape> &faces, double tolerance, const Message_ProgressRange &range)
+{
+    std::vector<Body> bodies;
+    BRepBuilderAPI_Sewing sewing(tolerance);
+    for (const TopoDS_Shape &face : faces)
+        sewing.Add(face);
+    sewing.Perform(range);
+    for (TopExp_Explorer at(sewing.SewedShape(), TopAbs_SHELL); at.More(); at.Next())
+        bodies.push_back(body_of(TopoDS::Shell(at.Current())));
+    TopoDS_Compound rest;
+    BRep_Builder builder;
+    bool any = false;
+    builder.MakeCompound(rest);
+    for (TopExp_Explorer at(sewing.SewedShape(), TopAbs_FACE, TopAbs_SHELL); at.More(); at.Next(), any = true)
+        builder.Add(rest, at.Current());
+    if (any)
+        bodies.push_back({rest, 0});
+    return bodies;
+}
+
+void Model::divide(double diagonal, const Message_ProgressRange &range)
+{
+    Message_ProgressScope scope(range, "", (double)leaves.size());
+    fineness.sewing = SEWING_SHARE * diagonal * unit;
+    for (Leaf &leaf : leaves) {
+        Message_ProgressRange part = scope.Next();
+        std::vector<TopoDS_Shape> loose;
+        for (TopExp_Explorer at(leaf.shape, TopAbs_SOLID); at.More(); at.Next())
+            leaf.bodies.push_back({at.Current(), volume_of(at.Current())});
+        for (TopExp_Explorer at(leaf.shape, TopAbs_FACE, TopAbs_SOLID); at.More(); at.Next())
+            loose.push_back(at.Current());
+        fineness.sewn += loose.size();
+        for (const Body &body : loose.empty() ? std::vector<Body>() : sew(loose, SEWING_SHARE * diagonal, part))
+            leaf.bodies.push_back(body);
+    }
+}
+
+void Model::mesh(double diagonal, const Message_ProgressRange &range)
+{
+    TopoDS_Compound all;
+    BRep_Builder builder;
+    builder.MakeCompound(all);
+    for (const Leaf &leaf : leaves)
+        for (const Body &body : leaf.bodies)
+            builder.Add(all, body.shape);
+    if (fineness.chord > 1e9 * diagonal * unit)
+        fineness.chord = 1e9 * diagonal * unit;
+    IMeshTools_Parameters parameters;
+    parameters.Deflection = fineness.chord / unit;
+    parameters.Angle = fineness.angle;
+    BRepTools::Clean(all); // triangles that the file holds
+    BRepMesh_IncrementalMesh mesher(all, parameters, range);
+    TopLoc_Location where;
+    for (TopExp_Explorer at(all, TopAbs_FACE); at.More(); at.Next())
+        if (BRep_Tool::Triangulation(TopoDS::Face(at.Current()), where).IsNull())
+            add_fault("a face that cannot be cut into triangles");
+}
+
+/* Returns how many vertices were written. */
+size_t write_vertices(const Handle(Poly_Triangulation) & triangles, const gp_Trsf &where)
+{
+    std::vector<double> numbers;
+    for (int i = 1; i <= triangles->NbNodes(); i++) {
+        gp_Pnt point = triangles->Node(i).Transformed(where);
+        for (int k = 1; k <= 3; k++)
+            numbers.push_back(point.Coord(k) * unit);
+        if (numbers.size() == 3 * RECORD_VERTICES || i == triangles->NbNodes()) {
+            put(SP_CAD_VERTICES, numbers.data(), numbers.size() * sizeof numbers[0]);
+            numbers.clear();
+        }
+    }
+    return (size_t)triangles->NbNodes();
+}
+
+size_t write_triangles(const Handle(Poly_Triangulation) & triangles, bool turned, size_t first)
+{
+    std::vector<uint32_t> numbers;
+    for (int i = 1; i <= triangles->NbTriangles(); i++) {
+        int corners[3];
+        triangles->Triangle(i).Get(corners[0], corners[turned ? 2 : 1], corners[turned ? 1 : 2]);
+        for (int corner : corners)
+            numbers.push_back((uint32_t)(first + (size_t)corner - 1));
+        if (numbers.size() == 3 * RECORD_VERTICES || i == triangles->NbTriangles()) {
+            put(SP_CAD_TRIANGLES, numbers.data(), numbers.size() * sizeof numbers[0]);
+            numbers.clear();
+        }
+    }
+    return (size_t)triangles->NbTriangles();
+}
+
+void write_body(const Body &body, const TopLoc_Location &where, sp_cad_totals *totals)
+{
+    size_t first = 0;
+    for (TopExp_Explorer at(body.shape, TopAbs_FACE); at.More(); at.Next()) {
+        TopLoc_Location within;
+        Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(TopoDS::Face(at.Current()), within);
+        if (triangles.IsNull())
+            continue;
+        gp_Trsf move = (where * within).Transformation();
+        bool turned = (at.Current().Orientation() == TopAbs_REVERSED) != bool(move.IsNegative());
+        size_t vertices = write_vertices(triangles, move);
+        totals->triangles += write_triangles(triangles, turned, first);
+        first += vertices;
+    }
+    totals->vertices += first;
+}
+
+void Model::write() const
+{
+    sp_cad_totals totals = {0, 0, 0};
+    put(SP_CAD_FINENESS, &fineness, sizeof fineness);
+    if (fault_count)
+        put_text(SP_CAD_FAULTS, std::string((const char *)&fault_count, sizeof fault_count), fault.c_str());
+    for (const Copy &copy : copies)
+        for (const Body &body : leaves[copy.leaf].bodies) {
+            std::string bytes((const char *)&body.volume, sizeof body.volume);
+            bytes += copy.path;
+            put(SP_CAD_PART, bytes.data(), bytes.size());
+            write_body(body, copy.where, &totals);
+            totals.parts++;
+        }
+    put(SP_CAD_END, &totals, sizeof totals);
+}
+
+std::string name_of(const TDF_Label &label)
+{
+    Handle(TDataStd_Name) name;
+    std::string text;
+    if (label.FindAttribute(TDataStd_Name::GetID(), name))
+        text = TCollection_AsciiString(name->Get()).ToCString();
+    return text.substr(0, 1000).append(1, '\0');
+}
+
+/* The shapes below a label of the document, each with the names above it. */
+void visit(Model &model, const TDF_Label &label, const TopLoc_Location &above, const std::string &path)
+{
+    bool copy = XCAFDoc_ShapeTool::IsReference(label);
+    TDF_Label original = label;
+    if (copy && !XCAFDoc_ShapeTool::GetReferredShape(label, original))
+        return model.add_fault("a copy of nothing");
+    TopLoc_Location where = copy ? above * XCAFDoc_ShapeTool::GetLocation(label) : above;
+    std::string names = path + (copy ? name_of(label) : std::string(1, '\0')) + name_of(original);
+    if (names.size() > SP_CAD_MOST_BYTES / 2)
+        throw std::length_error("an assembly in too many levels");
+    TDF_LabelSequence children;
+    if (!XCAFDoc_ShapeTool::IsAssembly(original))
+        return model.add(XCAFDoc_ShapeTool::GetShape(original), where, names);
+    XCAFDoc_ShapeTool::GetComponents(original, children);
+    for (int i = 1; i <= children.Length(); i++)
+        visit(model, children.Value(i), where, names);
+}
+
+void read_step(const char *file, Model &model, const Message_ProgressRange &range)
+{
+    STEPCAFControl_Reader reader;
+    reader.SetColorMode(Standard_False);
+    reader.SetLayerMode(Standard_False);
+    reader.SetPropsMode(Standard_False);
+    reader.SetGDTMode(Standard_False);
+    reader.SetMatMode(Standard_False);
+    Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
+    if (reader.ReadFile(file) != IFSelect_RetDone)
+        throw std::runtime_error("found no STEP file, or one that is damaged");
+    bool any = reader.Transfer(document, range);
+    model.add_faults(reader.Reader().WS());
+    TDF_LabelSequence roots;
+    XCAFDoc_DocumentTool::ShapeTool(document->Main())->GetFreeShapes(roots);
+    for (int i = 1; any && i <= roots.Length(); i++)
+        visit(model, roots.Value(i), TopLoc_Location(), "");
+}
+
+void read_iges(const char *file, Model &model, const Message_ProgressRange &range)
+{
+    IGESControl_Reader reader;
+    if (reader.ReadFile(file) != IFSelect_RetDone)
+        throw std::runtime_error("found no IGES file, or one that is damaged");
+    reader.TransferRoots(range);
+    model.add_faults(reader.WS());
+    model.add(reader.OneShape(), TopLoc_Location(), std::string(2, '\0'));
+}
+
+void read_brep(const char *file, Model &model)
+{
+    TopoDS_Shape shape;
+    BRep_Builder builder;
+    if (!BRepTools::Read(shape, file, builder))
+        throw std::runtime_error("found no BREP file, or one that is damaged");
+    model.add(shape, TopLoc_Location(), std::string(2, '\0'));
+}
+
+void convert(const char *kind, const char *file, Model &model, double most_chord)
+{
+    Handle(Progress) progress = new Progress;
+    Message_ProgressScope scope(progress->Start(), "", 10);
+    Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+    if (strcmp(kind, "step") == 0)
+        read_step(file, model, scope.Next(4));
+    else if (strcmp(kind, "iges") == 0)
+        read_iges(file, model, scope.Next(4));
+    else
+        read_brep(file, model);
+    Bnd_Box box = model.box();
+    if (box.IsVoid() || box.IsOpen())
+        throw std::runtime_error(box.IsVoid() ? "found no surface" : "found surface without end");
+    double diagonal = std::sqrt(box.SquareExtent());
+    if (!(model.fineness.chord > 0)) {
+        model.fineness.chord = CHORD_SHARE * diagonal * unit;
+        if (most_chord > 0 && most_chord < model.fineness.chord)
+            model.fineness.chord = most_chord;
+    }
+    model.divide(diagonal, scope.Next(3));
+    model.mesh(diagonal, scope.Next(3));
+}
+
+void limit(int resource, double most)
+{
+    struct rlimit limits;
+    getrlimit(resource, &limits);
+    if (limits.rlim_max == RLIM_INFINITY || most < (double)limits.rlim_max)
+        limits.rlim_max = (rlim_t)most;
+    limits.rlim_cur = limits.rlim_max;
+    setrlimit(resource, &limits);
+}
+
+/* OpenCASCADE tells standard output what it thinks of a file: that is not for the pipe. */
+bool take_pipe()
+{
+    int pipe_end = dup(STDOUT_FILENO), nothing = open("/dev/null", O_WRONLY);
+    pipe_out = pipe_end >= 0 ? fdopen(pipe_end, "wb") : nullptr;
+    return pipe_out && nothing >= 0 && dup2(nothing, STDOUT_FILENO) >= 0;
+}
+
+} // namespace
+
+int main(int count, char **arguments)
+{
+    if (count != 9) {
+        fprintf(stderr, "sprayplan starts this program: sprayplan-cad step|iges|brep FILE UNIT CHORD MOST-CHORD ANGLE "
+                        "BYTES SECONDS\n");
+        return 2;
+    }
+    limit(RLIMIT_AS, atof(arguments[7]));
+    limit(RLIMIT_CPU, atof(arguments[8]));
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_FSIZE, 0);
+    if (!take_pipe())
+        return 1;
+    unit = atof(arguments[3]);
+    const uint32_t format = SP_CAD_FORMAT;
+    put(SP_CAD_GREETING, &format, sizeof format);
+    try {
+        Model model;
+        model.fineness.chord = atof(arguments[4]);
+        model.fineness.angle = atof(arguments[6]);
+        convert(arguments[1], arguments[2], model, atof(arguments[5]));
+        model.write();
+        leave(0); // before what was made is torn down
+    } catch (const Standard_Failure &failure) {
+        const char *text = failure.GetMessageString();
+        put_text(SP_CAD_FAILURE, failure.DynamicType()->Name(),
+                 text && *text ? (std::string(": ") + text).c_str() : "");
+    } catch (const std::bad_alloc &) {
+        put_text(SP_CAD_FAILURE, "", "found more than fits into the memory that it is given");
+    } catch (const std::exception &failure) {
+        put_text(SP_CAD_FAILURE, "", failure.what());
+    }
+    leave(0);
+}
