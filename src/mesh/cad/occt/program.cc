@@ -234,7 +234,7 @@ void Model::mesh(double diagonal, const Message_ProgressRange &range)
     if (fineness.chord > 1e9 * diagonal * unit)
         fineness.chord = 1e9 * diagonal * unit;
     IMeshTools_Parameters parameters;
-    parameters.Deflection = fineness.chord / unit;
+    parameters.Deflection = 0.5 * fineness.chord / unit;
     parameters.Angle = fineness.angle;
     BRepTools::Clean(all); // triangles that the file holds
     BRepMesh_IncrementalMesh mesher(all, parameters, range);

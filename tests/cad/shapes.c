@@ -1,0 +1,200 @@
+/* STEP, IGES and BREP files of known area and volume. */
+#include "files.h"
+
+#include <pthread.h>
+#include <sys/stat.h>
+
+#include "mesh/cad/mend.h"
+
+/* Closed, and the volumes of triangles and of the body to these shares of `volume`. */
+static void expect_body(const sp_mesh *mesh, const double *own, uint32_t part, double volume, double off, double exact)
+{
+    assert_true(fabs(own[part] / volume - 1) < off);
+    assert_true(fabs(mesh->parts[part].volume / volume - 1) < exact);
+}
+
+static void expect_round(const char *path, double unit, const char *const names[2])
+{
+    sp_cad_options options = sp_cad_options_default();
+    sp_cad_account account;
+    double own[2];
+    options.chord = 0.5e-3;
+    sp_mesh *mesh = load_cad(path, unit, &options, &account);
+    assert_int_equal(mesh->part_count, 2);
+    assert_true(sp_mesh_volumes(mesh, own, NULL));
+    assert_true(account.faults == 0 && account.chord == options.chord && account.angle == options.angle);
+    uint32_t cylinder = 0; /* IGES keeps no order */
+    if (fabs(own[0] - M_PI / 4) > 0.1)
+        cylinder = 1;
+    assert_string_equal(mesh->parts[0].name, names[0]);
+    assert_string_equal(mesh->parts[1].name, names[1]);
+    assert_true(fabs(part_area(mesh, cylinder) / (M_PI + M_PI / 2) - 1) < 5e-4);
+    assert_true(fabs(part_area(mesh, 1 - cylinder) / (M_PI * 0.75) - 1) < 5e-4);
+    expect_body(mesh, own, cylinder, M_PI / 4, 1e-3, 1e-9);
+    expect_body(mesh, own, 1 - cylinder, M_PI / 12, 1e-3, 1e-6);
+    sp_mesh_destroy(mesh);
+}
+
+static void areas_and_volumes_are_known(void **state)
+{
+    (void)state;
+    static const char *const named[] = {"cylinder", "hemisphere"}, *const unnamed[] = {"body", "body#2"};
+    need_cad();
+    make_cad("round", "round.step", "");
+    make_cad("round", "round-inch.step", "INCH");
+    make_cad("round", "round.igs", "");
+    make_cad("round", "round.brep", "");
+    expect_round("round.step", 1, named);
+    expect_round("round-inch.step", 1, named);
+    expect_round("round.igs", 1, unnamed);
+    expect_round("round.brep", 1e-3, unnamed);
+}
+
+/* The default is a thousandth of the diagonal, or less where that is asked for; what was kept gives the same again. */
+static void the_chord_follows_the_size(void **state)
+{
+    (void)state;
+    need_cad();
+    make_cad("round", "round-size.step", "INCH");
+    sp_cad_options options = sp_cad_options_default();
+    sp_cad_account account, again;
+    sp_vec3 low, high;
+    sp_mesh *mesh = load_cad("round-size.step", 1, &options, &account);
+    assert_true(fabs(account.chord / (1e-3 * sp_mesh_box(mesh, &low, &high)) - 1) < 0.05);
+    options.chord = account.chord;
+    sp_mesh *same = load_cad("round-size.step", 1, &options, &again);
+    assert_int_equal(same->vertex_count, mesh->vertex_count);
+    assert_memory_equal(same->vertices, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices);
+    sp_mesh_destroy(same);
+    sp_mesh_destroy(mesh);
+    options.chord = 0;
+    options.chord_most = 1e-3;
+    mesh = load_cad("round-size.step", 1, &options, &again);
+    assert_true(again.chord == options.chord_most && again.triangles > account.triangles);
+    sp_mesh_destroy(mesh);
+}
+
+static void refuse(const char *path, double unit, sp_error_kind kind, const char *what)
+{
+    const sp_cad_options options = sp_cad_options_default();
+    sp_error error = {0};
+    assert_null(sp_cad_load(path, unit, &options, NULL, &error));
+    if (error.kind != kind || !strstr(error.message, what) || strcmp(error.file, path) != 0)
+        fail_msg("%s: %d, %s", error.file, error.kind, error.message);
+}
+
+static void put_file(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void what_is_none_is_refused(void **state)
+{
+    (void)state;
+    refuse("no-such.step", 1, SP_ERROR_INPUT, "cannot be opened");
+    refuse("mesh.obj", 1, SP_ERROR_INPUT, "file of unknown kind");
+    refuse("some.step", 1e-3, SP_ERROR_ARGUMENT, "and 1 for a file that knows its own");
+    refuse("some.brep", 0, SP_ERROR_ARGUMENT, "expected a positive one");
+    need_cad();
+    static const char *const paths[] = {"garbage.step", "garbage.iges", "garbage.brp"};
+    for (int i = 0; i < 3; i++) {
+        put_file(paths[i], "");
+        refuse(paths[i], 1, SP_ERROR_INPUT, "");
+        put_file(paths[i], "no CAD file at all\n");
+        refuse(paths[i], 1, SP_ERROR_INPUT, "");
+    }
+    assert_int_equal(mkdir("folder.step", 0755), 0);
+    refuse("folder.step", 1, SP_ERROR_INPUT, "no regular file");
+    assert_int_equal(rmdir("folder.step"), 0);
+}
+
+static bool stop(void *user, const char *stage, double done)
+{
+    double *last = user;
+    assert_string_equal(stage, "geometry");
+    assert_true(done >= *last);
+    *last = done;
+    return done < 0.2;
+}
+
+static void reading_can_be_cancelled(void **state)
+{
+    (void)state;
+    need_cad();
+    make_cad("round", "round-cancel.step", "");
+    sp_cad_options options = sp_cad_options_default();
+    double last = 0;
+    sp_error error = {0};
+    options.run = (sp_run){.progress = stop, .user = &last};
+    assert_null(sp_cad_load("round-cancel.step", 1, &options, NULL, &error));
+    assert_int_equal(error.kind, SP_ERROR_INTERRUPTED);
+}
+
+static void *load_one(void *into)
+{
+    const sp_cad_options options = sp_cad_options_default();
+    *(sp_mesh **)into = sp_cad_load("round-threads.step", 1, &options, NULL, NULL);
+    return NULL;
+}
+
+static void threads_load_at_once(void **state)
+{
+    (void)state;
+    enum { THREADS = 4 };
+    pthread_t threads[THREADS];
+    sp_mesh *meshes[THREADS];
+    need_cad();
+    make_cad("round", "round-threads.step", "");
+    for (int i = 0; i < THREADS; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, load_one, &meshes[i]), 0);
+    for (int i = 0; i < THREADS; i++) {
+        assert_int_equal(pthread_join(threads[i], NULL), 0);
+        assert_non_null(meshes[i]);
+        assert_int_equal(meshes[i]->vertex_count, meshes[0]->vertex_count);
+        assert_memory_equal(meshes[i]->vertices, meshes[0]->vertices,
+                            meshes[0]->vertex_count * sizeof *meshes[0]->vertices);
+    }
+    for (int i = 0; i < THREADS; i++)
+        sp_mesh_destroy(meshes[i]);
+}
+
+/* A tetrahedron one of whose edges has been cut in three, with triangles without area in between, and a point twice. */
+static void triangles_without_area_open_no_edge(void **state)
+{
+    (void)state;
+    static const sp_vec3 points[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.25, 0, 0}, {0.75, 0, 0}, {0, 1, 0}};
+    static const uint32_t triangles[][3] = {{0, 2, 1}, {0, 4, 3}, {4, 5, 3}, {5, 1, 3}, {0, 3, 2},
+                                            {1, 2, 3}, {0, 1, 5}, {0, 5, 4}, {2, 6, 3}, {2, 2, 2}};
+    sp_error error = {0};
+    size_t mended = 0;
+    double volume;
+    sp_mesh_diagnosis diagnosis;
+    sp_mesh *mesh = sp_mesh_create(points, 7, triangles, 10, NULL, NULL, 1, &error);
+    assert_true(sp_mesh_volumes(mesh, &volume, &error));
+    assert_true(volume == 0);
+    mesh = sp_cad_mend(mesh, &mended, &error);
+    assert_non_null(mesh);
+    assert_true(sp_mesh_diagnose(mesh, &diagnosis, &error));
+    assert_int_equal(diagnosis.open_edges, 0);
+    assert_int_equal(diagnosis.closed_shells, 1);
+    assert_int_equal(diagnosis.degenerate, 0);
+    assert_int_equal(mended, 4);
+    assert_int_equal(mesh->triangle_count, 8);
+    assert_true(sp_mesh_volumes(mesh, &volume, &error));
+    assert_true(fabs(volume - 1.0 / 6) < 1e-15);
+    sp_mesh_destroy(mesh);
+    assert_null(sp_cad_mend(NULL, &mended, &error));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(areas_and_volumes_are_known), cmocka_unit_test(the_chord_follows_the_size),
+        cmocka_unit_test(what_is_none_is_refused),     cmocka_unit_test(reading_can_be_cancelled),
+        cmocka_unit_test(threads_load_at_once),        cmocka_unit_test(triangles_without_area_open_no_edge),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
