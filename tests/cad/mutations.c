@@ -3,6 +3,8 @@
  * 200 IGES and 200 BREP files, an hour of processor time. */
 #include "files.h"
 
+#include "mesh/distance.h"
+
 #include <ctype.h>
 #include <stdint.h>
 #include <time.h>
@@ -143,12 +145,25 @@ static bool is_seen(const figures *a, const figures *b)
     return seen;
 }
 
-static double largest_move(const sp_mesh *a, const sp_mesh *b)
+/* How far vertices of one lie off the other. */
+static double farthest(const sp_mesh *from, const sp_mesh *to)
 {
-    double largest = a->vertex_count == b->vertex_count ? 0 : INFINITY;
-    for (size_t i = 0; i < a->vertex_count && largest < INFINITY; i++)
-        largest = fmax(largest, sp_distance(a->vertices[i], b->vertices[i]));
-    return largest;
+    double most = 0;
+    for (size_t i = 0; i < from->vertex_count; i++) {
+        sp_vec3 p = from->vertices[i];
+        sp_vec3 at = sp_triangle_nearest(to, sp_nearest_triangle(to, SP_NONE, p), p);
+        most = fmax(most, sp_distance(p, at));
+    }
+    return most;
+}
+
+/* The same surface, whether cut likewise or not: a shaft that is turned about its axis stays what it is. */
+static bool is_same(const sp_mesh *a, const sp_mesh *b, double chord)
+{
+    size_t size = a->vertex_count * sizeof *a->vertices;
+    if (a->vertex_count == b->vertex_count && memcmp(a->vertices, b->vertices, size) == 0)
+        return true;
+    return farthest(a, b) < chord && farthest(b, a) < chord;
 }
 
 static double now(void)
@@ -184,7 +199,7 @@ static void judge(const char *path, const sp_mesh *sound, const figures *before,
     figures after = measure(mesh, &account);
     if (is_seen(before, &after))
         found->seen++;
-    else if (largest_move(sound, mesh) < 1e-5)
+    else if (is_same(sound, mesh, account.chord))
         found->same++;
     else
         found->silent++;

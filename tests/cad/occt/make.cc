@@ -1,4 +1,4 @@
-/* Makes the CAD files of the tests through OpenCASCADE: make-cad vessel|sunk|welded|round|bars FILE [UNIT or COUNT]. */
+/* Makes the CAD files of the tests through OpenCASCADE: make-cad vessel|altered|round|bars FILE [UNIT or COUNT]. */
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
@@ -86,20 +86,21 @@ TopoDS_Shape shell()
     return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp::OZ()).Shape();
 }
 
-/* Everything is made about an origin of its own and put into place on two levels. */
-void vessel(bool sunk, bool welded)
+/* Everything is made about an origin of its own and put into place on two levels. Altered: the lid lies 1 mm deep in
+ * the shell, and the blades beside the shaft's axis with half their thickness in it. */
+void vessel(bool altered)
 {
     TDF_Label whole = product(TopoDS_Shape(), "vessel"), agitator = product(TopoDS_Shape(), "agitator");
     TDF_Label blade =
         product(BRepPrimAPI_MakeBox(gp_Pnt(-BLADE[0] / 2, -BLADE[1] / 2, 0), BLADE[0], BLADE[1], BLADE[2]), "blade");
     TDF_Label shaft = product(BRepPrimAPI_MakeCylinder(SHAFT, HEIGHT + WALL / 2 - SHAFT_END), "shaft");
     TDF_Label foot = product(BRepPrimAPI_MakeCylinder(30, 400), "foot");
-    double beside = welded ? SHAFT : 0;
+    double beside = altered ? SHAFT : 0;
     copy(agitator, shaft, turned(10), "shaft");
     copy(agitator, blade, moved(0, beside, 50), "blade");
     copy(agitator, blade, turned(90) * moved(0, beside, 350), "blade");
     copy(whole, product(shell(), "shell"), turned(33), "shell");
-    copy(whole, product(BRepPrimAPI_MakeCylinder(RADIUS + WALL, WALL), "lid"), moved(0, 0, HEIGHT - sunk), "lid");
+    copy(whole, product(BRepPrimAPI_MakeCylinder(RADIUS + WALL, WALL), "lid"), moved(0, 0, HEIGHT - altered), "lid");
     copy(whole, agitator, moved(0, 0, SHAFT_END) * turned(25), "agitator");
     for (int i = 0; i < 3; i++)
         copy(whole, foot, turned(120 * i) * moved(600, 0, -400), "");
@@ -159,8 +160,8 @@ int main(int count, char **arguments)
     STEPCAFControl_Writer ready; // the settings are there once a writer is
     IGESControl_Writer ready_too;
     shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
-    if (what == "vessel" || what == "sunk" || what == "welded")
-        vessel(what == "sunk", what == "welded");
+    if (what == "vessel" || what == "altered")
+        vessel(what == "altered");
     else if (what == "round")
         round();
     else if (what == "bars")
