@@ -1,4 +1,5 @@
 /* sprayplan check: what is in a scene and what is wrong with it. */
+#include "cad.h"
 #include "cli.h"
 
 #include <jansson.h>
@@ -242,45 +243,6 @@ static void print_parts(const findings *found)
     }
 }
 
-/* How CAD files were cut. */
-static void print_cad(const findings *found)
-{
-    const sp_mesh *mesh = setup_of(found)->mesh;
-    uint32_t last = mesh->part_count ? mesh->parts[mesh->part_count - 1].geometry : 0;
-    for (uint32_t i = 0; i <= last; i++) {
-        const sp_cad_account *cad = sp_scene_cad(found->opened->scene, i);
-        if (!cad)
-            continue;
-        printf("CAD         file %lu: chord %.4g mm, angle %.4g deg, %zu triangles", (unsigned long)i, 1e3 * cad->chord,
-               cad->angle * 180 / M_PI, cad->triangles);
-        if (cad->mended)
-            printf("; %zu without area mended", cad->mended);
-        if (cad->sewn)
-            printf("; %zu loose faces sewn within %.2g mm", cad->sewn, 1e3 * cad->sewing);
-        printf("\n");
-    }
-}
-
-/* Beside what CAD files say of their bodies. */
-static void print_volumes(const findings *found)
-{
-    const sp_mesh *mesh = setup_of(found)->mesh;
-    bool any = false;
-    for (size_t i = 0; i < mesh->part_count; i++) {
-        double body = mesh->parts[i].volume, own = found->part_volume[i];
-        if (!(fabs(body) > 0))
-            continue;
-        if (!any)
-            printf("\n%-8s %-24s %14s %14s %8s\n", "geometry", "body", "volume m3", "triangles m3", "off %");
-        any = true;
-        printf("%-8lu %-24s %14.8f ", (unsigned long)mesh->parts[i].geometry, mesh->parts[i].name, body);
-        if (fabs(own) > 0)
-            printf("%14.8f %8.3f\n", own, 100 * (own / body - 1));
-        else
-            printf("%14s\n", "not closed");
-    }
-}
-
 static void print_openings(const findings *found)
 {
     size_t count;
@@ -319,14 +281,14 @@ static void print_table(const findings *found, const char *output)
            "triangles\n",
            found->mesh.shells, found->mesh.closed_shells, found->mesh.open_edges, found->mesh.non_manifold_edges,
            found->mesh.flipped_edges, found->mesh.degenerate, found->mesh.duplicate_triangles);
-    print_cad(found);
+    cli_cad_print(found->opened->scene, setup_of(found)->mesh);
     print_cavity(setup);
     print_sweep(found->opened->evaluator);
     printf("to clean    %.4f m2 in %zu patches of texels of %.4g m\n\n", patches->total_area, patches->count,
            fidelity->texel);
     print_parts(found);
     print_boxes(found);
-    print_volumes(found);
+    cli_cad_print_volumes(setup_of(found)->mesh, found->part_volume);
     print_openings(found);
     print_hollows(found);
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
@@ -390,23 +352,6 @@ static json_t *parts_json(const findings *found)
     return parts;
 }
 
-static json_t *cad_json(const findings *found)
-{
-    const sp_mesh *mesh = setup_of(found)->mesh;
-    uint32_t last = mesh->part_count ? mesh->parts[mesh->part_count - 1].geometry : 0;
-    json_t *list = json_array();
-    for (uint32_t i = 0; i <= last; i++) {
-        const sp_cad_account *cad = sp_scene_cad(found->opened->scene, i);
-        if (cad)
-            json_array_append_new(list, json_pack("{s:I, s:f, s:f, s:I, s:I, s:I, s:f, s:I}", "geometry", (json_int_t)i,
-                                                  "chord_m", cad->chord, "angle_rad", cad->angle, "triangles",
-                                                  (json_int_t)cad->triangles, "mended_triangles",
-                                                  (json_int_t)cad->mended, "sewn_faces", (json_int_t)cad->sewn,
-                                                  "sewing_m", cad->sewing, "faults", (json_int_t)cad->faults));
-    }
-    return list;
-}
-
 static json_t *openings_json(const findings *found)
 {
     size_t count;
@@ -458,16 +403,16 @@ static bool print_json(const findings *found)
     json_t *warnings = json_array();
     for (size_t i = 0; i < found->warning_count; i++)
         json_array_append_new(warnings, json_string(found->warnings[i]));
-    json_t *object = json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}",
-                               "sprayplan", SP_VERSION, "command", "check", "scene",
-                               sp_scene_path(found->opened->scene), "mesh", mesh_json(found), "cad", cad_json(found),
-                               "parts", parts_json(found), "cavity_m", cavity_json(setup_of(found)), "sweep",
-                               sweep_json(found->opened->evaluator), "openings", openings_json(found), "hollows",
-                               hollows_json(found), "outdoors_m2", sp_evaluator_outdoors(found->opened->evaluator),
-                               "clean_area_m2", sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
-                               (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
-                               sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",
-                               (json_int_t)sp_scene_layout(found->opened->scene)->count, "warnings", warnings);
+    json_t *object = json_pack(
+        "{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}", "sprayplan", SP_VERSION,
+        "command", "check", "scene", sp_scene_path(found->opened->scene), "mesh", mesh_json(found), "cad",
+        cli_cad_json(found->opened->scene, setup_of(found)->mesh), "parts", parts_json(found), "cavity_m",
+        cavity_json(setup_of(found)), "sweep", sweep_json(found->opened->evaluator), "openings", openings_json(found),
+        "hollows", hollows_json(found), "outdoors_m2", sp_evaluator_outdoors(found->opened->evaluator), "clean_area_m2",
+        sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
+        (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
+        sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",
+        (json_int_t)sp_scene_layout(found->opened->scene)->count, "warnings", warnings);
     bool good = object && json_dumpf(object, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) == 0;
     puts("");
     json_decref(object);

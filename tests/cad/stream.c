@@ -246,8 +246,8 @@ static void lies_are_refused(void **state)
     refuse_after_part(SP_CAD_FINENESS, &none, sizeof none, "fineness twice");
     refuse_after_part(SP_CAD_END, &totals, sizeof totals, "other totals");
     refuse_after_part(SP_CAD_GREETING, &format, sizeof format, "no kind that is expected there");
-    refuse_after_part(0, NULL, 0, "no kind that is expected there");
-    refuse_after_part(77, NULL, 0, "no kind that is expected there");
+    refuse_after_part(0, "", 0, "no kind that is expected there");
+    refuse_after_part(77, "", 0, "no kind that is expected there");
     refuse_after_part(SP_CAD_FAILURE, "out of\x07luck", 11, "OpenCASCADE cannot read it: out of luck");
     text t = {.size = 0};
     put(&t, SP_CAD_GREETING, &format, sizeof format);

@@ -17,7 +17,7 @@
 #define MM 1e-3 /* m: the lengths of OpenCASCADE, whatever the file's */
 /* What the program may take: so much, and so much more for a byte of the file. */
 #define MEMORY 2e9
-#define MEMORY_PER_BYTE 1000.0
+#define MEMORY_PER_BYTE 200.0
 #define SECONDS 40.0
 #define SECONDS_PER_BYTE 40e-6
 #define LOAD 10.0 /* wall time in that processor time, on a busy machine */

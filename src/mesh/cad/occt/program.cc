@@ -40,6 +40,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <sys/resource.h>
@@ -367,12 +368,21 @@ void read_iges(const char *file, Model &model, const Message_ProgressRange &rang
     model.add(reader.OneShape(), TopLoc_Location(), std::string(2, '\0'));
 }
 
+/* OpenCASCADE would read on behind the end of a file that was cut, for ever. */
 void read_brep(const char *file, Model &model)
 {
+    static const char damaged[] = "found no BREP file, or one that is damaged";
     TopoDS_Shape shape;
     BRep_Builder builder;
-    if (!BRepTools::Read(shape, file, builder))
-        throw std::runtime_error("found no BREP file, or one that is damaged");
+    std::ifstream text(file);
+    if (!text)
+        throw std::runtime_error(damaged);
+    try {
+        text.exceptions(std::ios::failbit | std::ios::badbit);
+        BRepTools::Read(shape, text, builder);
+    } catch (const std::ios_base::failure &) {
+        throw std::runtime_error(damaged);
+    }
     model.add(shape, TopLoc_Location(), std::string(2, '\0'));
 }
 
