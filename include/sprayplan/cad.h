@@ -25,7 +25,7 @@ typedef struct {
     sp_run run;        /* progress and cancelling */
 } sp_cad_options;
 
-/* Chord 0, 10 degrees: what is round keeps its area to 0.13 %. */
+/* Chord 0, 10 degrees: whatever the chord, cylinders keep their area to 0.13 % and spheres to 0.3 %. */
 sp_cad_options sp_cad_options_default(void);
 
 /* What was kept, and what was wrong with the file. */

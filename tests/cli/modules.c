@@ -40,7 +40,9 @@ static void an_installed_program_finds_its_modules(void **state)
     run("cmake --install '" BINARY_DIR "' --prefix \"$PWD/usr\" >.out");
     run("usr/bin/sprayplan simulate room.yaml -o pictures >.out && test -s pictures/coverage.png");
     run("usr/bin/sprayplan place room.yaml >.out");
-    run("! ldd usr/bin/sprayplan | grep -E 'OpenImageIO|ceres|glog'");
+    run("! ldd usr/bin/sprayplan | grep -E 'OpenImageIO|ceres|glog|libTK'");
+    run("test ! -e '" BINARY_DIR
+        "/libexec' || usr/libexec/sprayplan/sprayplan-cad 2>&1 | grep -q 'starts this program'");
 }
 
 int main(void)

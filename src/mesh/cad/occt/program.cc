@@ -41,8 +41,10 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
+#include <signal.h>
 #include <stdexcept>
 #include <string>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 #include <vector>
@@ -158,12 +160,8 @@ void Model::add_faults(const Handle(XSControl_WorkSession) & session)
 Bnd_Box Model::box() const
 {
     Bnd_Box whole;
-    std::vector<Bnd_Box> boxes(leaves.size());
-    for (size_t i = 0; i < leaves.size(); i++)
-        BRepBndLib::Add(leaves[i].shape, boxes[i], Standard_False);
     for (const Copy &copy : copies)
-        if (!boxes[copy.leaf].IsVoid())
-            whole.Add(boxes[copy.leaf].Transformed(copy.where.Transformation()));
+        BRepBndLib::Add(leaves[copy.leaf].shape.Moved(copy.where), whole, Standard_False);
     return whole;
 }
 
@@ -235,7 +233,7 @@ void Model::mesh(double diagonal, const Message_ProgressRange &range)
     if (fineness.chord > 1e9 * diagonal * unit)
         fineness.chord = 1e9 * diagonal * unit;
     IMeshTools_Parameters parameters;
-    parameters.Deflection = 0.5 * fineness.chord / unit;
+    parameters.Deflection = 0.5 * fineness.chord / unit; // spheres get up to twice what is asked for
     parameters.Angle = fineness.angle;
     BRepTools::Clean(all); // triangles that the file holds
     BRepMesh_IncrementalMesh mesher(all, parameters, range);
@@ -437,6 +435,7 @@ int main(int count, char **arguments)
                         "BYTES SECONDS\n");
         return 2;
     }
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // nobody would read what it writes
     limit(RLIMIT_AS, atof(arguments[7]));
     limit(RLIMIT_CPU, atof(arguments[8]));
     limit(RLIMIT_CORE, 0);
