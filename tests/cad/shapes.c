@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "mesh/cad/mend.h"
+#include "mesh/cad/process.h"
 
 /* Closed, and the volumes of triangles and of the body to these shares of `volume`. */
 static void expect_body(const sp_mesh *mesh, const double *own, uint32_t part, double volume, double off, double exact)
@@ -141,6 +142,39 @@ static void reading_can_be_cancelled(void **state)
     assert_int_equal(error.kind, SP_ERROR_INTERRUPTED);
 }
 
+static void expect_limited(const char *chord, const char *bytes, const char *seconds, const char *what)
+{
+    char *const arguments[] = {(char *)BINARY_DIR "/libexec/sprayplan/sprayplan-cad",
+                               (char *)"step",
+                               (char *)"round.step",
+                               (char *)"1e-3",
+                               (char *)chord,
+                               (char *)"0",
+                               (char *)"0.1",
+                               (char *)bytes,
+                               (char *)seconds,
+                               NULL};
+    sp_soup soup = {0};
+    sp_cad_stream stream = sp_cad_stream_open("round.step", &soup);
+    sp_error error = {0};
+    const sp_run run = {0};
+    assert_false(sp_cad_process_run(arguments, 1000, &stream, &run, &error));
+    if (error.kind != SP_ERROR_INPUT || strcmp(error.file, "round.step") != 0 || !strstr(error.message, what))
+        fail_msg("%s: %d, %s", error.file, error.kind, error.message);
+    sp_cad_stream_clear(&stream);
+    sp_soup_clear(&soup);
+}
+
+/* Too little of either. */
+static void memory_and_time_are_limited(void **state)
+{
+    (void)state;
+    need_cad();
+    expect_limited("1e-6", "1.3e8", "40", "a longer chord takes less");
+    if (getenv("SPRAYPLAN_LONG"))
+        expect_limited("1e-7", "1e11", "1", "more processor time");
+}
+
 static void *load_one(void *into)
 {
     const sp_cad_options options = sp_cad_options_default();
@@ -219,9 +253,13 @@ static int remove_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(areas_and_volumes_are_known), cmocka_unit_test(the_chord_follows_the_size),
-        cmocka_unit_test(what_is_none_is_refused),     cmocka_unit_test(reading_can_be_cancelled),
-        cmocka_unit_test(threads_load_at_once),        cmocka_unit_test(triangles_without_area_open_no_edge),
+        cmocka_unit_test(areas_and_volumes_are_known),
+        cmocka_unit_test(the_chord_follows_the_size),
+        cmocka_unit_test(what_is_none_is_refused),
+        cmocka_unit_test(reading_can_be_cancelled),
+        cmocka_unit_test(memory_and_time_are_limited),
+        cmocka_unit_test(threads_load_at_once),
+        cmocka_unit_test(triangles_without_area_open_no_edge),
     };
     return cmocka_run_group_tests(tests, make_files, remove_files);
 }

@@ -39,6 +39,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <fcntl.h>
 #include <fstream>
 #include <signal.h>
@@ -408,13 +409,15 @@ void convert(const char *kind, const char *file, Model &model, double most_chord
     model.mesh(diagonal, scope.Next(3));
 }
 
+/* Of processor time the second more is what tells SIGXCPU from being killed. */
 void limit(int resource, double most)
 {
     struct rlimit limits;
     getrlimit(resource, &limits);
-    if (limits.rlim_max == RLIM_INFINITY || most < (double)limits.rlim_max)
-        limits.rlim_max = (rlim_t)most;
-    limits.rlim_cur = limits.rlim_max;
+    if (limits.rlim_max == RLIM_INFINITY || most + 1 < (double)limits.rlim_max)
+        limits.rlim_max = (rlim_t)most + 1;
+    if (limits.rlim_cur == RLIM_INFINITY || most < (double)limits.rlim_cur)
+        limits.rlim_cur = (rlim_t)most;
     setrlimit(resource, &limits);
 }
 
@@ -424,6 +427,14 @@ bool take_pipe()
     int pipe_end = dup(STDOUT_FILENO), nothing = open("/dev/null", O_WRONLY);
     pipe_out = pipe_end >= 0 ? fdopen(pipe_end, "wb") : nullptr;
     return pipe_out && nothing >= 0 && dup2(nothing, STDOUT_FILENO) >= 0;
+}
+
+/* What OpenCASCADE throws where nothing can catch it. */
+[[noreturn]] void give_up()
+{
+    static const char text[] = "it gave up; where memory ran out, a longer chord takes less";
+    put(SP_CAD_FAILURE, text, sizeof text - 1);
+    leave(0);
 }
 
 } // namespace
@@ -442,6 +453,7 @@ int main(int count, char **arguments)
     limit(RLIMIT_FSIZE, 0);
     if (!take_pipe())
         return 1;
+    std::set_terminate(give_up);
     unit = atof(arguments[3]);
     const uint32_t format = SP_CAD_FORMAT;
     put(SP_CAD_GREETING, &format, sizeof format);
@@ -457,7 +469,7 @@ int main(int count, char **arguments)
         put_text(SP_CAD_FAILURE, failure.DynamicType()->Name(),
                  text && *text ? (std::string(": ") + text).c_str() : "");
     } catch (const std::bad_alloc &) {
-        put_text(SP_CAD_FAILURE, "", "found more than fits into the memory that it is given");
+        put_text(SP_CAD_FAILURE, "", "memory ran out; a longer chord takes less");
     } catch (const std::exception &failure) {
         put_text(SP_CAD_FAILURE, "", failure.what());
     }
