@@ -2,6 +2,7 @@
  * says. A program of its own, since OpenCASCADE may crash, hang or eat all memory on a bad file. */
 #include "mesh/cad/records.h"
 
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepGProp.hxx>
@@ -35,6 +36,8 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -42,6 +45,7 @@
 #include <exception>
 #include <fcntl.h>
 #include <fstream>
+#include <map>
 #include <signal.h>
 #include <stdexcept>
 #include <string>
@@ -186,7 +190,8 @@ Body body_of(const TopoDS_Shell &shell)
     return {solid, volume_of(solid)};
 }
 
-std::vector<Body> sew(const std::vector<TopoDS_Shape> &faces, double tolerance, const Message_ProgressRange &range)
+std::vector<Body> sew_group(const std::vector<TopoDS_Shape> &faces, double tolerance,
+                            const Message_ProgressRange &range)
 {
     std::vector<Body> bodies;
     BRepBuilderAPI_Sewing sewing(tolerance);
@@ -204,6 +209,70 @@ std::vector<Body> sew(const std::vector<TopoDS_Shape> &faces, double tolerance, 
     if (any)
         bodies.push_back({rest, 0});
     return bodies;
+}
+
+/* Where an edge runs: its ends and its middle, in steps. */
+typedef std::array<long, 9> Trace;
+
+Trace trace_of(const TopoDS_Edge &edge, double step)
+{
+    BRepAdaptor_Curve curve(edge);
+    double first = curve.FirstParameter(), last = curve.LastParameter();
+    gp_Pnt ends[2] = {curve.Value(first), curve.Value(last)}, middle = curve.Value((first + last) / 2);
+    Trace points[2];
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 2; i++) {
+            points[i][k] = std::lround(ends[i].Coord(k + 1) / step);
+            points[1 - i][3 + k] = points[i][k];
+            points[i][6 + k] = std::lround(middle.Coord(k + 1) / step);
+        }
+    return std::min(points[0], points[1]);
+}
+
+size_t root_of(std::vector<size_t> &parent, size_t i)
+{
+    while (parent[i] != i)
+        i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+/* Faces that share edges. Where more than two share one, bodies touch there, and those that follow each other in the
+ * file belong together. */
+std::vector<std::vector<TopoDS_Shape>> group(const std::vector<TopoDS_Shape> &faces, double step)
+{
+    std::map<Trace, std::vector<size_t>> at_edge;
+    std::vector<size_t> parent(faces.size());
+    for (size_t i = 0; i < faces.size(); i++) {
+        parent[i] = i;
+        for (TopExp_Explorer at(faces[i], TopAbs_EDGE); at.More(); at.Next())
+            if (!BRep_Tool::Degenerated(TopoDS::Edge(at.Current())))
+                at_edge[trace_of(TopoDS::Edge(at.Current()), step)].push_back(i);
+    }
+    for (const auto &edge : at_edge)
+        for (size_t k = 0; k + 1 < edge.second.size(); k += 2)
+            parent[root_of(parent, edge.second[k])] = root_of(parent, edge.second[k + 1]);
+    std::map<size_t, std::vector<TopoDS_Shape>> by_root;
+    for (size_t i = 0; i < faces.size(); i++)
+        by_root[root_of(parent, i)].push_back(faces[i]);
+    std::vector<std::vector<TopoDS_Shape>> groups;
+    for (const auto &one : by_root)
+        groups.push_back(one.second);
+    return groups;
+}
+
+/* Body by body where all come out closed, else all faces at once. */
+std::vector<Body> sew(const std::vector<TopoDS_Shape> &faces, double tolerance, const Message_ProgressRange &range)
+{
+    std::vector<std::vector<TopoDS_Shape>> groups = group(faces, 10 * tolerance);
+    std::vector<Body> bodies;
+    Message_ProgressScope scope(range, "", (double)groups.size() + 1);
+    bool closed = groups.size() > 1;
+    for (size_t i = 0; closed && i < groups.size(); i++)
+        for (const Body &body : sew_group(groups[i], tolerance, scope.Next())) {
+            closed = closed && body.volume != 0;
+            bodies.push_back(body);
+        }
+    return closed ? bodies : sew_group(faces, tolerance, scope.Next());
 }
 
 void Model::divide(double diagonal, const Message_ProgressRange &range)
