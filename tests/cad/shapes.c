@@ -142,6 +142,29 @@ static void reading_can_be_cancelled(void **state)
     assert_int_equal(error.kind, SP_ERROR_INTERRUPTED);
 }
 
+/* IGES knows faces only; the vessel's lid and its shell share the rim's edge. */
+static void bodies_that_touch_are_told_apart(void **state)
+{
+    (void)state;
+    need_cad();
+    const double shell = M_PI * (0.505 * 0.505 - 0.25) + 2 * M_PI / 3 * (0.505 * 0.505 * 0.505 - 0.125),
+                 foot = M_PI * 0.03 * 0.03 * 0.4, blade = 0.3 * 0.01 * 0.087;
+    const double volumes[8] = {
+        shell, M_PI * 0.505 * 0.505 * 0.005, M_PI * 0.02 * 0.02 * 0.9025, blade, blade, foot, foot, foot};
+    const sp_cad_options options = sp_cad_options_default();
+    sp_cad_account account;
+    double own[8];
+    make_cad("vessel", "touching.igs", "");
+    sp_mesh *mesh = load_cad("touching.igs", 1, &options, &account);
+    assert_int_equal(mesh->part_count, 8);
+    assert_int_equal(account.sewn, 32);
+    assert_true(sp_mesh_volumes(mesh, own, NULL));
+    for (uint32_t i = 0; i < 8; i++)
+        expect_body(mesh, own, i, volumes[i], 2e-2, 1e-6);
+    sp_mesh_destroy(mesh);
+    assert_int_equal(remove("touching.igs"), 0);
+}
+
 static void expect_limited(const char *chord, const char *bytes, const char *seconds, const char *what)
 {
     char *const arguments[] = {(char *)BINARY_DIR "/libexec/sprayplan/sprayplan-cad",
@@ -257,6 +280,7 @@ int main(void)
         cmocka_unit_test(the_chord_follows_the_size),
         cmocka_unit_test(what_is_none_is_refused),
         cmocka_unit_test(reading_can_be_cancelled),
+        cmocka_unit_test(bodies_that_touch_are_told_apart),
         cmocka_unit_test(memory_and_time_are_limited),
         cmocka_unit_test(threads_load_at_once),
         cmocka_unit_test(triangles_without_area_open_no_edge),

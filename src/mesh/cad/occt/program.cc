@@ -20,12 +20,14 @@
 #include <Interface_Static.hxx>
 #include <Message_ProgressIndicator.hxx>
 #include <Message_ProgressScope.hxx>
+#include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <Standard_Failure.hxx>
 #include <TDF_LabelSequence.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -313,20 +315,65 @@ void Model::mesh(double diagonal, const Message_ProgressRange &range)
             add_fault("a face that cannot be cut into triangles");
 }
 
-/* Returns how many vertices were written. */
-size_t write_vertices(const Handle(Poly_Triangulation) & triangles, const gp_Trsf &where)
+/* The nodes of the edges that a body's faces share, each the same to the last bit whichever face it is seen from:
+ * OpenCASCADE computes it once for each. */
+struct Edges {
+    TopTools_IndexedMapOfShape known;
+    std::vector<std::vector<gp_Pnt>> nodes;
+
+    void share(const TopoDS_Edge &edge, const std::vector<int> &line, const gp_Trsf &where,
+               std::vector<gp_Pnt> &points);
+};
+
+void Edges::share(const TopoDS_Edge &edge, const std::vector<int> &line, const gp_Trsf &where,
+                  std::vector<gp_Pnt> &points)
+{
+    TopoDS_Vertex ends[2] = {TopExp::FirstVertex(edge), TopExp::LastVertex(edge)};
+    size_t index = (size_t)known.Add(edge) - 1;
+    if (index == nodes.size()) {
+        nodes.push_back({});
+        for (int node : line)
+            nodes[index].push_back(points[(size_t)node - 1]);
+        for (int i = 0; i < 2; i++)
+            if (!ends[i].IsNull())
+                (i ? nodes[index].back() : nodes[index].front()) = BRep_Tool::Pnt(ends[i]).Transformed(where);
+        if (BRep_Tool::Degenerated(edge)) // at a pole all of it is a point
+            nodes[index].assign(line.size(), nodes[index].front());
+    }
+    for (size_t i = 0; nodes[index].size() == line.size() && i < line.size(); i++)
+        points[(size_t)line[i] - 1] = nodes[index][i];
+}
+
+std::vector<gp_Pnt> points_of(const TopoDS_Face &face, const Handle(Poly_Triangulation) & triangles,
+                              const TopLoc_Location &within, const TopLoc_Location &where, Edges &edges)
+{
+    std::vector<gp_Pnt> points;
+    gp_Trsf move = (where * within).Transformation();
+    for (int i = 1; i <= triangles->NbNodes(); i++)
+        points.push_back(triangles->Node(i).Transformed(move));
+    for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
+        const TopoDS_Edge &edge = TopoDS::Edge(at.Current());
+        Handle(Poly_PolygonOnTriangulation) line = BRep_Tool::PolygonOnTriangulation(edge, triangles, within);
+        std::vector<int> nodes;
+        for (int i = 1; !line.IsNull() && i <= line->NbNodes(); i++)
+            nodes.push_back(line->Node(i));
+        if (nodes.size() >= 2)
+            edges.share(edge, nodes, where.Transformation(), points);
+    }
+    return points;
+}
+
+void write_vertices(const std::vector<gp_Pnt> &points)
 {
     std::vector<double> numbers;
-    for (int i = 1; i <= triangles->NbNodes(); i++) {
-        gp_Pnt point = triangles->Node(i).Transformed(where);
+    for (size_t i = 0; i < points.size(); i++) {
         for (int k = 1; k <= 3; k++)
-            numbers.push_back(point.Coord(k) * unit);
-        if (numbers.size() == 3 * RECORD_VERTICES || i == triangles->NbNodes()) {
+            numbers.push_back(points[i].Coord(k) * unit);
+        if (numbers.size() == 3 * RECORD_VERTICES || i + 1 == points.size()) {
             put(SP_CAD_VERTICES, numbers.data(), numbers.size() * sizeof numbers[0]);
             numbers.clear();
         }
     }
-    return (size_t)triangles->NbNodes();
 }
 
 size_t write_triangles(const Handle(Poly_Triangulation) & triangles, bool turned, size_t first)
@@ -347,17 +394,18 @@ size_t write_triangles(const Handle(Poly_Triangulation) & triangles, bool turned
 
 void write_body(const Body &body, const TopLoc_Location &where, sp_cad_totals *totals)
 {
+    Edges edges;
     size_t first = 0;
     for (TopExp_Explorer at(body.shape, TopAbs_FACE); at.More(); at.Next()) {
         TopLoc_Location within;
-        Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(TopoDS::Face(at.Current()), within);
+        const TopoDS_Face &face = TopoDS::Face(at.Current());
+        Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, within);
         if (triangles.IsNull())
             continue;
-        gp_Trsf move = (where * within).Transformation();
-        bool turned = (at.Current().Orientation() == TopAbs_REVERSED) != bool(move.IsNegative());
-        size_t vertices = write_vertices(triangles, move);
-        totals->triangles += write_triangles(triangles, turned, first);
-        first += vertices;
+        bool mirrored = (where * within).Transformation().IsNegative();
+        write_vertices(points_of(face, triangles, within, where, edges));
+        totals->triangles += write_triangles(triangles, (face.Orientation() == TopAbs_REVERSED) != mirrored, first);
+        first += (size_t)triangles->NbNodes();
     }
     totals->vertices += first;
 }
