@@ -53,9 +53,10 @@ typedef struct {
 
 /* Reads an OBJ, STL or PLY file (told by its extension in any case; text or binary told by its content), or a CAD file
  * as sp_cad_load does by default. Coordinates are multiplied by `unit` (m per unit of the file). Triangles before any
- * group get the part "default" (STL: the solid's name, or "default"; PLY knows no groups). Returns NULL with file and line for whatever does not follow the format, for
- * indices out of range, numbers that are not finite or beyond 1e30 m, and for files without a triangle of some area.
- * Names of parts are UTF-8; what is not is taken for Latin-1. The caller destroys. */
+ * group get the part "default" (STL: the solid's name, or "default"; PLY knows no groups). Returns NULL with file and
+ * line for whatever does not follow the format, for indices out of range, numbers that are not finite or beyond 1e30 m,
+ * and for files without a triangle of some area. Names of parts are UTF-8; what is not is taken for Latin-1. The caller
+ * destroys. */
 sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error);
 
 /* Builds a welded mesh from `vertex_count` points and `triangle_count` triangles, all copied. `part` may be NULL: all
@@ -99,8 +100,8 @@ sp_vec3 sp_triangle_point(const sp_mesh *mesh, uint32_t triangle, double u, doub
 bool sp_triangle_weights(const sp_mesh *mesh, uint32_t triangle, sp_vec3 point, double *u, double *v);
 /* Sum over all triangles, m². */
 double sp_mesh_area(const sp_mesh *mesh);
-/* What each part encloses by its triangles alone, m³, into volumes[part_count]: below 0 where they face inwards, 0 for a
- * part that is not closed. False only when memory runs out. */
+/* What each part encloses by its triangles alone, m³, into volumes[part_count]: below 0 where they face inwards, 0 for
+ * a part that is not closed. False only when memory runs out. */
 bool sp_mesh_volumes(const sp_mesh *mesh, double *volumes, sp_error *error);
 /* The box around all triangles, m; both zero for an empty mesh. Returns its diagonal. */
 double sp_mesh_box(const sp_mesh *mesh, sp_vec3 *low, sp_vec3 *high);
