@@ -235,6 +235,11 @@ static void what_is_written_is_cut_as_finely(void **state)
     snprintf(path, sizeof path, "%s/round.yaml", workplace);
     sp_scene *scene = sp_scene_load(path, &error);
     assert_non_null(scene);
+    const char *texel = "simulate.texel=5 mm";
+    sp_scene *finer = sp_scene_load_with(path, &texel, 1, NULL, &error);
+    assert_non_null(finer);
+    assert_true(fabs(sp_scene_cad(finer, 0)->chord - 5e-4) < 1e-12 && sp_scene_cad(scene, 0)->chord > 2e-3);
+    sp_scene_destroy(finer);
     sp_fidelity fidelity = sp_scene_setup(scene)->fidelity;
     fidelity.trajectory = SP_TRAJECTORY_PARABOLA;
     fidelity.method = SP_METHOD_INVERSE;

@@ -247,7 +247,8 @@ std::vector<std::vector<TopoDS_Shape>> group(const std::vector<TopoDS_Shape> &fa
     for (size_t i = 0; i < faces.size(); i++) {
         parent[i] = i;
         for (TopExp_Explorer at(faces[i], TopAbs_EDGE); at.More(); at.Next())
-            if (!BRep_Tool::Degenerated(TopoDS::Edge(at.Current())))
+            if (BRep_Tool::IsGeometric(TopoDS::Edge(at.Current())) &&
+                !BRep_Tool::Degenerated(TopoDS::Edge(at.Current())))
                 at_edge[trace_of(TopoDS::Edge(at.Current()), step)].push_back(i);
     }
     for (const auto &edge : at_edge)
@@ -315,8 +316,8 @@ void Model::mesh(double diagonal, const Message_ProgressRange &range)
             add_fault("a face that cannot be cut into triangles");
 }
 
-/* The nodes of the edges that a body's faces share, each the same to the last bit whichever face it is seen from:
- * OpenCASCADE computes it once for each. */
+/* The nodes of the edges that a body's faces share, each the same to the last bit whichever face it is seen from, while
+ * OpenCASCADE computes it anew for each. */
 struct Edges {
     TopTools_IndexedMapOfShape known;
     std::vector<std::vector<gp_Pnt>> nodes;
