@@ -38,17 +38,30 @@ typedef struct {
     sp_part *parts; /* [part_count] */
 } sp_mesh;
 
+#define SP_PLACES 10
+/* How often something is wrong with a mesh, and where it is so at first. */
+typedef struct {
+    size_t count;
+    bool more;                /* perhaps: there was too much to look at all of it */
+    sp_vec3 place[SP_PLACES]; /* [min(count, SP_PLACES)], m: the middle of an edge, a triangle, a shell's widest one */
+} sp_flaw;
+
 /* What can be wrong with a mesh as a surface. */
 typedef struct {
-    size_t degenerate;          /* source triangles kept out */
-    size_t open_edges;          /* edges of one triangle */
-    size_t non_manifold_edges;  /* edges of three or more triangles */
-    size_t flipped_edges;       /* edges of two triangles that disagree which side is the front */
-    size_t duplicate_triangles; /* triangles with the same three corners as an earlier one */
-    size_t shells;              /* connected through shared edges */
-    size_t closed_shells;       /* shells without open, non-manifold or flipped edges */
-    double area;                /* m² */
-    sp_vec3 minimum, maximum;   /* box around all vertices in use, m; both zero for an empty mesh */
+    sp_flaw degenerate;          /* source triangles kept out */
+    sp_flaw open_edges;          /* edges of one triangle */
+    sp_flaw non_manifold_edges;  /* edges of three or more triangles */
+    sp_flaw flipped_edges;       /* edges of two triangles that disagree which side is the front */
+    sp_flaw duplicate_triangles; /* triangles with the same three corners as an earlier one */
+    sp_flaw cracks;              /* ends of open edges that lie very near another's and are not joined to it */
+    sp_flaw crossings;           /* pairs of triangles of one shell that run through each other; not of one plane */
+    sp_flaw inside_out;          /* closed shells that enclose what is in no other with their fronts: rooms, or wrong */
+    sp_flaw bits;                /* shells that are not closed and have next to no area */
+    double crack;                /* m, how near is very near */
+    size_t shells;               /* connected through shared edges */
+    size_t closed_shells;        /* shells without open, non-manifold or flipped edges */
+    double area;                 /* m² */
+    sp_vec3 minimum, maximum;    /* box around all vertices in use, m; both zero for an empty mesh */
 } sp_mesh_diagnosis;
 
 /* Reads an OBJ, STL or PLY file (told by its extension in any case; text or binary told by its content), or a CAD file

@@ -1,6 +1,7 @@
 /* sprayplan check: what is in a scene and what is wrong with it. */
 #include "cad.h"
 #include "cli.h"
+#include "flaws.h"
 
 #include <jansson.h>
 #include <stdarg.h>
@@ -64,6 +65,7 @@ static void tell_boxes(findings *found)
     const sp_setup *setup = setup_of(found);
     found->mesh.minimum = sp_setup_outside(setup, found->mesh.minimum);
     found->mesh.maximum = sp_setup_outside(setup, found->mesh.maximum);
+    cli_flaws_tell(setup, &found->mesh);
     for (size_t i = 0; i < setup->mesh->part_count; i++) {
         found->part_box[i].minimum = sp_setup_outside(setup, found->part_box[i].minimum);
         found->part_box[i].maximum = sp_setup_outside(setup, found->part_box[i].maximum);
@@ -84,14 +86,21 @@ static void warn_of_mesh(findings *found)
              "cavity: found none, and %zu bodies are closed: both sides of their walls take liquid and count "
              "once; name a point of the space where the liquid flies",
              mesh->closed_shells);
-    if (mesh->degenerate)
-        warn(found, "geometry: %zu degenerate triangles are left out", mesh->degenerate);
-    if (mesh->non_manifold_edges)
-        warn(found, "geometry: %zu edges belong to three or more triangles", mesh->non_manifold_edges);
-    if (mesh->flipped_edges)
-        warn(found, "geometry: at %zu edges neighbours disagree which side is the front", mesh->flipped_edges);
-    if (mesh->duplicate_triangles)
-        warn(found, "geometry: %zu triangles are there twice", mesh->duplicate_triangles);
+    if (mesh->degenerate.count)
+        warn(found, "geometry: %zu degenerate triangles are left out", mesh->degenerate.count);
+    if (mesh->non_manifold_edges.count)
+        warn(found, "geometry: %zu edges belong to three or more triangles", mesh->non_manifold_edges.count);
+    if (mesh->flipped_edges.count)
+        warn(found, "geometry: at %zu edges neighbours disagree which side is the front", mesh->flipped_edges.count);
+    if (mesh->duplicate_triangles.count)
+        warn(found, "geometry: %zu triangles are there twice", mesh->duplicate_triangles.count);
+    if (mesh->cracks.count)
+        warn(found, "geometry: %zu corners on open edges lie within %.2g m of others and are not joined to them",
+             mesh->cracks.count, mesh->crack);
+    if (mesh->crossings.count)
+        warn(found, "geometry: %zu pairs of triangles of one shell run through each other", mesh->crossings.count);
+    if (mesh->bits.count)
+        warn(found, "geometry: %zu loose bits have next to no area", mesh->bits.count);
 }
 
 /* A file whose unit is not what the scene says is a thousand times too large or too small, or 25 times. */
@@ -105,8 +114,9 @@ static void warn_of_size(findings *found)
             box = cli_box_join(box, found->part_box[i]);
         double size = cli_box_size(box);
         if (size > LARGEST_SIZE || size < SMALLEST_SIZE)
-            warn(found, "geometry: file %lu is %.4g m across: is `unit` the unit of its coordinates?",
-                 (unsigned long)geometry, size);
+            warn(found, "geometry: file %lu is %.4g m x %.4g m x %.4g m: is `unit` the unit of its coordinates, %s?",
+                 (unsigned long)geometry, box.maximum.x - box.minimum.x, box.maximum.y - box.minimum.y,
+                 box.maximum.z - box.minimum.z, size > LARGEST_SIZE ? "not mm or inch" : "not m");
     }
 }
 
@@ -279,8 +289,9 @@ static void print_table(const findings *found, const char *output)
            found->mesh.maximum.y - found->mesh.minimum.y, found->mesh.maximum.z - found->mesh.minimum.z);
     printf("shells      %zu, %zu closed; %zu open edges, %zu non-manifold, %zu flipped; %zu degenerate, %zu double "
            "triangles\n",
-           found->mesh.shells, found->mesh.closed_shells, found->mesh.open_edges, found->mesh.non_manifold_edges,
-           found->mesh.flipped_edges, found->mesh.degenerate, found->mesh.duplicate_triangles);
+           found->mesh.shells, found->mesh.closed_shells, found->mesh.open_edges.count,
+           found->mesh.non_manifold_edges.count, found->mesh.flipped_edges.count, found->mesh.degenerate.count,
+           found->mesh.duplicate_triangles.count);
     cli_cad_print(found->opened->scene, setup_of(found)->mesh);
     print_cavity(setup);
     print_sweep(found->opened->evaluator);
@@ -291,6 +302,7 @@ static void print_table(const findings *found, const char *output)
     cli_cad_print_volumes(setup_of(found)->mesh, found->part_volume);
     print_openings(found);
     print_hollows(found);
+    cli_flaws_print(&found->mesh);
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
     if (layout->count)
         printf("\n%-16s %-20s %12s %11s %10s\n", "nozzle", "type", "flow L/min", "speed m/s", "angle deg");
@@ -312,14 +324,14 @@ static void print_table(const findings *found, const char *output)
 static json_t *mesh_json(const findings *found)
 {
     const sp_mesh_diagnosis *m = &found->mesh;
-    return json_pack("{s:I, s:I, s:f, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:[fff], s:[fff]}", "triangles",
-                     (json_int_t)setup_of(found)->mesh->triangle_count, "vertices",
-                     (json_int_t)setup_of(found)->mesh->vertex_count, "area_m2", m->area, "degenerate",
-                     (json_int_t)m->degenerate, "open_edges", (json_int_t)m->open_edges, "non_manifold_edges",
-                     (json_int_t)m->non_manifold_edges, "flipped_edges", (json_int_t)m->flipped_edges,
-                     "duplicate_triangles", (json_int_t)m->duplicate_triangles, "shells", (json_int_t)m->shells,
-                     "closed_shells", (json_int_t)m->closed_shells, "minimum_m", m->minimum.x, m->minimum.y,
-                     m->minimum.z, "maximum_m", m->maximum.x, m->maximum.y, m->maximum.z);
+    return json_pack(
+        "{s:I, s:I, s:f, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:[fff], s:[fff]}", "triangles",
+        (json_int_t)setup_of(found)->mesh->triangle_count, "vertices", (json_int_t)setup_of(found)->mesh->vertex_count,
+        "area_m2", m->area, "degenerate", (json_int_t)m->degenerate.count, "open_edges",
+        (json_int_t)m->open_edges.count, "non_manifold_edges", (json_int_t)m->non_manifold_edges.count, "flipped_edges",
+        (json_int_t)m->flipped_edges.count, "duplicate_triangles", (json_int_t)m->duplicate_triangles.count, "shells",
+        (json_int_t)m->shells, "closed_shells", (json_int_t)m->closed_shells, "minimum_m", m->minimum.x, m->minimum.y,
+        m->minimum.z, "maximum_m", m->maximum.x, m->maximum.y, m->maximum.z);
 }
 
 /* null: of a part without triangles. */
@@ -404,11 +416,12 @@ static bool print_json(const findings *found)
     for (size_t i = 0; i < found->warning_count; i++)
         json_array_append_new(warnings, json_string(found->warnings[i]));
     json_t *object = json_pack(
-        "{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}", "sprayplan", SP_VERSION,
-        "command", "check", "scene", sp_scene_path(found->opened->scene), "mesh", mesh_json(found), "cad",
-        cli_cad_json(found->opened->scene, setup_of(found)->mesh), "parts", parts_json(found), "cavity_m",
-        cavity_json(setup_of(found)), "sweep", sweep_json(found->opened->evaluator), "openings", openings_json(found),
-        "hollows", hollows_json(found), "outdoors_m2", sp_evaluator_outdoors(found->opened->evaluator), "clean_area_m2",
+        "{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}", "sprayplan",
+        SP_VERSION, "command", "check", "scene", sp_scene_path(found->opened->scene), "mesh", mesh_json(found), "flaws",
+        cli_flaws_json(&found->mesh), "cad", cli_cad_json(found->opened->scene, setup_of(found)->mesh), "parts",
+        parts_json(found), "cavity_m", cavity_json(setup_of(found)), "sweep", sweep_json(found->opened->evaluator),
+        "openings", openings_json(found), "hollows", hollows_json(found), "outdoors_m2",
+        sp_evaluator_outdoors(found->opened->evaluator), "clean_area_m2",
         sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
         (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
         sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",

@@ -242,9 +242,9 @@ static void triangles_without_area_open_no_edge(void **state)
     mesh = sp_cad_mend(mesh, &mended, &error);
     assert_non_null(mesh);
     assert_true(sp_mesh_diagnose(mesh, &diagnosis, &error));
-    assert_int_equal(diagnosis.open_edges, 0);
+    assert_int_equal(diagnosis.open_edges.count, 0);
     assert_int_equal(diagnosis.closed_shells, 1);
-    assert_int_equal(diagnosis.degenerate, 0);
+    assert_int_equal(diagnosis.degenerate.count, 0);
     assert_int_equal(mended, 4);
     assert_int_equal(mesh->triangle_count, 8);
     assert_true(sp_mesh_volumes(mesh, &volume, &error));

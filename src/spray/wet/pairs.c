@@ -1,38 +1,22 @@
-/* Space is halved again and again, and with it the triangles, until few are left; these are compared one by one. What
- * lies in both halves is compared in both, but noted only in the half that holds the low corner of what the two boxes
- * have in common. */
 #include "spray/wet/pairs.h"
 
+#include "mesh/box_pairs.h"
 #include "nozzle/scramble.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define FEW 24          /* triangles that are compared one by one */
-#define MOST_HALVES 60  /* how often space is halved */
 #define MOST_SHELLS 256 /* beyond it shells' boxes are not compared with each other */
 #define FOLDED 1e-6     /* rad: neighbours at a smaller angle lie on each other */
 
 typedef struct {
-    double low[3], high[3];
-} space_box;
-
-typedef struct {
     const sp_mesh *mesh;
     const sp_shells *shells;
-    space_box *box; /* [triangles] */
+    sp_box *box; /* [triangles] */
     sp_pair *pairs;
     size_t count, capacity;
     bool failed; /* memory ran out */
 } pair_search;
-
-static bool overlap(const space_box *a, const space_box *b)
-{
-    for (int k = 0; k < 3; k++)
-        if (a->low[k] > b->high[k] || b->low[k] > a->high[k])
-            return false;
-    return true;
-}
 
 static void note(pair_search *search, uint32_t a, uint32_t b, bool copy)
 {
@@ -77,73 +61,14 @@ static bool lie_side_by_side(const sp_mesh *mesh, uint32_t a, uint32_t b)
     return !(sp_dot(across[0], across[1]) > 0 && sp_length(sp_cross(across[0], across[1])) < FOLDED);
 }
 
-static void compare(pair_search *search, const space_box *space, uint32_t a, uint32_t b)
+/* A box visitor. */
+static bool compare(void *user, uint32_t a, uint32_t b)
 {
+    pair_search *search = user;
     uint32_t shell = search->shells->of[a];
-    const space_box *p = &search->box[a], *q = &search->box[b];
-    if ((shell == search->shells->of[b] && search->shells->simple[shell]) || !overlap(p, q))
-        return;
-    for (int k = 0; k < 3; k++) {
-        double low = fmax(p->low[k], q->low[k]);
-        if (low < space->low[k] || low >= space->high[k])
-            return;
-    }
-    if (!lie_side_by_side(search->mesh, a, b))
+    if ((shell != search->shells->of[b] || !search->shells->simple[shell]) && !lie_side_by_side(search->mesh, a, b))
         note(search, a < b ? a : b, a < b ? b : a, false);
-}
-
-static void search_space(pair_search *search, const space_box *space, const uint32_t *triangles, size_t count,
-                         int depth);
-
-/* False where halving along this axis leaves nearly all in both halves. */
-static bool halve(pair_search *search, const space_box *space, const uint32_t *triangles, size_t count, int depth,
-                  int axis)
-{
-    double middle = 0.5 * (space->low[axis] + space->high[axis]);
-    space_box half[2] = {*space, *space};
-    half[0].high[axis] = half[1].low[axis] = middle;
-    uint32_t *part[2] = {malloc((count + 1) * sizeof **part), malloc((count + 1) * sizeof **part)};
-    size_t counts[2] = {0, 0};
-    for (size_t i = 0; part[0] && part[1] && i < count; i++) {
-        const space_box *box = &search->box[triangles[i]];
-        if (box->low[axis] <= middle)
-            part[0][counts[0]++] = triangles[i];
-        if (box->high[axis] >= middle)
-            part[1][counts[1]++] = triangles[i];
-    }
-    bool worth = part[0] && part[1] && 10 * (counts[0] + counts[1]) < 17 * count;
-    if (!part[0] || !part[1])
-        search->failed = true;
-    for (int k = 0; k < 2 && worth; k++)
-        search_space(search, &half[k], part[k], counts[k], depth + 1);
-    free(part[0]);
-    free(part[1]);
-    return worth;
-}
-
-static void search_space(pair_search *search, const space_box *space, const uint32_t *triangles, size_t count,
-                         int depth)
-{
-    if (search->failed)
-        return;
-    bool halved = false;
-    for (int first = 0; count > FEW && depth < MOST_HALVES && !halved && first < 3; first++) {
-        int order[3] = {0, 1, 2}; /* the longest axis first */
-        for (int i = 0; i < 2; i++)
-            for (int k = i + 1; k < 3; k++) {
-                double a = space->high[order[i]] - space->low[order[i]],
-                       b = space->high[order[k]] - space->low[order[k]];
-                if (b > a) {
-                    int swap = order[i];
-                    order[i] = order[k];
-                    order[k] = swap;
-                }
-            }
-        halved = halve(search, space, triangles, count, depth, order[first]);
-    }
-    for (size_t i = 0; !halved && i < count; i++)
-        for (size_t k = 0; k < i; k++)
-            compare(search, space, triangles[i], triangles[k]);
+    return !search->failed;
 }
 
 /* Whether a triangle's box meets that of a shell with which it may interfere. */
@@ -154,9 +79,9 @@ static bool may_meet(const pair_search *search, uint32_t triangle, double margin
     if (!shells->simple[own] || shells->count > MOST_SHELLS)
         return true;
     for (uint32_t s = 0; s < shells->count; s++) {
-        space_box box = {{shells->low[s].x - margin, shells->low[s].y - margin, shells->low[s].z - margin},
-                         {shells->high[s].x + margin, shells->high[s].y + margin, shells->high[s].z + margin}};
-        if (s != own && overlap(&box, &search->box[triangle]))
+        sp_box box = {{shells->low[s].x - margin, shells->low[s].y - margin, shells->low[s].z - margin},
+                      {shells->high[s].x + margin, shells->high[s].y + margin, shells->high[s].z + margin}};
+        if (s != own && sp_boxes_overlap(&box, &search->box[triangle]))
             return true;
     }
     return false;
@@ -207,20 +132,6 @@ static bool is_copy(pair_search *search, corner_table *table, uint32_t triangle)
     return true;
 }
 
-static space_box box_of(const sp_mesh *mesh, uint32_t triangle, double margin)
-{
-    space_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    for (int i = 0; i < 3; i++) {
-        sp_vec3 p = mesh->vertices[mesh->triangles[triangle][i]];
-        double at[3] = {p.x, p.y, p.z};
-        for (int k = 0; k < 3; k++) {
-            box.low[k] = fmin(box.low[k], at[k] - margin);
-            box.high[k] = fmax(box.high[k], at[k] + margin);
-        }
-    }
-    return box;
-}
-
 static int by_triangles(const void *left, const void *right)
 {
     const sp_pair *p = left, *q = right;
@@ -240,18 +151,12 @@ sp_pair *sp_pairs_create(const sp_mesh *mesh, const sp_shells *shells, double ma
                           .capacity = 1024};
     corner_table table = {0};
     search.failed = !list || !search.box || !search.pairs || !table_create(&table, triangles);
-    space_box space = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     for (uint32_t t = 0; !search.failed && t < triangles; t++) {
-        search.box[t] = box_of(mesh, t, margin);
-        if (!may_meet(&search, t, margin) || is_copy(&search, &table, t))
-            continue;
-        list[candidates++] = t;
-        for (int k = 0; k < 3; k++) {
-            space.low[k] = fmin(space.low[k], search.box[t].low[k]);
-            space.high[k] = fmax(space.high[k], search.box[t].high[k] + margin);
-        }
+        search.box[t] = sp_box_of(mesh, t, margin);
+        if (may_meet(&search, t, margin) && !is_copy(&search, &table, t))
+            list[candidates++] = t;
     }
-    search_space(&search, &space, list, candidates, 0);
+    search.failed = search.failed || !sp_box_pairs(search.box, list, candidates, compare, &search, error);
     free(list);
     free(table.slots);
     free(search.box);

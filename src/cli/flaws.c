@@ -1,0 +1,82 @@
+#include "flaws.h"
+
+#include <stddef.h>
+#include <stdio.h>
+
+static const struct {
+    const char *key, *name;
+    size_t offset;
+} kinds[] = {
+    {"degenerate", "triangles without area", offsetof(sp_mesh_diagnosis, degenerate)},
+    {"duplicate_triangles", "triangles there twice", offsetof(sp_mesh_diagnosis, duplicate_triangles)},
+    {"open_edges", "open edges", offsetof(sp_mesh_diagnosis, open_edges)},
+    {"cracks", "corners at cracks", offsetof(sp_mesh_diagnosis, cracks)},
+    {"non_manifold_edges", "non-manifold edges", offsetof(sp_mesh_diagnosis, non_manifold_edges)},
+    {"flipped_edges", "flipped edges", offsetof(sp_mesh_diagnosis, flipped_edges)},
+    {"crossings", "crossings in a shell", offsetof(sp_mesh_diagnosis, crossings)},
+    {"inside_out", "shells inside out", offsetof(sp_mesh_diagnosis, inside_out)},
+    {"bits", "loose bits", offsetof(sp_mesh_diagnosis, bits)},
+};
+#define KINDS (sizeof kinds / sizeof *kinds)
+#define A_LINE 3 /* places */
+#define INDENT "                                      "
+
+static sp_flaw *flaw_of(sp_mesh_diagnosis *mesh, size_t kind)
+{
+    return (sp_flaw *)((char *)mesh + kinds[kind].offset);
+}
+
+static const sp_flaw *told_flaw_of(const sp_mesh_diagnosis *mesh, size_t kind)
+{
+    return (const sp_flaw *)((const char *)mesh + kinds[kind].offset);
+}
+
+static size_t places_of(const sp_flaw *flaw)
+{
+    return flaw->count < SP_PLACES ? flaw->count : SP_PLACES;
+}
+
+void cli_flaws_tell(const sp_setup *setup, sp_mesh_diagnosis *mesh)
+{
+    for (size_t kind = 0; kind < KINDS; kind++) {
+        sp_flaw *flaw = flaw_of(mesh, kind);
+        for (size_t i = 0; i < places_of(flaw); i++)
+            flaw->place[i] = sp_setup_outside(setup, flaw->place[i]);
+    }
+}
+
+void cli_flaws_print(const sp_mesh_diagnosis *mesh)
+{
+    bool any = false;
+    for (size_t kind = 0; kind < KINDS; kind++) {
+        const sp_flaw *flaw = told_flaw_of(mesh, kind);
+        if (!flaw->count && !flaw->more)
+            continue;
+        if (!any)
+            printf("\n%-24s %12s  %s\n", "flaw", "count", "the first, at m");
+        any = true;
+        printf("%-24s %11zu%c ", kinds[kind].name, flaw->count, flaw->more ? '+' : ' ');
+        for (size_t i = 0; i < places_of(flaw); i++)
+            printf("%s[%.5g, %.5g, %.5g]",
+                   i % A_LINE ? ", "
+                   : i        ? "\n" INDENT
+                              : "",
+                   flaw->place[i].x, flaw->place[i].y, flaw->place[i].z);
+        printf("\n");
+    }
+}
+
+json_t *cli_flaws_json(const sp_mesh_diagnosis *mesh)
+{
+    json_t *all = json_object();
+    for (size_t kind = 0; kind < KINDS; kind++) {
+        const sp_flaw *flaw = told_flaw_of(mesh, kind);
+        json_t *places = json_array();
+        for (size_t i = 0; i < places_of(flaw); i++)
+            json_array_append_new(places, json_pack("[fff]", flaw->place[i].x, flaw->place[i].y, flaw->place[i].z));
+        json_object_set_new(all, kinds[kind].key,
+                            json_pack("{s:I, s:b, s:o}", "count", (json_int_t)flaw->count, "perhaps_more",
+                                      (int)flaw->more, "places_m", places));
+    }
+    return all;
+}

@@ -1,0 +1,71 @@
+/* What check says of a mesh that is not sound. */
+#include "workplace.h"
+
+#include <sprayplan/mesh.h>
+
+static json_t *flaw(const json_t *check, const char *kind)
+{
+    json_t *found = json_object_get(json_object_get(check, "flaws"), kind);
+    assert_non_null(found);
+    return found;
+}
+
+static void expect_flaw(const json_t *check, const char *kind, json_int_t count, double x, double y, double z)
+{
+    json_t *found = flaw(check, kind), *place = json_array_get(json_object_get(found, "places_m"), 0);
+    const double expected[] = {x, y, z};
+    assert_int_equal(json_integer_value(json_object_get(found, "count")), count);
+    assert_false(json_boolean_value(json_object_get(found, "perhaps_more")));
+    for (size_t k = 0; k < 3; k++)
+        assert_true(fabs(json_number_value(json_array_get(place, k)) - expected[k]) < 1e-9);
+}
+
+static void a_sound_room_has_none(void **state)
+{
+    (void)state;
+    json_t *check = expect_json("check room.yaml --json", 0), *flaws = json_object_get(check, "flaws"), *found;
+    const char *kind;
+    json_object_foreach(flaws, kind, found)
+    {
+        /* the room is drawn with its front inside */
+        assert_int_equal(json_integer_value(json_object_get(found, "count")), strcmp(kind, "inside_out") ? 0 : 1);
+    }
+    assert_int_equal(json_object_size(flaws), 9);
+    json_decref(check);
+}
+
+/* The room with a lid that is not joined to it, a floor tile laid twice, a crumb and a triangle without area. Places as
+ * in the scene's file, whatever the evaluator makes of them. */
+static void flaws_have_places(void **state)
+{
+    (void)state;
+    write_file("unsound.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                              "v 0 0 1.00001\nv 1 0 1.00001\nv 1 1 1.00001\nv 0 1 1.00001\n"
+                              "v .5 .5 .5\nv .501 .5 .5\nv .5 .501 .5\n"
+                              "g floor\nf 1 2 3 4\nf 1 2 3\n"
+                              "g ceiling\nf 9 12 11 10\n"
+                              "g walls\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n"
+                              "g crumb\nf 13 14 15\nf 13 14 14\n");
+    write_file("unsound.yaml", "geometry:\n  - {file: unsound.obj, unit: m, translate: [2 m, 0 m, 0 m]}\n");
+    json_t *check = expect_json("check unsound.yaml --json", 0);
+    expect_flaw(check, "degenerate", 1, 2.5 + 0.002 / 3, 0.5, 0.5);
+    expect_flaw(check, "duplicate_triangles", 1, 2 + 2.0 / 3, 1.0 / 3, 0);
+    expect_flaw(check, "bits", 1, 2.5 + 0.001 / 3, 0.5 + 0.001 / 3, 0.5);
+    expect_flaw(check, "cracks", 8, 2, 0, 1);
+    assert_int_equal(json_integer_value(json_object_get(flaw(check, "open_edges"), "count")), 4 + 4 + 3);
+    assert_int_equal(json_array_size(json_object_get(flaw(check, "open_edges"), "places_m")), SP_PLACES);
+    json_decref(check);
+    outcome result = run_program("check unsound.yaml");
+    assert_non_null(strstr(result.out, "corners at cracks                  8  [2, 0, 1]"));
+    assert_non_null(strstr(result.out, "within 0.00017 m of others"));
+    forget(&result);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_sound_room_has_none),
+        cmocka_unit_test(flaws_have_places),
+    };
+    return cmocka_run_group_tests(tests, open_workplace, close_workplace);
+}
