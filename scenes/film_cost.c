@@ -1,6 +1,7 @@
 /* What film costs, in seconds of one core: building its linear map on the cells of a scene, cut to a texel (m), and
  * running it. Each as many times as the third argument says, or ten times. */
 #include "film/film.h"
+#include "film/laminar.h"
 #include "spray/state.h"
 
 #include <sprayplan/sprayplan.h>
@@ -64,7 +65,8 @@ static bool cost(const sp_scene *scene, double texel, size_t times, sp_error *er
                                          .tracer = walls->tracer,
                                          .cells = &walls->patches,
                                          .cell_of = (const uint32_t(*)[2])walls->texel_patch,
-                                         .down = sp_scale(sp_unit(setup.up), -1)};
+                                         .down = sp_scale(sp_unit(setup.up), -1),
+                                         .wave = sp_film_wave(&setup.liquid, setup.gravity)};
         done = measure(&surface, times, build, run, error);
     }
     if (done) {

@@ -1,13 +1,12 @@
 /* Refines a mesh to about so many triangles, for measuring: the longest edges are halved, round after round, and each
- * new vertex is moved by a small share of its edge, so that nothing is flat or regular that was not. No gaps arise, and
- * the same mesh comes out everywhere. */
+ * new vertex is moved by a small share of its edge, so that nothing is flat or regular that was not: by 0.05, or what
+ * the fourth argument says. No gaps arise, and the same mesh comes out everywhere. */
 #include <sprayplan/sprayplan.h>
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double JITTER = 0.05; /* of the edge's length */
 enum { NO_VERTEX = -1 };
 
 typedef struct {
@@ -24,6 +23,7 @@ typedef struct {
     size_t vertex_count, triangle_count, vertex_room;
     sp_vec3 *vertices;
     uint32_t (*triangles)[3];
+    double jitter; /* of an edge's length */
 } mesh;
 
 static void *allocate(size_t count, size_t size)
@@ -104,7 +104,7 @@ static uint32_t add_middle(mesh *m, const edge_use *use, double length)
     uint64_t number = 3 * (uint64_t)m->vertex_count;
     sp_vec3 off = sp_v(random_about_zero(number), random_about_zero(number + 1), random_about_zero(number + 2));
     sp_vec3 middle = sp_scale(sp_add(m->vertices[use->from], m->vertices[use->to]), 0.5);
-    m->vertices[m->vertex_count] = sp_along(middle, JITTER * length, off);
+    m->vertices[m->vertex_count] = sp_along(middle, m->jitter * length, off);
     return (uint32_t)m->vertex_count++;
 }
 
@@ -187,10 +187,12 @@ static bool write_obj(const mesh *m, const char *path)
 
 int main(int count, char **arguments)
 {
-    char *end = NULL;
-    long goal = count == 4 ? strtol(arguments[2], &end, 10) : 0;
-    if (goal < 1 || goal > 100000000 || *end) {
-        fprintf(stderr, "usage: refine_mesh MESH TRIANGLES OUT.obj\n");
+    char *end = NULL, *rest = "";
+    bool complete = count == 4 || count == 5;
+    long goal = complete ? strtol(arguments[2], &end, 10) : 0;
+    double jitter = count == 5 ? strtod(arguments[4], &rest) : 0.05;
+    if (goal < 1 || goal > 100000000 || *end || *rest || !(jitter >= 0 && jitter < 0.5)) {
+        fprintf(stderr, "usage: refine_mesh MESH TRIANGLES OUT.obj [JITTER]\n");
         return 2;
     }
     sp_error error = {0};
@@ -201,7 +203,7 @@ int main(int count, char **arguments)
         fprintf(stderr, "%s\n", text);
         return 1;
     }
-    mesh m = {coarse->vertex_count, coarse->triangle_count, coarse->vertex_count + 1, NULL, NULL};
+    mesh m = {coarse->vertex_count, coarse->triangle_count, coarse->vertex_count + 1, NULL, NULL, jitter};
     m.vertices = allocate(m.vertex_room, sizeof *m.vertices);
     m.triangles = allocate(m.triangle_count, sizeof *m.triangles);
     memcpy(m.vertices, coarse->vertices, m.vertex_count * sizeof *m.vertices);

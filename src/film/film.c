@@ -1,3 +1,4 @@
+#include "film/drips.h"
 #include "film/shares.h"
 
 #include "mesh/counting_sort.h"
@@ -157,7 +158,7 @@ sp_film *sp_film_create(const sp_film_surface *surface, sp_error *error)
     sp_film_basins basins = {0};
     sp_film_shares shares = {0};
     uint32_t *ends = NULL;
-    bool done = film && sp_film_links_create(surface, &links, error) &&
+    bool done = film && sp_film_links_create(surface, &links, error) && sp_film_drips_find(surface, &links, error) &&
                 (ends = sp_film_ends_find(surface, &links, error)) &&
                 sp_film_order_create(surface, &links, ends, &order, error) &&
                 sp_film_basins_create(surface, &links, ends, &order, &basins, error) &&

@@ -16,6 +16,7 @@ typedef struct {
     const sp_patches *cells;      /* of every wet side, whatever is to be cleaned; each has one side */
     const uint32_t (*cell_of)[2]; /* [texel_count], on front and back; SP_NONE where that is dry */
     sp_vec3 down;                 /* unit */
+    double wave; /* m, sp_film_wave of the liquid: what is smaller on a ceiling makes nothing drip */
 } sp_film_surface;
 
 /* Where a film ends, m³/s. */

@@ -12,4 +12,8 @@ double sp_film_thickness(const sp_fluid *liquid, double per_width, double pull);
  * 90°). */
 double sp_film_jet_radius(const sp_fluid *liquid, double flow);
 
+/* Length (m) of the wave that grows fastest on a film beneath a ceiling, 2π √2 √(σ/ρg) (Rayleigh and Taylor; Fermigier,
+ * Limat, Wesfreid, Boudinet and Quilliet, Journal of Fluid Mechanics 236, 1992): 24 mm for water. `gravity` in m/s². */
+double sp_film_wave(const sp_fluid *liquid, double gravity);
+
 #endif

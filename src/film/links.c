@@ -7,13 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LEAST_ACROSS 1e-9           /* of a cell's edge: less is round-off */
-#define CEILING 0.17453292519943295 /* rad, 10°: the slope below which a ceiling does not hold its film */
-
 /* How a triangle lies. */
 typedef struct {
-    sp_vec3 tangent;
-    double facing; /* the cosine of its front to straight down */
+    sp_vec3 tangent, normal;
 } slope;
 
 /* A piece of a border between two cells, and what it is to each. */
@@ -46,7 +42,7 @@ bool sp_film_is_open(const sp_film_surface *surface, const sp_film_links *links,
     if (!(links->end_length[cell] > 0))
         return false;
     double across = sp_film_is_flat(surface, cell) ? links->end_length[cell] : links->end_across[cell];
-    return across > LEAST_ACROSS * surface->cells->length[cell];
+    return across > SP_FILM_ACROSS * surface->cells->length[cell];
 }
 
 /* What of a border is an end to one cell on it. */
@@ -74,7 +70,8 @@ static bool take_side(gathering *own, const sp_border *border, unsigned side)
         const slope *slope = &own->slopes[border->triangle[k]];
         met.across[k] = sp_dot(slope->tangent, border->outward[k]);
         met.length[k] = sp_length(border->outward[k]);
-        own->links->facing[met.cell[k]] += met.length[k] * (sides[k] ? -1 : 1) * slope->facing;
+        sp_vec3 *facing = &own->links->facing[met.cell[k]];
+        *facing = sp_along(*facing, sides[k] ? -met.length[k] : met.length[k], slope->normal);
         if (met.cell[1 - k] == SP_NONE)
             take_end(own->links, met.cell[k], met.across[k], met.length[k], border->outward[k]);
     }
@@ -100,8 +97,8 @@ static bool find_borders(gathering *own, sp_error *error)
     if (!own->slopes)
         return sp_fail_memory(error);
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        sp_vec3 normal = sp_triangle_normal(mesh, t), down = own->surface->down;
-        own->slopes[t] = (slope){sp_film_tangent(normal, down), sp_dot(normal, down)};
+        sp_vec3 normal = sp_triangle_normal(mesh, t);
+        own->slopes[t] = (slope){sp_film_tangent(normal, own->surface->down), normal};
     }
     return sp_atlas_visit_borders(own->surface->atlas, mesh, take_border, own, error);
 }
@@ -171,29 +168,6 @@ static bool join(const gathering *own)
     return done;
 }
 
-/* True where nothing lies lower than the cell and it does not face up: liquid that has come there hangs. A cell that
- * goes round an edge counts as what of it lies on its borders, whichever way its point faces. */
-static bool is_tip(const sp_film_surface *surface, const sp_film_links *links, uint32_t cell)
-{
-    const sp_vec3 *point = surface->cells->point;
-    double length = surface->cells->length[cell], facing = links->facing[cell] / length;
-    if (facing < -SP_FILM_FLAT)
-        return false;
-    for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++)
-        if (sp_dot(point[links->to[k]], surface->down) > sp_dot(point[cell], surface->down) ||
-            (facing < SP_FILM_FLAT && links->across[k] > LEAST_ACROSS * length))
-            return false;
-    return true;
-}
-
-/* Over an open end liquid runs on: what hangs there is no tip. */
-static void find_drips(const sp_film_surface *surface, sp_film_links *links)
-{
-    for (uint32_t i = 0; i < links->count; i++)
-        links->drips[i] = sp_dot(surface->cells->normal[i], surface->down) > cos(CEILING) ||
-                          (!sp_film_is_open(surface, links, i) && is_tip(surface, links, i));
-}
-
 bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, sp_error *error)
 {
     size_t count = surface->cells->count;
@@ -202,10 +176,9 @@ bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, 
                              .end_across = calloc(count + 1, sizeof *links->end_across),
                              .end_length = calloc(count + 1, sizeof *links->end_length),
                              .end = calloc(count + 1, sizeof *links->end),
-                             .facing = calloc(count + 1, sizeof *links->facing),
-                             .drips = calloc(count + 1, sizeof *links->drips)};
+                             .facing = calloc(count + 1, sizeof *links->facing)};
     gathering own = {.surface = surface, .links = links};
-    bool done = links->start && links->end_across && links->end_length && links->end && links->facing && links->drips &&
+    bool done = links->start && links->end_across && links->end_length && links->end && links->facing &&
                 find_borders(&own, error);
     if (done && own.count >= SP_NONE / 2) {
         sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "film: %zu borders of texels found, too many: take a coarser texel",
@@ -215,10 +188,8 @@ bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, 
     done = done && join(&own);
     free(own.pieces);
     free(own.slopes);
-    if (done) {
-        find_drips(surface, links);
+    if (done)
         return true;
-    }
     sp_film_links_free(links);
     return sp_fail_memory(error);
 }

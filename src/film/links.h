@@ -5,6 +5,7 @@
 #include "film/film.h"
 
 #define SP_FILM_FLAT 1e-3 /* sine of the slope: less is level, as geometry in single precision tells it */
+#define SP_FILM_ACROSS 1e-9 /* of a cell's edge: less across the flow is round-off */
 
 typedef struct {
     size_t count;  /* of cells */
@@ -15,9 +16,9 @@ typedef struct {
     double *end_across; /* [count], m, as `across`, of borders where the surface ends or goes on dry */
     double *end_length; /* [count], m, of these */
     sp_vec3 *end;       /* [count], m, b of the longest of these */
-    double *facing; /* [count], m, Σ over all borders of length times the cosine of the side there to straight down */
+    sp_vec3 *facing;    /* [count], m, Σ over all borders of length times the unit normal of the side there */
     bool *drips;    /* [count], all that comes there drips off: a ceiling so flat that it does not hold its film, or
-                     * what hangs lower than all beside it */
+                     * what hangs lower than all beside it; see film/drips.h */
 } sp_film_links;
 
 bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, sp_error *error);

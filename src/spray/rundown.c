@@ -1,6 +1,7 @@
 #include "rundown.h"
 
 #include "discs.h"
+#include "film/laminar.h"
 #include "resolution.h"
 
 #include <stdlib.h>
@@ -141,7 +142,9 @@ bool sp_rundown_create(sp_evaluator *evaluator, sp_error *error)
                                                       .tracer = walls->tracer,
                                                       .cells = &walls->patches,
                                                       .cell_of = (const uint32_t(*)[2])walls->texel_patch,
-                                                      .down = sp_scale(sp_unit(walls->setup.up), -1)},
+                                                      .down = sp_scale(sp_unit(walls->setup.up), -1),
+                                                      .wave = sp_film_wave(&walls->setup.liquid,
+                                                                           walls->setup.gravity)},
                                    error);
     if (!rundown->film)
         return false;

@@ -5,6 +5,7 @@
 #include "../spray/shapes.h"
 
 #include "film/film.h"
+#include "film/laminar.h"
 #include "spray/state.h"
 
 typedef struct {
@@ -48,7 +49,8 @@ static inline void walls_start(walls *w, const sp_setup *setup)
                                                 .tracer = e->tracer,
                                                 .cells = w->cells,
                                                 .cell_of = (const uint32_t(*)[2])e->texel_patch,
-                                                .down = sp_v(0, 0, -1)},
+                                                .down = sp_v(0, 0, -1),
+                                                .wave = sp_film_wave(&setup->liquid, setup->gravity)},
                              &error);
     assert_string_equal(error.message, "");
     assert_non_null(w->film);
