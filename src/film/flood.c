@@ -10,6 +10,8 @@
 
 #define LEVEL 1e-9 /* of the height of all: cells nearer to each other than this are level */
 #define DEEP 0.05  /* the same: deeper hollows are not filled */
+#define PATIENCE 2   /* texels that the flood rises while a cell waits */
+#define SLIGHT 1e-3 /* of a border's length: what runs over it by less across the flow decides nothing */
 
 typedef struct {
     const sp_film_surface *surface;
@@ -22,8 +24,9 @@ typedef struct {
     uint32_t *fed;     /* [cells], one of the cells that end there, SP_NONE for none */
     uint32_t *fed_too; /* [cells], the next one that ends where this one does */
     uint32_t *hollow;  /* [cells], disjoint sets */
-    bool *reached;
-    sp_heap heap; /* level, whether sunk, cell */
+    uint32_t *waits;   /* [cells], for how many that it runs to and that have no rank yet */
+    bool *reached, *ranked;
+    sp_heap heap, late; /* level, whether sunk, cell; those that wait for others have come into the second */
     sp_film_order *order;
 } flood;
 
@@ -68,6 +71,28 @@ static void list_fed(flood *own)
         }
 }
 
+/* True where liquid runs from one cell to the other: out of either into the edge of a valley, but from the lower one no
+ * farther. */
+static bool leads(const flood *own, uint32_t from, uint32_t to, double across, double back, double length)
+{
+    return across > SLIGHT * length && (!(back > SLIGHT * length) || own->height[to] < own->height[from]);
+}
+
+static void count_waits(flood *own)
+{
+    const sp_film_links *links = own->links;
+    for (uint32_t i = 0; i < links->count; i++) {
+        own->waits[i] = 0;
+        for (size_t k = links->start[i]; !links->drips[i] && k < links->start[i + 1]; k++)
+            own->waits[i] += leads(own, i, links->to[k], links->across[k], links->into[k], links->length[k]);
+    }
+}
+
+static uint64_t key_of(const flood *own, uint32_t cell)
+{
+    return (uint64_t)own->level[cell] << 33 | (uint64_t)own->order->sunk[cell] << 32 | cell;
+}
+
 static bool reach(flood *own, uint32_t cell, uint32_t from, uint32_t level)
 {
     if (own->reached[cell])
@@ -76,23 +101,81 @@ static bool reach(flood *own, uint32_t cell, uint32_t from, uint32_t level)
     own->order->parent[cell] = from;
     bool sunk = own->order->sunk[cell] = level > own->height[cell];
     own->level[cell] = sunk ? level : own->height[cell];
-    return sp_heap_push(&own->heap, (uint64_t)own->level[cell] << 33 | (uint64_t)sunk << 32 | cell);
+    return sp_heap_push(&own->heap, key_of(own, cell));
 }
 
-/* Empties the heap. */
-static bool spread(flood *own, uint32_t *rank)
+/* True where all that the cell runs to has its rank and lies in no hollow: then it lies in none, whatever its point. */
+static bool runs_on(const flood *own, uint32_t cell)
 {
     const sp_film_links *links = own->links;
-    while (own->heap.count) {
-        uint64_t key = sp_heap_pop(&own->heap);
-        uint32_t cell = (uint32_t)key, level = (uint32_t)(key >> 33);
-        own->order->rank[cell] = (*rank)++;
-        for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++)
-            if (!links->drips[links->to[k]] && !reach(own, links->to[k], cell, level))
-                return false;
-        for (uint32_t fed = own->fed[cell]; fed != SP_NONE; fed = own->fed_too[fed])
-            if (!reach(own, fed, cell, level))
-                return false;
+    bool any = false;
+    for (size_t k = links->start[cell]; !links->drips[cell] && k < links->start[cell + 1]; k++) {
+        uint32_t to = links->to[k];
+        if (!leads(own, cell, to, links->across[k], links->into[k], links->length[k]))
+            continue;
+        if (!own->ranked[to] || own->order->sunk[to])
+            return false;
+        any = true;
+    }
+    return any;
+}
+
+/* Those that wait for the cell wait for it no more. */
+static bool release(flood *own, uint32_t cell)
+{
+    const sp_film_links *links = own->links;
+    for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++) {
+        uint32_t other = links->to[k];
+        if (!links->drips[other] && leads(own, other, cell, links->into[k], links->across[k], links->length[k]) &&
+            --own->waits[other] == 0 && own->reached[other] && !sp_heap_push(&own->heap, key_of(own, other)))
+            return false;
+    }
+    return true;
+}
+
+static bool settle(flood *own, uint32_t cell, uint32_t *rank)
+{
+    const sp_film_links *links = own->links;
+    own->ranked[cell] = true;
+    own->order->rank[cell] = (*rank)++;
+    if (own->order->sunk[cell] && runs_on(own, cell)) {
+        own->order->sunk[cell] = false;
+        own->level[cell] = own->height[cell];
+    }
+    if (!release(own, cell))
+        return false;
+    for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++)
+        if (!links->drips[links->to[k]] && !reach(own, links->to[k], cell, own->level[cell]))
+            return false;
+    for (uint32_t fed = own->fed[cell]; fed != SP_NONE; fed = own->fed_too[fed])
+        if (!reach(own, fed, cell, own->level[cell]))
+            return false;
+    return true;
+}
+
+/* True where it is the turn of a cell that waits: only heights that cells have within themselves are waited for. */
+static bool is_late(const flood *own)
+{
+    if (!own->late.count || !own->heap.count)
+        return own->late.count;
+    uint64_t key = own->late.keys[0];
+    double waited = own->metres[own->heap.keys[0] >> 33] - own->metres[key >> 33];
+    return waited > PATIENCE * own->surface->cells->length[(uint32_t)key];
+}
+
+/* Empties the heaps. A cell takes its turn when all that it runs to have had theirs; where these wait for it in turn, or
+ * lie in a hollow beneath it, by height. */
+static bool spread(flood *own, uint32_t *rank)
+{
+    while (own->heap.count || own->late.count) {
+        bool late = is_late(own);
+        uint64_t key = sp_heap_pop(late ? &own->late : &own->heap);
+        uint32_t cell = (uint32_t)key;
+        if (own->ranked[cell])
+            continue;
+        bool done = late || !own->waits[cell] ? settle(own, cell, rank) : sp_heap_push(&own->late, key);
+        if (!done)
+            return false;
     }
     return true;
 }
@@ -104,6 +187,8 @@ static bool fill(flood *own)
     uint32_t rank = 0;
     bool *held = own->order->held;
     memset(own->reached, 0, count);
+    memset(own->ranked, 0, count);
+    count_waits(own);
     for (uint32_t i = 0; i < count; i++)
         if ((held[i] || own->ends[i] == SP_FILM_LEFT || own->ends[i] == SP_FILM_ASTRAY) &&
             !reach(own, i, SP_NONE, own->height[i]))
@@ -157,9 +242,11 @@ static bool allocate(flood *own, sp_film_order *order, size_t room)
     own->fed = malloc(room * sizeof *own->fed);
     own->fed_too = malloc(room * sizeof *own->fed_too);
     own->hollow = malloc(room * sizeof *own->hollow);
+    own->waits = malloc(room * sizeof *own->waits);
     own->reached = malloc(room * sizeof *own->reached);
+    own->ranked = malloc(room * sizeof *own->ranked);
     return order->rank && order->parent && order->sunk && order->held && own->height && own->rising && own->metres &&
-           own->level && own->fed && own->fed_too && own->hollow && own->reached;
+           own->level && own->fed && own->fed_too && own->hollow && own->waits && own->reached && own->ranked;
 }
 
 static void flood_free(flood *own)
@@ -171,8 +258,11 @@ static void flood_free(flood *own)
     free(own->fed);
     free(own->fed_too);
     free(own->hollow);
+    free(own->waits);
     free(own->reached);
+    free(own->ranked);
     free(own->heap.keys);
+    free(own->late.keys);
 }
 
 bool sp_film_order_create(const sp_film_surface *surface, const sp_film_links *links, const uint32_t *ends,

@@ -128,6 +128,7 @@ static void close_gaps(sp_film_links *links, const size_t *end)
         size_t first = links->start[i], of_cell = end[i] - first;
         memmove(&links->to[count], &links->to[first], of_cell * sizeof *links->to);
         memmove(&links->across[count], &links->across[first], of_cell * sizeof *links->across);
+        memmove(&links->into[count], &links->into[first], of_cell * sizeof *links->into);
         memmove(&links->length[count], &links->length[first], of_cell * sizeof *links->length);
         links->start[i] = count;
         count += of_cell;
@@ -144,8 +145,9 @@ static bool join(const gathering *own)
     size_t *end = malloc((links->count + 1) * sizeof *end), room = 2 * own->count + 1;
     links->to = malloc(room * sizeof *links->to);
     links->across = malloc(room * sizeof *links->across);
+    links->into = malloc(room * sizeof *links->into);
     links->length = malloc(room * sizeof *links->length);
-    bool done = ways && end && links->to && links->across && links->length;
+    bool done = ways && end && links->to && links->across && links->into && links->length;
     if (done)
         memcpy(end, links->start, links->count * sizeof *end);
     for (uint32_t cell = 0; done && cell < links->count; cell++)
@@ -155,10 +157,11 @@ static bool join(const gathering *own)
             uint32_t from = crossed->cell[k];
             if (end[from] == links->start[from] || links->to[end[from] - 1] != cell) {
                 links->to[end[from]] = cell;
-                links->across[end[from]] = links->length[end[from]] = 0;
+                links->across[end[from]] = links->into[end[from]] = links->length[end[from]] = 0;
                 end[from]++;
             }
             links->across[end[from] - 1] += crossed->across[k];
+            links->into[end[from] - 1] += crossed->across[1 - k];
             links->length[end[from] - 1] += crossed->length[k];
         }
     if (done)
@@ -199,6 +202,7 @@ void sp_film_links_free(sp_film_links *links)
     free(links->start);
     free(links->to);
     free(links->across);
+    free(links->into);
     free(links->length);
     free(links->end_across);
     free(links->end_length);

@@ -12,6 +12,7 @@ typedef struct {
     size_t *start; /* [count + 1], links of cell i are start[i] up to start[i + 1], ascending by `to` */
     uint32_t *to;
     double *across;     /* m, Σ t·b: what runs over the border out of the cell, above 0, or may run in from beyond */
+    double *into;       /* m, the same of what runs in from there */
     double *length;     /* m */
     double *end_across; /* [count], m, as `across`, of borders where the surface ends or goes on dry */
     double *end_length; /* [count], m, of these */
