@@ -4,8 +4,7 @@
 #include <stdlib.h>
 
 #define CEILING 0.17453292519943295 /* rad, 10°: the slope below which a ceiling does not hold its film */
-#define FOLD 0.8660254037844387     /* cosine of 30°: what is turned more against a cell is another face */
-#define LIKELY 0.7660444431189780   /* cosine of 40° = CEILING + 30°: what slopes more is no ceiling */
+#define FOLD 0.52359877559829887    /* rad, 30°: what is turned more against a cell is another face */
 
 enum { MOST = 64 };
 
@@ -36,23 +35,28 @@ static void look_round(surroundings *own, uint32_t middle)
         }
 }
 
-static sp_vec3 facing(const surroundings *own, uint32_t cell)
+/* True where a vector points along a unit one by more than the angle of that cosine, above 0; of vectors without
+ * length, too. */
+static bool is_along(sp_vec3 vector, sp_vec3 unit, double cosine)
 {
-    sp_vec3 sum = own->links->facing[cell];
-    return sp_length(sum) > 0 ? sp_unit(sum) : own->surface->cells->normal[cell];
+    double part = sp_dot(vector, unit);
+    return part >= 0 && part * part >= cosine * cosine * sp_dot(vector, vector);
 }
 
 static bool is_ceiling(surroundings *own, uint32_t cell)
 {
-    sp_vec3 normal = facing(own, cell), sum = {0}, down = own->surface->down;
-    if (sp_dot(normal, down) < LIKELY)
+    const sp_vec3 *facing = own->links->facing, down = own->surface->down;
+    if (!is_along(facing[cell], down, cos(CEILING + FOLD)))
         return false;
+    sp_vec3 normal = own->surface->cells->normal[cell], sum = facing[cell];
+    if (sp_length(sum) > 0)
+        normal = sp_unit(sum);
     look_round(own, cell);
-    for (size_t i = 0; i < own->count; i++)
-        if (sp_dot(facing(own, own->near[i]), normal) > FOLD)
-            sum = sp_add(sum, own->links->facing[own->near[i]]);
-    sum = sp_length(sum) > 0 ? sp_unit(sum) : normal;
-    return sp_dot(sum, down) > cos(CEILING);
+    for (size_t i = 1; i < own->count; i++)
+        if (is_along(facing[own->near[i]], normal, cos(FOLD)))
+            sum = sp_add(sum, facing[own->near[i]]);
+    sum = sp_length(sum) > 0 ? sum : normal;
+    return is_along(sum, down, cos(CEILING));
 }
 
 /* True where nothing lies lower than the cell and it does not face up: liquid that has come there hangs. A cell that
@@ -62,15 +66,16 @@ static bool is_tip(surroundings *own, uint32_t cell)
     const sp_film_links *links = own->links;
     const sp_vec3 *point = own->surface->cells->point, down = own->surface->down;
     double length = own->surface->cells->length[cell], facing = sp_dot(links->facing[cell], down) / length;
+    double low = sp_dot(point[cell], down);
     if (facing < -SP_FILM_FLAT)
         return false;
     for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++)
-        if (sp_dot(point[links->to[k]], down) > sp_dot(point[cell], down) ||
-            (facing < SP_FILM_FLAT && links->across[k] > SP_FILM_ACROSS * length))
+        if (sp_dot(point[links->to[k]], down) > low ||
+            (facing < SP_FILM_FLAT && links->links[k].across > SP_FILM_ACROSS * length))
             return false;
     look_round(own, cell);
-    for (size_t i = 0; i < own->count; i++)
-        if (sp_dot(point[own->near[i]], down) > sp_dot(point[cell], down))
+    for (size_t i = 1; i < own->count; i++)
+        if (sp_dot(point[own->near[i]], down) > low)
             return false;
     return true;
 }

@@ -13,6 +13,9 @@
 #define PATIENCE 2   /* texels that the flood rises while a cell waits */
 #define SLIGHT 1e-3 /* of a border's length: what runs over it by less across the flow decides nothing */
 
+/* How liquid runs between a cell and another beside it. */
+enum { NONE, TO, FROM };
+
 typedef struct {
     const sp_film_surface *surface;
     const sp_film_links *links;
@@ -24,6 +27,7 @@ typedef struct {
     uint32_t *fed;     /* [cells], one of the cells that end there, SP_NONE for none */
     uint32_t *fed_too; /* [cells], the next one that ends where this one does */
     uint32_t *hollow;  /* [cells], disjoint sets */
+    uint8_t *way;      /* [links] */
     uint32_t *waits;   /* [cells], for how many that it runs to and that have no rank yet */
     bool *reached, *ranked;
     sp_heap heap, late; /* level, whether sunk, cell; those that wait for others have come into the second */
@@ -71,11 +75,25 @@ static void list_fed(flood *own)
         }
 }
 
-/* True where liquid runs from one cell to the other: out of either into the edge of a valley, but from the lower one no
- * farther. */
-static bool leads(const flood *own, uint32_t from, uint32_t to, double across, double back, double length)
+/* True where liquid runs over a border in one direction: out of either cell into the edge of a valley, but from the
+ * lower one no farther. */
+static bool leads(double across, double back, double length, uint32_t from, uint32_t to)
 {
-    return across > SLIGHT * length && (!(back > SLIGHT * length) || own->height[to] < own->height[from]);
+    return across > SLIGHT * length && (!(back > SLIGHT * length) || to < from);
+}
+
+/* Tells which links lead to and from which cells. */
+static void direct(flood *own)
+{
+    const sp_film_links *links = own->links;
+    for (uint32_t i = 0; i < links->count; i++)
+        for (size_t k = links->start[i]; k < links->start[i + 1]; k++) {
+            const sp_film_link *link = &links->links[k];
+            uint32_t here = own->height[i], there = own->height[links->to[k]];
+            own->way[k] = leads(link->across, link->into, link->length, here, there) && !links->drips[i]        ? TO
+                          : leads(link->into, link->across, link->length, there, here) && !links->drips[links->to[k]] ? FROM
+                                                                                                                  : NONE;
+        }
 }
 
 static void count_waits(flood *own)
@@ -83,8 +101,8 @@ static void count_waits(flood *own)
     const sp_film_links *links = own->links;
     for (uint32_t i = 0; i < links->count; i++) {
         own->waits[i] = 0;
-        for (size_t k = links->start[i]; !links->drips[i] && k < links->start[i + 1]; k++)
-            own->waits[i] += leads(own, i, links->to[k], links->across[k], links->into[k], links->length[k]);
+        for (size_t k = links->start[i]; k < links->start[i + 1]; k++)
+            own->waits[i] += own->way[k] == TO;
     }
 }
 
@@ -109,30 +127,17 @@ static bool runs_on(const flood *own, uint32_t cell)
 {
     const sp_film_links *links = own->links;
     bool any = false;
-    for (size_t k = links->start[cell]; !links->drips[cell] && k < links->start[cell + 1]; k++) {
-        uint32_t to = links->to[k];
-        if (!leads(own, cell, to, links->across[k], links->into[k], links->length[k]))
+    for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++) {
+        if (own->way[k] != TO)
             continue;
-        if (!own->ranked[to] || own->order->sunk[to])
+        if (!own->ranked[links->to[k]] || own->order->sunk[links->to[k]])
             return false;
         any = true;
     }
     return any;
 }
 
-/* Those that wait for the cell wait for it no more. */
-static bool release(flood *own, uint32_t cell)
-{
-    const sp_film_links *links = own->links;
-    for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++) {
-        uint32_t other = links->to[k];
-        if (!links->drips[other] && leads(own, other, cell, links->into[k], links->across[k], links->length[k]) &&
-            --own->waits[other] == 0 && own->reached[other] && !sp_heap_push(&own->heap, key_of(own, other)))
-            return false;
-    }
-    return true;
-}
-
+/* Gives the cell its rank, and goes on to those beside it: what has waited for it alone waits no more. */
 static bool settle(flood *own, uint32_t cell, uint32_t *rank)
 {
     const sp_film_links *links = own->links;
@@ -142,15 +147,18 @@ static bool settle(flood *own, uint32_t cell, uint32_t *rank)
         own->order->sunk[cell] = false;
         own->level[cell] = own->height[cell];
     }
-    if (!release(own, cell))
-        return false;
-    for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++)
-        if (!links->drips[links->to[k]] && !reach(own, links->to[k], cell, own->level[cell]))
-            return false;
-    for (uint32_t fed = own->fed[cell]; fed != SP_NONE; fed = own->fed_too[fed])
-        if (!reach(own, fed, cell, own->level[cell]))
-            return false;
-    return true;
+    bool done = true;
+    for (size_t k = links->start[cell]; done && k < links->start[cell + 1]; k++) {
+        uint32_t other = links->to[k];
+        bool free = own->way[k] == FROM && --own->waits[other] == 0;
+        if (!own->reached[other] && !links->drips[other])
+            done = reach(own, other, cell, own->level[cell]);
+        else if (free && own->reached[other])
+            done = sp_heap_push(&own->heap, key_of(own, other));
+    }
+    for (uint32_t fed = own->fed[cell]; done && fed != SP_NONE; fed = own->fed_too[fed])
+        done = reach(own, fed, cell, own->level[cell]);
+    return done;
 }
 
 /* True where it is the turn of a cell that waits: only heights that cells have within themselves are waited for. */
@@ -242,11 +250,12 @@ static bool allocate(flood *own, sp_film_order *order, size_t room)
     own->fed = malloc(room * sizeof *own->fed);
     own->fed_too = malloc(room * sizeof *own->fed_too);
     own->hollow = malloc(room * sizeof *own->hollow);
+    own->way = malloc(own->links->start[own->links->count] + 1);
     own->waits = malloc(room * sizeof *own->waits);
     own->reached = malloc(room * sizeof *own->reached);
     own->ranked = malloc(room * sizeof *own->ranked);
     return order->rank && order->parent && order->sunk && order->held && own->height && own->rising && own->metres &&
-           own->level && own->fed && own->fed_too && own->hollow && own->waits && own->reached && own->ranked;
+           own->level && own->fed && own->fed_too && own->hollow && own->way && own->waits && own->reached && own->ranked;
 }
 
 static void flood_free(flood *own)
@@ -258,6 +267,7 @@ static void flood_free(flood *own)
     free(own->fed);
     free(own->fed_too);
     free(own->hollow);
+    free(own->way);
     free(own->waits);
     free(own->reached);
     free(own->ranked);
@@ -270,8 +280,10 @@ bool sp_film_order_create(const sp_film_surface *surface, const sp_film_links *l
 {
     flood own = {.surface = surface, .links = links, .ends = ends, .order = order};
     bool done = allocate(&own, order, links->count + 1) && rank_heights(&own);
-    if (done)
+    if (done) {
         list_fed(&own);
+        direct(&own);
+    }
     done = done && fill(&own);
     while (done && links->count && drain_deep(&own)) /* each turn holds what the one before found nested in it */
         done = fill(&own);

@@ -7,23 +7,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How a triangle lies. */
-typedef struct {
-    sp_vec3 tangent, normal;
-} slope;
-
-/* A piece of a border between two cells, and what it is to each. */
+/* A piece of a border between two cells, the lower number first, or several, and what runs out of each. */
 typedef struct {
     uint32_t cell[2];
-    double across[2], length[2];
+    double across[2], length;
 } piece;
+
+enum { RECENT = 4096 };
 
 typedef struct {
     const sp_film_surface *surface;
     sp_film_links *links;
-    slope *slopes; /* [triangles] */
+    bool *wet;                   /* [charts], that have a cell */
+    sp_vec3 *normals, *tangents; /* [triangles], unit */
     size_t count, capacity;
     piece *pieces;
+    uint32_t recent[RECENT]; /* by a hash of its cells, a piece that may be of the same border */
 } gathering;
 
 sp_vec3 sp_film_tangent(sp_vec3 normal, sp_vec3 down)
@@ -54,35 +53,52 @@ static void take_end(sp_film_links *links, uint32_t cell, double across, double 
         links->end[cell] = outward;
 }
 
+/* Joins a piece with one of the same border that came shortly before, as most do. */
+static bool take_piece(gathering *own, piece met)
+{
+    if (met.cell[0] > met.cell[1])
+        met = (piece){{met.cell[1], met.cell[0]}, {met.across[1], met.across[0]}, met.length};
+    uint32_t *recent = &own->recent[(met.cell[0] * 31 + met.cell[1]) % RECENT];
+    piece *same = *recent < own->count ? &own->pieces[*recent] : NULL;
+    if (same && same->cell[0] == met.cell[0] && same->cell[1] == met.cell[1]) {
+        same->across[0] += met.across[0];
+        same->across[1] += met.across[1];
+        same->length += met.length;
+        return true;
+    }
+    if (!sp_grow(&own->pieces, &own->capacity, own->count + 1, sizeof *own->pieces))
+        return false;
+    *recent = (uint32_t)own->count;
+    own->pieces[own->count++] = met;
+    own->links->start[met.cell[0] + 1]++;
+    own->links->start[met.cell[1] + 1]++;
+    return true;
+}
+
 /* On one side of the surface; what lies beyond may be dry. */
 static bool take_side(gathering *own, const sp_border *border, unsigned side)
 {
     const uint32_t(*cell_of)[2] = own->surface->cell_of;
+    sp_film_links *links = own->links;
     unsigned sides[2] = {side, side ^ border->turned};
     piece met = {.cell = {cell_of[border->texel[0]][sides[0]], SP_NONE}};
     if (border->texel[1] != SP_NONE)
         met.cell[1] = cell_of[border->texel[1]][sides[1]];
     if (met.cell[0] == met.cell[1])
         return true;
+    met.length = sp_length(border->outward[0]);
+    bool ends = met.cell[0] == SP_NONE || met.cell[1] == SP_NONE;
     for (int k = 0; k < 2; k++) {
-        if (met.cell[k] == SP_NONE)
+        uint32_t cell = met.cell[k], triangle = border->triangle[k];
+        if (cell == SP_NONE)
             continue;
-        const slope *slope = &own->slopes[border->triangle[k]];
-        met.across[k] = sp_dot(slope->tangent, border->outward[k]);
-        met.length[k] = sp_length(border->outward[k]);
-        sp_vec3 *facing = &own->links->facing[met.cell[k]];
-        *facing = sp_along(*facing, sides[k] ? -met.length[k] : met.length[k], slope->normal);
-        if (met.cell[1 - k] == SP_NONE)
-            take_end(own->links, met.cell[k], met.across[k], met.length[k], border->outward[k]);
+        met.across[k] = sp_dot(own->tangents[triangle], border->outward[k]);
+        double length = sides[k] ? -met.length : met.length;
+        links->facing[cell] = sp_along(links->facing[cell], length, own->normals[triangle]);
+        if (ends)
+            take_end(links, cell, met.across[k], met.length, border->outward[k]);
     }
-    if (met.cell[0] == SP_NONE || met.cell[1] == SP_NONE)
-        return true;
-    if (!sp_grow(&own->pieces, &own->capacity, own->count + 1, sizeof *own->pieces))
-        return false;
-    own->pieces[own->count++] = met;
-    for (int k = 0; k < 2; k++)
-        own->links->start[met.cell[k] + 1]++;
-    return true;
+    return ends || take_piece(own, met);
 }
 
 static bool take_border(void *user, const sp_border *border)
@@ -93,81 +109,84 @@ static bool take_border(void *user, const sp_border *border)
 static bool find_borders(gathering *own, sp_error *error)
 {
     const sp_mesh *mesh = own->surface->mesh;
-    own->slopes = malloc((mesh->triangle_count + 1) * sizeof *own->slopes);
-    if (!own->slopes)
+    const sp_atlas *atlas = own->surface->atlas;
+    own->wet = calloc(atlas->chart_count + 1, sizeof *own->wet);
+    own->normals = malloc((mesh->triangle_count + 1) * sizeof *own->normals);
+    own->tangents = malloc((mesh->triangle_count + 1) * sizeof *own->tangents);
+    if (!own->wet || !own->normals || !own->tangents)
         return sp_fail_memory(error);
+    for (size_t i = 0; i < own->surface->cells->count; i++)
+        own->wet[atlas->chart[own->surface->cells->triangle[i]]] = true;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        sp_vec3 normal = sp_triangle_normal(mesh, t);
-        own->slopes[t] = (slope){sp_film_tangent(normal, own->surface->down), normal};
+        own->normals[t] = sp_triangle_normal(mesh, t);
+        if (own->wet[atlas->chart[t]])
+            own->tangents[t] = sp_film_tangent(own->normals[t], own->surface->down);
     }
-    return sp_atlas_visit_borders(own->surface->atlas, mesh, take_border, own, error);
+    return sp_atlas_visit_borders(atlas, mesh, own->wet, own->normals, take_border, own, error);
 }
 
-/* Both ways over every piece, 2 piece + way, by the cell that they lead out of; their numbers become where those of
- * each cell lie. NULL where memory ran out. */
-static uint32_t *list_ways(const gathering *own)
+/* What leads out of one cell, on its way into the links. */
+typedef struct {
+    sp_film_link link;
+    uint32_t to;
+} way;
+
+/* Both ways over every piece, by the cell that they lead out of; start[i + 1] becomes where those of cell i end. NULL
+ * where memory ran out. */
+static way *list_ways(const gathering *own)
 {
     size_t *start = own->links->start, sum = 0;
-    uint32_t *ways = malloc((2 * own->count + 1) * sizeof *ways);
+    way *ways = malloc((2 * own->count + 1) * sizeof *ways);
     for (size_t i = 0; i < own->links->count; i++) {
         size_t of_cell = start[i + 1];
         start[i + 1] = sum;
         sum += of_cell;
     }
     for (size_t i = 0; ways && i < own->count; i++)
-        for (uint32_t k = 0; k < 2; k++)
-            ways[start[own->pieces[i].cell[k] + 1]++] = 2 * (uint32_t)i + k;
+        for (int k = 0; k < 2; k++) {
+            const piece *met = &own->pieces[i];
+            ways[start[met->cell[k] + 1]++] =
+                (way){{met->across[k], met->across[1 - k], met->length}, met->cell[1 - k]};
+        }
     return ways;
 }
 
-/* Links of cell i lie from start[i] up to end[i]: moves them together. */
-static void close_gaps(sp_film_links *links, const size_t *end)
+/* Takes a way in among the links of its cell, which lie from `first` up to `end`; returns where they end then. */
+static size_t take_way(sp_film_links *links, size_t first, size_t end, const way *way)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < links->count; i++) {
-        size_t first = links->start[i], of_cell = end[i] - first;
-        memmove(&links->to[count], &links->to[first], of_cell * sizeof *links->to);
-        memmove(&links->across[count], &links->across[first], of_cell * sizeof *links->across);
-        memmove(&links->into[count], &links->into[first], of_cell * sizeof *links->into);
-        memmove(&links->length[count], &links->length[first], of_cell * sizeof *links->length);
-        links->start[i] = count;
-        count += of_cell;
+    size_t at = end;
+    while (at > first && links->to[at - 1] >= way->to)
+        at--;
+    if (at < end && links->to[at] == way->to) {
+        links->links[at].across += way->link.across;
+        links->links[at].into += way->link.into;
+        links->links[at].length += way->link.length;
+        return end;
     }
-    links->start[links->count] = count;
+    memmove(&links->to[at + 1], &links->to[at], (end - at) * sizeof *links->to);
+    memmove(&links->links[at + 1], &links->links[at], (end - at) * sizeof *links->links);
+    links->to[at] = way->to;
+    links->links[at] = way->link;
+    return end + 1;
 }
 
-/* One link for all pieces of a border. What leads out of the cells, taken in their order, leads into each of the others
- * in that order too: turned round it is sorted. */
+/* One link for all pieces of a border. */
 static bool join(const gathering *own)
 {
     sp_film_links *links = own->links;
-    uint32_t *ways = list_ways(own);
-    size_t *end = malloc((links->count + 1) * sizeof *end), room = 2 * own->count + 1;
-    links->to = malloc(room * sizeof *links->to);
-    links->across = malloc(room * sizeof *links->across);
-    links->into = malloc(room * sizeof *links->into);
-    links->length = malloc(room * sizeof *links->length);
-    bool done = ways && end && links->to && links->across && links->into && links->length;
-    if (done)
-        memcpy(end, links->start, links->count * sizeof *end);
-    for (uint32_t cell = 0; done && cell < links->count; cell++)
-        for (size_t i = links->start[cell]; i < links->start[cell + 1]; i++) {
-            const piece *crossed = &own->pieces[ways[i] / 2];
-            int k = 1 - (int)(ways[i] % 2);
-            uint32_t from = crossed->cell[k];
-            if (end[from] == links->start[from] || links->to[end[from] - 1] != cell) {
-                links->to[end[from]] = cell;
-                links->across[end[from]] = links->into[end[from]] = links->length[end[from]] = 0;
-                end[from]++;
-            }
-            links->across[end[from] - 1] += crossed->across[k];
-            links->into[end[from] - 1] += crossed->across[1 - k];
-            links->length[end[from] - 1] += crossed->length[k];
-        }
-    if (done)
-        close_gaps(links, end);
+    way *ways = list_ways(own);
+    links->to = malloc((2 * own->count + 1) * sizeof *links->to);
+    links->links = malloc((2 * own->count + 1) * sizeof *links->links);
+    bool done = ways && links->to && links->links;
+    size_t end = 0;
+    for (size_t i = 0, at = 0; done && i < links->count; i++) {
+        size_t first = end;
+        for (; at < links->start[i + 1]; at++)
+            end = take_way(links, first, end, &ways[at]);
+        links->start[i] = first;
+    }
+    links->start[links->count] = end;
     free(ways);
-    free(end);
     return done;
 }
 
@@ -190,7 +209,9 @@ bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, 
     }
     done = done && join(&own);
     free(own.pieces);
-    free(own.slopes);
+    free(own.wet);
+    free(own.normals);
+    free(own.tangents);
     if (done)
         return true;
     sp_film_links_free(links);
@@ -201,9 +222,7 @@ void sp_film_links_free(sp_film_links *links)
 {
     free(links->start);
     free(links->to);
-    free(links->across);
-    free(links->into);
-    free(links->length);
+    free(links->links);
     free(links->end_across);
     free(links->end_length);
     free(links->end);

@@ -7,19 +7,24 @@
 #define SP_FILM_FLAT 1e-3 /* sine of the slope: less is level, as geometry in single precision tells it */
 #define SP_FILM_ACROSS 1e-9 /* of a cell's edge: less across the flow is round-off */
 
+/* From one cell to another, over all their common border. */
+typedef struct {
+    double across; /* m, Σ t·b: what runs out over the border, above 0, or may run in from beyond */
+    double into;   /* m, the same, of what runs in from there */
+    double length; /* m */
+} sp_film_link;
+
 typedef struct {
     size_t count;  /* of cells */
     size_t *start; /* [count + 1], links of cell i are start[i] up to start[i + 1], ascending by `to` */
     uint32_t *to;
-    double *across;     /* m, Σ t·b: what runs over the border out of the cell, above 0, or may run in from beyond */
-    double *into;       /* m, the same of what runs in from there */
-    double *length;     /* m */
+    sp_film_link *links;
     double *end_across; /* [count], m, as `across`, of borders where the surface ends or goes on dry */
     double *end_length; /* [count], m, of these */
     sp_vec3 *end;       /* [count], m, b of the longest of these */
     sp_vec3 *facing;    /* [count], m, Σ over all borders of length times the unit normal of the side there */
-    bool *drips;    /* [count], all that comes there drips off: a ceiling so flat that it does not hold its film, or
-                     * what hangs lower than all beside it; see film/drips.h */
+    bool *drips;        /* [count], all that comes there drips off: a ceiling so flat that it does not hold its film, or
+                         * what hangs lower than all beside it; see film/drips.h */
 } sp_film_links;
 
 bool sp_film_links_create(const sp_film_surface *surface, sp_film_links *links, sp_error *error);

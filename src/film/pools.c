@@ -8,7 +8,7 @@
 static bool runs_off(const sp_film_links *links, const uint32_t *ends, const sp_film_order *order, uint32_t cell)
 {
     for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++)
-        if (links->across[k] > 0 && order->rank[links->to[k]] < order->rank[cell])
+        if (links->links[k].across > 0 && order->rank[links->to[k]] < order->rank[cell])
             return true;
     uint32_t end = ends[cell];
     return links->end_across[cell] > 0 &&

@@ -45,8 +45,11 @@ static bool share_wall(sharing *own, uint32_t cell)
     double *width = &own->shares->width[cell];
     bool drips = links->drips[cell], done = true;
     for (size_t k = links->start[cell]; done && k < links->start[cell + 1]; k++) {
-        *width += fmax(0, links->across[k]);
-        done = drips || share(own, cell, links->to[k], links->across[k]);
+        const sp_film_link *link = &links->links[k];
+        if (!(link->across > 0))
+            continue;
+        *width += link->across;
+        done = drips || share(own, cell, links->to[k], link->across);
     }
     *width += fmax(0, links->end_across[cell]);
     if (!(*width > 0))
@@ -62,7 +65,8 @@ static bool share_rim(sharing *own, uint32_t cell)
     size_t before = own->shares->count;
     bool done = true;
     for (size_t k = links->start[cell]; done && k < links->start[cell + 1]; k++)
-        done = own->basins->of[links->to[k]] == pool || share(own, pool, links->to[k], links->length[k]);
+        done = own->basins->of[links->to[k]] == pool ||
+               share(own, pool, links->to[k], links->links[k].length);
     done = done && share(own, pool, own->ends[cell], links->end_length[cell]);
     for (size_t i = before; i < own->shares->count; i++)
         own->shares->width[pool] += own->shares->items[i].width;

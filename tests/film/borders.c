@@ -51,7 +51,15 @@ static bordered find_borders(sp_mesh *mesh, double texel)
     b.atlas = sp_atlas_create(mesh, charts, &(sp_atlas_options){.texel = texel}, &error);
     assert_string_equal(error.message, "");
     sp_charts_destroy(charts);
-    assert_true(sp_atlas_visit_borders(b.atlas, mesh, keep, &b, &error));
+    sp_vec3 *normals = malloc(mesh->triangle_count * sizeof *normals);
+    bool *asked = malloc(b.atlas->chart_count * sizeof *asked);
+    assert_true(normals && asked);
+    memset(asked, true, b.atlas->chart_count);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        normals[t] = sp_triangle_normal(mesh, t);
+    assert_true(sp_atlas_visit_borders(b.atlas, mesh, asked, normals, keep, &b, &error));
+    free(normals);
+    free(asked);
     assert_true(b.count > 0);
     return b;
 }

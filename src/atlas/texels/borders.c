@@ -10,6 +10,8 @@
 typedef struct {
     const sp_atlas *atlas;
     const sp_mesh *mesh;
+    const bool *asked;      /* [charts] */
+    const sp_vec3 *normals; /* [triangles] */
     sp_border_visitor *visit;
     void *user;
 } walk;
@@ -20,30 +22,46 @@ typedef struct {
     uint32_t triangle;
     const double (*uv)[2];
     sp_vec3 along[2], normal;
+    double height, across[2]; /* of the border of pixels along x that was met last; where that cuts the triangle */
 } sheet;
 
-/* The part, within [low, low + 1], of the line on which coordinate `k` is `at` that lies in the triangle; 0 for none.
- */
-static double length_inside(const double (*uv)[2], int k, double at, double low)
+/* From where to where the line on which coordinate `k` is `at` lies in the triangle; nowhere from above to. */
+static void cut_line(const double (*uv)[2], int k, double at, double cut[2])
 {
     double from = INFINITY, to = -INFINITY;
     for (int i = 0; i < 3; i++) {
         const double *p = uv[i], *q = uv[(i + 1) % 3];
         if ((p[k] < at) == (q[k] < at))
             continue;
-        double cut = p[1 - k] + (at - p[k]) / (q[k] - p[k]) * (q[1 - k] - p[1 - k]);
-        from = sp_least(from, cut);
-        to = sp_most(to, cut);
+        double there = p[1 - k] + (at - p[k]) / (q[k] - p[k]) * (q[1 - k] - p[1 - k]);
+        from = sp_least(from, there);
+        to = sp_most(to, there);
     }
-    return sp_most(0, sp_least(to, low + 1) - sp_most(from, low));
+    cut[0] = from;
+    cut[1] = to;
+}
+
+/* What of that lies within [low, low + 1]; 0 for none. */
+static double length_within(const double cut[2], double low)
+{
+    return sp_most(0, sp_least(cut[1], low + 1) - sp_most(cut[0], low));
 }
 
 /* The border between pixel x, y and the next one along x or, `above`, along y. */
 static bool visit_between(void *user, uint32_t a, uint32_t b, uint32_t x, uint32_t y, bool above)
 {
-    const sheet *s = user;
-    double length = above ? length_inside(s->uv, 1, y + 1.0, x) : length_inside(s->uv, 0, x + 1.0, y);
-    if (a == b || !(length > 0))
+    sheet *s = user;
+    if (a == b)
+        return true;
+    double upwards[2];
+    if (!above) {
+        cut_line(s->uv, 0, x + 1.0, upwards);
+    } else if (s->height != y + 1.0) {
+        s->height = y + 1.0;
+        cut_line(s->uv, 1, s->height, s->across);
+    }
+    double length = above ? length_within(s->across, x) : length_within(upwards, y);
+    if (!(length > 0))
         return true;
     sp_vec3 step = sp_scale(s->along[above ? 0 : 1], length);
     sp_vec3 outward = above ? sp_cross(s->normal, step) : sp_cross(step, s->normal);
@@ -66,7 +84,7 @@ static bool is_in_one_pixel(const double (*uv)[2])
 static bool visit_inside(const walk *w, uint32_t triangle, sp_pieces *pieces)
 {
     const double(*uv)[2] = (const double(*)[2])w->atlas->uv[triangle];
-    if (is_in_one_pixel(uv))
+    if (!w->asked[w->atlas->chart[triangle]] || is_in_one_pixel(uv))
         return true;
     double u[2] = {uv[1][0] - uv[0][0], uv[1][1] - uv[0][1]}, v[2] = {uv[2][0] - uv[0][0], uv[2][1] - uv[0][1]};
     double twice = u[0] * v[1] - u[1] * v[0];
@@ -75,7 +93,7 @@ static bool visit_inside(const walk *w, uint32_t triangle, sp_pieces *pieces)
     const sp_vec3 *at = w->mesh->vertices;
     const uint32_t *corner = w->mesh->triangles[triangle];
     sp_vec3 first = sp_sub(at[corner[1]], at[corner[0]]), second = sp_sub(at[corner[2]], at[corner[0]]);
-    sheet s = {w, triangle, uv, .normal = sp_triangle_normal(w->mesh, triangle)};
+    sheet s = {w, triangle, uv, .normal = w->normals[triangle], .height = -1};
     s.along[0] = sp_along(sp_scale(first, v[1] / twice), -u[1] / twice, second);
     s.along[1] = sp_along(sp_scale(first, -v[0] / twice), u[0] / twice, second);
     return sp_pieces_sides(pieces, w->atlas, triangle, visit_between, &s);
@@ -102,11 +120,12 @@ static sp_vec3 step_of(const sp_mesh *mesh, uint32_t half_edge)
 }
 
 /* Sorts the triangles of an edge about the first of them. */
-static void sort_leaves(const sp_mesh *mesh, const uint32_t *half_edges, size_t count, leaf *leaves)
+static void sort_leaves(const walk *w, const uint32_t *half_edges, size_t count, leaf *leaves)
 {
+    const sp_mesh *mesh = w->mesh;
     sp_vec3 edge = sp_unit(step_of(mesh, half_edges[0])), x = {0}, y = {0};
     for (size_t i = 0; i < count; i++) {
-        sp_vec3 normal = sp_triangle_normal(mesh, half_edges[i] / 3);
+        sp_vec3 normal = w->normals[half_edges[i] / 3];
         sp_vec3 into = sp_unit(sp_cross(normal, step_of(mesh, half_edges[i])));
         if (i == 0) {
             x = into;
@@ -133,8 +152,8 @@ static fold fold_of(const walk *w, sp_edge_walk *edge, uint32_t a, uint32_t b)
                   edge,
                   a,
                   b,
-                  sp_cross(step_of(w->mesh, a), sp_triangle_normal(w->mesh, a / 3)),
-                  sp_cross(step_of(w->mesh, b), sp_triangle_normal(w->mesh, b / 3))};
+                  sp_cross(step_of(w->mesh, a), w->normals[a / 3]),
+                  sp_cross(step_of(w->mesh, b), w->normals[b / 3])};
 }
 
 /* The piece that the walk is at; the border says on which sides. */
@@ -199,11 +218,19 @@ static bool visit_leaf(const walk *w, sp_edge_walk *edge, const leaf *own, const
     return true;
 }
 
+static bool is_asked(const walk *w, const uint32_t *half_edges, size_t count)
+{
+    bool any = false;
+    for (size_t i = 0; i < count; i++)
+        any = any || w->asked[w->atlas->chart[half_edges[i] / 3]];
+    return any;
+}
+
 static bool visit_leaves(const walk *w, sp_edge_walk *edge, const uint32_t *half_edges, size_t count, leaf *leaves)
 {
     if (count <= 2)
         return visit_plain(w, edge, half_edges[0], half_edges[count - 1]);
-    sort_leaves(w->mesh, half_edges, count, leaves);
+    sort_leaves(w, half_edges, count, leaves);
     for (size_t k = 0; k < count; k++)
         if (!visit_leaf(w, edge, &leaves[k], &leaves[(k + 1) % count]))
             return false;
@@ -218,7 +245,8 @@ static bool visit_edges(const walk *w, sp_error *error)
     bool done = leaves && sp_half_edges_create(w->mesh, &edges, error);
     for (size_t i = 0, of_edge; done && i < 3 * w->mesh->triangle_count; i += of_edge) {
         of_edge = sp_half_edges_of_edge(w->mesh, &edges, i);
-        done = visit_leaves(w, &edge, &edges.order[i], of_edge, leaves);
+        if (is_asked(w, &edges.order[i], of_edge))
+            done = visit_leaves(w, &edge, &edges.order[i], of_edge, leaves);
     }
     sp_edge_walk_free(&edge);
     sp_half_edges_destroy(&edges);
@@ -226,10 +254,10 @@ static bool visit_edges(const walk *w, sp_error *error)
     return done;
 }
 
-bool sp_atlas_visit_borders(const sp_atlas *atlas, const sp_mesh *mesh, sp_border_visitor *visit, void *user,
-                            sp_error *error)
+bool sp_atlas_visit_borders(const sp_atlas *atlas, const sp_mesh *mesh, const bool *asked, const sp_vec3 *normals,
+                            sp_border_visitor *visit, void *user, sp_error *error)
 {
-    walk w = {atlas, mesh, visit, user};
+    walk w = {atlas, mesh, asked, normals, visit, user};
     sp_pieces pieces = {0};
     bool done = true;
     for (uint32_t t = 0; done && t < mesh->triangle_count; t++)
