@@ -28,7 +28,8 @@ static void look_round(surroundings *own, uint32_t middle)
     for (size_t i = 0; i < own->count; i++)
         for (size_t k = links->start[own->near[i]]; k < links->start[own->near[i] + 1] && own->count < MOST; k++) {
             uint32_t cell = links->to[k];
-            if (own->seen[cell] == middle + 1 || sp_distance(point[cell], point[middle]) > own->surface->wave)
+            sp_vec3 off = sp_sub(point[cell], point[middle]);
+            if (own->seen[cell] == middle + 1 || sp_dot(off, off) > own->surface->wave * own->surface->wave)
                 continue;
             own->seen[cell] = middle + 1;
             own->near[own->count++] = cell;

@@ -1,5 +1,6 @@
 #include "film/flood.h"
 
+#include "atlas/least.h"
 #include "atlas/order.h"
 #include "mesh/disjoint_sets.h"
 #include "mesh/heap.h"
@@ -16,20 +17,22 @@
 /* How liquid runs between a cell and another beside it. */
 enum { NONE, TO, FROM };
 
+/* How far the flood has come with a cell. */
+enum { DRY, REACHED, LATE, RANKED };
+
 typedef struct {
     const sp_film_surface *surface;
     const sp_film_links *links;
     const uint32_t *ends;
-    uint32_t *rising;  /* [cells], by height */
-    uint32_t *height;  /* [cells], rank among all heights; level cells have the same */
-    double *metres;    /* [cells], by that rank */
-    uint32_t *level;   /* [cells], the same rank, that liquid has to rise to */
+    double step;       /* m */
+    uint32_t *height;  /* [cells], above the lowest, in steps: 1 / LEVEL at most */
+    uint32_t *level;   /* [cells], the same, that liquid has to rise to */
     uint32_t *fed;     /* [cells], one of the cells that end there, SP_NONE for none */
     uint32_t *fed_too; /* [cells], the next one that ends where this one does */
     uint32_t *hollow;  /* [cells], disjoint sets */
     uint8_t *way;      /* [links] */
     uint32_t *waits;   /* [cells], for how many that it runs to and that have no rank yet */
-    bool *reached, *ranked;
+    uint8_t *state;    /* [cells] */
     sp_heap heap, late; /* level, whether sunk, cell; those that wait for others have come into the second */
     sp_film_order *order;
 } flood;
@@ -40,27 +43,17 @@ static double height_of(const sp_film_surface *surface, uint32_t cell)
 }
 
 /* Heights as numbers, rounded so that what differs by round-off is level. */
-static bool rank_heights(flood *own)
+static void measure_heights(flood *own)
 {
     size_t count = own->links->count;
     double low = INFINITY, high = -INFINITY;
     for (uint32_t i = 0; i < count; i++) {
-        low = fmin(low, height_of(own->surface, i));
-        high = fmax(high, height_of(own->surface, i));
+        low = sp_least(low, height_of(own->surface, i));
+        high = sp_most(high, height_of(own->surface, i));
     }
-    double step = LEVEL * (high - low);
-    uint64_t *keys = malloc((count + 1) * sizeof *keys);
-    for (uint32_t i = 0; keys && i < count; i++)
-        keys[i] = step > 0 ? (uint64_t)llround((height_of(own->surface, i) - low) / step) : 0;
-    bool done = keys && (count == 0 || sp_order_by_key(keys, count, own->rising));
-    for (uint32_t i = 0, rank = 0; done && i < count; i++) {
-        uint32_t cell = own->rising[i];
-        rank += i > 0 && keys[cell] != keys[own->rising[i - 1]];
-        own->height[cell] = rank;
-        own->metres[rank] = height_of(own->surface, cell);
-    }
-    free(keys);
-    return done;
+    own->step = LEVEL * (high - low);
+    for (uint32_t i = 0; i < count; i++)
+        own->height[i] = own->step > 0 ? (uint32_t)((height_of(own->surface, i) - low) / own->step + 0.5) : 0;
 }
 
 /* Turns the ends round: which cells end at each. */
@@ -113,9 +106,9 @@ static uint64_t key_of(const flood *own, uint32_t cell)
 
 static bool reach(flood *own, uint32_t cell, uint32_t from, uint32_t level)
 {
-    if (own->reached[cell])
+    if (own->state[cell] != DRY)
         return true;
-    own->reached[cell] = true;
+    own->state[cell] = REACHED;
     own->order->parent[cell] = from;
     bool sunk = own->order->sunk[cell] = level > own->height[cell];
     own->level[cell] = sunk ? level : own->height[cell];
@@ -130,7 +123,7 @@ static bool runs_on(const flood *own, uint32_t cell)
     for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++) {
         if (own->way[k] != TO)
             continue;
-        if (!own->ranked[links->to[k]] || own->order->sunk[links->to[k]])
+        if (own->state[links->to[k]] != RANKED || own->order->sunk[links->to[k]])
             return false;
         any = true;
     }
@@ -141,7 +134,7 @@ static bool runs_on(const flood *own, uint32_t cell)
 static bool settle(flood *own, uint32_t cell, uint32_t *rank)
 {
     const sp_film_links *links = own->links;
-    own->ranked[cell] = true;
+    own->state[cell] = RANKED;
     own->order->rank[cell] = (*rank)++;
     if (own->order->sunk[cell] && runs_on(own, cell)) {
         own->order->sunk[cell] = false;
@@ -150,11 +143,11 @@ static bool settle(flood *own, uint32_t cell, uint32_t *rank)
     bool done = true;
     for (size_t k = links->start[cell]; done && k < links->start[cell + 1]; k++) {
         uint32_t other = links->to[k];
-        bool free = own->way[k] == FROM && --own->waits[other] == 0;
-        if (!own->reached[other] && !links->drips[other])
-            done = reach(own, other, cell, own->level[cell]);
-        else if (free && own->reached[other])
+        bool ready = own->way[k] == FROM && --own->waits[other] == 0;
+        if (own->state[other] == LATE && ready)
             done = sp_heap_push(&own->heap, key_of(own, other));
+        else if (!links->drips[other])
+            done = reach(own, other, cell, own->level[cell]);
     }
     for (uint32_t fed = own->fed[cell]; done && fed != SP_NONE; fed = own->fed_too[fed])
         done = reach(own, fed, cell, own->level[cell]);
@@ -167,7 +160,7 @@ static bool is_late(const flood *own)
     if (!own->late.count || !own->heap.count)
         return own->late.count;
     uint64_t key = own->late.keys[0];
-    double waited = own->metres[own->heap.keys[0] >> 33] - own->metres[key >> 33];
+    double waited = own->step * ((double)(own->heap.keys[0] >> 33) - (double)(key >> 33));
     return waited > PATIENCE * own->surface->cells->length[(uint32_t)key];
 }
 
@@ -179,13 +172,47 @@ static bool spread(flood *own, uint32_t *rank)
         bool late = is_late(own);
         uint64_t key = sp_heap_pop(late ? &own->late : &own->heap);
         uint32_t cell = (uint32_t)key;
-        if (own->ranked[cell])
-            continue;
-        bool done = late || !own->waits[cell] ? settle(own, cell, rank) : sp_heap_push(&own->late, key);
-        if (!done)
+        bool waits = !late && own->waits[cell] > 0;
+        if (waits)
+            own->state[cell] = LATE;
+        if (waits ? !sp_heap_push(&own->late, key) : own->state[cell] != RANKED && !settle(own, cell, rank))
             return false;
     }
     return true;
+}
+
+/* All cells, the lowest first; NULL where memory ran out. */
+static uint32_t *list_rising(const flood *own)
+{
+    size_t count = own->links->count;
+    uint64_t *keys = malloc((count + 1) * sizeof *keys);
+    uint32_t *rising = malloc((count + 1) * sizeof *rising);
+    for (size_t i = 0; keys && i < count; i++)
+        keys[i] = own->height[i];
+    bool done = keys && rising && (count == 0 || sp_order_by_key(keys, count, rising));
+    free(keys);
+    if (done)
+        return rising;
+    free(rising);
+    return NULL;
+}
+
+/* Liquid stands at the lowest cell of what has no end. */
+static bool hold_rest(flood *own, uint32_t rank)
+{
+    if (rank == own->links->count)
+        return true;
+    uint32_t *rising = list_rising(own);
+    bool done = rising;
+    for (size_t i = 0; done && i < own->links->count; i++) {
+        uint32_t lowest = rising[i];
+        if (own->state[lowest] != DRY)
+            continue;
+        own->order->held[lowest] = true;
+        done = reach(own, lowest, SP_NONE, own->height[lowest]) && spread(own, &rank);
+    }
+    free(rising);
+    return done;
 }
 
 /* From all ends and from where liquid stands, then from the lowest of what none of these drains. */
@@ -193,48 +220,54 @@ static bool fill(flood *own)
 {
     size_t count = own->links->count;
     uint32_t rank = 0;
-    bool *held = own->order->held;
-    memset(own->reached, 0, count);
-    memset(own->ranked, 0, count);
+    memset(own->state, DRY, count);
     count_waits(own);
     for (uint32_t i = 0; i < count; i++)
-        if ((held[i] || own->ends[i] == SP_FILM_LEFT || own->ends[i] == SP_FILM_ASTRAY) &&
+        if ((own->order->held[i] || own->ends[i] == SP_FILM_LEFT || own->ends[i] == SP_FILM_ASTRAY) &&
             !reach(own, i, SP_NONE, own->height[i]))
             return false;
-    if (!spread(own, &rank))
-        return false;
-    for (size_t i = 0; i < count; i++) {
-        uint32_t lowest = own->rising[i];
-        if (own->reached[lowest])
-            continue;
-        held[lowest] = true;
-        if (!reach(own, lowest, SP_NONE, own->height[lowest]) || !spread(own, &rank))
-            return false;
-    }
-    return true;
+    return spread(own, &rank) && hold_rest(own, rank);
 }
 
-/* Marks the lowest cell of every hollow that is too deep to be filled; false where there is none. */
-static bool drain_deep(flood *own)
+/* True where so much liquid would stand on a cell. */
+static bool is_deep(const flood *own, uint32_t cell)
+{
+    return own->order->sunk[cell] && own->level[cell] - own->height[cell] > DEEP / LEVEL;
+}
+
+static void join_hollows(flood *own)
 {
     const sp_film_links *links = own->links;
     const bool *sunk = own->order->sunk;
-    double most = DEEP * (own->metres[own->height[own->rising[links->count - 1]]] - own->metres[0]);
-    bool any = false, *drained = own->reached; /* by set; what was reached is not asked for any more */
-    memset(drained, 0, links->count);
     for (uint32_t i = 0; i < links->count; i++)
         own->hollow[i] = i;
     for (uint32_t i = 0; i < links->count; i++)
         for (size_t k = links->start[i]; sunk[i] && k < links->start[i + 1]; k++)
             if (sunk[links->to[k]])
                 sp_set_join(own->hollow, i, links->to[k]);
-    for (size_t i = 0; i < links->count; i++) {
-        uint32_t cell = own->rising[i], hollow = sp_set_root(own->hollow, cell);
-        if (!sunk[cell] || drained[hollow] || own->metres[own->level[cell]] - own->metres[own->height[cell]] <= most)
+}
+
+/* Marks the lowest cell of every hollow that is too deep to be filled; *any is false where there is none. */
+static bool drain_deep(flood *own, bool *any)
+{
+    *any = false;
+    for (uint32_t i = 0; i < own->links->count; i++)
+        *any = *any || is_deep(own, i);
+    if (!*any)
+        return true;
+    uint32_t *rising = list_rising(own);
+    uint8_t *drained = own->state; /* by set; how far the flood came is not asked for any more */
+    memset(drained, 0, own->links->count);
+    join_hollows(own);
+    for (size_t i = 0; rising && i < own->links->count; i++) {
+        uint32_t cell = rising[i], hollow = sp_set_root(own->hollow, cell);
+        if (drained[hollow] || !is_deep(own, cell))
             continue;
-        own->order->held[cell] = drained[hollow] = any = true;
+        drained[hollow] = true;
+        own->order->held[cell] = true;
     }
-    return any;
+    free(rising);
+    return rising;
 }
 
 static bool allocate(flood *own, sp_film_order *order, size_t room)
@@ -244,33 +277,27 @@ static bool allocate(flood *own, sp_film_order *order, size_t room)
                              .sunk = calloc(room, sizeof *order->sunk),
                              .held = calloc(room, sizeof *order->held)};
     own->height = malloc(room * sizeof *own->height);
-    own->rising = malloc(room * sizeof *own->rising);
-    own->metres = malloc(room * sizeof *own->metres);
     own->level = malloc(room * sizeof *own->level);
     own->fed = malloc(room * sizeof *own->fed);
     own->fed_too = malloc(room * sizeof *own->fed_too);
     own->hollow = malloc(room * sizeof *own->hollow);
     own->way = malloc(own->links->start[own->links->count] + 1);
     own->waits = malloc(room * sizeof *own->waits);
-    own->reached = malloc(room * sizeof *own->reached);
-    own->ranked = malloc(room * sizeof *own->ranked);
-    return order->rank && order->parent && order->sunk && order->held && own->height && own->rising && own->metres &&
-           own->level && own->fed && own->fed_too && own->hollow && own->way && own->waits && own->reached && own->ranked;
+    own->state = malloc(room * sizeof *own->state);
+    return order->rank && order->parent && order->sunk && order->held && own->height && own->level && own->fed &&
+           own->fed_too && own->hollow && own->way && own->waits && own->state;
 }
 
 static void flood_free(flood *own)
 {
     free(own->height);
-    free(own->rising);
-    free(own->metres);
     free(own->level);
     free(own->fed);
     free(own->fed_too);
     free(own->hollow);
     free(own->way);
     free(own->waits);
-    free(own->reached);
-    free(own->ranked);
+    free(own->state);
     free(own->heap.keys);
     free(own->late.keys);
 }
@@ -279,14 +306,14 @@ bool sp_film_order_create(const sp_film_surface *surface, const sp_film_links *l
                           sp_film_order *order, sp_error *error)
 {
     flood own = {.surface = surface, .links = links, .ends = ends, .order = order};
-    bool done = allocate(&own, order, links->count + 1) && rank_heights(&own);
+    bool done = allocate(&own, order, links->count + 1), again = done;
     if (done) {
+        measure_heights(&own);
         list_fed(&own);
         direct(&own);
     }
-    done = done && fill(&own);
-    while (done && links->count && drain_deep(&own)) /* each turn holds what the one before found nested in it */
-        done = fill(&own);
+    while (done && again) /* each turn holds what the one before found nested in it */
+        done = fill(&own) && drain_deep(&own, &again);
     flood_free(&own);
     if (done)
         return true;
