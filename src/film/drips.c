@@ -71,8 +71,8 @@ static bool is_tip(surroundings *own, uint32_t cell)
     if (facing < -SP_FILM_FLAT)
         return false;
     for (size_t k = links->start[cell]; k < links->start[cell + 1]; k++)
-        if (sp_dot(point[links->to[k]], down) > low ||
-            (facing < SP_FILM_FLAT && links->links[k].across > SP_FILM_ACROSS * length))
+        if ((facing < SP_FILM_FLAT && links->links[k].across > SP_FILM_ACROSS * length) ||
+            sp_dot(point[links->to[k]], down) > low)
             return false;
     look_round(own, cell);
     for (size_t i = 1; i < own->count; i++)

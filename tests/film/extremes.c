@@ -86,15 +86,16 @@ static void slivers(void **state)
 
 /* Two plates that meet in an edge along x, which falls by 5 %; `steep` is by how much they fall away from it, or where
  * below 0 towards it. What one of them carries never comes to the other: of a ridge it runs off beyond, of a valley it
- * gathers in the edge. */
-static void check_edge(double steep, double texel)
+ * gathers in the edge. Plates that lie `apart` touch, and share no edge of the mesh. */
+static void check_edge(double steep, double texel, bool apart)
 {
     double wide = 0.5 / hypot(1, steep);
     shape s = shape_create();
     shape_part(&s, "plates");
     sp_vec3 along = sp_v(1, 0, -0.05);
     shape_sheet(&s, sp_v(0, 0, 0), sp_v(0, -wide, -steep * wide), along, 2);
-    shape_sheet(&s, sp_v(0, 0, 0), along, sp_v(0, wide, -steep * wide), 2);
+    sp_vec3 over = sp_scale(along, apart ? -0.04 : 0);
+    shape_sheet(&s, over, sp_sub(along, over), sp_v(0, wide, -steep * wide), 2);
     walls w;
     walls_open(&w, shape_mesh(&s), SP_CAVITY_OUTSIDE, sp_v(0, 0, 0), texel);
     sp_vec3 left = sp_unit(sp_v(0.05, -steep, 1)), right = sp_unit(sp_v(0.05, steep, 1));
@@ -114,7 +115,15 @@ static void ridges_and_valleys(void **state)
     for (int i = 0; i < 3; i++)
         for (int valley = 0; valley < 2; valley++)
             for (int coarse = 0; coarse < 2; coarse++)
-                check_edge(valley ? -steep[i] : steep[i], coarse ? 0.08 : 0.03);
+                check_edge(valley ? -steep[i] : steep[i], coarse ? 0.08 : 0.03, false);
+}
+
+static void valleys_of_plates_that_touch(void **state)
+{
+    (void)state;
+    const double steep[] = {0.3, 1, 30};
+    for (int i = 0; i < 6; i++)
+        check_edge(-steep[i / 2], i % 2 ? 0.08 : 0.03, true);
 }
 
 /* An upright plate: either side has its own film down to its lower edge, where it drips, however thin. */
@@ -144,6 +153,7 @@ int main(void)
         cmocka_unit_test(one_triangle),
         cmocka_unit_test(slivers),
         cmocka_unit_test(ridges_and_valleys),
+        cmocka_unit_test(valleys_of_plates_that_touch),
         cmocka_unit_test(thin_plates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
