@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LEVEL 1e-9 /* of the height of all: cells nearer to each other than this are level */
-#define DEEP 0.05  /* the same: deeper hollows are not filled */
-#define PATIENCE 2   /* texels that the flood rises while a cell waits */
+#define LEVEL 1e-9  /* of the height of all: cells nearer to each other than this are level */
+#define DEEP 0.05   /* the same: deeper hollows are not filled */
+#define PATIENCE 2  /* texels that the flood rises while a cell waits */
 #define SLIGHT 1e-3 /* of a border's length: what runs over it by less across the flow decides nothing */
 
 /* How liquid runs between a cell and another beside it. */
@@ -24,15 +24,15 @@ typedef struct {
     const sp_film_surface *surface;
     const sp_film_links *links;
     const uint32_t *ends;
-    double step;       /* m */
-    uint32_t *height;  /* [cells], above the lowest, in steps: 1 / LEVEL at most */
-    uint32_t *level;   /* [cells], the same, that liquid has to rise to */
-    uint32_t *fed;     /* [cells], one of the cells that end there, SP_NONE for none */
-    uint32_t *fed_too; /* [cells], the next one that ends where this one does */
-    uint32_t *hollow;  /* [cells], disjoint sets */
-    uint8_t *way;      /* [links] */
-    uint32_t *waits;   /* [cells], for how many that it runs to and that have no rank yet */
-    uint8_t *state;    /* [cells] */
+    double step;        /* m */
+    uint32_t *height;   /* [cells], above the lowest, in steps: 1 / LEVEL at most */
+    uint32_t *level;    /* [cells], the same, that liquid has to rise to */
+    uint32_t *fed;      /* [cells], one of the cells that end there, SP_NONE for none */
+    uint32_t *fed_too;  /* [cells], the next one that ends where this one does */
+    uint32_t *hollow;   /* [cells], disjoint sets */
+    uint8_t *way;       /* [links] */
+    uint32_t *waits;    /* [cells], for how many that it runs to and that have no rank yet */
+    uint8_t *state;     /* [cells] */
     sp_heap heap, late; /* level, whether sunk, cell; those that wait for others have come into the second */
     sp_film_order *order;
 } flood;
@@ -75,18 +75,21 @@ static bool leads(double across, double back, double length, uint32_t from, uint
     return across > SLIGHT * length && (!(back > SLIGHT * length) || to < from);
 }
 
+static uint8_t way_over(const flood *own, uint32_t cell, size_t k)
+{
+    const sp_film_link *link = &own->links->links[k];
+    uint32_t other = own->links->to[k], here = own->height[cell], there = own->height[other];
+    if (!own->links->drips[cell] && leads(link->across, link->into, link->length, here, there))
+        return TO;
+    return !own->links->drips[other] && leads(link->into, link->across, link->length, there, here) ? FROM : NONE;
+}
+
 /* Tells which links lead to and from which cells. */
 static void direct(flood *own)
 {
-    const sp_film_links *links = own->links;
-    for (uint32_t i = 0; i < links->count; i++)
-        for (size_t k = links->start[i]; k < links->start[i + 1]; k++) {
-            const sp_film_link *link = &links->links[k];
-            uint32_t here = own->height[i], there = own->height[links->to[k]];
-            own->way[k] = leads(link->across, link->into, link->length, here, there) && !links->drips[i]        ? TO
-                          : leads(link->into, link->across, link->length, there, here) && !links->drips[links->to[k]] ? FROM
-                                                                                                                  : NONE;
-        }
+    for (uint32_t i = 0; i < own->links->count; i++)
+        for (size_t k = own->links->start[i]; k < own->links->start[i + 1]; k++)
+            own->way[k] = way_over(own, i, k);
 }
 
 static void count_waits(flood *own)
@@ -164,8 +167,8 @@ static bool is_late(const flood *own)
     return waited > PATIENCE * own->surface->cells->length[(uint32_t)key];
 }
 
-/* Empties the heaps. A cell takes its turn when all that it runs to have had theirs; where these wait for it in turn, or
- * lie in a hollow beneath it, by height. */
+/* Empties the heaps. A cell takes its turn when all that it runs to have had theirs; where these wait for it in turn,
+ * or lie in a hollow beneath it, by height. */
 static bool spread(flood *own, uint32_t *rank)
 {
     while (own->heap.count || own->late.count) {

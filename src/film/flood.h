@@ -12,7 +12,8 @@ typedef struct {
 } sp_film_order;
 
 /* Priority flood (Barnes, Lehman, Mulla 2014) over borders and `ends`. Liquid stands at the lowest cell of what no way
- * leads out of, and of a hollow deeper than 5 % of the geometry's height: that is a vessel without its drain. */
+ * leads out of, and of a hollow deeper than 5 % of the geometry's height: that is a vessel without its drain. A cell
+ * comes after all that it runs to, though the point of one lie higher, as those of parts of texels may. */
 bool sp_film_order_create(const sp_film_surface *surface, const sp_film_links *links, const uint32_t *ends,
                           sp_film_order *order, sp_error *error);
 void sp_film_order_free(sp_film_order *order);

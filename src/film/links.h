@@ -4,7 +4,7 @@
 
 #include "film/film.h"
 
-#define SP_FILM_FLAT 1e-3 /* sine of the slope: less is level, as geometry in single precision tells it */
+#define SP_FILM_FLAT 1e-3   /* sine of the slope: less is level, as geometry in single precision tells it */
 #define SP_FILM_ACROSS 1e-9 /* of a cell's edge: less across the flow is round-off */
 
 /* From one cell to another, over all their common border. */

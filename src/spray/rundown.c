@@ -143,8 +143,7 @@ bool sp_rundown_create(sp_evaluator *evaluator, sp_error *error)
                                                       .cells = &walls->patches,
                                                       .cell_of = (const uint32_t(*)[2])walls->texel_patch,
                                                       .down = sp_scale(sp_unit(walls->setup.up), -1),
-                                                      .wave = sp_film_wave(&walls->setup.liquid,
-                                                                           walls->setup.gravity)},
+                                                      .wave = sp_film_wave(&walls->setup.liquid, walls->setup.gravity)},
                                    error);
     if (!rundown->film)
         return false;

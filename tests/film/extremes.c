@@ -150,10 +150,8 @@ static void thin_plates(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_triangle),
-        cmocka_unit_test(slivers),
-        cmocka_unit_test(ridges_and_valleys),
-        cmocka_unit_test(valleys_of_plates_that_touch),
+        cmocka_unit_test(one_triangle),       cmocka_unit_test(slivers),
+        cmocka_unit_test(ridges_and_valleys), cmocka_unit_test(valleys_of_plates_that_touch),
         cmocka_unit_test(thin_plates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
