@@ -25,7 +25,7 @@ static double best_intensity(const sp_make *make, const sp_scope *scope, double 
     /* polar angles about the nozzle's axis that the direction can be brought to */
     double least = fmax(0, away - tilt), most = fmin(M_PI, away + tilt);
     const sp_nozzle_type *type = make->type;
-    if (!sp_is_swept(type)) /* somewhere in it: what it brings there its footprints tell */
+    if (!sp_type_is_uniform(type)) /* somewhere in it: what it brings there its footprints tell */
         return least <= make->reach;
     double angle = fmax(scope->angle_low, 2 * least);
     if (angle > scope->angle_high * (1 + 1e-12)) {
@@ -50,7 +50,7 @@ static bool offer(const sp_reckoning *reckoning, const sp_site *site, size_t lau
     for (size_t k = 0; k < search->candidates->make_count; k++) {
         const sp_make *make = &search->candidates->makes[k];
         const sp_scope *scope = &reckoning->scopes[k];
-        if (make->launch != launch || !sp_is_swept(make->type) ||
+        if (make->launch != launch || !sp_type_is_uniform(make->type) ||
             !sp_candidates_axes(search->candidates, site->mount, k)->count || scope->flow_low > reckoning->water_left)
             continue;
         /* a jet narrower than the patch is spread over it */

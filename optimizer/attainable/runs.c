@@ -95,8 +95,8 @@ static void look_at_sites(const running *r, const sp_draft *nothing)
             sp_sweeper_look(&r->sweepers[thread], r->search, nothing, (uint32_t)site, candidates->makes[k].launch);
             /* a time limit does not stop this, as it does not stop the rest of what is attainable */
             bool stopped = !sp_watch_goes_on(r->watch, "attainable", 1) && r->watch->cancelled,
-                 swept = sp_is_swept(candidates->makes[k].type);
-            if (stopped || (swept && (r->question == FOOTPRINTS || !r->sweepers[thread].view->start)))
+                 uniform = sp_type_is_uniform(candidates->makes[k].type);
+            if (stopped || (uniform && (r->question == FOOTPRINTS || !r->sweepers[thread].view->start)))
                 continue;
             sp_sweeper_take(&r->sweepers[thread], k);
             look_at_make(r, thread, (uint32_t)site, k);

@@ -20,7 +20,7 @@
 
 void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high)
 {
-    double change = sp_is_swept(type) ? options->refine.angle : 0;
+    double change = sp_type_is_uniform(type) ? options->refine.angle : 0;
     *low = fmax(type->angle_min, type->angle - change);
     *high = fmin(type->angle_max, type->angle + change);
 }
@@ -29,7 +29,7 @@ void sp_flow_range(const sp_place_options *options, const sp_setup *setup, const
                    double *low, double *high)
 {
     bool breaks_up = setup->fidelity.trajectory == SP_TRAJECTORY_DRAG && type->pattern == SP_PATTERN_SOLID_STREAM;
-    double change = sp_is_swept(type) && !breaks_up ? options->refine.flow : 0;
+    double change = sp_type_is_uniform(type) && !breaks_up ? options->refine.flow : 0;
     double least = fmax(type->flow_min, type->flow * (1 - change));
     double most = fmin(type->flow_max, type->flow * (1 + change));
     *low = sp_type_flow(type, least, pressure, &setup->liquid);
@@ -40,7 +40,7 @@ static size_t rolls_of(const sp_nozzle_type *type)
 {
     if (type->pattern == SP_PATTERN_FLAT_FAN)
         return FAN_ROLLS;
-    return sp_is_swept(type) || type->pattern == SP_PATTERN_ROTATING ? 1 : BODY_ROLLS;
+    return sp_type_is_uniform(type) || type->pattern == SP_PATTERN_ROTATING ? 1 : BODY_ROLLS;
 }
 
 static bool is_same(const sp_launch *a, const sp_launch *b)
@@ -130,21 +130,21 @@ static bool fits(const sp_mount *mount, const sp_nozzle_type *type)
     return false;
 }
 
-/* How close axes lie: of poses that are swept, and of those that have to be traced one by one. */
+/* How close axes lie: of poses of uniform types, and of those that have to be traced one by one. */
 typedef struct {
-    double swept, traced; /* times the usual step */
+    double uniform, traced; /* times the usual step */
 } spacing;
 
 static double axis_step(const sp_make *make, const spacing *spacing)
 {
-    return (sp_is_swept(make->type) ? spacing->swept : spacing->traced) *
+    return (sp_type_is_uniform(make->type) ? spacing->uniform : spacing->traced) *
            fmin(AXIS_STEP_MOST, fmax(AXIS_STEP_LEAST, AXIS_SHARE * make->reach));
 }
 
 static double axis_tilt(const sp_make *make, const sp_mount *mount)
 {
     /* what sprays all round is the same whatever its axis */
-    bool cone = sp_is_swept(make->type) && make->spray.kind != SP_PATTERN_FLAT_FAN,
+    bool cone = sp_type_is_uniform(make->type) && make->spray.kind != SP_PATTERN_FLAT_FAN,
          all_round = cone && make->spray.outer >= M_PI && make->spray.inner <= 0;
     return all_round ? 0 : fmin(M_PI, mount->tilt);
 }
@@ -172,7 +172,7 @@ static census take_census(const sp_place_options *options, const sp_sites *sites
             double poses =
                 (double)make->roll_count * (double)rings(axis_tilt(make, mount), axis_step(make, spacing), NULL);
             per_site.poses += poses;
-            if (!sp_is_swept(make->type))
+            if (!sp_type_is_uniform(make->type))
                 per_site.traced += poses * (double)sp_nozzle_pattern_count(&(sp_nozzle){.type = make->type});
         }
     }
@@ -185,8 +185,8 @@ static spacing spacing_for(const sp_place_options *options, const sp_sites *site
     spacing spacing = {1, 1};
     while (spacing.traced < COARSENESS_MOST && take_census(options, sites, candidates, &spacing).traced > TRACED_ENOUGH)
         spacing.traced /= FINENESS_STEP;
-    while (spacing.swept > FINENESS_LEAST && take_census(options, sites, candidates, &spacing).poses < POSES_ENOUGH)
-        spacing.swept *= FINENESS_STEP;
+    while (spacing.uniform > FINENESS_LEAST && take_census(options, sites, candidates, &spacing).poses < POSES_ENOUGH)
+        spacing.uniform *= FINENESS_STEP;
     return spacing;
 }
 

@@ -18,9 +18,10 @@ typedef struct {
     size_t roll_count; /* 1 where it is the same at every roll */
 } sp_make;
 
-/* True of a type of one region that is as dense all over, which sweeps know and refinement may change. What any other
- * brings is found by footprints, and it stays at the poses of candidates. */
-static inline bool sp_is_swept(const sp_nozzle_type *type)
+/* True of a type whose liquid is spread evenly over one region, as sp_spray_is_uniform: it is judged from what a view
+ * of its site holds, and refinement may change it. What any other brings is found by footprints, and it stays at the
+ * poses of candidates. */
+static inline bool sp_type_is_uniform(const sp_nozzle_type *type)
 {
     return type->pattern == SP_PATTERN_FULL_CONE || type->pattern == SP_PATTERN_HOLLOW_CONE ||
            type->pattern == SP_PATTERN_FLAT_FAN || type->pattern == SP_PATTERN_SOLID_STREAM;

@@ -232,7 +232,7 @@ bool sp_pose_prices_found(const sp_pose_prices *prices, const sp_placed *placed,
                           sp_error *error)
 {
     size_t port = prices->ports[placed->site.mount];
-    return sp_is_swept(placed->nozzle.type)
+    return sp_type_is_uniform(placed->nozzle.type)
                ? sp_pose_prices_row(prices, placed->field, SP_OWN_KEY, port, tier, rows, error)
                : add_footprint(prices, placed->pose, SP_OWN_KEY, port, tier, rows, error);
 }
@@ -243,7 +243,7 @@ bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *row
     float *field = prices->scratches[0].field;
     size_t key = sp_pose_order_position(prices->order, pose),
            port = prices->ports[search->sites->items[pose.site].mount];
-    if (!sp_is_swept(search->candidates->makes[pose.make].type))
+    if (!sp_type_is_uniform(search->candidates->makes[pose.make].type))
         return add_footprint(prices, pose, key, port, prices->tier_of[pose.make], rows, error);
     sp_field_pose(search, pose, field);
     return sp_pose_prices_row(prices, field, key, port, prices->tier_of[pose.make], rows, error);
@@ -256,7 +256,7 @@ static sp_region prepare_worth(const sp_pose_prices *prices, scratch *own, const
     double strength = sp_make_strength(prices->search, make);
     own->prices = u;
     own->fields.view = view;
-    if (!sp_is_swept(make->type))
+    if (!sp_type_is_uniform(make->type))
         return (sp_region){.count = SP_COUNT_SHARE};
     if (!prices->film_need)
         sp_pose_prices_worth(prices, view, (float)strength, (float)strength, u, own->worth, own->total);
@@ -290,7 +290,7 @@ static double price_of(const sp_pose_prices *prices, const scratch *own, const s
     sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, up);
     const sp_weight weight = {own->worth, own->total};
     double price;
-    if (!sp_is_swept(nozzle.type))
+    if (!sp_type_is_uniform(nozzle.type))
         return row_price(own, write_pose(prices, pose, own->texels, own->shares));
     sp_region_turn(region, &frame);
     if (prices->film_need)
@@ -326,7 +326,7 @@ static best price_make(sp_pose_prices *prices, scratch *own, const sp_view *view
     const sp_make *make = &candidates->makes[k];
     size_t axes = sp_candidates_axes(candidates, prices->search->sites->items[site].mount, k)->count;
     best found = {.price = 0};
-    double all = prices->film_need || !sp_is_swept(make->type) ? INFINITY : all_bins(own);
+    double all = prices->film_need || !sp_type_is_uniform(make->type) ? INFINITY : all_bins(own);
     double told = stride == 1 ? TOLD_LEAST * needed : INFINITY; /* below it no price need be exact to be told */
     for (uint32_t a = 0; a < axes; a++)
         for (uint32_t r = 0; r < make->roll_count; r++) {
@@ -359,7 +359,7 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
         if (!sp_candidates_axes(candidates, mount, k)->count || !isfinite(least) || prices->search->port_taken[mount])
             continue;
         const sp_view *view = sp_visibility_look(prices->search->visibility, site, make->launch, &own->desk);
-        if (!view->start && sp_is_swept(make->type))
+        if (!view->start && sp_type_is_uniform(make->type))
             continue;
         sp_region region = prepare_worth(prices, own, view, make, &frame, u);
         *found = price_make(prices, own, view, site, k, &region, stride, least, needed[prices->tier_of[k]]);
@@ -444,7 +444,7 @@ static void price_block(sp_pose_prices *prices, scratch *own, size_t block, cons
     if (!memchr(alive + poses->start, 1, end - poses->start))
         return;
     const sp_view *view = sp_visibility_look(search->visibility, poses->site, make->launch, &own->desk);
-    if (!view->start && sp_is_swept(make->type))
+    if (!view->start && sp_type_is_uniform(make->type))
         return;
     sp_region region = prepare_worth(prices, own, view, make, &frame, u);
     for (size_t i = poses->start; i < end; i++)

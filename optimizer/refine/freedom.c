@@ -115,7 +115,7 @@ sp_freedom sp_freedom_create(const sp_search *search, const sp_placed *placed)
     sp_frame frame = sp_nozzle_frame(placed->origin.axis, 0, setup->up);
     freedom.across[0] = frame.x;
     freedom.across[1] = frame.y;
-    if (!sp_is_swept(type))
+    if (!sp_type_is_uniform(type))
         return freedom;
     add_place(&freedom, options, mount);
     add_axis(&freedom, freedom.axis_limit);

@@ -121,7 +121,7 @@ static bool transfer(sp_sights *sights, const sp_draft *from, sp_draft *to, sp_e
 static bool look_again(const sp_search *search, sp_draft *draft, sp_error *error)
 {
     for (size_t i = 0; i < draft->count; i++)
-        if (sp_is_swept(draft->items[i].nozzle.type) &&
+        if (sp_type_is_uniform(draft->items[i].nozzle.type) &&
             !sp_field_nozzle(search, &draft->items[i].nozzle, NULL, draft->items[i].field, error))
             return false;
     sp_draft_refresh(search, draft);

@@ -112,7 +112,7 @@ const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_er
 {
     static const sp_sight nothing = {0};
     const sp_search *search = sights->search;
-    if (!sp_is_swept(placed->nozzle.type))
+    if (!sp_type_is_uniform(placed->nozzle.type))
         return &nothing;
     sp_sight wanted = {
         .position = placed->nozzle.position, .axis = placed->origin.axis, .half_angle = needed(search, placed)};
@@ -176,7 +176,7 @@ void sp_sight_field(const sp_search *search, const sp_sight *sight, const sp_pla
 
 bool sp_sights_field(sp_sights *sights, const sp_placed *placed, const sp_draft *draft, float *field, sp_error *error)
 {
-    if (!sp_is_swept(placed->nozzle.type)) {
+    if (!sp_type_is_uniform(placed->nozzle.type)) {
         sp_field_pose(sights->search, placed->pose, field);
         return sp_footprints_sound(sights->search->footprints, error);
     }

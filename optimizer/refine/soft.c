@@ -435,7 +435,7 @@ static bool hold(const sp_search *search, const sp_draft *draft, sp_search *held
     if (held->kept_film)
         memcpy(held->kept_film, search->kept_film, count * sizeof(float));
     for (size_t i = 0; i < draft->count; i++)
-        if (!sp_is_swept(draft->items[i].nozzle.type))
+        if (!sp_type_is_uniform(draft->items[i].nozzle.type))
             sp_footprint_pour(search, sp_footprints_look(search->footprints, draft->items[i].pose), held->kept_hit,
                               held->kept_film, held->kept_dry);
     return true;

@@ -121,7 +121,7 @@ static void pour_item(const sp_search *search, sp_draft *draft, size_t i)
     const float *field = draft->items[i].field, *more = field + search->patch_count;
     float *restrict hit = draft->hit, *restrict dry = draft->dry, *restrict film = draft->film;
     draft->flow += draft->items[i].flow;
-    if (!sp_is_swept(draft->items[i].nozzle.type)) {
+    if (!sp_type_is_uniform(draft->items[i].nozzle.type)) {
         sp_footprint_pour(search, sp_footprints_look(search->footprints, draft->items[i].pose), hit, film, dry);
         return;
     }

@@ -129,7 +129,7 @@ void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
 {
     const sp_make *make = &search->candidates->makes[pose.make];
     sp_desk *desk = NULL;
-    if (!sp_is_swept(make->type)) {
+    if (!sp_type_is_uniform(make->type)) {
         sp_footprint_field(search, sp_footprints_look(search->footprints, pose), field);
         return;
     }

@@ -16,10 +16,10 @@ struct sp_footprints {
 
 static const sp_footprint nothing = {0};
 
-static bool any_unswept(const sp_candidates *candidates)
+static bool any_nonuniform(const sp_candidates *candidates)
 {
     for (size_t k = 0; k < candidates->make_count; k++)
-        if (!sp_is_swept(candidates->makes[k].type))
+        if (!sp_type_is_uniform(candidates->makes[k].type))
             return true;
     return false;
 }
@@ -27,7 +27,7 @@ static bool any_unswept(const sp_candidates *candidates)
 bool sp_footprints_create(const sp_search *search, sp_footprints **footprints, sp_error *error)
 {
     *footprints = NULL;
-    if (!any_unswept(search->candidates))
+    if (!any_nonuniform(search->candidates))
         return true;
     sp_footprints *made = calloc(1, sizeof *made);
     if (!made)
@@ -138,7 +138,7 @@ static sp_pose *list_poses(const sp_search *search, size_t *count)
     for (uint32_t site = 0; poses && site < search->sites->count; site++)
         for (uint32_t k = 0; k < candidates->make_count; k++) {
             size_t axes = sp_candidates_axes(candidates, search->sites->items[site].mount, k)->count;
-            for (uint32_t a = 0; a < axes && !sp_is_swept(candidates->makes[k].type); a++)
+            for (uint32_t a = 0; a < axes && !sp_type_is_uniform(candidates->makes[k].type); a++)
                 for (uint32_t r = 0; r < candidates->makes[k].roll_count; r++)
                     poses[(*count)++] = (sp_pose){site, k, a, r};
         }

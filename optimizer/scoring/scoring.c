@@ -97,7 +97,7 @@ void sp_sweeper_take(sp_sweeper *sweeper, size_t make)
     if (sweeper->make == make)
         return;
     sweeper->make = make;
-    if (!sp_is_swept(own->type))
+    if (!sp_type_is_uniform(own->type))
         return;
     double strength = sp_make_strength(search, own);
     sp_credit credit = {search->single, search->credit, (float)strength};
@@ -130,7 +130,8 @@ static const sp_footprint *footprint_at(const sp_sweeper *sweeper, uint32_t axis
 {
     const sp_search *search = sweeper->search;
     sp_pose pose = {sweeper->site, (uint32_t)sweeper->make, axis, roll};
-    return sp_is_swept(search->candidates->makes[pose.make].type) ? NULL : sp_footprints_look(search->footprints, pose);
+    return sp_type_is_uniform(search->candidates->makes[pose.make].type) ? NULL
+                                                                         : sp_footprints_look(search->footprints, pose);
 }
 
 const float *sp_sweeper_field(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll)
@@ -175,6 +176,6 @@ sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_dr
 bool sp_search_knows(const sp_search *search, uint32_t site, size_t make)
 {
     const sp_make *own = &search->candidates->makes[make];
-    return sp_is_swept(own->type) ? sp_visibility_known(search->visibility, site, own->launch)
-                                  : sp_footprints_know(search->footprints, site, (uint32_t)make);
+    return sp_type_is_uniform(own->type) ? sp_visibility_known(search->visibility, site, own->launch)
+                                         : sp_footprints_know(search->footprints, site, (uint32_t)make);
 }

@@ -48,7 +48,7 @@ double sp_visibility_needed(const sp_place_options *options, const sp_candidates
 {
     double reach = -1;
     for (size_t k = 0; k < candidates->make_count; k++)
-        if (candidates->makes[k].launch == launch && sp_is_swept(candidates->makes[k].type) &&
+        if (candidates->makes[k].launch == launch && sp_type_is_uniform(candidates->makes[k].type) &&
             sp_candidates_axes(candidates, site->mount, k)->count)
             reach = fmax(reach, candidates->makes[k].reach);
     return reach < 0 ? reach : fmin(M_PI, reach + options->mounts[site->mount].tilt + 1e-6);
@@ -275,7 +275,7 @@ static double patterns_to_trace(const sp_sites *sites, const sp_candidates *cand
         for (size_t k = 0; k < candidates->make_count; k++) {
             const sp_make *make = &candidates->makes[k];
             double count = (double)(sp_candidates_axes(candidates, sites->items[i].mount, k)->count * make->roll_count);
-            if (sp_is_swept(make->type))
+            if (sp_type_is_uniform(make->type))
                 continue;
             *poses += count;
             patterns += count * (double)sp_nozzle_pattern_count(&(sp_nozzle){.type = make->type});
