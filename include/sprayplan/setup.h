@@ -31,6 +31,8 @@ typedef struct {
 } sp_sweep;
 /* s, of the pass; 0 where nothing moves. What is given as a dose, m³/m², is that times a mean flux. */
 double sp_sweep_duration(const sp_sweep *sweep);
+/* m, as far as what moves comes from where the mesh has it; 0 where nothing does. */
+double sp_sweep_reach(const sp_sweep *sweep);
 
 typedef enum {
     SP_CAVITY_NONE,    /* every triangle counts once and takes liquid from either side */
@@ -58,8 +60,8 @@ typedef struct {
                   * say. Needs a cavity and gravity */
 } sp_criterion;
 
-/* With drag everything that leaves a nozzle flies as drops that air at rest holds back (see sp_drag_of): the far end of a
- * bracket, since a spray carries air along. Auto never takes it. */
+/* With drag everything that leaves a nozzle flies as drops that air at rest holds back (see sp_drag_of): the far end of
+ * a bracket, since a spray carries air along. Auto never takes it. */
 typedef enum { SP_TRAJECTORY_AUTO, SP_TRAJECTORY_LINE, SP_TRAJECTORY_PARABOLA, SP_TRAJECTORY_DRAG } sp_trajectory;
 typedef enum { SP_METHOD_AUTO, SP_METHOD_FORWARD, SP_METHOD_INVERSE } sp_method;
 typedef enum { SP_SPLAT_NEAREST, SP_SPLAT_LINEAR } sp_splat;

@@ -53,7 +53,8 @@ static double farthest_flight(const sp_evaluator *evaluator, const sp_place_opti
         stretch(&box, sites->items[i].position);
     for (size_t i = 0; options->kept && i < options->kept->count; i++)
         stretch(&box, options->kept->nozzles[i].position);
-    return sp_distance(box.low, box.high) + moves + widest_offset(options);
+    return sp_distance(box.low, box.high) + moves + widest_offset(options) +
+           sp_sweep_reach(&sp_evaluator_setup(evaluator)->sweep);
 }
 
 static bool add_all(sp_launch_table *table, const sp_place_options *options, sp_error *error)

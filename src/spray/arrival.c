@@ -68,11 +68,11 @@ bool sp_flight_pierces(const sp_source *source, const sp_target *target, const s
     return pierces(source->evaluator, target, &ray, source->evaluator->gravity, flight->time);
 }
 
-/* Piece by piece. Nothing blocks the first and last of it, as of parabolas, and the last piece ends on the target's own
- * triangle, which the others may meet. */
-static bool is_chain_blocked(const sp_source *source, const sp_target *target, const sp_flight *flight)
+/* Nothing blocks the first and last of it, as of parabolas, and the last piece ends on the target's own triangle, which
+ * the others may meet. */
+static bool visit_chain(const sp_source *source, const sp_target *target, const sp_flight *flight,
+                        sp_way_visitor *visit, void *user)
 {
-    const sp_evaluator *evaluator = source->evaluator;
     double end = flight->time - fmax(ends * flight->time, target->moved / sp_length(flight->velocity));
     sp_chain chain = sp_chain_of(source->fronts, source->position, flight);
     sp_piece piece;
@@ -83,22 +83,33 @@ static bool is_chain_blocked(const sp_source *source, const sp_target *target, c
         ray->t_max = fmin(ray->t_max, end - piece.start);
         if (piece.last) {
             ray->skip = target->triangle;
-            if (pierces(evaluator, target, ray, piece.pull, time))
+            if (pierces(source->evaluator, target, ray, piece.pull, time))
                 return true;
         }
-        if (ray->t_max > ray->t_min && sp_trace_occluded(evaluator->tracer, ray, piece.pull))
+        if (ray->t_max > ray->t_min && visit(user, ray, piece.pull))
             return true;
     }
     return false;
 }
 
-bool sp_flight_is_blocked(const sp_source *source, const sp_target *target, const sp_flight *flight)
+bool sp_flight_visit(const sp_source *source, const sp_target *target, const sp_flight *flight, sp_way_visitor *visit,
+                     void *user)
 {
     if (source->fronts)
-        return is_chain_blocked(source, target, flight);
+        return visit_chain(source, target, flight, visit, user);
     sp_ray ray = sp_flight_ray(source, target, flight);
-    return sp_flight_pierces(source, target, flight) ||
-           sp_trace_occluded(source->evaluator->tracer, &ray, source->evaluator->gravity);
+    return sp_flight_pierces(source, target, flight) || visit(user, &ray, source->evaluator->gravity);
+}
+
+static bool meets(void *user, const sp_ray *piece, sp_vec3 pull)
+{
+    const sp_tracer *tracer = user;
+    return sp_trace_occluded(tracer, piece, pull);
+}
+
+bool sp_flight_is_blocked(const sp_source *source, const sp_target *target, const sp_flight *flight)
+{
+    return sp_flight_visit(source, target, flight, meets, source->evaluator->tracer);
 }
 
 bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch,

@@ -2,7 +2,6 @@
 #include "bodies.h"
 #include "emitter.h"
 #include "movers.h"
-#include "spray/drag/chain.h"
 
 #include <stdlib.h>
 
@@ -50,8 +49,8 @@ static void fly(const sp_evaluator *evaluator, const sp_nozzle *pattern, size_t 
     const sp_setup *setup = &evaluator->setup;
     sp_drag drag = sp_drag_of(pattern, &setup->liquid, &setup->air);
     if (room->landings)
-        sp_drag_trace_many(evaluator->tracer, &drag, room->rays, jets, evaluator->gravity,
-                           sp_thread_count(setup->run.threads), room->landings);
+        sp_drops_land(evaluator, &drag, room->rays, room->offset, jets, sp_thread_count(setup->run.threads),
+                      room->landings);
     else
         sp_jets_hit(evaluator, room->rays, room->offset, jets, setup->run.threads, room->hits);
 }

@@ -54,12 +54,13 @@ bool sp_bodies_create(const sp_evaluator *evaluator, const sp_layout *layout, sp
     return sp_bodies_create_with(evaluator, layout, 0, bodies, error);
 }
 
-/* m, as far as anything of the geometry is from a point. */
+/* m, as far as anything of the geometry is from a point, or comes on its pass. */
 static double farthest_from(const sp_evaluator *evaluator, sp_vec3 point)
 {
     sp_vec3 low = evaluator->low, high = evaluator->high;
     return sp_length(sp_v(fmax(high.x - point.x, point.x - low.x), fmax(high.y - point.y, point.y - low.y),
-                          fmax(high.z - point.z, point.z - low.z)));
+                          fmax(high.z - point.z, point.z - low.z))) +
+           sp_sweep_reach(&evaluator->setup.sweep);
 }
 
 bool sp_bodies_fly(const sp_evaluator *evaluator, sp_bodies *bodies, sp_error *error)

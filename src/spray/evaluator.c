@@ -48,10 +48,6 @@ static bool check_sweep(const sp_setup *setup, sp_error *error)
                        "sweep: a way of %g m at %g m/s and %s found; expected parts that move, ends that are apart and "
                        "a speed above 0, or nothing of these",
                        travel, speed, moves ? "parts that move" : "no part that moves");
-    if (moves && setup->fidelity.trajectory == SP_TRAJECTORY_DRAG)
-        return sp_fail(error, SP_ERROR_UNSUPPORTED, NULL, 0, 0,
-                       "trajectory: drag found beside a sweep, for which it is not built yet; expected auto, line or "
-                       "parabola");
     return !moves || !(setup->criterion.film > 0) ||
            sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "film: found beside a sweep, which carries it along; expected a criterion of dose");
@@ -193,8 +189,7 @@ sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *la
     }
     evaluator->gravity = sp_gravity_for(setup, evaluator->fidelity.trajectory);
     sp_mesh_box(setup->mesh, &evaluator->low, &evaluator->high);
-    evaluator->farthest = sp_farthest_coordinate(evaluator->low, evaluator->high) +
-                          fmax(sp_length(setup->sweep.from), sp_length(setup->sweep.to));
+    evaluator->farthest = sp_farthest_coordinate(evaluator->low, evaluator->high) + sp_sweep_reach(&setup->sweep);
     if (!build(evaluator, layout, error) || !sp_rundown_create(evaluator, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;

@@ -5,7 +5,6 @@
 #include "lit.h"
 #include "movers.h"
 #include "splat.h"
-#include "spray/drag/chain.h"
 #include "tally.h"
 
 #include <stdlib.h>
@@ -188,8 +187,7 @@ static void fly_on(const jet_flight *flight, size_t count, bool drops)
         sp_jets_hit(evaluator, flight->rays, flight->offset, count, flight->threads, flight->hits);
         return;
     }
-    sp_drag_trace_many(evaluator->tracer, &drag, flight->rays, count, evaluator->gravity, flight->threads,
-                       flight->landings);
+    sp_drops_land(evaluator, &drag, flight->rays, flight->offset, count, flight->threads, flight->landings);
     for (size_t i = 0; i < count; i++)
         flight->hits[i] = flight->landings[i].hit;
 }

@@ -87,10 +87,10 @@ static sp_ray ray_for(const sp_evaluator *evaluator, sp_motion motion, const sp_
     return own;
 }
 
-bool sp_movers_occlude(const sp_evaluator *evaluator, sp_motion motion, const sp_ray *ray, sp_vec3 offset)
+bool sp_movers_occlude(const sp_evaluator *evaluator, sp_motion motion, const sp_ray *ray, sp_vec3 pull, sp_vec3 offset)
 {
     sp_ray own = ray_for(evaluator, motion, ray, offset);
-    return sp_trace_occluded(evaluator->movers->tracer[motion], &own, evaluator->gravity);
+    return sp_trace_occluded(evaluator->movers->tracer[motion], &own, pull);
 }
 
 static sp_hit nearest(const sp_evaluator *evaluator, const sp_ray *ray, sp_vec3 offset)
@@ -130,4 +130,43 @@ void sp_jets_hit(const sp_evaluator *evaluator, const sp_ray *rays, const sp_vec
 #pragma omp parallel for num_threads(sp_thread_count(threads)) schedule(dynamic, 1024)
     for (size_t i = 0; i < count; i++)
         hits[i] = nearest(evaluator, &rays[i], offset[i]);
+}
+
+/* Where a drop comes to of what stands and of what moves, and which it comes to first. */
+static sp_landing land(const sp_evaluator *evaluator, const sp_drag *drag, const sp_ray *ray, sp_vec3 offset,
+                       const sp_vec3 box[2][2])
+{
+    const sp_movers *movers = evaluator->movers;
+    sp_landing landings[2];
+    double time[2];
+    for (sp_motion motion = SP_STANDING; motion <= SP_MOVING; motion++) {
+        sp_ray own = ray_for(evaluator, motion, ray, offset);
+        sp_landing *landing = &landings[motion];
+        *landing = sp_drag_trace(movers->tracer[motion], drag, &own, evaluator->gravity, box[motion]);
+        time[motion] = landing->hit.triangle == SP_NONE ? INFINITY : landing->time;
+        if (landing->hit.triangle == SP_NONE)
+            continue;
+        landing->hit.triangle = movers->whole[motion][landing->hit.triangle];
+        if (motion == SP_MOVING)
+            landing->piece.ray.origin = sp_add(landing->piece.ray.origin, offset);
+    }
+    bool first =
+        time[SP_STANDING] < time[SP_MOVING] || (time[SP_STANDING] == time[SP_MOVING] &&
+                                                landings[SP_STANDING].hit.triangle <= landings[SP_MOVING].hit.triangle);
+    return landings[first ? SP_STANDING : SP_MOVING];
+}
+
+void sp_drops_land(const sp_evaluator *evaluator, const sp_drag *drag, const sp_ray *rays, const sp_vec3 *offset,
+                   size_t count, int threads, sp_landing *landings)
+{
+    if (!evaluator->movers) {
+        sp_drag_trace_many(evaluator->tracer, drag, rays, count, evaluator->gravity, threads, landings);
+        return;
+    }
+    sp_vec3 box[2][2];
+    for (int i = 0; i < 2; i++)
+        sp_mesh_box(evaluator->movers->mesh[i], &box[i][0], &box[i][1]);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 256)
+    for (size_t i = 0; i < count; i++)
+        landings[i] = land(evaluator, drag, &rays[i], offset[i], (const sp_vec3(*)[2])box);
 }

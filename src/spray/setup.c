@@ -25,6 +25,11 @@ double sp_sweep_duration(const sp_sweep *sweep)
     return sweep->speed > 0 ? sp_distance(sweep->from, sweep->to) / sweep->speed : 0;
 }
 
+double sp_sweep_reach(const sp_sweep *sweep)
+{
+    return fmax(sp_length(sweep->from), sp_length(sweep->to));
+}
+
 sp_vec3 sp_setup_outside(const sp_setup *setup, sp_vec3 point)
 {
     return sp_add(point, setup->origin);

@@ -34,13 +34,14 @@ static sp_nozzle across(const sp_nozzle_type *type, sp_vec3 position, sp_vec3 ax
 }
 
 /* Positions of the goods, as as many nozzles at goods that stand: nothing else is there. */
-static void assert_equals_standing(const char *what, const sp_nozzle *nozzle, sp_trajectory trajectory)
+static void assert_equals_standing(const char *what, const sp_nozzle *nozzle, sp_trajectory trajectory, double length,
+                                   double texel)
 {
     enum { fixed = 1000 };
     rectangle faces[6];
-    box_rectangles(sp_v(-0.15, -0.2, -0.1), sp_v(0.3, 0.4, 0.2), faces);
+    box_rectangles(sp_v(-0.5 * length, -0.2, -0.1), sp_v(length, 0.4, 0.2), faces);
     scene moving, standing;
-    open_pass(&moving, mesh_of_rectangles(faces, 6), 6, 1.6, 0.014, 0.5e-3);
+    open_pass(&moving, mesh_of_rectangles(faces, 6), 6, 1.6, texel, 0.5e-3);
     moving.setup.fidelity.trajectory = trajectory;
     standing = moving;
     standing.setup.surfaces = standing.surfaces;
@@ -75,8 +76,18 @@ static void passing_is_as_many_that_stand(void **state)
     sp_nozzle_type thin = fan(75, 6), cone = spray_type(SP_PATTERN_FULL_CONE, 60);
     sp_nozzle above = across(&thin, sp_v(0.03, 0.05, 0.4), sp_v(0.1, 0.1, -1)),
               beside = nozzle_at(&cone, sp_v(0.02, -0.6, 0.2), sp_v(0.1, 1, -0.3), 0);
-    assert_equals_standing("fan above, falling", &above, SP_TRAJECTORY_PARABOLA);
-    assert_equals_standing("cone beside", &beside, SP_TRAJECTORY_LINE);
+    assert_equals_standing("fan above, falling", &above, SP_TRAJECTORY_PARABOLA, 0.3, 0.014);
+    assert_equals_standing("cone beside", &beside, SP_TRAJECTORY_LINE, 0.3, 0.014);
+}
+
+/* Drops whose flights are looked for one by one: shorter goods, on longer texels. */
+static void drops_that_goods_pass_are_as_many_that_stand(void **state)
+{
+    (void)state;
+    sp_nozzle_type cone = spray_type(SP_PATTERN_FULL_CONE, 60);
+    cone.drop = 0.4e-3;
+    sp_nozzle beside = nozzle_at(&cone, sp_v(0.02, -0.6, 0.2), sp_v(0.1, 1, -0.3), 0);
+    assert_equals_standing("cone beside, with drag", &beside, SP_TRAJECTORY_DRAG, 0.1, 0.02);
 }
 
 /* A table that is carried under a beam: a plate with a side, and what stands in the way. */
@@ -296,6 +307,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(passing_is_as_many_that_stand),
+        cmocka_unit_test(drops_that_goods_pass_are_as_many_that_stand),
         cmocka_unit_test(passing_is_as_many_positions_under_a_beam),
         cmocka_unit_test(jets_agree_whatever_the_threads),
         cmocka_unit_test(nozzles_stay_out_of_the_way),

@@ -93,8 +93,8 @@ static bool has_left(const sp_moment *now, sp_vec3 gravity, const sp_vec3 box[2]
     return false;
 }
 
-static sp_landing trace(const sp_tracer *tracer, const sp_drag *drag, const sp_ray *ray, sp_vec3 gravity,
-                        const sp_vec3 box[2])
+sp_landing sp_drag_trace(const sp_tracer *tracer, const sp_drag *drag, const sp_ray *ray, sp_vec3 gravity,
+                         const sp_vec3 box[2])
 {
     sp_landing landing = {.hit = {.t = INFINITY, .triangle = SP_NONE}};
     sp_march march = sp_march_from(drag, gravity, ray->origin, ray->velocity);
@@ -129,5 +129,5 @@ void sp_drag_trace_many(const sp_tracer *tracer, const sp_drag *drag, const sp_r
     sp_mesh_box(sp_tracer_mesh(tracer), &box[0], &box[1]);
 #pragma omp parallel for schedule(dynamic, 256) num_threads(threads)
     for (size_t i = 0; i < count; i++)
-        landings[i] = trace(tracer, drag, &rays[i], gravity, box);
+        landings[i] = sp_drag_trace(tracer, drag, &rays[i], gravity, box);
 }

@@ -34,8 +34,11 @@ typedef struct {
     double time;      /* s, since it started */
 } sp_landing;
 
-/* Flies drops from their rays' starts until they meet the tracer's mesh, or leave it for good. A ray says where and
- * from when a drop can meet something, and what it does not meet. landings: [count], the caller's. */
+/* Flies a drop from its ray's start until it meets the tracer's mesh, or leaves it, within `box`, for good. A ray says
+ * where and from when a drop can meet something, and what it does not meet. */
+sp_landing sp_drag_trace(const sp_tracer *tracer, const sp_drag *drag, const sp_ray *ray, sp_vec3 gravity,
+                         const sp_vec3 box[2]);
+/* The same of many. landings: [count], the caller's. */
 void sp_drag_trace_many(const sp_tracer *tracer, const sp_drag *drag, const sp_ray *rays, size_t count, sp_vec3 gravity,
                         int threads, sp_landing *landings);
 
