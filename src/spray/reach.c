@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CHUNK 4096 /* patches whose flights are traced together: the tracer likes many of one origin */
+#define CHUNK 4096     /* patches whose flights are traced together: the tracer likes many of one origin */
+#define CHUNK_DRAG 256 /* the same with drag, where each is traced for itself */
 
 sp_aim sp_aim_at(sp_vec3 axis, double half_angle)
 {
@@ -83,14 +84,15 @@ static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uin
 
 /* The patches that are asked for: how many, and into how many chunks they fall. */
 typedef struct {
-    size_t first, count, chunks;
+    size_t first, count, chunk, chunks;
 } extent;
 
 static extent extent_of(const sp_source *source, const sp_aim *aim)
 {
     size_t patches = source->evaluator->patches.count, end = aim->end < patches ? aim->end : patches;
     size_t count = aim->first < end ? end - aim->first : 0;
-    return (extent){aim->first, count, (count + CHUNK - 1) / CHUNK};
+    size_t chunk = source->fronts ? CHUNK_DRAG : CHUNK;
+    return (extent){aim->first, count, chunk, (count + chunk - 1) / chunk};
 }
 
 static bool reap_all(const sp_source *source, const sp_aim *aim, extent extent, harvest *harvests)
@@ -102,7 +104,8 @@ static bool reap_all(const sp_source *source, const sp_aim *aim, extent extent, 
     bool done = flocks != NULL;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads) reduction(&& : done)
     for (size_t i = 0; i < extent.chunks; i++) {
-        size_t first = i * CHUNK, end = first + CHUNK < extent.count ? first + CHUNK : extent.count;
+        size_t first = i * extent.chunk, end = first + extent.chunk;
+        end = end < extent.count ? end : extent.count;
         done = done && reap(source, aim, (uint32_t)(extent.first + first), (uint32_t)(extent.first + end),
                             &flocks[omp_get_thread_num()], &harvests[i]);
     }
