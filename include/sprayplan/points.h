@@ -34,11 +34,29 @@ double sp_points_area(const sp_points *points);
  * texels, and whatever the order in which it is asked. i < n, of an area above 0. */
 sp_point sp_points_draw(const sp_points *points, size_t i, size_t n, uint64_t seed);
 
-/* Whether the layout covers each point: every flight that reaches it, in closed form, with the spray's intensity in the
- * flight's own direction, against the setup's criterion, where nothing lies in the way. First impact only. Lines or
- * parabolas (auto: parabolas), whatever the evaluator's own are. covered [count] is the caller's; points are judged
- * each for itself, so that neither threads nor the other points matter. About as quick as a patch. Fails with
- * SP_ERROR_UNSUPPORTED where goods move. */
+/* What holds at single points for a layout: every flight that reaches a point, in closed form, with the spray's
+ * intensity in the flight's own direction, against the setup's criterion, where nothing lies in the way. First impact
+ * only. Lines, parabolas (as auto) or drag, whatever the evaluator's own are.
+ *
+ * Of goods that move the flux is the mean over the pass: the trapezoidal rule on four steps a texel where spray reaches
+ * the point, halved further, down to a 64th of a texel, where spray or shadow begins or ends in between.
+ *
+ * A film has no closed form. Where the evaluator routes film, it is routed once more, on cells half as long, from what
+ * arrives there, and a point is covered as well where the cell that holds it has enough.
+ *
+ * Evaluator and layout are borrowed and must outlive it. NULL on error, and given NULL. */
+typedef struct sp_reference sp_reference;
+sp_reference *sp_reference_create(const sp_evaluator *evaluator, const sp_layout *layout, sp_trajectory trajectory,
+                                  sp_error *error);
+/* Accepts NULL. */
+void sp_reference_destroy(sp_reference *reference);
+/* m, the edge of the cells on which it routes film; 0 where there is none. */
+double sp_reference_film_cell(const sp_reference *reference);
+/* Whether the layout covers each point. covered [count] is the caller's; points are judged each for itself, so that
+ * neither threads nor the other points matter. About as quick as a patch. False where memory ran out. */
+bool sp_reference_judge(const sp_reference *reference, const sp_point *points, size_t count, bool *covered,
+                        sp_error *error);
+/* All of that, for who asks once. */
 bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_trajectory trajectory,
                      const sp_point *points, size_t count, bool *covered, sp_error *error);
 

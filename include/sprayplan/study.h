@@ -61,15 +61,17 @@ typedef struct {
 
 /* Owned by the caller. */
 typedef struct {
-    sp_fidelity reference;     /* texel and jets 0: points judged in closed form; else a run to compare with */
-    double reference_coverage; /* fraction */
-    double reference_spread;   /* twice the standard error from the points being a sample */
-    double reference_check;    /* of a run as reference: its error with reflections left out, measured against points
-                                * judged in closed form; else NAN */
-    size_t points;             /* as many were compared */
-    double area;               /* m², clean and wet */
-    size_t run_count;          /* 0: the scene has no nozzles */
-    sp_study_run *runs;        /* in the order of the grid; the scene's own settings last */
+    sp_fidelity reference;      /* texel and jets 0: points judged in closed form; else a run to compare with */
+    double reference_coverage;  /* fraction */
+    double reference_spread;    /* twice the standard error from the points being a sample */
+    double reference_check;     /* of a run as reference: its error with reflections left out, measured against points
+                                 * judged in closed form; else NAN */
+    double reference_film_cell; /* m: on cells so long film is routed for the points; 0 where none is asked for */
+    bool passing;               /* goods move: what a point takes is its mean over the pass */
+    size_t points;              /* as many were compared */
+    double area;                /* m², clean and wet */
+    size_t run_count;           /* 0: the scene has no nozzles */
+    sp_study_run *runs;         /* in the order of the grid; the scene's own settings last */
     size_t order_count;
     sp_study_order *orders;
     size_t place_count;
@@ -85,10 +87,12 @@ typedef struct {
 } sp_study_options;
 
 /* Runs the grid: trajectory (line, parabola), evaluator, texel (4, 2, 1 and ½ times the edge at which all that counts
- * has 100,000 texels, rounded to one digit; forward not the finest), jets and, where something reflects, reflections.
- * What the setup sets is not varied: a texel that is set is the only one. Each is compared at 100 / accuracy² points
- * (a million at 1 %) with what holds at the point, by the dearest physics that the setup leaves open: closed form, or
- * where walls throw liquid back by ten million jets a nozzle and up to eight reflections on the middle texel.
+ * has 100,000 texels, of goods that move 10,000, rounded to one digit; forward not the finest), jets and, where
+ * something reflects, reflections. What the setup sets is not varied: a texel that is set is the only one. Drag alone,
+ * which auto never takes, stands beside lines and parabolas where the setup sets it, and jets are a tenth as many. Each
+ * is compared at 100 / accuracy² points (a million at 1 %; of goods that move a sixteenth) with what holds at the point
+ * (sp_reference), by the dearest physics that the setup leaves open, or where walls throw liquid back by ten million
+ * jets a nozzle and up to eight reflections on the middle texel.
  *
  * With `place` it then runs placements: by texel (4, 2, 1 times), by line, without refinement and with little time,
  * each three times on texels 3 % apart, which tells the luck of the search from what the settings do. They share what

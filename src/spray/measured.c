@@ -19,25 +19,20 @@ typedef struct {
     double scatter; /* of the squared differences within pairs */
 } tally;
 
-/* What a point is off by. Where round-off left it no patch, nothing was said of it that could be wrong; where film
- * covers its patch, points have nothing to say. */
-static double difference(const sp_evaluator *evaluator, const sp_coverage *coverage, const sp_point *point,
-                         bool covered)
+/* What a point is off by. Where round-off left it no patch, nothing was said of it that could be wrong. */
+static double difference(const sp_coverage *coverage, const sp_point *point, bool covered)
 {
-    double film = evaluator->setup.criterion.film;
-    if (point->patch == SP_NONE || (film > 0 && coverage->deposits.film[point->patch] >= film))
-        return 0;
-    return coverage->deposits.share[point->patch] - covered;
+    return point->patch == SP_NONE ? 0 : coverage->deposits.share[point->patch] - covered;
 }
 
 /* Neighbours have neighbouring parts of the surface to themselves, and are drawn independently: the square of what they
  * are apart is on average the sum of their variances, and more where the means of their parts differ. */
-static void add_block(const sp_evaluator *evaluator, const sp_coverage *coverage, const sp_point *points,
-                      const bool *covered, size_t count, tally *tally)
+static void add_block(const sp_coverage *coverage, const sp_point *points, const bool *covered, size_t count,
+                      tally *tally)
 {
     for (size_t i = 0; i < count; i += 2) {
-        double one = difference(evaluator, coverage, &points[i], covered[i]);
-        double other = difference(evaluator, coverage, &points[i + 1], covered[i + 1]);
+        double one = difference(coverage, &points[i], covered[i]);
+        double other = difference(coverage, &points[i + 1], covered[i + 1]);
         tally->sum += one + other;
         tally->size += fabs(one) + fabs(other);
         tally->scatter += (one - other) * (one - other);
@@ -47,9 +42,8 @@ static void add_block(const sp_evaluator *evaluator, const sp_coverage *coverage
 /* A surface, what was found of it, and what it is compared with. */
 typedef struct {
     const sp_points *surface;
-    const sp_layout *layout;
+    const sp_reference *reference;
     const sp_coverage *coverage;
-    sp_trajectory reference;
     uint64_t seed;
     double precision; /* of the accuracy or the difference */
     size_t most;      /* points */
@@ -64,9 +58,9 @@ static bool compare(const sp_evaluator *evaluator, const measuring *m, size_t n,
 #pragma omp parallel for num_threads(sp_thread_count(evaluator->setup.run.threads))
         for (size_t i = 0; i < count; i++)
             m->points[i] = sp_points_draw(m->surface, first + i, n, m->seed);
-        if (!sp_points_judge(evaluator, m->layout, m->reference, m->points, count, m->covered, error))
+        if (!sp_reference_judge(m->reference, m->points, count, m->covered, error))
             return false;
-        add_block(evaluator, m->coverage, m->points, m->covered, count, tally);
+        add_block(m->coverage, m->points, m->covered, count, tally);
     }
     return true;
 }
@@ -89,19 +83,23 @@ static bool measure(const sp_evaluator *evaluator, const measuring *m, sp_measur
     return true;
 }
 
-static bool measure_on(const sp_evaluator *evaluator, measuring *m, sp_measured_error *measured, sp_error *error)
+static bool measure_on(const sp_evaluator *evaluator, const sp_layout *layout, sp_trajectory trajectory, measuring *m,
+                       sp_measured_error *measured, sp_error *error)
 {
     *measured = (sp_measured_error){.known = false};
     if (evaluator->fidelity.reflections > 0 || evaluator->movers || !(m->coverage->area > 0))
         return true;
     sp_points *surface = sp_points_create(evaluator, error);
+    sp_reference *reference = sp_reference_create(evaluator, layout, trajectory, error);
     m->surface = surface;
+    m->reference = reference;
     m->points = malloc(BLOCK * sizeof *m->points);
     m->covered = malloc(BLOCK * sizeof *m->covered);
-    bool done =
-        surface && ((m->points && m->covered) || sp_fail_memory(error)) && measure(evaluator, m, measured, error);
+    bool done = surface && reference && ((m->points && m->covered) || sp_fail_memory(error)) &&
+                measure(evaluator, m, measured, error);
     free(m->points);
     free(m->covered);
+    sp_reference_destroy(reference);
     sp_points_destroy(surface);
     return done;
 }
@@ -113,23 +111,14 @@ bool sp_measure_error(const sp_evaluator *evaluator, const sp_layout *layout, co
         return false;
     if (reference == SP_TRAJECTORY_AUTO)
         reference = evaluator->setup.fidelity.trajectory;
-    measuring m = {.layout = layout,
-                   .coverage = coverage,
-                   .reference = reference,
-                   .seed = seed,
-                   .precision = PRECISION,
-                   .most = MOST};
-    return measure_on(evaluator, &m, measured, error);
+    measuring m = {.coverage = coverage, .seed = seed, .precision = PRECISION, .most = MOST};
+    return measure_on(evaluator, layout, reference, &m, measured, error);
 }
 
 bool sp_measure_roughly(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
                         sp_measured_error *measured, sp_error *error)
 {
-    measuring m = {.layout = layout,
-                   .coverage = coverage,
-                   .reference = evaluator->setup.fidelity.trajectory,
-                   .seed = evaluator->setup.fidelity.seed,
-                   .precision = ROUGH,
-                   .most = ROUGH_MOST};
-    return measure_on(evaluator, &m, measured, error);
+    const sp_fidelity *open = &evaluator->setup.fidelity;
+    measuring m = {.coverage = coverage, .seed = open->seed, .precision = ROUGH, .most = ROUGH_MOST};
+    return measure_on(evaluator, layout, open->trajectory, &m, measured, error);
 }

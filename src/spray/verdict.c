@@ -1,13 +1,12 @@
-/* Verdicts: whether a layout covers a point, by closed form at the point itself. */
-#include "bodies.h"
-#include "emitter.h"
-
-#include <sprayplan/points.h>
+/* Verdicts: whether what a layout sprays covers a point, by closed form at the point itself. */
+#include "dose.h"
+#include "reference.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define CHUNK 4096 /* points whose flights from a nozzle are traced together */
+#define CHUNK 4096       /* points whose flights from a nozzle are traced together */
+#define CHUNK_PASSING 64 /* the same of goods that move, each traced for itself */
 
 /* The flights of one pattern to a chunk of points, and what the points have received. */
 typedef struct {
@@ -80,60 +79,53 @@ static void spray(const sp_emitter *emitter, double flow, const sp_point *points
     }
 }
 
-static void judge(const sp_evaluator *evaluator, const sp_bodies *bodies, const sp_point *points, size_t count,
-                  flights *f, bool *covered)
+/* The same of goods that move, and of what they pass. */
+static void spray_pass(const sp_emitter *emitter, double flow, const sp_point *points, size_t count, flights *f,
+                       bool *covered)
 {
+    double threshold = emitter->source.evaluator->setup.criterion.flux;
+    for (size_t i = 0; i < count; i++) {
+        if (covered[i])
+            continue;
+        f->received[i] += sp_point_dose(emitter, flow, &points[i]);
+        covered[i] = f->received[i] > 0 && f->received[i] >= threshold;
+    }
+}
+
+static void judge(const sp_reference *reference, const sp_point *points, size_t count, flights *f, bool *covered)
+{
+    const sp_evaluator *truth = &reference->truth;
+    const sp_bodies *bodies = &reference->bodies;
     memset(covered, 0, count * sizeof *covered);
     memset(f->received, 0, count * sizeof *f->received);
     for (size_t b = 0; b < bodies->layout->count; b++) {
-        if (evaluator->setup.criterion.combine == SP_COMBINE_SINGLE)
+        if (truth->setup.criterion.combine == SP_COMBINE_SINGLE)
             memset(f->received, 0, count * sizeof *f->received);
         for (size_t n = bodies->first[b]; n < bodies->first[b + 1]; n++) {
-            const sp_nozzle *pattern = &bodies->patterns->nozzles[n];
-            sp_emitter emitter = sp_bodies_emitter(evaluator, bodies, n);
-            double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
+            sp_emitter emitter = sp_bodies_emitter(truth, bodies, n);
+            double flow = sp_nozzle_flow(&bodies->patterns->nozzles[n], &truth->setup.liquid);
             if (flow > 0)
-                spray(&emitter, flow, points, count, f, covered);
+                (truth->movers ? spray_pass : spray)(&emitter, flow, points, count, f, covered);
         }
     }
 }
 
-/* False where memory ran out. */
-static bool judge_all(const sp_evaluator *truth, const sp_bodies *bodies, const sp_point *points, size_t count,
-                      bool *covered)
+bool sp_judge_sprayed(const sp_reference *reference, const sp_point *points, size_t count, bool *covered)
 {
     bool done = true;
-    size_t chunks = (count + CHUNK - 1) / CHUNK;
-    int threads = omp_in_parallel() ? 1 : sp_thread_count(truth->setup.run.threads);
+    size_t chunk = reference->truth.movers ? CHUNK_PASSING : CHUNK, chunks = (count + chunk - 1) / chunk;
+    int threads = omp_in_parallel() ? 1 : sp_thread_count(reference->truth.setup.run.threads);
 #pragma omp parallel num_threads(threads) reduction(&& : done)
     {
         flights f;
         done = flights_create(&f);
 #pragma omp for schedule(dynamic, 1)
         for (size_t c = 0; c < chunks; c++) {
-            size_t first = c * CHUNK, part = count - first < CHUNK ? count - first : CHUNK;
+            size_t first = c * chunk, part = count - first < chunk ? count - first : chunk;
             if (done)
-                judge(truth, bodies, points + first, part, &f, covered + first);
+                judge(reference, points + first, part, &f, covered + first);
         }
         flights_free(&f);
     }
-    return done;
-}
-
-bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_trajectory trajectory,
-                     const sp_point *points, size_t count, bool *covered, sp_error *error)
-{
-    if (!evaluator || !layout || !points)
-        return false;
-    if (evaluator->movers)
-        return sp_fail(error, SP_ERROR_UNSUPPORTED, NULL, 0, 0,
-                       "sweep: found goods that move, expected none: points are judged as they stand");
-    sp_evaluator truth = *evaluator; /* the same but for how liquid flies */
-    truth.gravity = sp_gravity_for(&evaluator->setup, trajectory);
-    truth.fidelity.trajectory = trajectory == SP_TRAJECTORY_AUTO ? SP_TRAJECTORY_PARABOLA : trajectory;
-    sp_bodies bodies;
-    bool done = sp_bodies_create(evaluator, layout, &bodies, error) && sp_bodies_fly(&truth, &bodies, error) &&
-                (judge_all(&truth, &bodies, points, count, covered) || sp_fail_memory(error));
-    sp_bodies_free(&bodies);
     return done;
 }

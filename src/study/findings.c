@@ -17,8 +17,8 @@ static const sp_study_run *find(const sp_study *study, sp_fidelity wanted)
     return NULL;
 }
 
-/* Of one evaluator's runs the one of the finest texel, among these of most jets, fewest reflections and the dearest
- * trajectory. */
+/* Of one evaluator's runs the one of the finest texel, among these of most jets, fewest reflections and the
+ * trajectory of most physics. */
 static const sp_study_run *finest(const sp_study *study, sp_method method)
 {
     const sp_study_run *best = NULL;
@@ -28,7 +28,7 @@ static const sp_study_run *finest(const sp_study *study, sp_method method)
         if (run->chosen || is->method != method || is->reflections > 0)
             continue;
         if (!best || is->texel < least->texel || (is->texel == least->texel && is->jets > least->jets) ||
-            (is->texel == least->texel && is->jets == least->jets && is->trajectory == SP_TRAJECTORY_PARABOLA))
+            (is->texel == least->texel && is->jets == least->jets && is->trajectory > least->trajectory))
             best = run;
     }
     return best;
@@ -58,16 +58,17 @@ static void compare(sp_text *text, const sp_study_run *run, const sp_study_run *
     sp_text_add(text, " times the seconds of the second.</li>\n");
 }
 
-static void tell_of_lines(sp_text *text, const sp_study *study)
+static void tell_of_trajectories(sp_text *text, const sp_study *study)
 {
-    const sp_study_run *parabola = finest(study, SP_METHOD_INVERSE);
-    if (!parabola)
+    const sp_study_run *best = finest(study, SP_METHOD_INVERSE);
+    if (!best)
         return;
-    sp_fidelity wanted = parabola->fidelity;
-    wanted.trajectory = SP_TRAJECTORY_LINE;
-    const sp_study_run *line = find(study, wanted);
-    if (line && line != parabola)
-        compare(text, line, parabola);
+    sp_fidelity wanted = best->fidelity;
+    for (wanted.trajectory = SP_TRAJECTORY_LINE; wanted.trajectory < best->fidelity.trajectory; wanted.trajectory++) {
+        const sp_study_run *simpler = find(study, wanted);
+        if (simpler)
+            compare(text, simpler, best);
+    }
 }
 
 static void tell_of_jets(sp_text *text, const sp_study *study)
@@ -125,7 +126,7 @@ static void tell_of_reflections(sp_text *text, const sp_study *study)
 void sp_study_findings(sp_text *text, const sp_study *study)
 {
     sp_text_add(text, "<ul>\n");
-    tell_of_lines(text, study);
+    tell_of_trajectories(text, study);
     tell_of_texels(text, study);
     tell_of_jets(text, study);
     tell_of_reflections(text, study);

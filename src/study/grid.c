@@ -5,9 +5,11 @@
 #include <stdlib.h>
 
 #define USUAL_TEXELS 100000  /* on all that counts, by the edge in the middle */
+#define PASSING_TEXELS 10000 /* the same of goods that move, each looked at in a hundred positions and more */
 #define MOST_JETS 10000000   /* of a nozzle */
 #define MOST_JETS_IN_ALL 4e7 /* of all nozzles */
-#define JETS_WITH_BOUNCES 10 /* times fewer where each is followed through several walls */
+#define DRAG_JETS 10         /* times fewer where drag holds each back step by step */
+#define JETS_WITH_BOUNCES 10 /* the same where each is followed through several walls */
 enum { TEXELS = 4, FORWARD_TEXELS = 3, JET_STEPS = 3, BOUNCES = 4 };
 static const double texel_steps[TEXELS] = {4, 2, 1, 0.5};
 static const int bounce_steps[BOUNCES] = {0, 1, 2, 4};
@@ -32,7 +34,8 @@ double sp_study_texel(const sp_setup *setup, double area)
 {
     if (setup->fidelity.texel > 0)
         return setup->fidelity.texel;
-    double texel = sqrt(area / USUAL_TEXELS), power = pow(10, floor(log10(texel)));
+    double texels = setup->sweep.speed > 0 ? PASSING_TEXELS : USUAL_TEXELS;
+    double texel = sqrt(area / texels), power = pow(10, floor(log10(texel)));
     return round(texel / power) * power;
 }
 
@@ -41,20 +44,23 @@ uint64_t sp_study_most_jets(const sp_setup *setup, size_t nozzles)
     if (setup->fidelity.jets > 0)
         return setup->fidelity.jets;
     uint64_t jets = MOST_JETS;
-    while (jets > 10000 && (double)jets * (double)nozzles > MOST_JETS_IN_ALL)
+    double all = setup->fidelity.trajectory == SP_TRAJECTORY_DRAG ? MOST_JETS_IN_ALL / DRAG_JETS : MOST_JETS_IN_ALL;
+    while (jets > 10000 && (double)jets * (double)nozzles > all)
         jets /= 10;
     return jets;
 }
 
-size_t sp_study_trajectories(const sp_setup *setup, sp_trajectory trajectories[2])
+size_t sp_study_trajectories(const sp_setup *setup, sp_trajectory trajectories[SP_STUDY_TRAJECTORIES])
 {
-    if (setup->fidelity.trajectory != SP_TRAJECTORY_AUTO || !(setup->gravity > 0)) {
-        trajectories[0] = sp_study_reference_trajectory(setup);
-        return 1;
-    }
-    trajectories[0] = SP_TRAJECTORY_LINE;
-    trajectories[1] = SP_TRAJECTORY_PARABOLA;
-    return 2;
+    sp_trajectory own = setup->fidelity.trajectory, reference = sp_study_reference_trajectory(setup);
+    bool drag = own == SP_TRAJECTORY_DRAG, falls = setup->gravity > 0;
+    size_t count = 0;
+    if (drag || (own == SP_TRAJECTORY_AUTO && falls))
+        trajectories[count++] = SP_TRAJECTORY_LINE;
+    if (drag && falls)
+        trajectories[count++] = SP_TRAJECTORY_PARABOLA;
+    trajectories[count++] = reference;
+    return count;
 }
 
 /* A grid while it is listed. */
@@ -115,12 +121,13 @@ sp_fidelity *sp_study_grid(const sp_setup *setup, size_t nozzles, double texel, 
                  .forward_texels = own->texel > 0 ? 1 : FORWARD_TEXELS,
                  .jet_steps = own->jets > 0 ? 1 : JET_STEPS,
                  .bounces = reflects && own->reflections < 0 ? BOUNCES : 1,
-                 .cells = malloc(2 * (TEXELS + FORWARD_TEXELS * JET_STEPS * BOUNCES) * sizeof *l.cells)};
+                 .cells =
+                     malloc(SP_STUDY_TRAJECTORIES * (TEXELS + FORWARD_TEXELS * JET_STEPS * BOUNCES) * sizeof *l.cells)};
     if (!l.cells)
         return sp_fail_memory(error);
     if (reflects && own->jets == 0)
         l.most_jets /= JETS_WITH_BOUNCES;
-    sp_trajectory trajectories[2];
+    sp_trajectory trajectories[SP_STUDY_TRAJECTORIES];
     size_t trajectory_count = sp_study_trajectories(setup, trajectories);
     for (size_t i = 0; i < trajectory_count; i++) {
         bool inverse = own->method != SP_METHOD_FORWARD && own->splat != SP_SPLAT_LINEAR && own->reflections <= 0;

@@ -49,7 +49,8 @@ static json_t *reference_object(const sp_study *study)
                         : put_fidelity(object, reference)) &&
                 put_count(object, "points", study->points) && put_real(object, "coverage", study->reference_coverage) &&
                 put_real(object, "two_standard_errors", study->reference_spread) &&
-                put_real(object, "error_without_reflections", study->reference_check);
+                put_real(object, "error_without_reflections", study->reference_check) &&
+                (!(study->reference_film_cell > 0) || put_real(object, "film_texel_m", study->reference_film_cell));
     if (good)
         return object;
     json_decref(object);
@@ -121,6 +122,20 @@ static bool put_places(json_t *object, const char *key, const sp_study *study, b
     return put(object, key, places) && good;
 }
 
+static json_t *notes_array(const sp_study *study)
+{
+    json_t *array = json_array();
+    const char *notes[SP_STUDY_NOTES];
+    size_t count = sp_words_notes(study, notes);
+    bool good = true;
+    for (size_t i = 0; i < count; i++)
+        good = json_array_append_new(array, json_string(notes[i])) == 0 && good;
+    if (good)
+        return array;
+    json_decref(array);
+    return NULL;
+}
+
 static bool put_grid(json_t *object, const sp_study *study)
 {
     json_t *runs = json_array(), *orders = json_array();
@@ -131,7 +146,7 @@ static bool put_grid(json_t *object, const sp_study *study)
         good = add_order(orders, &study->orders[i]) && good;
     good = put(object, "runs", runs) && good;
     good = put(object, "orders", orders) && good;
-    return good && put(object, "reference", reference_object(study));
+    return good && put(object, "reference", reference_object(study)) && put(object, "notes", notes_array(study));
 }
 
 char *sp_study_json(const sp_study *study, const char *scene, sp_error *error)

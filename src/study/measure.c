@@ -7,12 +7,18 @@
 #define DEEP 8 /* reflections that a reference follows, where the setup does not say how many */
 
 /* What points say by themselves. */
-static bool judge_points(sp_studying *studying, const sp_evaluator *own, sp_study *study, sp_error *error)
+static bool judge_points(sp_studying *studying, sp_study *study, sp_error *error)
 {
-    if (!sp_sample_covered(studying, own, studying->layout, studying->truth, error))
+    sp_trajectory trajectory = sp_study_reference_trajectory(studying->setup);
+    sp_reference *reference = sp_reference_create(studying->own, studying->layout, trajectory, error);
+    bool judged = sp_sample_covered(studying, reference, studying->truth, error);
+    study->passing = studying->setup->sweep.speed > 0;
+    study->reference_film_cell = judged ? sp_reference_film_cell(reference) : 0;
+    sp_reference_destroy(reference);
+    if (!judged)
         return false;
     sp_sample sample = sp_sample_of(studying->truth, studying->points);
-    study->reference = (sp_fidelity){.trajectory = sp_study_reference_trajectory(studying->setup)};
+    study->reference = (sp_fidelity){.trajectory = trajectory};
     study->reference_coverage = sample.mean;
     study->reference_spread = sample.spread;
     study->reference_check = NAN;
@@ -68,12 +74,12 @@ static bool fly_reference(sp_studying *studying, double texel, sp_study *study, 
     return true;
 }
 
-bool sp_study_refer(sp_studying *studying, const sp_evaluator *own, double texel, sp_study *study, sp_error *error)
+bool sp_study_refer(sp_studying *studying, double texel, sp_study *study, sp_error *error)
 {
     studying->truth = malloc(studying->points * sizeof *studying->truth);
     if (!studying->truth)
         return sp_fail_memory(error);
-    return judge_points(studying, own, study, error) &&
+    return judge_points(studying, study, error) &&
            (!sp_study_reflects(studying->setup) || fly_reference(studying, texel, study, error));
 }
 

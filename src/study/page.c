@@ -93,8 +93,15 @@ static void add_reference(sp_text *text, const sp_study *study)
         sp_markup_signed(text, 100 * study->reference_check, 2);
         sp_text_add(text, " points.");
     } else
-        sp_text_add(text, " points of the surface, each judged for itself in closed form (%s), with no texel between.",
-                    sp_word_trajectory(reference));
+        sp_text_add(
+            text, " points of the surface, each judged for itself in closed form (%s), with no texel between%s.",
+            sp_word_trajectory(reference),
+            study->passing ? ": its dose by steps of a quarter texel, and finer where spray or shadow begins" : "");
+    if (study->reference_film_cell > 0) {
+        sp_text_add(text, " Film is routed for them on cells of ");
+        sp_words_texel(text, study->reference_film_cell);
+        sp_text_add(text, ", half as long as the runs' finest.");
+    }
     sp_text_add(text, " They find ");
     sp_markup_decimals(text, 100 * study->reference_coverage, 2);
     sp_text_add(text, "\xc2\xa0%% covered (\xc2\xb1\xc2\xa0");
@@ -113,10 +120,15 @@ static void add_notes(sp_text *text, const sp_study *study)
                 "is tree, wet sides and atlas, evaluating is one layout.</dd>\n"
                 "<dt>Memory</dt><dd>The most that the program and its library held at a time, beyond the "
                 "geometry; what libraries beneath it take for themselves is not counted.</dd>\n"
-                "<dt>Left out</dt><dd>Air drag, which this version does not model, and film on walls, of which "
-                "points tell nothing.</dd>\n"
                 "<dt>What varies</dt><dd>What the scene sets is not varied: a texel that it sets is the only "
-                "one.</dd></dl></section>\n");
+                "one.</dd>\n");
+    const char *notes[SP_STUDY_NOTES];
+    size_t count = study->run_count ? sp_words_notes(study, notes) : 0;
+    if (count)
+        sp_text_add(text, "<dt>What does not</dt>");
+    for (size_t i = 0; i < count; i++)
+        sp_text_add(text, "<dd>%s</dd>\n", notes[i]);
+    sp_text_add(text, "</dl></section>\n");
 }
 
 char *sp_study_html(const sp_study *study, const char *scene, sp_error *error)

@@ -6,7 +6,7 @@
 
 #define SECONDS 420 /* of wall time for all placements, where the study has no limit */
 #define APART 0.03  /* of the texel, within a group */
-enum { TEXELS = 3, SHARES = 2, IN_GROUP = 3, GROUPS = TEXELS + 2 + SHARES };
+enum { TEXELS = 3, SHARES = 2, IN_GROUP = 3, GROUPS = TEXELS + SP_STUDY_TRAJECTORIES + SHARES };
 static const double texel_steps[TEXELS] = {4, 2, 1};
 static const double shares[SHARES] = {0.25, 0.5}; /* of the seconds that the placement takes without a limit */
 
@@ -45,11 +45,12 @@ static plan make_plan(const sp_setup *setup, const sp_place_options *place, doub
     plan p = {.count = 0};
     bool set = setup->fidelity.texel > 0, refine = refines(&place->refine);
     double middle = set ? texel : 2 * texel;
-    sp_trajectory trajectory = sp_study_reference_trajectory(setup), open[2];
+    sp_trajectory trajectories[SP_STUDY_TRAJECTORIES], trajectory = sp_study_reference_trajectory(setup);
+    size_t simpler = sp_study_trajectories(setup, trajectories) - 1;
     if (refine)
         add(&p, setup, middle, trajectory, false, 0);
-    if (sp_study_trajectories(setup, open) == 2)
-        add(&p, setup, middle, SP_TRAJECTORY_LINE, refine, 0);
+    for (size_t i = 0; i < simpler; i++)
+        add(&p, setup, middle, trajectories[i], refine, 0);
     for (size_t i = 0; i < TEXELS; i++)
         if (!set || texel_steps[i] == 1)
             add(&p, setup, texel_steps[i] * texel, trajectory, refine, 0);
@@ -70,6 +71,16 @@ static double seconds_of(const sp_study *study, const group *g)
     return INFINITY;
 }
 
+/* What holds at the points, into studying->values. */
+static bool confirm(sp_studying *studying, const sp_layout *layout, sp_error *error)
+{
+    sp_trajectory trajectory = sp_study_reference_trajectory(studying->setup);
+    sp_reference *reference = sp_reference_create(studying->own, layout, trajectory, error);
+    bool good = sp_sample_covered(studying, reference, studying->values, error);
+    sp_reference_destroy(reference);
+    return good;
+}
+
 static bool search(sp_studying *studying, const sp_evaluator *evaluator, const sp_place_options *place,
                    sp_study_place *found, sp_error *error)
 {
@@ -82,7 +93,7 @@ static bool search(sp_studying *studying, const sp_evaluator *evaluator, const s
     sp_study_placing(studying, found->limited ? INFINITY : found->limit);
     sp_proposal *proposal = sp_place(evaluator, &options, error);
     sp_moment taken = sp_study_placed(studying, &found->ended_early);
-    bool good = proposal && sp_sample_covered(studying, evaluator, proposal->layout, studying->values, error);
+    bool good = proposal && confirm(studying, proposal->layout, error);
     if (good) {
         sp_sample sample = sp_sample_of(studying->values, studying->points);
         found->nozzles = proposal->layout->count;

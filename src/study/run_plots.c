@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define MOST_SERIES 24
+#define MOST_SERIES 40
 static const char *const colours[] = {"#0b6670", "#b5542e", "#3b5b92", "#8a6d1d", "#7a4b8f", "#c42636", "#6b7a87"};
 enum { COLOURS = sizeof colours / sizeof *colours };
 

@@ -82,9 +82,7 @@ bool sp_sample_difference(const sp_studying *studying, const sp_evaluator *evalu
 }
 
 typedef struct {
-    const sp_evaluator *evaluator;
-    const sp_layout *layout;
-    sp_trajectory trajectory;
+    const sp_reference *reference;
     bool *covered; /* [BLOCK] */
     double *values;
 } judging;
@@ -92,19 +90,19 @@ typedef struct {
 static bool judge(void *user, const sp_point *points, size_t first, size_t count, sp_error *error)
 {
     const judging *j = user;
-    if (!sp_points_judge(j->evaluator, j->layout, j->trajectory, points, count, j->covered, error))
+    if (!sp_reference_judge(j->reference, points, count, j->covered, error))
         return false;
     for (size_t i = 0; i < count; i++)
         j->values[first + i] = j->covered[i];
     return true;
 }
 
-bool sp_sample_covered(const sp_studying *studying, const sp_evaluator *evaluator, const sp_layout *layout,
-                       double *values, sp_error *error)
+bool sp_sample_covered(const sp_studying *studying, const sp_reference *reference, double *values, sp_error *error)
 {
-    judging j = {evaluator, layout, sp_study_reference_trajectory(studying->setup), malloc(BLOCK * sizeof *j.covered),
-                 values};
-    bool good = (j.covered || sp_fail_memory(error)) && each_block(studying, evaluator, judge, &j, error);
+    if (!reference)
+        return false;
+    judging j = {reference, malloc(BLOCK * sizeof *j.covered), values};
+    bool good = (j.covered || sp_fail_memory(error)) && each_block(studying, studying->own, judge, &j, error);
     free(j.covered);
     return good;
 }

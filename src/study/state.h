@@ -25,6 +25,7 @@ sp_moment sp_stopwatch_median(const sp_stopwatch *watch);
 typedef struct {
     const sp_setup *setup;   /* the scene's */
     const sp_layout *layout; /* the scene's own nozzles */
+    const sp_evaluator *own; /* on the setup's own settings */
     const sp_study_options *options;
     sp_moment start;
     const char *stage; /* what the user is told */
@@ -58,9 +59,8 @@ sp_moment sp_study_placed(sp_studying *studying, bool *ended_early);
 /* The covered share of the patch that holds each point, less what is true of it (`truth` NULL: 0). */
 bool sp_sample_difference(const sp_studying *studying, const sp_evaluator *evaluator, const sp_coverage *coverage,
                           const double *truth, double *values, sp_error *error);
-/* 1 where the layout covers the point, judged for itself, else 0. */
-bool sp_sample_covered(const sp_studying *studying, const sp_evaluator *evaluator, const sp_layout *layout,
-                       double *values, sp_error *error);
+/* 1 where the reference, of a layout on studying->own, is that it is covered, else 0. */
+bool sp_sample_covered(const sp_studying *studying, const sp_reference *reference, double *values, sp_error *error);
 typedef struct {
     double mean, spread; /* spread: twice the standard error of the mean, from pairs of neighbours (see points.h) */
     double size;         /* mean of the values' sizes */
@@ -77,14 +77,15 @@ sp_trajectory sp_study_reference_trajectory(const sp_setup *setup);
 double sp_study_texel(const sp_setup *setup, double area);
 /* The most jets of each of so many nozzles. */
 uint64_t sp_study_most_jets(const sp_setup *setup, size_t nozzles);
-/* The trajectories that the setup leaves open; how many. */
-size_t sp_study_trajectories(const sp_setup *setup, sp_trajectory trajectories[2]);
+/* The trajectories that are run, of less physics first; how many. */
+enum { SP_STUDY_TRAJECTORIES = 3 };
+size_t sp_study_trajectories(const sp_setup *setup, sp_trajectory trajectories[SP_STUDY_TRAJECTORIES]);
 /* Every combination: [*count], malloc'd. */
 sp_fidelity *sp_study_grid(const sp_setup *setup, size_t nozzles, double texel, size_t *count, sp_error *error);
 
 /* measure.c */
-/* What is compared with, into studying->truth and the study. `own` is on the setup's own settings. */
-bool sp_study_refer(sp_studying *studying, const sp_evaluator *own, double texel, sp_study *study, sp_error *error);
+/* What is compared with, into studying->truth and the study. */
+bool sp_study_refer(sp_studying *studying, double texel, sp_study *study, sp_error *error);
 /* One run of the grid. */
 bool sp_study_measure(sp_studying *studying, const sp_fidelity *fidelity, const sp_layout *layout, sp_study_run *run,
                       sp_error *error);

@@ -7,6 +7,7 @@
 
 #define FEWEST_POINTS 10000
 #define MOST_POINTS 10000000
+#define PASSING 16 /* times fewer where goods move */
 
 /* What comes of a placement after its layout is there. */
 static bool comes_after(const char *stage)
@@ -82,11 +83,12 @@ sp_moment sp_study_placed(sp_studying *studying, bool *ended_early)
     return studying->laid ? studying->taken : sp_moment_since(studying->began);
 }
 
-/* So many that twice the standard error of one misjudged point in a hundred is a sixty-fourth of the accuracy, about.
- */
-static size_t points_for(double accuracy)
+/* So many that twice the standard error of one misjudged point in a hundred is a sixty-fourth of the accuracy, about;
+ * where goods move, and a point is looked at in a hundred places, a sixteenth of it. */
+static size_t points_for(const sp_setup *setup)
 {
-    double points = accuracy > 0 ? 100 / (accuracy * accuracy) : MOST_POINTS;
+    double accuracy = setup->fidelity.accuracy, points = accuracy > 0 ? 100 / (accuracy * accuracy) : MOST_POINTS;
+    points = setup->sweep.speed > 0 ? points / PASSING : points;
     return 2 * (size_t)ceil(0.5 * fmin(fmax(points, FEWEST_POINTS), MOST_POINTS) - 1e-6);
 }
 
@@ -151,14 +153,14 @@ static bool find_fronts(sp_study *study, sp_error *error)
     return good;
 }
 
-static bool measure(sp_studying *studying, const sp_evaluator *own, double texel, sp_study *study, sp_error *error)
+static bool measure(sp_studying *studying, double texel, sp_study *study, sp_error *error)
 {
     size_t nozzles = studying->layout->count, count = 0;
     if (nozzles == 0)
         return true;
     sp_fidelity *cells = sp_study_grid(studying->setup, nozzles, texel, &count, error);
     bool good = cells && sp_study_next(studying, "reference", 0, 1, 0, error) &&
-                sp_study_refer(studying, own, texel, study, error) && run_grid(studying, cells, count, study, error);
+                sp_study_refer(studying, texel, study, error) && run_grid(studying, cells, count, study, error);
     free(cells);
     return good;
 }
@@ -170,11 +172,13 @@ static bool work(sp_studying *studying, const sp_place_options *place, sp_study 
         return false;
     sp_evaluator *own = sp_evaluator_create(&setup, error);
     bool good = own && admits(own, studying->layout, error);
+    studying->own = own;
     study->area = good ? sp_evaluator_patches(own)->total_area : 0;
     double texel = sp_study_texel(studying->setup, study->area);
-    good = good && measure(studying, own, texel, study, error);
+    good = good && measure(studying, texel, study, error) &&
+           (!place || sp_study_run_places(studying, place, texel, study, error));
     sp_evaluator_destroy(own);
-    return good && (!place || sp_study_run_places(studying, place, texel, study, error));
+    return good;
 }
 
 sp_study *sp_study_create(const sp_setup *setup, const sp_layout *layout, const sp_place_options *place,
@@ -182,28 +186,12 @@ sp_study *sp_study_create(const sp_setup *setup, const sp_layout *layout, const 
 {
     if (!setup || !layout)
         return NULL;
-    if (setup->criterion.film > 0)
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                       "film: found, expected none: study judges single points, which tell nothing of what "
-                       "runs down to them"),
-               NULL;
-    if (setup->sweep.speed > 0)
-        return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                       "sweep: found, expected none: study judges single points, as they stand"),
-               NULL;
-    if (setup->fidelity.trajectory == SP_TRAJECTORY_DRAG)
-        return sp_fail(error, SP_ERROR_UNSUPPORTED, NULL, 0, 0,
-                       "trajectory: drag found, for which study is not built yet; expected auto, line or parabola"),
-               NULL;
     if (layout->count == 0 && !place)
         return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                        "nozzles: found none, expected at least one to study, or mounts under place:"),
                NULL;
-    sp_studying studying = {.setup = setup,
-                            .layout = layout,
-                            .options = options,
-                            .start = sp_moment_now(),
-                            .points = points_for(setup->fidelity.accuracy)};
+    sp_studying studying = {
+        .setup = setup, .layout = layout, .options = options, .start = sp_moment_now(), .points = points_for(setup)};
     sp_study *study = calloc(1, sizeof *study);
     studying.values = malloc(studying.points * sizeof *studying.values);
     sp_error failure = {0};

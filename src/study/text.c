@@ -32,6 +32,10 @@ static void add_runs(sp_text *text, const sp_study *study)
                     1e-6 * (double)run->speed.memory, run->speed.front_misjudged ? " *" : "");
     }
     sp_text_add(text, "* nothing that misjudges as little is quicker\n");
+    const char *notes[SP_STUDY_NOTES];
+    size_t count = sp_words_notes(study, notes);
+    for (size_t i = 0; i < count; i++)
+        sp_text_add(text, "%s\n", notes[i]);
 }
 
 static void add_orders(sp_text *text, const sp_study *study)

@@ -6,7 +6,9 @@
 
 const char *sp_word_trajectory(const sp_fidelity *fidelity)
 {
-    return fidelity->trajectory == SP_TRAJECTORY_LINE ? "line" : "parabola"; /* study takes no others */
+    return fidelity->trajectory == SP_TRAJECTORY_LINE   ? "line"
+           : fidelity->trajectory == SP_TRAJECTORY_DRAG ? "drag"
+                                                        : "parabola"; /* nothing is left to auto */
 }
 
 const char *sp_word_method(const sp_fidelity *fidelity)
@@ -44,6 +46,22 @@ void sp_words_run(sp_text *text, const sp_fidelity *fidelity, bool texel, bool j
     }
     if (fidelity->reflections > 0)
         sp_text_add(text, ", %d reflection%s", fidelity->reflections, fidelity->reflections > 1 ? "s" : "");
+}
+
+size_t sp_words_notes(const sp_study *study, const char *notes[SP_STUDY_NOTES])
+{
+    bool drag = study->reference.trajectory == SP_TRAJECTORY_DRAG, film = study->reference_film_cell > 0;
+    size_t count = 0;
+    notes[count++] =
+        drag ? "Lines and parabolas leave out the drag that the scene sets; the size of drops is not varied."
+             : "Air drag is left out, as by the scene: trajectory: drag takes it in.";
+    notes[count++] = film ? "Film is routed from the first impacts by the inverse evaluator, on 30,000 cells at most: "
+                            "jets, reflections and finer texels leave it as it is."
+                          : "Film on walls is left out, as by the scene: criterion: {film: ...} takes it in.";
+    if (study->passing)
+        notes[count++] = "Goods are looked at in positions a texel apart at most, which vary with the texel alone; "
+                         "jets are spread over the pass.";
+    return count;
 }
 
 void sp_words_place(sp_text *text, const sp_study_place *place)
