@@ -2,6 +2,8 @@
  * of the vertical, as it is 2b at least. */
 #include "aside.h"
 
+#include "spray/drag/fronts.h"
+
 #define ROUND_OFF 1e-12 /* rad */
 
 /* Directions of all flights to a ball: those of low ones and of high ones, each within a cone. */
@@ -10,13 +12,29 @@ typedef struct {
     double low_angle, high_angle; /* rad; high_angle < 0: there are none */
 } leaving;
 
-/* False where nothing is known, as with drag. */
+/* With drag ends lie at the way on which they left and as far below as they have sunk: low ones little, high ones far.
+ * False where nothing is known. */
+static bool leaving_with_drag(const sp_source *source, sp_vec3 r, double radius, leaving *leaving)
+{
+    double distance = sp_length(r), near = distance - radius, far = distance + radius, low, high;
+    if (!(near > 0) || !sp_fronts_sinking(source->fronts, far, &low, &high) || low >= near || far >= high)
+        return false;
+    leaving->low = sp_scale(r, 1 / distance);
+    leaving->low_angle = asin(radius / distance) + asin(low / near);
+    leaving->high = source->fronts->up;
+    leaving->high_angle = isinf(high) ? -1 : asin(far / high);
+    return true;
+}
+
+/* False where nothing is known. */
 static bool leaving_for(const sp_source *source, sp_vec3 point, double radius, leaving *leaving)
 {
     sp_vec3 gravity = source->evaluator->gravity, r = sp_sub(point, source->position);
+    if (source->fronts)
+        return leaving_with_drag(source, r, radius, leaving);
     double distance = sp_length(r), g = sp_length(gravity), speed = source->speed, far = distance + radius;
     double b = speed * speed + sp_dot(r, gravity) - g * radius;
-    if (source->fronts || distance <= radius || b <= 0 || g * far >= b || g * far >= speed * sqrt(2 * b))
+    if (distance <= radius || b <= 0 || g * far >= b || g * far >= speed * sqrt(2 * b))
         return false;
     leaving->low = sp_scale(r, 1 / distance);
     leaving->low_angle = asin(radius / distance) + asin(g * far / (speed * sqrt(2 * b)));
@@ -30,33 +48,29 @@ static double angle_between(sp_vec3 a, sp_vec3 b)
     return acos(fmin(1, fmax(-1, sp_dot(a, b))));
 }
 
-bool sp_cone_is_aside(const sp_source *source, sp_vec3 axis, double half_angle, sp_vec3 point, double radius)
-{
-    leaving leaving;
-    double most = half_angle + ROUND_OFF;
-    if (most >= M_PI || !leaving_for(source, point, radius, &leaving))
-        return false;
-    if (angle_between(leaving.low, axis) <= most + leaving.low_angle)
-        return false;
-    return leaving.high_angle < 0 || angle_between(leaving.high, axis) > most + leaving.high_angle;
-}
-
 static double latitude(sp_vec3 direction, const sp_frame *frame)
 {
     return fabs(asin(fmin(1, fmax(-1, sp_dot(direction, frame->y)))));
 }
 
-bool sp_fan_is_aside(const sp_emitter *emitter, sp_vec3 position, double beyond, sp_vec3 point, double radius)
+/* Whether all directions within `angle` of one lie outside of a cone or, where there is one, of a fan. */
+static bool is_outside(sp_vec3 direction, double angle, sp_vec3 axis, double half_angle, const sp_emitter *fan,
+                       double beyond)
+{
+    double most = angle + beyond + ROUND_OFF;
+    return angle_between(direction, axis) > half_angle + most ||
+           (fan && latitude(direction, &fan->frame) > fan->spray.half_thickness + most);
+}
+
+bool sp_spray_is_aside(const sp_source *source, sp_vec3 axis, double half_angle, const sp_emitter *emitter,
+                       double beyond, sp_vec3 point, double radius)
 {
     leaving leaving;
-    sp_source source = emitter->source;
-    double most = emitter->spray.half_thickness + beyond + ROUND_OFF;
-    source.position = position;
-    if (emitter->spray.kind != SP_PATTERN_FLAT_FAN || !leaving_for(&source, point, radius, &leaving))
+    const sp_emitter *fan = emitter && emitter->spray.kind == SP_PATTERN_FLAT_FAN ? emitter : NULL;
+    if ((!fan && half_angle + beyond >= M_PI) || !leaving_for(source, point, radius, &leaving))
         return false;
-    if (latitude(leaving.low, &emitter->frame) <= most + leaving.low_angle)
-        return false;
-    return leaving.high_angle < 0 || latitude(leaving.high, &emitter->frame) > most + leaving.high_angle;
+    return is_outside(leaving.low, leaving.low_angle, axis, half_angle, fan, beyond) &&
+           (leaving.high_angle < 0 || is_outside(leaving.high, leaving.high_angle, axis, half_angle, fan, beyond));
 }
 
 /* With ε = g d/v², what is arrived at at w: v t is d/√(1 + ε) at least, as T is d²/b, D is v⁴ (1 - 2ε) at least and w²
@@ -65,7 +79,7 @@ double sp_breadth_most(const sp_source *source, sp_vec3 point, double radius, do
 {
     double distance = sp_distance(point, source->position), near = distance - radius;
     double slow = sp_length(source->evaluator->gravity) * (distance + radius) / (source->speed * source->speed);
-    if (!(near > 0) || !(slow < 0.5))
+    if (!(near > 0) || !(slow < 0.5) || source->fronts)
         return SP_BREADTH_MOST;
     return fmin(SP_BREADTH_MOST, length / near * sqrt((1 + 2 * slow) * (1 + slow) / (1 - 2 * slow)));
 }

@@ -317,7 +317,7 @@ static void cut_cell(cutting *cut, size_t first, size_t end, double whole)
     double radius = 0.5 * sp_length(size);
     sp_vec3 middle = sp_scale(sp_add(cell.low, cell.high), 0.5);
     bearing seen = bearing_of(cut->source, middle, side, radius);
-    if (seen == OUT_OF_REACH || sp_cone_is_aside(cut->source, cut->axis, cut->half_angle, middle, radius))
+    if (seen == OUT_OF_REACH || sp_spray_is_aside(cut->source, cut->axis, cut->half_angle, NULL, 0, middle, radius))
         return;
     if (seen == FINE || side < FINEST * cut->whole.length || cut->cells >= CELLS_MOST) {
         visit_cell(cut, &cell);

@@ -582,6 +582,24 @@ static inline void bodies_of_drops(recount_scene *s, double texel)
     s->mounts[0].tilt = 0;
 }
 
+/* Goods that pass drops: so few poses that every layout can be tried. */
+static inline void goods_and_drops(recount_scene *s, double texel)
+{
+    room_builder b;
+    scene_begin(s, &b, false);
+    scene_type(s, SP_PATTERN_FULL_CONE, 90, 0, 9);
+    scene_type(s, SP_PATTERN_FLAT_FAN, 100, 12, 6.4);
+    s->types[0].drop = 2.5e-4;
+    s->types[1].drop = 8e-4;
+    s->room.setup.fidelity.trajectory = SP_TRAJECTORY_DRAG;
+    s->room.setup.criterion = (sp_criterion){.flux = 1.2 * LITRES_PER_MINUTE, .incidence = 80 * DEGREE};
+    s->mounts[0].tilt = 0;
+    s->mounts[0].axis = sp_unit(sp_v(0.4, 0.3, -1));
+    s->mounts[0].spacing = 0.7;
+    s->options.max_nozzles = 3;
+    carry_a_block(s, &b, fmax(texel, DRAG_TEXEL));
+}
+
 typedef struct {
     const char *name;
     bool hall;
@@ -617,6 +635,7 @@ static const recount_case recount_cases[] = {
     {"goods in a chamber, refined", false, false, false, goods_in_a_chamber},
     {"goods of few, every layout", false, false, false, goods_of_few},
     {"goods and bodies", false, false, true, goods_and_bodies},
+    {"goods and drops, every layout", false, false, false, goods_and_drops},
     {"mist and drops", false, true, false, mist_and_drops},
     {"streams that break up", false, false, false, streams_that_break_up},
     {"bodies of drops", false, false, false, bodies_of_drops},

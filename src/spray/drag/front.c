@@ -1,6 +1,8 @@
 /* What the table says of a front. */
 #include "fronts.h"
 
+#define SLACK 1e-6 /* beyond what the table may be off */
+
 /* A moment's data and their slopes by the elevation: Chebyshev's sums, and the derivatives of their polynomials. */
 typedef struct {
     double value[SP_FRONT_DATA], slope[SP_FRONT_DATA];
@@ -120,4 +122,21 @@ sp_front_place sp_front_place_between(const sp_fronts *fronts, double time, cons
     data_at(fronts, i + 1, polynomials, to);
     quintic((time - fronts->time[i]) / step, weight);
     return (sp_front_place){blend(weight, step, from, to), blend(weight, step, from + 3, to + 3)};
+}
+
+/* A front that is out by more than it has sunk and an end is far has all of the end's ball within it: low arcs have
+ * come there by then, and high arcs have not. Of a high arc q ≤ far + |d| later on, and q is no less than then. */
+bool sp_fronts_sinking(const sp_fronts *fronts, double far, double *low, double *high)
+{
+    const sp_front_bound *bound = fronts->bound;
+    size_t first = 0, last = fronts->count;
+    while (first < fronts->count && !(bound[first].out - bound[first].sunk >= far))
+        first++;
+    while (last > first && !(bound[last - 1].out - bound[last - 1].sunk >= far))
+        last--;
+    if (last == first)
+        return false;
+    *low = bound[first].sunk * (1 + SLACK);
+    *high = sp_length(fronts->gravity) > 0 ? (bound[last - 1].out - far) * (1 - SLACK) : INFINITY;
+    return true;
 }

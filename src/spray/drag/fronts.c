@@ -263,6 +263,24 @@ static bool find_joints(sp_fronts *fronts)
     return true;
 }
 
+/* From Chebyshev's sums, none of whose polynomials is beyond 1. */
+static bool find_bounds(sp_fronts *fronts)
+{
+    fronts->bound = malloc(fronts->count * sizeof *fronts->bound);
+    sp_front_bound last = {0, 0};
+    for (size_t i = 0; fronts->bound && i < fronts->count; i++) {
+        const double(*sum)[SP_FRONT_DATA] = (const double(*)[SP_FRONT_DATA])fronts->sum + i * fronts->most;
+        double q = sum[0][0], d = fabs(sum[0][3]);
+        for (unsigned n = 1; n < fronts->most; n++) {
+            q -= fabs(sum[n][0]);
+            d += fabs(sum[n][3]);
+        }
+        last = (sp_front_bound){fmax(last.out, q), fmax(last.sunk, d)};
+        fronts->bound[i] = last;
+    }
+    return fronts->bound != NULL;
+}
+
 static bool make(sp_fronts *fronts, sp_error *error)
 {
     for (unsigned order = ORDER_FIRST; order <= SP_FRONT_ORDER; order *= 2) {
@@ -273,7 +291,7 @@ static bool make(sp_fronts *fronts, sp_error *error)
         if (is_told(fronts, order))
             break;
     }
-    return find_joints(fronts) || sp_fail_memory(error);
+    return (find_joints(fronts) && find_bounds(fronts)) || sp_fail_memory(error);
 }
 
 sp_fronts *sp_fronts_create(const sp_drag *drag, double speed, sp_vec3 gravity, double far, sp_error *error)
@@ -297,6 +315,7 @@ void sp_fronts_destroy(sp_fronts *fronts)
     free(fronts->terms);
     free(fronts->rough);
     free(fronts->sum);
+    free(fronts->bound);
     free(fronts->joints);
     free(fronts);
 }

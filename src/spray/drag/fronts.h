@@ -22,9 +22,17 @@ struct sp_fronts {
     unsigned *terms;              /* [count], polynomials in θ at that moment */
     unsigned *rough;              /* [count], of these, as many as tell about what it is */
     double (*sum)[SP_FRONT_DATA]; /* [count x most], Chebyshev's in 2 θ/π, by moment */
+    struct sp_front_bound *bound; /* [count], by moment */
     double *joints;               /* [joint_count], s, from 0: in between ways are parabolas, but for little */
     size_t joint_count;
 };
+
+/* Over all elevations, by moment: no more than the least q, and no less than the most that has sunk, in m. Both grow
+ * with time: what has left goes on, and what lies below the way it left on is pulled farther below, by d'' = -g - k d',
+ * k ≥ 0 being the drag over the speed. */
+typedef struct sp_front_bound {
+    double out, sunk;
+} sp_front_bound;
 
 /* Of the front at a time. */
 typedef struct {
@@ -56,6 +64,10 @@ typedef struct {
 } sp_front_limit;
 /* As sp_fronts_flights. *margin is no more than that margin; it is not to be trusted where there are no flights. */
 int sp_fronts_reach(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2], double *margin);
+/* Of all flights to ends that lie no farther than `far` (m): how far their ends have sunk below where they would be
+ * along the direction in which they left, at most by low arcs and at least by high ones (INFINITY: there are none), in
+ * m. False where that is not known. */
+bool sp_fronts_sinking(const sp_fronts *fronts, double far, double *low, double *high);
 /* False without gravity, where what comes to rest is the limit and nothing goes wrong near it. */
 bool sp_fronts_limit(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_front_limit *limit);
 
