@@ -39,7 +39,7 @@ sp_point sp_points_draw(const sp_points *points, size_t i, size_t n, uint64_t se
  * only. Lines, parabolas (as auto) or drag, whatever the evaluator's own are.
  *
  * Of goods that move the flux is the mean over the pass: the trapezoidal rule on four steps a texel where spray reaches
- * the point, halved further, down to a 64th of a texel, where spray or shadow begins or ends in between.
+ * the point, halved further, down to a thousandth of a texel, where spray or shadow begins or ends in between.
  *
  * A film has no closed form. Where the evaluator routes film, it is routed once more, on cells half as long, from what
  * arrives there, and a point is covered as well where the cell that holds it has enough.

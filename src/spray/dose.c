@@ -4,7 +4,7 @@
 #include "movers.h"
 
 #define FINE 4      /* steps of a texel, where spray reaches the point */
-#define HALVINGS 4u /* of one of these, to where spray or shadow begins or ends */
+#define HALVINGS 8u /* of one of these, to where spray or shadow begins or ends */
 
 /* A point on its pass. */
 typedef struct {
