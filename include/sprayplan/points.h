@@ -72,7 +72,8 @@ bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_
  *
  * `reference` is how the liquid flies in truth; auto: as the setup says, parabolas where that leaves it open. The seed
  * draws the points. *measured is coverage->measured or another, the caller's. Where liquid that walls throw back was
- * followed, or goods move, points know nothing of it, and where nothing is counted there are none: `known` is false.
+ * followed points know nothing of it, where goods move judging them takes many times as long as evaluating, and where
+ * nothing is counted there are none: `known` is false. Of film the error is what cells half as long change.
  * Given NULL from an earlier failure it returns false and keeps the error. */
 bool sp_measure_error(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
                       sp_trajectory reference, uint64_t seed, sp_measured_error *measured, sp_error *error);

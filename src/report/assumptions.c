@@ -32,7 +32,10 @@ static void add_errors(const sp_page *page, sp_text *text, const sp_evaluator *e
                         100 * accuracy);
     }
     if (told)
-        sp_text_add(text, "; found at random points of the surface, each judged for itself in closed form</dd>\n");
+        sp_text_add(text, "; found at random points of the surface, each judged for itself in closed form%s</dd>\n",
+                    sp_evaluator_setup(evaluator)->criterion.film > 0
+                        ? "; of film, which has none, it is what cells half as long change"
+                        : "");
 }
 
 static void add_flight(sp_text *text, const sp_evaluator *evaluator)
