@@ -188,7 +188,7 @@ static void jets_agree_whatever_the_threads(void **state)
 {
     (void)state;
     assert_jets_agree("lines", SP_TRAJECTORY_LINE, 200000, 0.015);
-    assert_jets_agree("drag", SP_TRAJECTORY_DRAG, 20000, 0.02);
+    assert_jets_agree("drag", SP_TRAJECTORY_DRAG, 50000, 0.02);
 }
 
 /* The goods themselves stay where they are told not to be in the way. */
