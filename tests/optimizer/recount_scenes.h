@@ -595,7 +595,7 @@ static inline void goods_and_drops(recount_scene *s, double texel)
     s->room.setup.criterion = (sp_criterion){.flux = 1.2 * LITRES_PER_MINUTE, .incidence = 80 * DEGREE};
     s->mounts[0].tilt = 0;
     s->mounts[0].axis = sp_unit(sp_v(0.4, 0.3, -1));
-    s->mounts[0].spacing = 0.7;
+    s->mounts[0].spacing = 1.4;
     s->options.max_nozzles = 3;
     carry_a_block(s, &b, fmax(texel, DRAG_TEXEL));
 }
