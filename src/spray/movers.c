@@ -132,28 +132,21 @@ void sp_jets_hit(const sp_evaluator *evaluator, const sp_ray *rays, const sp_vec
         hits[i] = nearest(evaluator, &rays[i], offset[i]);
 }
 
-/* Where a drop comes to of what stands and of what moves, and which it comes to first. */
+/* Where a drop comes to, of what stands and of what moves. */
 static sp_landing land(const sp_evaluator *evaluator, const sp_drag *drag, const sp_ray *ray, sp_vec3 offset,
                        const sp_vec3 box[2][2])
 {
     const sp_movers *movers = evaluator->movers;
-    sp_landing landings[2];
-    double time[2];
-    for (sp_motion motion = SP_STANDING; motion <= SP_MOVING; motion++) {
-        sp_ray own = ray_for(evaluator, motion, ray, offset);
-        sp_landing *landing = &landings[motion];
-        *landing = sp_drag_trace(movers->tracer[motion], drag, &own, evaluator->gravity, box[motion]);
-        time[motion] = landing->hit.triangle == SP_NONE ? INFINITY : landing->time;
-        if (landing->hit.triangle == SP_NONE)
-            continue;
-        landing->hit.triangle = movers->whole[motion][landing->hit.triangle];
-        if (motion == SP_MOVING)
-            landing->piece.ray.origin = sp_add(landing->piece.ray.origin, offset);
-    }
-    bool first =
-        time[SP_STANDING] < time[SP_MOVING] || (time[SP_STANDING] == time[SP_MOVING] &&
-                                                landings[SP_STANDING].hit.triangle <= landings[SP_MOVING].hit.triangle);
-    return landings[first ? SP_STANDING : SP_MOVING];
+    sp_obstacle obstacles[2];
+    for (sp_motion motion = SP_STANDING; motion <= SP_MOVING; motion++)
+        obstacles[motion] = (sp_obstacle){.tracer = movers->tracer[motion],
+                                          .offset = motion == SP_MOVING ? offset : sp_v(0, 0, 0),
+                                          .box = box[motion],
+                                          .skip = ray_for(evaluator, motion, ray, offset).skip};
+    sp_landing landing = sp_drag_trace(obstacles, 2, drag, ray, evaluator->gravity);
+    if (landing.hit.triangle != SP_NONE)
+        landing.hit.triangle = movers->whole[landing.obstacle][landing.hit.triangle];
+    return landing;
 }
 
 void sp_drops_land(const sp_evaluator *evaluator, const sp_drag *drag, const sp_ray *rays, const sp_vec3 *offset,

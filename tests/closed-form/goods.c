@@ -269,16 +269,21 @@ static void assert_points_take(const char *what, const sp_nozzle *nozzle, double
     const double edge = 1e-3;
     scene s;
     open_plate(&s, height, 0.02 / COARSER, dose);
+    s.setup.run.threads = 1;
+    sp_evaluator *single = scene_evaluator(&s);
+    s.setup.run.threads = 2;
     sp_evaluator *evaluator = scene_evaluator(&s);
     sp_error error = {0};
     sp_layout *layout = sp_layout_create(nozzle, 1, &error);
     sp_points *surface = sp_points_create(evaluator, &error);
     sp_point points[POINTS_DRAWN];
-    bool covered[POINTS_DRAWN];
+    bool covered[POINTS_DRAWN], again[POINTS_DRAWN];
     size_t held = 0;
     for (size_t i = 0; i < POINTS_DRAWN; i++)
         points[i] = sp_points_draw(surface, i, POINTS_DRAWN, 1);
     assert_true(sp_points_judge(evaluator, layout, SP_TRAJECTORY_LINE, points, POINTS_DRAWN, covered, &error));
+    assert_true(sp_points_judge(single, layout, SP_TRAJECTORY_LINE, points, POINTS_DRAWN, again, &error));
+    assert_memory_equal(covered, again, sizeof covered);
     for (size_t i = 0; i < POINTS_DRAWN; i++) {
         double y = fabs(points[i].position.y);
         held += covered[i];
@@ -288,6 +293,7 @@ static void assert_points_take(const char *what, const sp_nozzle *nozzle, double
     assert_true(held > POINTS_DRAWN / 10 && held < 9 * POINTS_DRAWN / 10);
     sp_points_destroy(surface);
     sp_layout_destroy(layout);
+    sp_evaluator_destroy(single);
     sp_evaluator_destroy(evaluator);
     scene_close(&s);
 }

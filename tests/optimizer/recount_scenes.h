@@ -592,6 +592,7 @@ static inline void goods_and_drops(recount_scene *s, double texel)
     s->types[0].drop = 2.5e-4;
     s->types[1].drop = 8e-4;
     s->room.setup.fidelity.trajectory = SP_TRAJECTORY_DRAG;
+    s->room.setup.fidelity.accuracy = 0.2; /* few jets check it, each of which takes long */
     s->room.setup.criterion = (sp_criterion){.flux = 1.2 * LITRES_PER_MINUTE, .incidence = 80 * DEGREE};
     s->mounts[0].tilt = 0;
     s->mounts[0].axis = sp_unit(sp_v(0.4, 0.3, -1));

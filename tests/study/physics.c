@@ -36,20 +36,20 @@ static void open_scene(scene *s, bool moves)
     room_open(&s->room, &b, 0.2);
     s->room.setup.fidelity.method = SP_METHOD_INVERSE;
     s->room.setup.fidelity.accuracy = 0.1;
-    s->room.setup.fidelity.texel = 0.1;
+    s->room.setup.fidelity.texel = 0.16;
 }
 
-static sp_study *study(const scene *s, int threads)
+static sp_study *study(const scene *s)
 {
     sp_error error = {0};
-    sp_study_options options = {.run = {.threads = threads}};
+    sp_study_options options = {.run = {.threads = 1}};
     sp_study *made = sp_study_create(&s->room.setup, &s->layout, NULL, &options, &error);
     assert_string_equal(error.message, "");
     assert_non_null(made);
     return made;
 }
 
-/* The trajectories of the runs, the scene's own last, and errors that a texel of 100 mm may make. */
+/* The trajectories of the runs, the scene's own last, and errors that a texel of 160 mm may make. */
 static void assert_runs(const sp_study *found, const sp_trajectory *trajectories, size_t count)
 {
     assert_int_equal(found->run_count, count);
@@ -57,18 +57,8 @@ static void assert_runs(const sp_study *found, const sp_trajectory *trajectories
         const sp_study_run *run = &found->runs[i];
         assert_int_equal(run->fidelity.trajectory, trajectories[i]);
         assert_int_equal(run->chosen, i + 1 == count);
-        assert_true(run->coverage > 0.02 && run->misjudged < 0.06 && fabs(run->error) < 0.03);
+        assert_true(run->coverage > 0.02 && run->misjudged < 0.08 && fabs(run->error) < 0.03);
         assert_float_equal(run->error, run->coverage - found->reference_coverage, 0.02);
-    }
-}
-
-static void assert_same(const sp_study *one, const sp_study *two)
-{
-    assert_int_equal(one->run_count, two->run_count);
-    assert_true(one->reference_coverage == two->reference_coverage);
-    for (size_t i = 0; i < one->run_count; i++) {
-        const sp_study_run *a = &one->runs[i], *b = &two->runs[i];
-        assert_true(a->coverage == b->coverage && a->error == b->error && a->misjudged == b->misjudged);
     }
 }
 
@@ -92,9 +82,9 @@ static void film_is_compared_with_finer_film(void **state)
     open_scene(&s, false);
     s.room.setup.criterion.film = LITRES_PER_MINUTE;
     s.room.setup.fidelity.trajectory = SP_TRAJECTORY_PARABOLA;
-    sp_study *found = study(&s, 1);
+    sp_study *found = study(&s);
     assert_runs(found, (sp_trajectory[]){SP_TRAJECTORY_PARABOLA, SP_TRAJECTORY_PARABOLA}, 2);
-    assert_float_equal(found->reference_film_cell, 0.05, 1e-12);
+    assert_float_equal(found->reference_film_cell, 0.08, 1e-12);
     assert_told(found, "Film is routed from the first impacts");
     sp_study_destroy(found);
     room_close(&s.room);
@@ -106,7 +96,7 @@ static void drag_stands_beside_lines_and_parabolas(void **state)
     scene s;
     open_scene(&s, false);
     s.room.setup.fidelity.trajectory = SP_TRAJECTORY_DRAG;
-    sp_study *found = study(&s, 1);
+    sp_study *found = study(&s);
     assert_runs(found,
                 (sp_trajectory[]){SP_TRAJECTORY_LINE, SP_TRAJECTORY_PARABOLA, SP_TRAJECTORY_DRAG, SP_TRAJECTORY_DRAG},
                 4);
@@ -119,20 +109,17 @@ static void drag_stands_beside_lines_and_parabolas(void **state)
     room_close(&s.room);
 }
 
-/* The same for one thread and two. */
 static void goods_are_compared_by_their_dose(void **state)
 {
     (void)state;
     scene s;
     open_scene(&s, true);
     s.room.setup.fidelity.trajectory = SP_TRAJECTORY_LINE;
-    sp_study *one = study(&s, 1), *two = study(&s, 2);
-    assert_runs(one, (sp_trajectory[]){SP_TRAJECTORY_LINE, SP_TRAJECTORY_LINE}, 2);
-    assert_same(one, two);
-    assert_true(one->passing);
-    assert_told(one, "Goods are looked at in positions");
-    sp_study_destroy(one);
-    sp_study_destroy(two);
+    sp_study *found = study(&s);
+    assert_runs(found, (sp_trajectory[]){SP_TRAJECTORY_LINE, SP_TRAJECTORY_LINE}, 2);
+    assert_true(found->passing);
+    assert_told(found, "Goods are looked at in positions");
+    sp_study_destroy(found);
     room_close(&s.room);
 }
 

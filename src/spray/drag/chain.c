@@ -93,21 +93,48 @@ static bool has_left(const sp_moment *now, sp_vec3 gravity, const sp_vec3 box[2]
     return false;
 }
 
-sp_landing sp_drag_trace(const sp_tracer *tracer, const sp_drag *drag, const sp_ray *ray, sp_vec3 gravity,
-                         const sp_vec3 box[2])
+static bool has_left_all(const sp_obstacle *obstacles, int count, const sp_moment *now, sp_vec3 gravity)
+{
+    for (int i = 0; i < count; i++) {
+        sp_moment seen = *now;
+        seen.point = sp_sub(seen.point, obstacles[i].offset);
+        if (!has_left(&seen, gravity, obstacles[i].box))
+            return false;
+    }
+    return true;
+}
+
+/* What a piece meets first. */
+static sp_hit meet(const sp_obstacle *obstacles, int count, const sp_piece *piece, int *obstacle)
+{
+    sp_hit first = {.t = INFINITY, .triangle = SP_NONE};
+    for (int i = 0; i < count; i++) {
+        sp_ray ray = piece->ray;
+        ray.origin = sp_sub(ray.origin, obstacles[i].offset);
+        ray.skip = obstacles[i].skip;
+        sp_hit hit = sp_trace_nearest(obstacles[i].tracer, &ray, piece->pull);
+        if (hit.triangle == SP_NONE || hit.t >= first.t)
+            continue;
+        first = hit;
+        *obstacle = i;
+    }
+    return first;
+}
+
+sp_landing sp_drag_trace(const sp_obstacle *obstacles, int obstacle_count, const sp_drag *drag, const sp_ray *ray,
+                         sp_vec3 gravity)
 {
     sp_landing landing = {.hit = {.t = INFINITY, .triangle = SP_NONE}};
     sp_march march = sp_march_from(drag, gravity, ray->origin, ray->velocity);
-    for (int legs = 0; legs < LEGS_MOST && !has_left(&march.now, gravity, box); legs++) {
+    for (int legs = 0; legs < LEGS_MOST && !has_left_all(obstacles, obstacle_count, &march.now, gravity); legs++) {
         double start = march.flown;
         sp_leg leg = sp_march_on(&march, MARCH);
         int count = count_pieces(&leg, ray->origin);
         bool falls = isinf(leg.time) && sp_length(gravity) > 0;
         for (int i = 0; i < count && (falls || isfinite(leg.time)); i++) {
             sp_piece piece = piece_of(&leg, i, count);
-            piece.ray.skip = ray->skip;
             piece.ray.t_min = fmax(0, ray->t_min - (start + piece.start));
-            landing.hit = sp_trace_nearest(tracer, &piece.ray, piece.pull);
+            landing.hit = meet(obstacles, obstacle_count, &piece, &landing.obstacle);
             if (landing.hit.triangle == SP_NONE)
                 continue;
             double t = piece.start + landing.hit.t;
@@ -128,6 +155,8 @@ void sp_drag_trace_many(const sp_tracer *tracer, const sp_drag *drag, const sp_r
     sp_vec3 box[2];
     sp_mesh_box(sp_tracer_mesh(tracer), &box[0], &box[1]);
 #pragma omp parallel for schedule(dynamic, 256) num_threads(threads)
-    for (size_t i = 0; i < count; i++)
-        landings[i] = sp_drag_trace(tracer, drag, &rays[i], gravity, box);
+    for (size_t i = 0; i < count; i++) {
+        sp_obstacle obstacle = {.tracer = tracer, .box = box, .skip = rays[i].skip};
+        landings[i] = sp_drag_trace(&obstacle, 1, drag, &rays[i], gravity);
+    }
 }

@@ -26,19 +26,28 @@ sp_chain sp_chain_of(const sp_fronts *fronts, sp_vec3 from, const sp_flight *fli
 /* The next piece; false behind the last. */
 bool sp_chain_next(sp_chain *chain, sp_piece *piece);
 
+/* What a drop may meet. */
+typedef struct {
+    const sp_tracer *tracer;
+    sp_vec3 offset;     /* m, from where its mesh has it */
+    const sp_vec3 *box; /* [2], m, of its mesh */
+    uint32_t skip;      /* triangle, or SP_NONE */
+} sp_obstacle;
+
 /* What a drop meets first, and how. */
 typedef struct {
-    sp_hit hit; /* its t by the piece's own clock */
+    sp_hit hit;   /* its t by the piece's own clock */
+    int obstacle; /* of what may be met, the first of those that are met at once */
     sp_piece piece;
     sp_vec3 velocity; /* m/s */
     double time;      /* s, since it started */
 } sp_landing;
 
-/* Flies a drop from its ray's start until it meets the tracer's mesh, or leaves it, within `box`, for good. A ray says
- * where and from when a drop can meet something, and what it does not meet. */
-sp_landing sp_drag_trace(const sp_tracer *tracer, const sp_drag *drag, const sp_ray *ray, sp_vec3 gravity,
-                         const sp_vec3 box[2]);
-/* The same of many. landings: [count], the caller's. */
+/* Flies a drop from its ray's start until it meets an obstacle, or leaves them all for good. A ray says where and from
+ * when a drop can meet something. */
+sp_landing sp_drag_trace(const sp_obstacle *obstacles, int count, const sp_drag *drag, const sp_ray *ray,
+                         sp_vec3 gravity);
+/* The same of many and one mesh, as rays say what is not met. landings: [count], the caller's. */
 void sp_drag_trace_many(const sp_tracer *tracer, const sp_drag *drag, const sp_ray *rays, size_t count, sp_vec3 gravity,
                         int threads, sp_landing *landings);
 
