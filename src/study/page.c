@@ -125,10 +125,10 @@ static void add_notes(sp_text *text, const sp_study *study)
     const char *notes[SP_STUDY_NOTES];
     size_t count = study->run_count ? sp_words_notes(study, notes) : 0;
     if (count)
-        sp_text_add(text, "<dt>What does not</dt>");
+        sp_text_add(text, "<dt>What does not</dt><dd>");
     for (size_t i = 0; i < count; i++)
-        sp_text_add(text, "<dd>%s</dd>\n", notes[i]);
-    sp_text_add(text, "</dl></section>\n");
+        sp_text_add(text, "%s%s", i ? " " : "", notes[i]);
+    sp_text_add(text, "%s</dl></section>\n", count ? "</dd>" : "");
 }
 
 char *sp_study_html(const sp_study *study, const char *scene, sp_error *error)
