@@ -661,9 +661,9 @@ static void film_is_refused_where_it_cannot_be_counted(void **state)
 static void drag_is_placed(void **state)
 {
     (void)state;
-    write_room_with("mist.yaml", "simulate: {", "simulate: {trajectory: drag, ");
-    json_t *one = expect_json("place mist.yaml " COARSE " -o mist --threads 1 --json", 0);
-    json_t *three = expect_again(one, "place mist.yaml " COARSE " --threads 3 --json", 0);
+    write_room_with("mist.yaml", "simulate: {", "simulate: {trajectory: drag, accuracy: 5%, ");
+    json_t *one = expect_json("place mist.yaml --set simulate.texel=160mm -o mist --threads 1 --json", 0);
+    json_t *three = expect_again(one, "place mist.yaml --set simulate.texel=160mm --threads 3 --json", 0);
     json_t *again = expect_json("simulate mist/layout.yaml --json", 0);
     const char *same[] = {"layouts", "front", "certificate", "fidelity"};
     for (size_t i = 0; i < sizeof same / sizeof *same; i++)
@@ -747,7 +747,7 @@ static pid_t begin_long_place(const char *folder)
 static void write_long_scene(void)
 {
     char *long_yaml = malloc(sizeof room_yaml + 512);
-    sprintf(long_yaml, "%s    - box: {min: [0.1, 0.1, 0.1], max: [0.9, 0.9, 0.9], spacing: 20 mm, tilt: 180 deg}\n",
+    sprintf(long_yaml, "%s    - box: {min: [0.1, 0.1, 0.1], max: [0.9, 0.9, 0.9], spacing: 40 mm, tilt: 180 deg}\n",
             room_yaml);
     write_file("long.yaml", long_yaml);
     free(long_yaml);
