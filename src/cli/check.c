@@ -1,7 +1,8 @@
 /* sprayplan check: what is in a scene and what is wrong with it. */
-#include "cad.h"
+#include "check/boxes.h"
+#include "check/cad.h"
+#include "check/flaws.h"
 #include "cli.h"
-#include "flaws.h"
 
 #include <jansson.h>
 #include <stdarg.h>

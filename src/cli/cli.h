@@ -107,15 +107,6 @@ bool cli_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout,
  * False, and the error kept, given NULL. */
 bool cli_measure(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, sp_error *error);
 
-/* boxes.c: how far something reaches along the axes, m. */
-typedef struct {
-    sp_vec3 minimum, maximum;
-} cli_box;
-cli_box *cli_part_boxes(const sp_mesh *mesh); /* [part_count], malloc'd; NULL where memory ran out;
-                                               * of a part without triangles from infinity to -infinity */
-cli_box cli_box_join(cli_box a, cli_box b);
-double cli_box_size(cli_box box); /* its longest edge */
-
 /* As cli_fail, with the place in the scene of the setting that the error is about. */
 int cli_fail_in(const cli_scene *opened, sp_error *error);
 

@@ -6,6 +6,7 @@
 #define CEILING 0.17453292519943295 /* rad, 10°: the slope below which a ceiling does not hold its film */
 #define FOLD 0.52359877559829887    /* rad, 30°: what is turned more against a cell is another face */
 
+/* Looked at about a cell; of cells shorter than a fifth of a wave these are less than a wave. */
 enum { MOST = 64 };
 
 /* The cells about one, nearest first in links. */

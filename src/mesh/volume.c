@@ -43,7 +43,8 @@ bool sp_mesh_volumes(const sp_mesh *mesh, double *volumes, sp_error *error)
     sp_half_edges edges = {0};
     bool *open = calloc(mesh->part_count + 1, sizeof *open);
     int *balance = calloc(mesh->part_count + 1, sizeof *balance);
-    bool good = open && balance ? sp_half_edges_create(mesh, &edges, error) : sp_fail_memory(error) != NULL;
+    bool good = (open && balance) || sp_fail_memory(error);
+    good = good && sp_half_edges_create(mesh, &edges, error);
     for (size_t i = 0; i < mesh->part_count; i++)
         volumes[i] = 0;
     if (good) {

@@ -1,5 +1,4 @@
-/* Boxes around the parts of a mesh. */
-#include "cli.h"
+#include "boxes.h"
 
 #include <stdlib.h>
 
