@@ -110,6 +110,15 @@ typedef struct {
  * what any design on the same evaluator covers. The caller destroys. */
 sp_figures *sp_result_figures(const sp_result *result, sp_error *error);
 
+/* What was made of the geometry that an evaluator is on, in clauses of plain text (UTF-8) for readers. */
+typedef struct {
+    char text[360];
+    bool doubtful; /* tells of what is not sound, or had to be mended */
+} sp_geometry_clause;
+#define SP_GEOMETRY_CLAUSES 11
+/* Returns how many. */
+size_t sp_geometry_clauses(const sp_evaluator *evaluator, sp_geometry_clause clauses[SP_GEOMETRY_CLAUSES]);
+
 /* result.json as DESIGN §6; `geometry` and `fidelity` stand in each layout where the designs differ in them. Malloc'd
  * text, newline at the end, the caller frees. */
 char *sp_result_json(const sp_result *result, sp_error *error);

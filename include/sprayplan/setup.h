@@ -2,6 +2,7 @@
 #ifndef SPRAYPLAN_SETUP_H
 #define SPRAYPLAN_SETUP_H
 
+#include <sprayplan/cad.h>
 #include <sprayplan/mesh.h>
 #include <sprayplan/nozzle.h>
 #include <sprayplan/run.h>
@@ -82,6 +83,8 @@ typedef struct {
 typedef struct {
     const sp_mesh *mesh;        /* borrowed: all geometry, in the setup's coordinates, as every point of a layout too */
     const sp_surface *surfaces; /* borrowed: [mesh->part_count] */
+    sp_cad_account cad; /* of the CAD files in it: the coarsest chord and angle, the widest sewing, all counts together,
+                         * the first fault; all zeros where there are none */
     sp_cavity_kind cavity;
     sp_vec3 cavity_point; /* m; for SP_CAVITY_POINT */
     /* m: where the setup's (0, 0, 0) lies in the coordinates that are read and written; (0, 0, 0) but for a scene that

@@ -70,6 +70,26 @@ bool cli_write_wet(const cli_options *options, const cli_scene *opened, sp_error
     return false;
 }
 
+/* What of the geometry is not sound, and what was done about it, once for every evaluator. */
+static void print_geometry(const sp_result *result)
+{
+    const sp_evaluator *before = NULL;
+    size_t told = 0;
+    for (size_t i = 0; i < result->design_count; i++) {
+        const sp_evaluator *evaluator = result->designs[i].evaluator;
+        if (!evaluator || evaluator == before)
+            continue;
+        before = evaluator;
+        sp_geometry_clause clauses[SP_GEOMETRY_CLAUSES];
+        size_t count = sp_geometry_clauses(evaluator, clauses);
+        for (size_t k = 0; k < count; k++)
+            if (clauses[k].doubtful)
+                printf("geometry: %s\n", clauses[k].text), told++;
+    }
+    if (told)
+        printf("(`check` says where)\n\n");
+}
+
 static void print_figures(const sp_figures *figures, const char *name, int width)
 {
     printf("%-*s %8zu %12.1f %13.3f %10.1f", width, name, figures->nozzle_count, 6e4 * figures->flow,
@@ -280,6 +300,7 @@ static bool print_summary(const sp_result *result, sp_error *error)
     sp_figures *figures = sp_result_figures(result, error);
     if (!figures)
         return false;
+    print_geometry(result);
     if (result->proposal && result->design_count)
         print_missing(&figures[result->design_count - 1]);
     int width = 0;

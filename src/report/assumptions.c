@@ -166,6 +166,22 @@ static void add_sweep(sp_text *text, const sp_evaluator *evaluator)
         sp_distance(sweep->from, sweep->to), sweep->speed, sp_sweep_duration(sweep), sp_evaluator_positions(evaluator));
 }
 
+/* What was made of it. */
+static void add_geometry(sp_text *text, const sp_evaluator *evaluator)
+{
+    sp_geometry_clause clauses[SP_GEOMETRY_CLAUSES];
+    size_t count = sp_geometry_clauses(evaluator, clauses);
+    if (!count)
+        return;
+    add_item(text, "Geometry");
+    for (size_t k = 0; k < count; k++) {
+        sp_text_add(text, "%s%s", k ? "; " : "", clauses[k].doubtful ? "<strong>" : "");
+        sp_markup_escape(text, clauses[k].text);
+        sp_text_add(text, "%s", clauses[k].doubtful ? "</strong>" : "");
+    }
+    sp_text_add(text, "</dd>\n");
+}
+
 static void add_scene(const sp_page *page, sp_text *text, const sp_evaluator *evaluator)
 {
     const sp_setup *setup = sp_evaluator_setup(evaluator);
@@ -239,6 +255,7 @@ void sp_page_assumptions(const sp_page *page, sp_text *text)
         add_choice(text, evaluator);
         add_errors(page, text, evaluator);
         add_scene(page, text, evaluator);
+        add_geometry(text, evaluator);
         if (page->result->proposal)
             add_search(text, evaluator, page->result->proposal);
         sp_text_add(text, "</dl>\n");

@@ -65,13 +65,36 @@ static bool put_missing_parts(json_t *geometry, const sp_figures *figures)
     return put(geometry, "unattainable_by_part", parts) && done;
 }
 
-static bool put_geometry(json_t *object, const sp_figures *figures)
+/* What was made of a geometry's triangles. `evaluator` may be NULL. */
+static bool put_account(json_t *geometry, const sp_evaluator *evaluator)
+{
+    if (!evaluator)
+        return true;
+    sp_geometry_account account = sp_evaluator_account(evaluator);
+    const sp_cad_account *cad = &sp_evaluator_setup(evaluator)->cad;
+    json_t *object = json_object();
+    bool done = put_count(object, "left_out_triangles", account.left_out);
+    if (done && cad->triangles)
+        done = put_real(object, "cad_chord_m", cad->chord) && put_count(object, "cad_mended_triangles", cad->mended) &&
+               put_count(object, "cad_sewn_faces", cad->sewn) && put_count(object, "cad_faults", cad->faults);
+    if (done && account.sides_known)
+        done = put_count(object, "closed_shells", account.closed) &&
+               put_count(object, "turned_shells", account.turned) && put_count(object, "open_shells", account.open) &&
+               put_real(object, "open_shells_m2", account.open_area) &&
+               put_real(object, "inside_m2", account.sides.inside) &&
+               put_real(object, "touching_m2", account.sides.touching) &&
+               put_real(object, "wet_on_both_sides_m2", account.sides.both) &&
+               put_real(object, "outdoors_m2", account.outdoors);
+    return put(geometry, "account", object) && done;
+}
+
+static bool put_geometry(json_t *object, const sp_figures *figures, const sp_evaluator *evaluator)
 {
     json_t *geometry = json_object();
     bool done = put_count(geometry, "triangles", figures->triangles) && put_real(geometry, "area_m2", figures->area) &&
                 put_real(geometry, "clean_area_m2", figures->clean_area) &&
                 put_real(geometry, "attainable_area_m2", figures->attainable_area) && put_missing(geometry, figures) &&
-                put_missing_parts(geometry, figures);
+                put_missing_parts(geometry, figures) && put_account(geometry, evaluator);
     return put(object, "geometry", geometry) && done;
 }
 
@@ -220,7 +243,7 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, const sp_eval
         done = put_nozzle(nozzles, &figures->nozzles[i]);
     done = put(layout, "shadows", shadows) && done;
     done = put(layout, "nozzles", nozzles) && done;
-    done = done && (!own_geometry || put_geometry(layout, figures)) &&
+    done = done && (!own_geometry || put_geometry(layout, figures, evaluator)) &&
            (!own_fidelity || put_fidelity(layout, figures, 1, evaluator));
     return json_array_append_new(layouts, layout) == 0 && done;
 }
@@ -335,11 +358,12 @@ static bool fill(json_t *root, const sp_result *result, const sp_figures *figure
         one_fidelity = one_fidelity && same_fidelity(&figures[0], &figures[i]);
     }
     char *scene = sp_text_utf8(result->scene);
-    bool done = scene && put_text(root, "sprayplan", SP_VERSION) && put_text(root, "command", result->command) &&
-                put_text(root, "scene", scene) &&
-                (!one_geometry || result->design_count == 0 || put_geometry(root, figures)) &&
-                (!one_fidelity || result->design_count == 0 ||
-                 put_fidelity(root, figures, result->design_count, result->designs[0].evaluator));
+    bool done =
+        scene && put_text(root, "sprayplan", SP_VERSION) && put_text(root, "command", result->command) &&
+        put_text(root, "scene", scene) &&
+        (!one_geometry || result->design_count == 0 || put_geometry(root, figures, result->designs[0].evaluator)) &&
+        (!one_fidelity || result->design_count == 0 ||
+         put_fidelity(root, figures, result->design_count, result->designs[0].evaluator));
     free(scene);
     json_t *layouts = json_array(), *stages = json_array();
     for (size_t i = 0; done && i < result->design_count; ++i)

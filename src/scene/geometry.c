@@ -216,6 +216,24 @@ static bool join_pieces(sp_scene *scene, const sp_reader *reader, const sp_mesh 
     return scene->surfaces || sp_fail_memory(reader->error);
 }
 
+/* What came of all CAD files together. */
+static void sum_cads(sp_scene *scene)
+{
+    sp_cad_account *all = &scene->setup.cad;
+    for (size_t i = 0; i < scene->cad_count; i++) {
+        const sp_cad_account *one = &scene->cads[i];
+        if (!all->faults)
+            memcpy(all->fault, one->fault, sizeof all->fault);
+        all->chord = fmax(all->chord, one->chord);
+        all->angle = fmax(all->angle, one->angle);
+        all->sewing = fmax(all->sewing, one->sewing);
+        all->triangles += one->triangles;
+        all->mended += one->mended;
+        all->sewn += one->sewn;
+        all->faults += one->faults;
+    }
+}
+
 static bool read_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml *list, sp_mesh **meshes, piece *pieces)
 {
     size_t count = 0;
@@ -229,6 +247,7 @@ static bool read_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml 
     for (const sp_yaml *node = list->first; node; node = node->next, index++)
         if (!set_surfaces(scene, reader, node, index, &pieces[index]))
             return false;
+    sum_cads(scene);
     return sp_scene_settle_dose(scene, reader);
 }
 

@@ -203,6 +203,9 @@ static void expect_same_again(const char *command, const char *again)
     assert_true(number(last, "covered_area_m2") == number(only, "covered_area_m2"));
     assert_true(number(json_object_get(first, "geometry"), "triangles") ==
                 number(json_object_get(second, "geometry"), "triangles"));
+    json_t *account = json_object_get(json_object_get(first, "geometry"), "account");
+    assert_true(number(account, "cad_chord_m") > 1e-4 && number(account, "cad_faults") == 0);
+    assert_true(json_equal(account, json_object_get(json_object_get(second, "geometry"), "account")));
     json_decref(first);
     json_decref(second);
 }

@@ -61,11 +61,54 @@ static void flaws_have_places(void **state)
     forget(&result);
 }
 
+static double account(const json_t *result, const char *key)
+{
+    const json_t *value = json_object_get(json_object_get(json_object_get(result, "geometry"), "account"), key);
+    assert_true(json_is_number(value));
+    return json_number_value(value);
+}
+
+/* A box drawn inside out in the room, a sheet beside it, and a triangle without area. */
+static void a_simulation_says_what_it_made_of_them(void **state)
+{
+    (void)state;
+    write_file("box.obj", "v .4 .4 .1\nv .6 .4 .1\nv .6 .6 .1\nv .4 .6 .1\nv .4 .4 .3\nv .6 .4 .3\nv .6 .6 .3\n"
+                          "v .4 .6 .3\nv .1 .1 .5\nv .3 .1 .5\nv .3 .3 .5\nv .1 .3 .5\n"
+                          "g box\nf 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n"
+                          "g sheet\nf 9 10 11 12\nf 9 11 11\n");
+    char scene[sizeof room_yaml + 100];
+    snprintf(scene, sizeof scene, "geometry:\n  - file: room.obj\n  - file: box.obj\n%s", strstr(room_yaml, "cavity:"));
+    write_file("doubtful.yaml", scene);
+    json_t *result = expect_json("simulate doubtful.yaml --json", 0);
+    assert_true(account(result, "left_out_triangles") == 1);
+    assert_true(account(result, "closed_shells") == 2);
+    assert_true(account(result, "turned_shells") == 1);
+    assert_true(account(result, "open_shells") == 1);
+    assert_true(fabs(account(result, "open_shells_m2") - 0.04) < 1e-12);
+    assert_true(account(result, "wet_on_both_sides_m2") == 0);
+    assert_true(account(result, "outdoors_m2") == 0);
+    json_decref(result);
+    outcome run = run_program("simulate doubtful.yaml -o doubtful");
+    assert_int_equal(run.status, 0);
+    assert_non_null(strstr(run.out, "geometry: 1 triangle without area is left out\n"
+                                    "geometry: 1 closed shell drawn inside out is turned round\n"));
+    assert_null(strstr(run.out, "sheet"));
+    forget(&run);
+    char *report = read_file("doubtful/report.html", NULL);
+    assert_non_null(strstr(report, "<dt>Geometry</dt><dd><strong>1 triangle without area is left out</strong>"));
+    assert_non_null(strstr(report, "1 open shell of 0.04 m\xc2\xb2 is a sheet"));
+    free(report);
+    run = run_program("simulate room.yaml");
+    assert_null(strstr(run.out, "geometry:"));
+    forget(&run);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sound_room_has_none),
         cmocka_unit_test(flaws_have_places),
+        cmocka_unit_test(a_simulation_says_what_it_made_of_them),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }

@@ -234,7 +234,10 @@ static void result_json_has_the_keys_of_the_contract(void **state)
     EXPECT_KEYS(all, "sprayplan", "command", "scene", "geometry", "fidelity", "layouts", "target", "front",
                 "front_by_nozzles", "stages");
     EXPECT_KEYS(json_object_get(all, "geometry"), "triangles", "area_m2", "clean_area_m2", "attainable_area_m2",
-                "unattainable_m2", "unattainable_by_part");
+                "unattainable_m2", "unattainable_by_part", "account");
+    EXPECT_KEYS(json_object_get(json_object_get(all, "geometry"), "account"), "left_out_triangles", "closed_shells",
+                "turned_shells", "open_shells", "open_shells_m2", "inside_m2", "touching_m2", "wet_on_both_sides_m2",
+                "outdoors_m2");
     EXPECT_KEYS(json_object_get(json_object_get(all, "geometry"), "unattainable_m2"), "no_line_of_reach",
                 "reflection_only", "too_slow", "too_slanted", "too_little_flux");
     EXPECT_KEYS(json_object_get(all, "fidelity"), "trajectory", "evaluator", "reflections", "texel_m", "error_estimate",
