@@ -1,6 +1,7 @@
 /* Refines a mesh to about so many triangles, for measuring: the longest edges are halved, round after round, and each
  * new vertex is moved by a small share of its edge, so that nothing is flat or regular that was not: by 0.05, or what
- * the fourth argument says. No gaps arise, and the same mesh comes out everywhere. */
+ * the fourth argument says. No gaps arise, and the same mesh comes out everywhere: as OBJ, or as binary STL where the
+ * file's name ends in .stl. */
 #include <sprayplan/sprayplan.h>
 
 #include <stdio.h>
@@ -172,15 +173,53 @@ static void refine_once(mesh *m, size_t goal)
     free(uses);
 }
 
-static bool write_obj(const mesh *m, const char *path)
+static void write_obj(const mesh *m, FILE *file)
 {
-    FILE *file = fopen(path, "w");
-    if (!file)
-        return false;
     for (size_t i = 0; i < m->vertex_count; i++)
         fprintf(file, "v %.9g %.9g %.9g\n", m->vertices[i].x, m->vertices[i].y, m->vertices[i].z);
     for (size_t t = 0; t < m->triangle_count; t++)
         fprintf(file, "f %u %u %u\n", m->triangles[t][0] + 1, m->triangles[t][1] + 1, m->triangles[t][2] + 1);
+}
+
+/* Little-endian, whatever this machine is. */
+static unsigned char *put_word(unsigned char *at, uint32_t word)
+{
+    for (int i = 0; i < 4; i++)
+        *at++ = (unsigned char)(word >> 8 * i);
+    return at;
+}
+
+/* Binary; without normals, which readers take from the corners. */
+static void write_stl(const mesh *m, FILE *file)
+{
+    unsigned char header[84] = "refined";
+    put_word(header + 80, (uint32_t)m->triangle_count);
+    fwrite(header, sizeof header, 1, file);
+    for (size_t t = 0; t < m->triangle_count; t++) {
+        unsigned char record[50] = {0}, *at = record + 12;
+        for (int k = 0; k < 3; k++) {
+            sp_vec3 p = m->vertices[m->triangles[t][k]];
+            const float numbers[3] = {(float)p.x, (float)p.y, (float)p.z};
+            for (int axis = 0; axis < 3; axis++) {
+                uint32_t word;
+                memcpy(&word, &numbers[axis], sizeof word);
+                at = put_word(at, word);
+            }
+        }
+        fwrite(record, sizeof record, 1, file);
+    }
+}
+
+static bool write_mesh(const mesh *m, const char *path)
+{
+    FILE *file = fopen(path, "wb");
+    if (!file)
+        return false;
+    const char *dot = strrchr(path, '.');
+    if (dot && strcmp(dot, ".stl") == 0)
+        write_stl(m, file);
+    else
+        write_obj(m, file);
     bool bad = ferror(file);
     return !fclose(file) && !bad;
 }
@@ -192,7 +231,7 @@ int main(int count, char **arguments)
     long goal = complete ? strtol(arguments[2], &end, 10) : 0;
     double jitter = count == 5 ? strtod(arguments[4], &rest) : 0.05;
     if (goal < 1 || goal > 100000000 || *end || *rest || !(jitter >= 0 && jitter < 0.5)) {
-        fprintf(stderr, "usage: refine_mesh MESH TRIANGLES OUT.obj [JITTER]\n");
+        fprintf(stderr, "usage: refine_mesh MESH TRIANGLES OUT.obj|OUT.stl [JITTER]\n");
         return 2;
     }
     sp_error error = {0};
@@ -211,7 +250,7 @@ int main(int count, char **arguments)
     sp_mesh_destroy(coarse);
     while (m.triangle_count < (size_t)goal)
         refine_once(&m, (size_t)goal);
-    bool good = write_obj(&m, arguments[3]);
+    bool good = write_mesh(&m, arguments[3]);
     if (!good)
         perror(arguments[3]);
     free(m.vertices);
