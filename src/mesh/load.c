@@ -9,15 +9,21 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
-char *sp_read_file(const char *path, size_t *size, sp_error *error)
+/* How much to read at first: a byte more than there is, where that is known, so that the end is seen. */
+static size_t first_room(FILE *file)
 {
-    FILE *file = fopen(path, "rb");
-    if (!file) {
-        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "cannot be opened: %s", strerror(errno));
-        return NULL;
-    }
-    size_t room = 1 << 16;
+    struct stat status;
+    bool known = fstat(fileno(file), &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0 &&
+                 (uintmax_t)status.st_size < SIZE_MAX - 2;
+    return known ? (size_t)status.st_size + 2 : 1 << 16;
+}
+
+/* The rest of the file into a block that grows; NULL when memory runs out. */
+static char *read_all(FILE *file, size_t *size)
+{
+    size_t room = first_room(file);
     char *text = malloc(room);
     *size = 0;
     while (text) {
@@ -30,6 +36,17 @@ char *sp_read_file(const char *path, size_t *size, sp_error *error)
         text = larger;
         room *= 2;
     }
+    return text;
+}
+
+char *sp_read_file(const char *path, size_t *size, sp_error *error)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file) {
+        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "cannot be opened: %s", strerror(errno));
+        return NULL;
+    }
+    char *text = read_all(file, size);
     if (!text) {
         sp_fail_memory(error);
     } else if (ferror(file)) {
@@ -55,7 +72,8 @@ static read_function *reader_for(const char *path, sp_error *error)
         return sp_stl_read;
     if (dot && strcasecmp(dot, ".ply") == 0)
         return sp_ply_read;
-    sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found a file of unknown kind, expected .obj, .stl, .ply, .step, .iges or .brep");
+    sp_fail(error, SP_ERROR_INPUT, path, 0, 0,
+            "found a file of unknown kind, expected .obj, .stl, .ply, .step, .iges or .brep");
     return NULL;
 }
 
@@ -73,15 +91,13 @@ static bool read_in_c_locale(read_function *read, const char *path, const char *
     return good;
 }
 
-static sp_mesh *weld(const char *path, const sp_soup *soup, sp_error *error)
+static sp_mesh *weld(const char *path, sp_soup *soup, sp_error *error)
 {
     if (soup->triangle_count == 0) {
         sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found no triangle, expected at least one");
         return NULL;
     }
-    sp_mesh *mesh =
-        sp_mesh_create(soup->vertices, soup->vertex_count, (const uint32_t(*)[3])soup->triangles, soup->triangle_count,
-                       soup->part, (const char *const *)soup->part_names, soup->part_count, error);
+    sp_mesh *mesh = sp_soup_mesh(soup, error);
     if (mesh && mesh->triangle_count == 0) {
         sp_fail(error, SP_ERROR_INPUT, path, 0, 0,
                 "found only triangles without area, expected at least one with some");

@@ -1,4 +1,5 @@
 #include "mesh/allocate.h"
+#include "mesh/grow.h"
 #include "mesh/soup.h"
 
 #include <float.h>
@@ -28,43 +29,36 @@ void sp_mesh_destroy(sp_mesh *mesh)
     free(mesh);
 }
 
-static uint64_t mix(uint64_t hash, double number)
+static void shrink_vertices(sp_mesh *mesh)
 {
-    uint64_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    hash = (hash ^ bits) * 0x9E3779B97F4A7C15u; /* 2^64 over the golden ratio: Knuth's multiplicative hashing */
-    return hash ^ (hash >> 29);
+    sp_reallocate(&mesh->vertices, mesh->vertex_count ? mesh->vertex_count : 1, sizeof *mesh->vertices);
 }
 
-static bool equal(sp_vec3 a, sp_vec3 b)
+/* Leaves of mesh->vertices[vertex_count] the different points, in the order of their first coming, and renumbers the
+ * corners. */
+static bool weld(sp_mesh *mesh, sp_error *error)
 {
-    return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
-/* Fills mesh->vertices with the different points, in the order of their first coming, and `welded` with where each
- * went. */
-static bool weld(sp_mesh *mesh, const sp_vec3 *vertices, size_t count, uint32_t *welded, sp_error *error)
-{
-    size_t size = 16;
-    while (size < 2 * count)
-        size *= 2;
-    uint32_t *table = allocate(size, sizeof *table, error);
-    if (!table)
-        return false;
-    memset(table, 0xFF, size * sizeof *table);
-    for (size_t i = 0; i < count; i++) {
-        sp_vec3 p = sp_add(vertices[i], sp_v(0, 0, 0)); /* -0 becomes 0 */
-        size_t slot = mix(mix(mix(0, p.x), p.y), p.z) & (size - 1);
-        while (table[slot] != SP_NONE && !equal(mesh->vertices[table[slot]], p))
-            slot = (slot + 1) & (size - 1);
-        if (table[slot] == SP_NONE) {
-            table[slot] = (uint32_t)mesh->vertex_count;
-            mesh->vertices[mesh->vertex_count++] = p;
+    size_t count = mesh->vertex_count, different = 0;
+    sp_weld_table table = {0};
+    uint32_t *welded = allocate(count, sizeof *welded, error);
+    bool good = welded && (sp_weld_reserve(&table, count, NULL, 0) || sp_fail_memory(error));
+    for (size_t i = 0; good && i < count; i++) {
+        sp_vec3 point = sp_weld_canonical(mesh->vertices[i]);
+        uint32_t *slot = sp_weld_slot(&table, mesh->vertices, point);
+        if (*slot == SP_NONE) {
+            *slot = (uint32_t)different;
+            mesh->vertices[different++] = point;
         }
-        welded[i] = table[slot];
+        welded[i] = *slot;
     }
-    free(table);
-    return true;
+    free(table.slots);
+    for (size_t i = 0; good && i < mesh->source_triangle_count; i++)
+        for (int k = 0; k < 3; k++)
+            mesh->source_triangles[i][k] = welded[mesh->source_triangles[i][k]];
+    free(welded);
+    mesh->vertex_count = different;
+    shrink_vertices(mesh);
+    return good;
 }
 
 /* Two equal corners, or an area that cannot be told from round-off: a component of the cross product of edges not
@@ -79,16 +73,22 @@ static bool is_degenerate(const sp_mesh *mesh, const uint32_t corners[3])
     return !(sp_length(sp_cross(ab, ac)) > 8 * DBL_EPSILON * longest);
 }
 
-static void keep_proper_triangles(sp_mesh *mesh)
+static bool keep_proper_triangles(sp_mesh *mesh, sp_error *error)
 {
-    for (size_t i = 0; i < mesh->source_triangle_count; i++) {
-        if (is_degenerate(mesh, mesh->source_triangles[i]))
-            continue;
-        size_t t = mesh->triangle_count++;
-        memcpy(mesh->triangles[t], mesh->source_triangles[i], sizeof *mesh->triangles);
-        mesh->part[t] = mesh->source_part[i];
-        mesh->source[t] = (uint32_t)i;
+    mesh->source = allocate(mesh->source_triangle_count, sizeof *mesh->source, error);
+    for (size_t i = 0; mesh->source && i < mesh->source_triangle_count; i++)
+        if (!is_degenerate(mesh, mesh->source_triangles[i]))
+            mesh->source[mesh->triangle_count++] = (uint32_t)i;
+    size_t count = mesh->triangle_count;
+    if (!mesh->source || !sp_reallocate(&mesh->source, count ? count : 1, sizeof *mesh->source) ||
+        !(mesh->triangles = allocate(count, sizeof *mesh->triangles, error)) ||
+        !(mesh->part = allocate(count, sizeof *mesh->part, error)))
+        return sp_fail_memory(error);
+    for (size_t t = 0; t < count; t++) {
+        memcpy(mesh->triangles[t], mesh->source_triangles[mesh->source[t]], sizeof *mesh->triangles);
+        mesh->part[t] = mesh->source_part[mesh->source[t]];
     }
+    return true;
 }
 
 static bool name_parts(sp_mesh *mesh, const char *const *names, sp_error *error)
@@ -106,7 +106,8 @@ static bool name_parts(sp_mesh *mesh, const char *const *names, sp_error *error)
     return true;
 }
 
-sp_mesh *sp_mesh_allocate(size_t vertex_count, size_t triangle_count, size_t part_count, sp_error *error)
+/* What a mesh is made from: all but its proper triangles. */
+static sp_mesh *allocate_sources(size_t vertex_count, size_t triangle_count, size_t part_count, sp_error *error)
 {
     sp_mesh *mesh = allocate(1, sizeof *mesh, error);
     if (!mesh)
@@ -114,14 +115,24 @@ sp_mesh *sp_mesh_allocate(size_t vertex_count, size_t triangle_count, size_t par
     mesh->source_triangle_count = triangle_count;
     mesh->part_count = part_count;
     mesh->vertices = allocate(vertex_count, sizeof *mesh->vertices, error);
-    mesh->triangles = allocate(triangle_count, sizeof *mesh->triangles, error);
-    mesh->part = allocate(triangle_count, sizeof *mesh->part, error);
-    mesh->source = allocate(triangle_count, sizeof *mesh->source, error);
     mesh->source_triangles = allocate(triangle_count, sizeof *mesh->source_triangles, error);
     mesh->source_part = allocate(triangle_count, sizeof *mesh->source_part, error);
     mesh->parts = allocate(part_count, sizeof *mesh->parts, error);
-    if (mesh->vertices && mesh->triangles && mesh->part && mesh->source && mesh->source_triangles &&
-        mesh->source_part && mesh->parts)
+    if (mesh->vertices && mesh->source_triangles && mesh->source_part && mesh->parts)
+        return mesh;
+    sp_mesh_destroy(mesh);
+    return NULL;
+}
+
+sp_mesh *sp_mesh_allocate(size_t vertex_count, size_t triangle_count, size_t part_count, sp_error *error)
+{
+    sp_mesh *mesh = allocate_sources(vertex_count, triangle_count, part_count, error);
+    if (!mesh)
+        return NULL;
+    mesh->triangles = allocate(triangle_count, sizeof *mesh->triangles, error);
+    mesh->part = allocate(triangle_count, sizeof *mesh->part, error);
+    mesh->source = allocate(triangle_count, sizeof *mesh->source, error);
+    if (mesh->triangles && mesh->part && mesh->source)
         return mesh;
     sp_mesh_destroy(mesh);
     return NULL;
@@ -160,21 +171,60 @@ sp_mesh *sp_mesh_create(const sp_vec3 *vertices, size_t vertex_count, const uint
         part_count = 1;
     if (!check_input(vertices, vertex_count, triangles, triangle_count, part, part_count, error))
         return NULL;
-    sp_mesh *mesh = sp_mesh_allocate(vertex_count, triangle_count, part_count, error);
-    uint32_t *welded = mesh ? allocate(vertex_count, sizeof *welded, error) : NULL;
-    if (!welded || !name_parts(mesh, part_names, error) || !weld(mesh, vertices, vertex_count, welded, error)) {
-        free(welded);
-        sp_mesh_destroy(mesh);
+    sp_mesh *mesh = allocate_sources(vertex_count, triangle_count, part_count, error);
+    if (mesh) {
+        mesh->vertex_count = vertex_count;
+        if (vertex_count)
+            memcpy(mesh->vertices, vertices, vertex_count * sizeof *vertices);
+        if (triangle_count)
+            memcpy(mesh->source_triangles, triangles, triangle_count * sizeof *triangles);
+        if (part && triangle_count)
+            memcpy(mesh->source_part, part, triangle_count * sizeof *part);
+    }
+    if (mesh && name_parts(mesh, part_names, error) && weld(mesh, error) && keep_proper_triangles(mesh, error))
+        return mesh;
+    sp_mesh_destroy(mesh);
+    return NULL;
+}
+
+/* Each array goes over as it is, cut to what it holds. */
+static void take(sp_mesh *mesh, sp_soup *soup)
+{
+    for (size_t i = 0; i < soup->part_count; i++)
+        mesh->parts[i].name = soup->part_names[i];
+    soup->part_count = 0;
+    mesh->vertices = soup->vertices;
+    mesh->vertex_count = soup->vertex_count;
+    mesh->source_triangles = soup->triangles;
+    mesh->source_part = soup->part;
+    mesh->source_triangle_count = soup->triangle_count;
+    soup->vertices = NULL;
+    soup->triangles = NULL;
+    soup->part = NULL;
+    sp_soup_clear(soup);
+    shrink_vertices(mesh);
+    sp_reallocate(&mesh->source_triangles, mesh->source_triangle_count, sizeof *mesh->source_triangles);
+    sp_reallocate(&mesh->source_part, mesh->source_triangle_count, sizeof *mesh->source_part);
+}
+
+sp_mesh *sp_soup_mesh(sp_soup *soup, sp_error *error)
+{
+    if (!check_input(soup->vertices, soup->vertex_count, (const uint32_t(*)[3])soup->triangles, soup->triangle_count,
+                     soup->part, soup->part_count, error))
         return NULL;
+    bool distinct = soup->welded.size > 0;
+    sp_mesh *mesh = allocate(1, sizeof *mesh, error);
+    if (!mesh)
+        return NULL;
+    mesh->part_count = soup->part_count;
+    mesh->parts = allocate(soup->part_count, sizeof *mesh->parts, error);
+    if (mesh->parts) {
+        take(mesh, soup);
+        if ((distinct || weld(mesh, error)) && keep_proper_triangles(mesh, error))
+            return mesh;
     }
-    for (size_t i = 0; i < triangle_count; i++) {
-        for (int k = 0; k < 3; k++)
-            mesh->source_triangles[i][k] = welded[triangles[i][k]];
-        mesh->source_part[i] = part ? part[i] : 0;
-    }
-    free(welded);
-    keep_proper_triangles(mesh);
-    return mesh;
+    sp_mesh_destroy(mesh);
+    return NULL;
 }
 
 static sp_vec3 twice_area(const sp_mesh *mesh, uint32_t triangle)

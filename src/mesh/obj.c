@@ -9,6 +9,7 @@
 
 typedef struct {
     sp_scanner scanner;
+    const char *start; /* of the file's text */
     sp_soup *soup;
     double unit;
     size_t texture_count, normal_count;
@@ -117,6 +118,12 @@ static bool read_corner(reader *r, const sp_token *corner, uint32_t *vertex, uns
     return at == end || sp_token_unexpected(&r->scanner, corner, "v, v/vt, v//vn or v/vt/vn", r->error);
 }
 
+static bool add_triangle(reader *r, uint32_t a, uint32_t b, uint32_t c)
+{
+    return sp_soup_add_triangle(r->soup, a, b, c, r->part, r->error) &&
+           sp_soup_check_size(r->soup, r->scanner.path, (size_t)(r->scanner.at - r->start), r->scanner.line, r->error);
+}
+
 static bool read_face(reader *r)
 {
     uint32_t first = 0, previous = 0, vertex;
@@ -134,7 +141,7 @@ static bool read_face(reader *r)
         }
         if (form != first_form)
             return sp_token_unexpected(&r->scanner, &token, "all corners of a face in the same form", r->error);
-        if (corners >= 2 && !sp_soup_add_triangle(r->soup, first, previous, vertex, r->part, r->error))
+        if (corners >= 2 && !add_triangle(r, first, previous, vertex))
             return false;
         previous = vertex;
     }
@@ -180,7 +187,7 @@ static bool read_statement(reader *r, const sp_token *keyword)
 
 bool sp_obj_read(const char *path, const char *text, size_t size, double unit, sp_soup *soup, sp_error *error)
 {
-    reader r = {sp_scanner_open(path, text, size, true), soup, unit, 0, 0, strdup("default"), SP_NONE, error};
+    reader r = {sp_scanner_open(path, text, size, true), text, soup, unit, 0, 0, strdup("default"), SP_NONE, error};
     bool good = r.group || sp_fail_memory(error);
     sp_token keyword;
     while (good && sp_scan_any_token(&r.scanner, &keyword)) {

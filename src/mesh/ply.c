@@ -38,6 +38,7 @@ typedef struct {
 
 typedef struct {
     sp_scanner scanner; /* also of the bytes behind the header */
+    const char *start;  /* of the file */
     sp_soup *soup;
     double unit;
     order order;
@@ -273,6 +274,12 @@ static bool fail_in(const reader *r, const element *own, uint64_t index, const c
                    (unsigned long long)(index + 1), (unsigned long long)own->count, found);
 }
 
+static bool check_size(const reader *r)
+{
+    return sp_soup_check_size(r->soup, r->scanner.path, (size_t)(r->scanner.at - r->start),
+                              r->order == TEXT ? r->scanner.line : 0, r->error);
+}
+
 /* Corner `i` of a face, as a fan of triangles from its first. */
 static bool add_corner(reader *r, const element *own, uint64_t index, uint64_t i, double number, uint32_t corners[3])
 {
@@ -283,7 +290,7 @@ static bool add_corner(reader *r, const element *own, uint64_t index, uint64_t i
         return true;
     bool done = sp_soup_add_triangle(r->soup, corners[0], corners[1], corners[2], r->part, r->error);
     corners[1] = corners[2];
-    return done;
+    return done && check_size(r);
 }
 
 static bool read_list(reader *r, const element *own, uint64_t index, const property *list)
@@ -308,7 +315,7 @@ static bool add_vertex(reader *r, const element *own, uint64_t index, const doub
     sp_vec3 point = sp_scale(sp_v(coordinates[0], coordinates[1], coordinates[2]), r->unit);
     if (!sp_coordinates_allowed(point))
         return fail_in(r, own, index, "a number that is not finite or beyond 1e30 m");
-    return sp_soup_add_vertex(r->soup, point, r->error);
+    return sp_soup_add_vertex(r->soup, point, r->error) && check_size(r);
 }
 
 static bool read_one(reader *r, const element *own, uint64_t index)
@@ -346,7 +353,8 @@ static bool read_body(reader *r)
 
 bool sp_ply_read(const char *path, const char *text, size_t size, double unit, sp_soup *soup, sp_error *error)
 {
-    reader r = {.scanner = sp_scanner_open(path, text, size, false), .soup = soup, .unit = unit, .error = error};
+    reader r = {
+        .scanner = sp_scanner_open(path, text, size, false), .start = text, .soup = soup, .unit = unit, .error = error};
     r.part = sp_soup_part(soup, "default", error);
     return r.part != SP_NONE && read_header(&r) && read_body(&r);
 }

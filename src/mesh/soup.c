@@ -10,25 +10,42 @@ void sp_soup_clear(sp_soup *soup)
     free(soup->part_names);
     free(soup->part_table);
     free(soup->vertices);
+    free(soup->welded.slots);
     free(soup->triangles);
     free(soup->part);
     *soup = (sp_soup){0};
 }
 
-/* Makes room for one more item of `size` bytes; twice as much as before, so that adding n takes time in n. */
-static bool grow(void **items, size_t *room, size_t count, size_t size, sp_error *error)
+static bool set_room(void **items, size_t *room, size_t more, size_t size, sp_error *error)
 {
-    if (count < *room)
-        return true;
-    size_t more = *room ? 2 * *room : 256;
     void *larger = more <= SIZE_MAX / size ? realloc(*items, more * size) : NULL;
-    if (!larger) {
-        sp_fail_memory(error);
-        return false;
-    }
+    if (!larger)
+        return sp_fail_memory(error);
     *items = larger;
     *room = more;
     return true;
+}
+
+/* Makes room for one more item of `size` bytes; by half of what there was, so that adding n takes time in n. */
+static bool grow(void **items, size_t *room, size_t count, size_t size, sp_error *error)
+{
+    return count < *room || set_room(items, room, *room ? *room + *room / 2 : 256, size, error);
+}
+
+bool sp_soup_reserve(sp_soup *soup, size_t vertices, size_t triangles, sp_error *error)
+{
+    void *points = soup->vertices, *corners = soup->triangles, *parts = soup->part;
+    size_t room = soup->triangle_room;
+    bool good =
+        vertices <= soup->vertex_room || set_room(&points, &soup->vertex_room, vertices, sizeof *soup->vertices, error);
+    soup->vertices = points;
+    if (triangles <= room)
+        return good;
+    good = good && set_room(&corners, &room, triangles, sizeof *soup->triangles, error);
+    soup->triangles = corners;
+    good = good && set_room(&parts, &soup->triangle_room, triangles, sizeof *soup->part, error);
+    soup->part = parts;
+    return good;
 }
 
 bool sp_soup_add_vertex(sp_soup *soup, sp_vec3 vertex, sp_error *error)
@@ -39,6 +56,22 @@ bool sp_soup_add_vertex(sp_soup *soup, sp_vec3 vertex, sp_error *error)
     if (grown)
         soup->vertices[soup->vertex_count++] = vertex;
     return grown;
+}
+
+bool sp_soup_weld_vertex(sp_soup *soup, sp_vec3 vertex, uint32_t *number, sp_error *error)
+{
+    size_t room = soup->vertex_count < soup->vertex_room ? soup->vertex_room : soup->vertex_count + 1;
+    if (!sp_weld_reserve(&soup->welded, room, soup->vertices, soup->vertex_count))
+        return sp_fail_memory(error);
+    sp_vec3 point = sp_weld_canonical(vertex);
+    uint32_t *slot = sp_weld_slot(&soup->welded, soup->vertices, point);
+    if (*slot == SP_NONE) {
+        if (!sp_soup_add_vertex(soup, point, error))
+            return false;
+        *slot = (uint32_t)(soup->vertex_count - 1);
+    }
+    *number = *slot;
+    return true;
 }
 
 bool sp_soup_add_triangle(sp_soup *soup, uint32_t a, uint32_t b, uint32_t c, uint32_t part, sp_error *error)
@@ -106,12 +139,29 @@ uint32_t sp_soup_part(sp_soup *soup, const char *name, sp_error *error)
     void *items = soup->part_names;
     bool grown = grow(&items, &soup->part_room, soup->part_count, sizeof *soup->part_names, error);
     soup->part_names = items;
-    char *copy = grown ? strdup(name) : NULL;
+    size_t length = strlen(name);
+    char *copy = grown ? malloc(length + 1) : NULL;
     if (!copy) {
         sp_fail_memory(error);
         return SP_NONE;
     }
+    memcpy(copy, name, length + 1);
     soup->part_names[soup->part_count] = copy;
+    soup->name_length += length;
     soup->part_table[slot] = (uint32_t)soup->part_count;
     return (uint32_t)soup->part_count++;
+}
+
+bool sp_soup_check_size(const sp_soup *soup, const char *path, size_t length, int line, sp_error *error)
+{
+    /* What each takes at its worst, when an array moves to a larger one: 5/2 of its items, and with a part its name's
+     * block and its entry in the table and the old one. The mesh takes less. */
+    enum { VERTEX = 60, TRIANGLE = 40, PART = 80, FREE = 48 << 20 };
+    uint64_t bytes = VERTEX * (uint64_t)soup->vertex_count + TRIANGLE * (uint64_t)soup->triangle_count +
+                     PART * (uint64_t)soup->part_count + soup->name_length;
+    return bytes <= 9 * (uint64_t)length + FREE ||
+           sp_fail(error, SP_ERROR_INPUT, path, line, 0,
+                   "found %zu triangles, %zu vertices and %zu parts within %zu bytes, expected a mesh of at most ten "
+                   "times its file's size",
+                   soup->triangle_count, soup->vertex_count, soup->part_count, length);
 }

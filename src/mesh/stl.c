@@ -38,16 +38,15 @@ static bool read_point(reader *r, sp_vec3 *point)
     return true;
 }
 
-/* Adds a triangle with corners of its own; welding finds those that are equal. */
 static bool add_triangle(const char *path, sp_soup *soup, const sp_vec3 corners[3], uint32_t part, sp_error *error)
 {
+    uint32_t numbers[3];
     if (soup->vertex_count > SP_NONE - 3)
         return sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found more than %u vertices, expected fewer", SP_NONE - 1);
-    uint32_t first = (uint32_t)soup->vertex_count;
     for (int k = 0; k < 3; k++)
-        if (!sp_soup_add_vertex(soup, corners[k], error))
+        if (!sp_soup_weld_vertex(soup, corners[k], &numbers[k], error))
             return false;
-    return sp_soup_add_triangle(soup, first, first + 1, first + 2, part, error);
+    return sp_soup_add_triangle(soup, numbers[0], numbers[1], numbers[2], part, error);
 }
 
 /* From behind "facet". */
@@ -128,7 +127,8 @@ static bool read_binary(const char *path, const unsigned char *bytes, size_t siz
                        "found %zu bytes of binary STL, expected %llu for its %llu triangles", size,
                        (unsigned long long)(START + RECORD * count), (unsigned long long)count);
     uint32_t part = sp_soup_part(soup, "default", error);
-    if (part == SP_NONE)
+    /* A closed surface has half as many vertices as triangles. */
+    if (part == SP_NONE || !sp_soup_reserve(soup, count / 2 + count / 64 + 256, count, error))
         return false;
     for (uint64_t i = 0; i < count; i++) {
         const unsigned char *record = bytes + START + RECORD * i;

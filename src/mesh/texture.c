@@ -14,21 +14,47 @@ typedef struct {
     sp_scanner scanner;
     sp_texture *texture;
     double (*coordinates)[2];
-    size_t coordinate_count, coordinate_room, triangle_room;
+    size_t coordinate_count;
     uint32_t page;
     sp_error *error;
 } reader;
 
+/* How many coordinates and triangles there are, so that no room grows. */
+static void count_all(sp_scanner scanner, size_t *coordinates, size_t *triangles)
+{
+    sp_token token;
+    *coordinates = *triangles = 0;
+    while (sp_scan_any_token(&scanner, &token)) {
+        bool face = sp_token_is(&scanner, &token, "f") || sp_token_is(&scanner, &token, "fo");
+        *coordinates += sp_token_is(&scanner, &token, "vt");
+        for (size_t corners = 1; face && sp_scan_token(&scanner, &token); corners++)
+            *triangles += corners > 2;
+        if (!sp_scan_next_line(&scanner))
+            break;
+    }
+}
+
+/* A file takes ten times its size and 64 MiB at most. */
+static bool make_room(reader *r, size_t size)
+{
+    size_t coordinates, triangles;
+    sp_texture *t = r->texture;
+    count_all(r->scanner, &coordinates, &triangles);
+    uint64_t bytes = (uint64_t)coordinates * sizeof *r->coordinates +
+                     (uint64_t)triangles * (sizeof *t->uv + sizeof *t->page + sizeof *t->line);
+    if (bytes > 9 * (uint64_t)size + (64 << 20))
+        return sp_fail(r->error, SP_ERROR_INPUT, r->scanner.path, 0, 0,
+                       "found %zu triangles and %zu texture coordinates in %zu bytes, expected fewer", triangles,
+                       coordinates, size);
+    r->coordinates = malloc((coordinates + 1) * sizeof *r->coordinates);
+    t->uv = malloc((triangles + 1) * sizeof *t->uv);
+    t->page = malloc((triangles + 1) * sizeof *t->page);
+    t->line = malloc((triangles + 1) * sizeof *t->line);
+    return (r->coordinates && t->uv && t->page && t->line) || sp_fail_memory(r->error);
+}
+
 static bool add_coordinate(reader *r)
 {
-    if (r->coordinate_count == r->coordinate_room) {
-        size_t room = 2 * r->coordinate_room + 1024;
-        double(*grown)[2] = realloc(r->coordinates, room * sizeof *grown);
-        if (!grown)
-            return sp_fail_memory(r->error);
-        r->coordinates = grown;
-        r->coordinate_room = room;
-    }
     double *at = r->coordinates[r->coordinate_count++];
     sp_token token;
     at[1] = 0;
@@ -44,44 +70,25 @@ static void read_corner(const reader *r, const sp_token *token, double uv[2])
     const char *slash = memchr(token->text, '/', token->length);
     long index = slash ? strtol(slash + 1, NULL, 10) : 0;
     size_t count = r->coordinate_count, at = index < 0 ? count - (size_t)-index : (size_t)index - 1;
-    uv[0] = index ? r->coordinates[at][0] : NAN;
-    uv[1] = index ? r->coordinates[at][1] : NAN;
+    bool there = index && at < count; /* the mesh's reader has seen that it is, but the file may have changed since */
+    uv[0] = there ? r->coordinates[at][0] : NAN;
+    uv[1] = there ? r->coordinates[at][1] : NAN;
 }
 
-static bool add_triangle(reader *r, double corner[3][2], int line)
+static void read_face(reader *r, int line)
 {
     sp_texture *t = r->texture;
-    if (t->triangle_count == r->triangle_room) {
-        size_t room = 2 * r->triangle_room + 1024;
-        double(*uv)[3][2] = realloc(t->uv, room * sizeof *uv);
-        t->uv = uv ? uv : t->uv;
-        uint32_t *page = realloc(t->page, room * sizeof *page);
-        t->page = page ? page : t->page;
-        int *lines = realloc(t->line, room * sizeof *lines);
-        t->line = lines ? lines : t->line;
-        if (!uv || !page || !lines)
-            return sp_fail_memory(r->error);
-        r->triangle_room = room;
-    }
-    memcpy(t->uv[t->triangle_count], corner, sizeof *t->uv);
-    t->page[t->triangle_count] = r->page;
-    t->line[t->triangle_count++] = line;
-    return true;
-}
-
-static bool read_face(reader *r, int line)
-{
     double corner[3][2];
     sp_token token;
     for (size_t corners = 0; sp_scan_token(&r->scanner, &token); corners++) {
         read_corner(r, &token, corner[corners < 2 ? corners : 2]);
         if (corners < 2)
             continue;
-        if (!add_triangle(r, corner, line))
-            return false;
+        memcpy(t->uv[t->triangle_count], corner, sizeof *t->uv);
+        t->page[t->triangle_count] = r->page;
+        t->line[t->triangle_count++] = line;
         memcpy(corner[1], corner[2], sizeof corner[1]);
     }
-    return true;
 }
 
 static bool read_material(reader *r)
@@ -108,7 +115,7 @@ static bool read_all(reader *r)
         if (sp_token_is(&r->scanner, &keyword, "vt"))
             good = add_coordinate(r);
         else if (sp_token_is(&r->scanner, &keyword, "f") || sp_token_is(&r->scanner, &keyword, "fo"))
-            good = read_face(r, keyword.line);
+            read_face(r, keyword.line);
         else if (sp_token_is(&r->scanner, &keyword, "usemtl"))
             good = read_material(r);
         if (good && !sp_scan_next_line(&r->scanner))
@@ -128,7 +135,7 @@ bool sp_texture_read(const char *path, sp_texture *texture, sp_error *error)
     if (good) {
         locale_t before = uselocale(c);
         reader r = {.scanner = sp_scanner_open(path, texture->text, size, true), .texture = texture, .error = error};
-        good = read_all(&r);
+        good = make_room(&r, size) && read_all(&r);
         free(r.coordinates);
         uselocale(before);
         freelocale(c);

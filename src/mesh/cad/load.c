@@ -114,7 +114,7 @@ static bool check(const char *path, double unit, const sp_cad_options *options, 
 
 static sp_mesh *make_mesh(const char *path, const sp_cad_stream *stream, sp_cad_account *account, sp_error *error)
 {
-    const sp_soup *soup = stream->soup;
+    sp_soup *soup = stream->soup;
     *account = (sp_cad_account){.chord = stream->fineness.chord,
                                 .angle = stream->fineness.angle,
                                 .triangles = soup->triangle_count,
@@ -127,10 +127,7 @@ static sp_mesh *make_mesh(const char *path, const sp_cad_stream *stream, sp_cad_
                 stream->fault);
         return NULL;
     }
-    sp_mesh *mesh = sp_cad_mend(sp_mesh_create(soup->vertices, soup->vertex_count,
-                                               (const uint32_t(*)[3])soup->triangles, soup->triangle_count, soup->part,
-                                               (const char *const *)soup->part_names, soup->part_count, error),
-                                &account->mended, error);
+    sp_mesh *mesh = sp_cad_mend(sp_soup_mesh(soup, error), &account->mended, error);
     for (size_t i = 0; mesh && i < mesh->part_count; i++)
         mesh->parts[i].volume = stream->volumes[i];
     if (!mesh || mesh->triangle_count > 0)

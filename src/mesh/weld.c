@@ -1,0 +1,43 @@
+#include "mesh/weld.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static uint64_t mix(uint64_t hash, double number)
+{
+    uint64_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    hash = (hash ^ bits) * 0x9E3779B97F4A7C15u; /* 2^64 over the golden ratio: Knuth's multiplicative hashing */
+    return hash ^ (hash >> 29);
+}
+
+static bool equal(sp_vec3 a, sp_vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+uint32_t *sp_weld_slot(const sp_weld_table *table, const sp_vec3 *vertices, sp_vec3 point)
+{
+    size_t mask = table->size - 1, slot = mix(mix(mix(0, point.x), point.y), point.z) & mask;
+    while (table->slots[slot] != SP_NONE && !equal(vertices[table->slots[slot]], point))
+        slot = (slot + 1) & mask;
+    return &table->slots[slot];
+}
+
+bool sp_weld_reserve(sp_weld_table *table, size_t capacity, const sp_vec3 *vertices, size_t count)
+{
+    size_t size = 16;
+    if (2 * capacity <= table->size)
+        return true;
+    while (size < 2 * capacity)
+        size *= 2;
+    free(table->slots);
+    table->slots = malloc(size * sizeof *table->slots);
+    table->size = table->slots ? size : 0;
+    if (!table->slots)
+        return false;
+    memset(table->slots, 0xFF, size * sizeof *table->slots);
+    for (size_t i = 0; i < count; i++)
+        *sp_weld_slot(table, vertices, vertices[i]) = (uint32_t)i;
+    return true;
+}
