@@ -1,4 +1,5 @@
 #include "mesh/scanner.h"
+#include "mesh/grow.h"
 #include "mesh/utf8.h"
 
 #include <ctype.h>
@@ -196,7 +197,7 @@ static bool has_control_character(const sp_token *token)
 char *sp_scan_name(sp_scanner *scanner, const char *fallback, sp_error *error)
 {
     char *name = NULL;
-    size_t length = 0;
+    size_t length = 0, room = 0;
     sp_token token;
     while (sp_scan_token(scanner, &token)) {
         if (has_control_character(&token)) {
@@ -204,12 +205,10 @@ char *sp_scan_name(sp_scanner *scanner, const char *fallback, sp_error *error)
             free(name);
             return NULL;
         }
-        char *longer = realloc(name, length + 2 * token.length + 2);
-        if (!longer) {
+        if (!sp_grow(&name, &room, length + 2 * token.length + 2, 1)) {
             free(name);
             return sp_fail_memory(error);
         }
-        name = longer;
         if (length)
             name[length++] = ' ';
         length += sp_utf8_append(name + length, token.text, token.length);
