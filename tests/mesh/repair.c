@@ -533,8 +533,55 @@ static void nothing_is_mended_of_nothing(void **state)
     sp_mesh_destroy(mesh);
 }
 
-/* Models that others made, in whatever state. */
-static void models_get_better(void **state)
+/* Of one triangle in twenty a quarter gets corners of its own, up to 5e-6 of the diagonal off, a quarter is turned
+ * over, a quarter is there twice and the rest are missing. */
+static sp_mesh *tear(const sp_mesh *mesh)
+{
+    sp_vec3 low, high;
+    double off = 1e-5 * sp_mesh_box(mesh, &low, &high);
+    size_t most = mesh->triangle_count, points = mesh->vertex_count, count = 0;
+    sp_vec3 *vertices = malloc((points + 3 * most) * sizeof *vertices);
+    uint32_t(*triangles)[3] = malloc(2 * most * sizeof *triangles);
+    assert_true(vertices && triangles);
+    memcpy(vertices, mesh->vertices, points * sizeof *vertices);
+    for (size_t t = 0; t < most; t++) {
+        uint32_t what = any(80), *corners = triangles[count];
+        memcpy(corners, mesh->triangles[t], sizeof *triangles);
+        for (int k = 0; k < 3 && what == 0; k++) {
+            vertices[points] = sp_along(mesh->vertices[corners[k]], off * (1e-3 * any(1001) - 0.5), sp_v(1, 0.5, -1));
+            corners[k] = (uint32_t)points++;
+        }
+        if (what == 1) {
+            corners[0] = mesh->triangles[t][1];
+            corners[1] = mesh->triangles[t][0];
+        }
+        if (what == 2)
+            memcpy(triangles[++count], mesh->triangles[t], sizeof *triangles);
+        count += what != 3;
+    }
+    sp_mesh *torn = sp_mesh_create(vertices, points, (const uint32_t(*)[3])triangles, count, NULL, NULL, 0, NULL);
+    assert_non_null(torn);
+    free(vertices);
+    free(triangles);
+    return torn;
+}
+
+static void print_account(const char *name, const sp_repair_account *account)
+{
+    const sp_mesh_diagnosis *b = &account->before, *a = &account->after;
+    print_message(
+        "%s: open %zu -> %zu, cracks %zu -> %zu, non-manifold %zu -> %zu, flipped %zu -> %zu, twice %zu -> %zu, "
+        "crossings %zu -> %zu, bits %zu -> %zu, shells %zu -> %zu; joined %zu, split %zu, turned %zu, filled "
+        "%zu, copies %zu; area %.6g -> %.6g\n",
+        name, b->open_edges.count, a->open_edges.count, b->cracks.count, a->cracks.count, b->non_manifold_edges.count,
+        a->non_manifold_edges.count, b->flipped_edges.count, a->flipped_edges.count, b->duplicate_triangles.count,
+        a->duplicate_triangles.count, b->crossings.count, a->crossings.count, b->bits.count, a->bits.count, b->shells,
+        a->shells, account->joined, account->split, account->turned, account->filled, account->copies, b->area,
+        a->area);
+}
+
+/* Models that others made, as they are and torn. */
+static void torn_models_are_nearly_whole_again(void **state)
 {
     (void)state;
     static const char *const names[] = {"beetle", "horse", "elephant"};
@@ -545,21 +592,21 @@ static void models_get_better(void **state)
             print_message("skipped: no %s\n", path);
             continue;
         }
-        sp_repair_account account;
+        sp_repair_account whole, account;
+        random_state = 88172645463325252u;
         sp_mesh *mesh = sp_mesh_load(path, 1, NULL);
         assert_non_null(mesh);
-        sp_mesh *mended = mend(mesh, &account);
-        print_message("%s: open %zu -> %zu, cracks %zu -> %zu, non-manifold %zu -> %zu, flipped %zu -> %zu, "
-                      "crossings %zu -> %zu, closed %zu of %zu -> %zu of %zu; joined %zu split %zu turned %zu filled "
-                      "%zu copies %zu\n",
-                      names[i], account.before.open_edges.count, account.after.open_edges.count,
-                      account.before.cracks.count, account.after.cracks.count, account.before.non_manifold_edges.count,
-                      account.after.non_manifold_edges.count, account.before.flipped_edges.count,
-                      account.after.flipped_edges.count, account.before.crossings.count, account.after.crossings.count,
-                      account.before.closed_shells, account.before.shells, account.after.closed_shells,
-                      account.after.shells, account.joined, account.split, account.turned, account.filled,
-                      account.copies);
+        sp_mesh *torn = tear(mesh), *mended = mend(torn, &account), *same = mend(mesh, &whole);
+        assert_int_equal(changes(&whole), 0);
+        print_account(names[i], &account);
+        size_t open = whole.before.open_edges.count;
+        assert_true(10 * (account.after.open_edges.count - open) < account.before.open_edges.count);
+        assert_true(100 * account.after.cracks.count < account.before.cracks.count);
+        assert_int_equal(account.after.flipped_edges.count, 0);
+        assert_true(account.after.crossings.count <= account.before.crossings.count);
+        sp_mesh_destroy(same);
         sp_mesh_destroy(mended);
+        sp_mesh_destroy(torn);
         sp_mesh_destroy(mesh);
     }
 }
@@ -619,7 +666,7 @@ int main(void)
         cmocka_unit_test(a_torn_sphere_is_whole_again),
         cmocka_unit_test(crowds_come_to_an_end),
         cmocka_unit_test(nothing_is_mended_of_nothing),
-        cmocka_unit_test(models_get_better),
+        cmocka_unit_test(torn_models_are_nearly_whole_again),
         cmocka_unit_test(a_written_copy_reads_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
 /* Triangles that are there twice, and those that have no area. */
 #include "mesh/diagnosis/flaw.h"
-#include "mesh/same_corners.h"
+#include "mesh/twins.h"
 
 #include <stdlib.h>
 
@@ -8,9 +8,9 @@ static bool find_duplicates(const sp_mesh *mesh, sp_flaw *flaw, sp_error *error)
 {
     size_t count = mesh->triangle_count;
     uint32_t *order = calloc(count + 1, sizeof *order);
-    bool good = (order || sp_fail_memory(error)) && sp_sort_by_corners(mesh, order, error);
+    bool good = (order || sp_fail_memory(error)) && sp_sort_twins(mesh, order, error);
     for (size_t i = 1; good && i < count; i++)
-        if (sp_same_corners(mesh, order[i - 1], order[i]))
+        if (sp_are_twins(mesh, order[i - 1], order[i]))
             sp_flaw_add(flaw, sp_middle_of(mesh, mesh->triangles[order[i]]));
     free(order);
     return good;

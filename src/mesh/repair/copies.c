@@ -5,7 +5,7 @@
  * no worse than they were, or better. So copies that hang together are taken out or left as one. */
 #include "mesh/disjoint_sets.h"
 #include "mesh/repair/draft.h"
-#include "mesh/same_corners.h"
+#include "mesh/twins.h"
 
 #include <stdlib.h>
 
@@ -17,7 +17,7 @@ typedef enum {
 } choice;
 
 typedef struct {
-    const sp_draft *draft;
+    const sp_mesh_draft *draft;
     uint32_t *order;      /* by corners */
     bool *chosen;         /* [triangles] */
     uint32_t *set;        /* [triangles]: which of these hang together */
@@ -52,7 +52,7 @@ static size_t choose(copies *c, choice which)
 {
     size_t count = c->draft->mesh->triangle_count, chosen = 0;
     for (size_t from = 0, to; from < count; from = to) {
-        for (to = from + 1; to < count && sp_same_corners(c->draft->mesh, c->order[from], c->order[to]);)
+        for (to = from + 1; to < count && sp_are_twins(c->draft->mesh, c->order[from], c->order[to]);)
             to++;
         chosen += choose_among(c, from, to, which);
     }
@@ -106,7 +106,7 @@ static void judge_edge(copies *c, size_t first, size_t of_edge)
     c->better[root] |= labs(after) < labs(before);
 }
 
-static size_t take_out(copies *c, sp_draft *draft, choice which)
+static size_t take_out(copies *c, sp_mesh_draft *draft, choice which)
 {
     size_t of_edge, done = 0;
     join_at_edges(c);
@@ -124,14 +124,14 @@ static size_t take_out(copies *c, sp_draft *draft, choice which)
     return done;
 }
 
-bool sp_take_out_copies(sp_draft *draft, bool careful, size_t *done, sp_error *error)
+bool sp_take_out_copies(sp_mesh_draft *draft, bool careful, size_t *done, sp_error *error)
 {
     (void)careful;
     size_t room = draft->mesh->triangle_count + 1;
     copies c = {draft,       malloc(room * sizeof *c.order), malloc(room), malloc(room * sizeof *c.set), malloc(room),
                 malloc(room)};
     bool good = (c.order && c.chosen && c.set && c.worse && c.better) || sp_fail_memory(error);
-    good = good && sp_sort_by_corners(draft->mesh, c.order, error);
+    good = good && sp_sort_twins(draft->mesh, c.order, error);
     *done = 0;
     for (choice which = SAME_SIDE; good && !*done && which < CHOICES; which++)
         if (choose(&c, which))

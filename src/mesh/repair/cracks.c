@@ -2,7 +2,7 @@
 #include "mesh/box_pairs.h"
 #include "mesh/diagnosis/flaw.h"
 #include "mesh/repair/draft.h"
-#include "mesh/same_corners.h"
+#include "mesh/twins.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,7 @@ enum { MOST_PASSES = 30 }; /* in which pairs are given up */
 #define UNSEEN (SP_NONE - 1)
 
 typedef struct {
-    sp_draft *draft;
+    sp_mesh_draft *draft;
     bool careful;
     double *radius;    /* [vertices], as sp_crack_corners gives it */
     uint32_t *list;    /* corners on open edges */
@@ -154,11 +154,10 @@ static bool edges_hold(joining *j, const sp_mesh *joined, const sp_half_edges *e
 static bool triangles_hold(joining *j, const sp_mesh *joined, uint32_t *order, bool *hold, sp_error *error)
 {
     *hold = true;
-    if (!sp_sort_by_corners(joined, order, error))
+    if (!sp_sort_twins(joined, order, error))
         return false;
     for (size_t i = 1; i < joined->triangle_count; i++)
-        if (sp_same_corners(joined, order[i - 1], order[i]) &&
-            !sp_same_corners(j->draft->mesh, order[i - 1], order[i])) {
+        if (sp_are_twins(joined, order[i - 1], order[i]) && !sp_are_twins(j->draft->mesh, order[i - 1], order[i])) {
             give_up_triangle(j, order[i - 1]);
             give_up_triangle(j, order[i]);
             *hold = false;
@@ -203,7 +202,7 @@ static size_t count_pairs(const joining *j)
     return count;
 }
 
-bool sp_join_cracks(sp_draft *draft, bool careful, size_t *done, sp_error *error)
+bool sp_join_cracks(sp_mesh_draft *draft, bool careful, size_t *done, sp_error *error)
 {
     size_t room = draft->mesh->vertex_count + 1;
     joining j = {draft,

@@ -19,15 +19,15 @@ static void find_shells(const sp_mesh *mesh, const sp_half_edges *edges, uint32_
         shell[t] = sp_set_root(shell, t);
 }
 
-bool sp_draft_open(sp_draft *draft, const sp_mesh *mesh, sp_error *error)
+bool sp_mesh_draft_open(sp_mesh_draft *draft, const sp_mesh *mesh, sp_error *error)
 {
     size_t count = mesh->triangle_count, room = count + 1;
-    *draft = (sp_draft){.mesh = mesh, .count = count, .room = room, .part_room = room};
+    *draft = (sp_mesh_draft){.mesh = mesh, .count = count, .room = room, .part_room = room};
     draft->shell = malloc(room * sizeof *draft->shell);
     draft->triangles = malloc(room * sizeof *draft->triangles);
     draft->part = malloc(room * sizeof *draft->part);
     if (!draft->shell || !draft->triangles || !draft->part || !sp_half_edges_create(mesh, &draft->edges, error)) {
-        sp_draft_close(draft);
+        sp_mesh_draft_close(draft);
         return sp_fail_memory(error);
     }
     memcpy(draft->triangles, mesh->triangles, count * sizeof *draft->triangles);
@@ -36,16 +36,16 @@ bool sp_draft_open(sp_draft *draft, const sp_mesh *mesh, sp_error *error)
     return true;
 }
 
-void sp_draft_close(sp_draft *draft)
+void sp_mesh_draft_close(sp_mesh_draft *draft)
 {
     sp_half_edges_destroy(&draft->edges);
     free(draft->shell);
     free(draft->triangles);
     free(draft->part);
-    *draft = (sp_draft){0};
+    *draft = (sp_mesh_draft){0};
 }
 
-bool sp_draft_add(sp_draft *draft, uint32_t a, uint32_t b, uint32_t c, uint32_t part, sp_error *error)
+bool sp_mesh_draft_add(sp_mesh_draft *draft, uint32_t a, uint32_t b, uint32_t c, uint32_t part, sp_error *error)
 {
     if (!sp_grow(&draft->triangles, &draft->room, draft->count + 1, sizeof *draft->triangles) ||
         !sp_grow(&draft->part, &draft->part_room, draft->count + 1, sizeof *draft->part))
@@ -67,7 +67,7 @@ static sp_mesh *with_parts(sp_mesh *made, const sp_mesh *from)
     return made;
 }
 
-sp_mesh *sp_draft_mesh(const sp_draft *draft, sp_error *error)
+sp_mesh *sp_mesh_draft_mesh(const sp_mesh_draft *draft, sp_error *error)
 {
     const sp_mesh *mesh = draft->mesh;
     uint32_t(*kept)[3] = malloc((draft->count + 1) * sizeof *kept);

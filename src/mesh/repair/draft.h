@@ -11,14 +11,14 @@ typedef struct {
     size_t count, room, part_room;
     uint32_t (*triangles)[3]; /* [count]: at first those of the mesh; first corner SP_NONE: taken out */
     uint32_t *part;           /* [count] */
-} sp_draft;
+} sp_mesh_draft;
 
 /* The mesh must outlive it. False when memory runs out; then there is nothing to close. */
-bool sp_draft_open(sp_draft *draft, const sp_mesh *mesh, sp_error *error);
-void sp_draft_close(sp_draft *draft);
-bool sp_draft_add(sp_draft *draft, uint32_t a, uint32_t b, uint32_t c, uint32_t part, sp_error *error);
+bool sp_mesh_draft_open(sp_mesh_draft *draft, const sp_mesh *mesh, sp_error *error);
+void sp_mesh_draft_close(sp_mesh_draft *draft);
+bool sp_mesh_draft_add(sp_mesh_draft *draft, uint32_t a, uint32_t b, uint32_t c, uint32_t part, sp_error *error);
 /* What the draft is by now; with the parts of its mesh, also those that have no triangles. */
-sp_mesh *sp_draft_mesh(const sp_draft *draft, sp_error *error);
+sp_mesh *sp_mesh_draft_mesh(const sp_mesh_draft *draft, sp_error *error);
 
 /* Twice the area, along the normal, m². */
 sp_vec3 sp_corners_area(const sp_mesh *mesh, const uint32_t corners[3]);
@@ -27,7 +27,7 @@ bool sp_keeps_its_side(const sp_mesh *mesh, sp_vec3 area_before, const uint32_t 
 
 /* Mends once what can be mended at once, in the draft; *done: how much. `careful`: only within shells, only where
  * neighbours agree which side is the front, and what runs through others is not cut. False when memory runs out. */
-typedef bool sp_mender(sp_draft *draft, bool careful, size_t *done, sp_error *error);
+typedef bool sp_mender(sp_mesh_draft *draft, bool careful, size_t *done, sp_error *error);
 
 /* copies.c: takes out triangles that lie where the same one lies, as long as every edge has neighbours afterwards that
  * fit no worse: not those by which two bodies touch, nor a sheet's other side. Done: triangles. */

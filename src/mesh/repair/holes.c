@@ -9,7 +9,7 @@
 #define FOLDED (-0.5) /* cosine between a triangle's and a neighbour's normal */
 
 typedef struct {
-    sp_draft *draft;
+    sp_mesh_draft *draft;
     uint32_t *next; /* [vertices]: the only open half edge that begins there, SEVERAL or SP_NONE */
     double *area;   /* [triangles], m²: of the shell whose least triangle it is */
 } filling;
@@ -57,7 +57,7 @@ static bool fits(const filling *f, const uint32_t around[3], const uint32_t corn
     return true;
 }
 
-bool sp_fill_holes(sp_draft *draft, bool careful, size_t *done, sp_error *error)
+bool sp_fill_holes(sp_mesh_draft *draft, bool careful, size_t *done, sp_error *error)
 {
     (void)careful;
     const sp_mesh *mesh = draft->mesh;
@@ -77,7 +77,7 @@ bool sp_fill_holes(sp_draft *draft, bool careful, size_t *done, sp_error *error)
         if (!fits(&f, around, corners))
             continue;
         uint32_t part = mesh->part[around[1] / 3] == mesh->part[around[2] / 3] ? around[1] / 3 : around[0] / 3;
-        good = sp_draft_add(draft, corners[0], corners[1], corners[2], mesh->part[part], error);
+        good = sp_mesh_draft_add(draft, corners[0], corners[1], corners[2], mesh->part[part], error);
         ++*done;
     }
     free(f.next);

@@ -16,7 +16,7 @@ typedef struct {
 } candidate;
 
 typedef struct {
-    sp_draft *draft;
+    sp_mesh_draft *draft;
     bool careful;
     double *radius; /* [vertices], as sp_crack_corners gives it */
     uint32_t *item; /* what each box is of: open half edges, and after these corners */
@@ -168,7 +168,7 @@ static bool split(splitting *s, uint32_t own, uint32_t apex, size_t count, sp_er
         uint32_t h = beside(s, own, s->chain[i], s->chain[i + 1]);
         if (h != SP_NONE)
             s->used[h] = true;
-        if (i && !sp_draft_add(s->draft, s->chain[i], s->chain[i + 1], apex, s->draft->mesh->part[own / 3], error))
+        if (i && !sp_mesh_draft_add(s->draft, s->chain[i], s->chain[i + 1], apex, s->draft->mesh->part[own / 3], error))
             return false;
     }
     return true;
@@ -195,7 +195,7 @@ static bool split_all(splitting *s, size_t *done, sp_error *error)
     return true;
 }
 
-bool sp_split_at_corners(sp_draft *draft, bool careful, size_t *done, sp_error *error)
+bool sp_split_at_corners(sp_mesh_draft *draft, bool careful, size_t *done, sp_error *error)
 {
     const sp_mesh *mesh = draft->mesh;
     splitting s = {.draft = draft, .careful = careful};

@@ -20,13 +20,13 @@ static bool apply(const sp_mesh *mesh, sp_mender *mend, bool careful, sp_mesh **
     *made = NULL;
     *count = 0;
     for (int pass = 0; pass < MOST_PASSES; pass++) {
-        sp_draft draft;
+        sp_mesh_draft draft;
         size_t done = 0;
-        if (!sp_draft_open(&draft, *made ? *made : mesh, error))
+        if (!sp_mesh_draft_open(&draft, *made ? *made : mesh, error))
             return false;
         sp_mesh *next = NULL;
-        bool good = mend(&draft, careful, &done, error) && (!done || (next = sp_draft_mesh(&draft, error)));
-        sp_draft_close(&draft);
+        bool good = mend(&draft, careful, &done, error) && (!done || (next = sp_mesh_draft_mesh(&draft, error)));
+        sp_mesh_draft_close(&draft);
         if (!good || done) {
             sp_mesh_destroy(*made);
             *made = next;
@@ -152,8 +152,9 @@ static bool mend_all(mending *m, sp_error *error)
 /* The mesh without its degenerate triangles and, of its vertices, with those in use. */
 static sp_mesh *cleared(const sp_mesh *mesh, sp_error *error)
 {
-    sp_draft draft = {.mesh = mesh, .count = mesh->triangle_count, .triangles = mesh->triangles, .part = mesh->part};
-    return sp_draft_mesh(&draft, error);
+    sp_mesh_draft draft = {
+        .mesh = mesh, .count = mesh->triangle_count, .triangles = mesh->triangles, .part = mesh->part};
+    return sp_mesh_draft_mesh(&draft, error);
 }
 
 sp_mesh *sp_mesh_repair(const sp_mesh *mesh, sp_repair_account *account, sp_error *error)

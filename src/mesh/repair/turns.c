@@ -6,7 +6,7 @@
 #define TIE 1e-9 /* of the area */
 
 typedef struct {
-    sp_draft *draft;
+    sp_mesh_draft *draft;
     sp_vec3 middle;
     uint32_t *across;  /* [3 triangles]: the half edge beside it, of edges of two; else SP_NONE */
     uint8_t *label;    /* [triangles]: 0: not seen, else 1 and 2: of these, one kind is turned over */
@@ -95,7 +95,7 @@ static void turn(turning *t, const patch *found)
     }
 }
 
-bool sp_turn_over(sp_draft *draft, bool careful, size_t *done, sp_error *error)
+bool sp_turn_over(sp_mesh_draft *draft, bool careful, size_t *done, sp_error *error)
 {
     (void)careful;
     size_t count = draft->mesh->triangle_count;

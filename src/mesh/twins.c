@@ -1,4 +1,4 @@
-#include "mesh/same_corners.h"
+#include "mesh/twins.h"
 
 #include "mesh/counting_sort.h"
 
@@ -16,7 +16,7 @@ static uint32_t ranked_corner(const uint32_t corners[3], int k)
     return c < low ? low : c > high ? high : c;
 }
 
-bool sp_same_corners(const sp_mesh *mesh, uint32_t a, uint32_t b)
+bool sp_are_twins(const sp_mesh *mesh, uint32_t a, uint32_t b)
 {
     for (int k = 0; k < 3; k++)
         if (ranked_corner(mesh->triangles[a], k) != ranked_corner(mesh->triangles[b], k))
@@ -24,7 +24,7 @@ bool sp_same_corners(const sp_mesh *mesh, uint32_t a, uint32_t b)
     return true;
 }
 
-bool sp_sort_by_corners(const sp_mesh *mesh, uint32_t *order, sp_error *error)
+bool sp_sort_twins(const sp_mesh *mesh, uint32_t *order, sp_error *error)
 {
     size_t count = mesh->triangle_count;
     uint32_t *keys = calloc(count + 1, sizeof *keys);
