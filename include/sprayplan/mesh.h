@@ -103,6 +103,31 @@ sp_mesh *sp_mesh_join(const sp_mesh *const *meshes, const sp_transform *transfor
 /* Returns false only when memory runs out. */
 bool sp_mesh_diagnose(const sp_mesh *mesh, sp_mesh_diagnosis *diagnosis, sp_error *error);
 
+/* What mending did, and what was wrong before and after it. */
+typedef struct {
+    size_t dropped; /* degenerate triangles */
+    size_t copies;  /* triangles taken out that lay where the same one lies, for no reason */
+    size_t joined;  /* corners at cracks that were moved onto another */
+    size_t split;   /* triangles split at corners of others that lay on their open edges */
+    size_t turned;  /* triangles turned over, as most of what hangs together by edges is turned */
+    size_t filled;  /* triangles put where one was missing between three others or two */
+    sp_mesh_diagnosis before, after;
+} sp_repair_account;
+
+/* A mended copy, which the caller destroys; NULL only when memory runs out. Corners move by no more than
+ * before.crack, and only where they lie on open edges; no surface is taken away but what is there twice. Nothing that
+ * would leave more of any flaw is done, with two exceptions: the rim of a sheet that was there twice is open once it is
+ * there once, and a shell that was closed or made to agree may face inwards, as most of it did. Bodies that touch,
+ * sheets drawn with both sides, openings wider than one triangle, crossings, bits and which side a closed shell faces
+ * stay as they are. A sound mesh comes out with the same triangles, and so does what was mended. Parts keep their
+ * numbers, also where they have lost all triangles. */
+sp_mesh *sp_mesh_repair(const sp_mesh *mesh, sp_repair_account *account, sp_error *error);
+
+/* Writes the triangles with some area, in m, and the vertices that they use, as OBJ text with a group for each part. It
+ * reads back to the same last bit; names lose what OBJ has no way to write: a `#` that begins a word, a backslash at
+ * the end. Fails with SP_ERROR_FILE. */
+bool sp_mesh_write_obj(const sp_mesh *mesh, const char *path, sp_error *error);
+
 /* The area in m² and the unit normal (anticlockwise front) of one triangle. */
 double sp_triangle_area(const sp_mesh *mesh, uint32_t triangle);
 sp_vec3 sp_triangle_normal(const sp_mesh *mesh, uint32_t triangle);

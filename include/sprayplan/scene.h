@@ -34,6 +34,9 @@ bool sp_scene_has_place(const sp_scene *scene);                 /* the file has 
 /* How the CAD file of geometry entry `geometry` was cut into triangles; NULL for entries that are none. */
 const sp_cad_account *sp_scene_cad(const sp_scene *scene, size_t geometry);
 
+/* The `unit` of geometry entry `geometry`, m; 0 for STEP and IGES, which know their own. */
+double sp_scene_file_unit(const sp_scene *scene, size_t geometry);
+
 /* The files that the scene was read from: its own, the geometry, the catalogue. The path is malloc'd, NULL with an
  * error. */
 size_t sp_scene_file_count(const sp_scene *scene); /* 0 for NULL */

@@ -70,27 +70,20 @@ static bool write_pages(const sp_atlas *atlas, sp_output *output, const char *st
     return true;
 }
 
-static bool names_obj(const char *path)
-{
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
-    return dot && dot != name && !strcmp(dot, ".obj");
-}
-
 static bool write_files(const cli_atlas_work *work, const cli_options *options, sp_error *error)
 {
     const char *slash = strrchr(options->output, '/');
     const char *name = slash ? slash + 1 : options->output;
     const char *dot = strrchr(name, '.');
-    char *directory = slash ? strndup(options->output, (size_t)(slash - options->output) + 1) : strdup(".");
+    char *directory = cli_folder_of(options->output);
     char *stem = strndup(name, (size_t)(dot - name));
     if (!directory || !stem) {
         free(directory);
         free(stem);
         return sp_fail_memory(error);
     }
-    sp_output *output = sp_output_open(directory, error);
-    bool safe = output && sp_output_protect(output, options->inputs[0], error);
-    char *obj = safe ? sp_atlas_obj(work->atlas, work->mesh, error) : NULL;
+    sp_output *output = cli_output_open(options, directory, NULL, error);
+    char *obj = output ? sp_atlas_obj(work->atlas, work->mesh, error) : NULL;
     bool good = obj && sp_output_text(output, name, obj, error) && write_pages(work->atlas, output, stem, error);
     free(obj);
     free(stem);
@@ -156,7 +149,7 @@ int cli_atlas(const cli_options *options)
 {
     sp_error error = {0};
     cli_atlas_work work = {0};
-    if (options->output && !names_obj(options->output)) {
+    if (options->output && !cli_names_obj(options->output)) {
         fprintf(stderr, "sprayplan: atlas: -o: found \"%s\", expected a file name ending in .obj\n", options->output);
         return EXIT_USAGE;
     }

@@ -2,6 +2,8 @@
 #include "check/boxes.h"
 #include "check/cad.h"
 #include "check/flaws.h"
+#include "check/repair.h"
+#include "check/size.h"
 #include "cli.h"
 
 #include <jansson.h>
@@ -9,9 +11,6 @@
 #include <stdlib.h>
 
 enum { MAX_WARNINGS = 100, MAX_OPENINGS = 3 };
-/* m; vessels and machines lie between */
-#define LARGEST_SIZE 100.0
-#define SMALLEST_SIZE 0.01
 #define NOTHING 1e-6 /* of a part's area: round-off */
 #define FAR_OFF 0.01 /* of a body's volume, for that of its triangles */
 
@@ -23,7 +22,10 @@ typedef struct {
     size_t *part_triangles;
     double *part_volume; /* [part_count], m³, of its triangles; 0 where they are not closed */
     cli_box *part_box;   /* [part_count] */
-    char warnings[MAX_WARNINGS][256];
+    size_t size_count;
+    cli_size *sizes; /* [size_count], of each geometry file */
+    cli_repair repair;
+    char warnings[MAX_WARNINGS][320];
     size_t warning_count;
 } findings;
 
@@ -104,20 +106,31 @@ static void warn_of_mesh(findings *found)
         warn(found, "geometry: %zu loose bits have next to no area", mesh->bits.count);
 }
 
-/* A file whose unit is not what the scene says is a thousand times too large or too small, or 25 times. */
-static void warn_of_size(findings *found)
+static bool measure_files(findings *found, sp_error *error)
 {
     const sp_mesh *mesh = setup_of(found)->mesh;
+    found->sizes = calloc(mesh->part_count + 1, sizeof *found->sizes);
+    if (!found->sizes)
+        return sp_fail_memory(error);
     for (size_t i = 0; i < mesh->part_count;) {
         uint32_t geometry = mesh->parts[i].geometry;
         cli_box box = found->part_box[i];
         for (; i < mesh->part_count && mesh->parts[i].geometry == geometry; i++)
             box = cli_box_join(box, found->part_box[i]);
-        double size = cli_box_size(box);
-        if (size > LARGEST_SIZE || size < SMALLEST_SIZE)
-            warn(found, "geometry: file %lu is %.4g m x %.4g m x %.4g m: is `unit` the unit of its coordinates, %s?",
-                 (unsigned long)geometry, box.maximum.x - box.minimum.x, box.maximum.y - box.minimum.y,
-                 box.maximum.z - box.minimum.z, size > LARGEST_SIZE ? "not mm or inch" : "not m");
+        found->sizes[found->size_count++] = cli_size_of(box, sp_scene_file_unit(found->opened->scene, geometry));
+    }
+    return true;
+}
+
+/* A file whose unit is not what the scene says is a thousand times too large or too small, or 25 times. */
+static void warn_of_size(findings *found)
+{
+    for (size_t i = 0; i < found->size_count; i++) {
+        char text[sizeof *found->warnings];
+        if (found->sizes[i].plausible)
+            continue;
+        cli_size_ask(&found->sizes[i], i, text, sizeof text);
+        warn(found, "%s", text);
     }
 }
 
@@ -304,6 +317,7 @@ static void print_table(const findings *found, const char *output)
     print_openings(found);
     print_hollows(found);
     cli_flaws_print(&found->mesh);
+    cli_repair_print(&found->repair);
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
     if (layout->count)
         printf("\n%-16s %-20s %12s %11s %10s\n", "nozzle", "type", "flow L/min", "speed m/s", "angle deg");
@@ -400,6 +414,14 @@ static json_t *cavity_json(const sp_setup *setup)
     return setup->cavity == SP_CAVITY_OUTSIDE ? json_string("outside") : json_null();
 }
 
+static json_t *sizes_json(const findings *found)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < found->size_count; i++)
+        json_array_append_new(list, cli_size_json(&found->sizes[i]));
+    return list;
+}
+
 /* null where nothing moves. */
 static json_t *sweep_json(const sp_evaluator *evaluator)
 {
@@ -417,12 +439,12 @@ static bool print_json(const findings *found)
     for (size_t i = 0; i < found->warning_count; i++)
         json_array_append_new(warnings, json_string(found->warnings[i]));
     json_t *object = json_pack(
-        "{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}", "sprayplan",
+        "{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:f, s:I, s:f, s:I, s:o}", "sprayplan",
         SP_VERSION, "command", "check", "scene", sp_scene_path(found->opened->scene), "mesh", mesh_json(found), "flaws",
-        cli_flaws_json(&found->mesh), "cad", cli_cad_json(found->opened->scene, setup_of(found)->mesh), "parts",
-        parts_json(found), "cavity_m", cavity_json(setup_of(found)), "sweep", sweep_json(found->opened->evaluator),
-        "openings", openings_json(found), "hollows", hollows_json(found), "outdoors_m2",
-        sp_evaluator_outdoors(found->opened->evaluator), "clean_area_m2",
+        cli_flaws_json(&found->mesh), "repair", cli_repair_json(&found->repair), "sizes", sizes_json(found), "cad",
+        cli_cad_json(found->opened->scene, setup_of(found)->mesh), "parts", parts_json(found), "cavity_m",
+        cavity_json(setup_of(found)), "sweep", sweep_json(found->opened->evaluator), "openings", openings_json(found),
+        "hollows", hollows_json(found), "outdoors_m2", sp_evaluator_outdoors(found->opened->evaluator), "clean_area_m2",
         sp_evaluator_patches(found->opened->evaluator)->total_area, "patches",
         (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
         sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",
@@ -435,7 +457,8 @@ static bool print_json(const findings *found)
 
 static bool examine(const cli_options *options, findings *found, sp_error *error)
 {
-    if (!measure_parts(found, error) || !sp_mesh_diagnose(setup_of(found)->mesh, &found->mesh, error))
+    if (!measure_parts(found, error) || !measure_files(found, error) ||
+        !sp_mesh_diagnose(setup_of(found)->mesh, &found->mesh, error))
         return false;
     tell_boxes(found);
     warn_of_mesh(found);
@@ -446,7 +469,8 @@ static bool examine(const cli_options *options, findings *found, sp_error *error
     warn_of_openings(found);
     warn_of_hollows(found);
     warn_of_nozzles(found);
-    if (!cli_write_wet(options, found->opened, error))
+    if (!cli_write_wet(options, found->opened, error) ||
+        !cli_repair_write(options, found->opened->scene, &found->repair, error))
         return false;
     cli_progress_end();
     if (options->json)
@@ -471,6 +495,8 @@ static int check(const cli_options *options, const cli_scene *opened, cli_clock 
     free(found->part_triangles);
     free(found->part_volume);
     free(found->part_box);
+    free(found->sizes);
+    cli_repair_clear(&found->repair);
     free(found);
     return good ? EXIT_DONE : cli_fail_in(opened, error);
 }

@@ -20,6 +20,7 @@ typedef struct {
     double time_limit;  /* s, 0: none */
     double memory;      /* bytes, 0: not given */
     const char *output; /* -o, or NULL */
+    const char *repair; /* --repair, or NULL */
     const char *overrides[MAX_OVERRIDES];
     size_t override_count;
     double texel; /* m, 0: not given */
@@ -49,6 +50,7 @@ enum option_flag {
     OPTION_BENCH = 32, /* --rays, --mode, --trajectory */
     OPTION_MEMORY = 64,
     OPTION_PROVE = 128,
+    OPTION_REPAIR = 256,
 };
 
 /* options.c: fills options from the arguments after the command's name; false after a message on standard error. */
@@ -114,8 +116,13 @@ int cli_fail_in(const cli_scene *opened, sp_error *error);
  * layout.yaml. True without -o. */
 bool cli_output_ready(const cli_options *options, const sp_scene *scene, sp_error *error);
 
-/* The folder that -o says, in which no file that was read can be replaced; `scene` may be NULL. */
-sp_output *cli_output_open(const cli_options *options, const sp_scene *scene, sp_error *error);
+/* A folder in which no file that was read can be replaced; `scene` may be NULL. */
+sp_output *cli_output_open(const cli_options *options, const char *folder, const sp_scene *scene, sp_error *error);
+
+/* output.c: whether a file's name ends in .obj and has something before that. */
+bool cli_names_obj(const char *path);
+/* output.c: the folder that a file lies in, "." where its path names none; malloc'd, NULL where memory runs out. */
+char *cli_folder_of(const char *path);
 
 /* output.c: what simulate, place and compare end with. `layout` NULL: no layout.yaml. */
 bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *scene, const sp_layout *layout,

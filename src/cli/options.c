@@ -24,7 +24,8 @@ enum {
     MEMORY,
     PROVE,
     PACK,
-    REUSE
+    REUSE,
+    REPAIR
 };
 
 static const struct option long_options[] = {
@@ -38,6 +39,7 @@ static const struct option long_options[] = {
     {"texel", required_argument, NULL, TEXEL},
     {"pack", required_argument, NULL, PACK},
     {"reuse", no_argument, NULL, REUSE},
+    {"repair", required_argument, NULL, REPAIR},
     {"rays", required_argument, NULL, RAYS},
     {"gravity", required_argument, NULL, GRAVITY},
     {"accel", required_argument, NULL, ACCEL},
@@ -66,6 +68,8 @@ static unsigned flag_of(int option)
         return OPTION_MEMORY;
     case PROVE:
         return OPTION_PROVE;
+    case REPAIR:
+        return OPTION_REPAIR;
     case RAYS:
         return OPTION_RAYS | OPTION_BENCH;
     case MODE:
@@ -86,7 +90,8 @@ static const char *name_of(int option)
                                         [REUSE - JSON] = "--reuse",     [RAYS - JSON] = "--rays",
                                         [GRAVITY - JSON] = "--gravity", [ACCEL - JSON] = "--accel",
                                         [MODE - JSON] = "--mode",       [TRAJECTORY - JSON] = "--trajectory",
-                                        [MEMORY - JSON] = "--memory",   [PROVE - JSON] = "--prove"};
+                                        [MEMORY - JSON] = "--memory",   [PROVE - JSON] = "--prove",
+                                        [REPAIR - JSON] = "--repair"};
     return option == 'o' ? "-o" : names[option - JSON];
 }
 
@@ -224,6 +229,9 @@ static bool take_option(int option, const char *value, cli_options *options, boo
     case REUSE:
         options->reuse = true;
         return true;
+    case REPAIR:
+        options->repair = value;
+        return cli_names_obj(value) || wrong("--repair", value, "a file name ending in .obj");
     case RAYS:
         options->rays = value;
         return true;

@@ -19,9 +19,21 @@ static bool protect_inputs(const cli_options *options, const sp_scene *scene, sp
     return good;
 }
 
-sp_output *cli_output_open(const cli_options *options, const sp_scene *scene, sp_error *error)
+bool cli_names_obj(const char *path)
 {
-    sp_output *output = sp_output_open(options->output, error);
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
+    return dot && dot != name && !strcmp(dot, ".obj");
+}
+
+char *cli_folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
+}
+
+sp_output *cli_output_open(const cli_options *options, const char *folder, const sp_scene *scene, sp_error *error)
+{
+    sp_output *output = sp_output_open(folder, error);
     if (output && protect_inputs(options, scene, output, error))
         return output;
     sp_output_discard(output);
@@ -32,7 +44,7 @@ bool cli_output_ready(const cli_options *options, const sp_scene *scene, sp_erro
 {
     if (!options->output)
         return true;
-    sp_output *output = cli_output_open(options, scene, error);
+    sp_output *output = cli_output_open(options, options->output, scene, error);
     bool good = output && sp_output_path(output, "result.json", error) &&
                 (!scene || sp_output_path(output, "layout.yaml", error));
     sp_output_discard(output);
@@ -44,7 +56,7 @@ bool cli_write(const cli_options *options, const sp_result *result, const sp_sce
 {
     if (!options->output)
         return true;
-    sp_output *output = cli_output_open(options, scene, error);
+    sp_output *output = cli_output_open(options, options->output, scene, error);
     bool good = output && sp_report_write(result, output, error);
     if (good && layout) {
         const sp_fidelity *fidelity = sp_evaluator_fidelity(result->designs[0].evaluator);
@@ -62,7 +74,7 @@ bool cli_write_wet(const cli_options *options, const cli_scene *opened, sp_error
 {
     if (!options->output)
         return true;
-    sp_output *output = cli_output_open(options, opened->scene, error);
+    sp_output *output = cli_output_open(options, options->output, opened->scene, error);
     const char *path = output ? sp_output_path(output, "wet.png", error) : NULL;
     if (path && sp_report_wet_png(opened->evaluator, path, error))
         return sp_output_commit(output, error);

@@ -15,7 +15,7 @@ static bool write_files(const cli_options *options, const sp_scene *scene, const
     if (!options->output)
         return true;
     const char *path = options->inputs[0];
-    sp_output *output = cli_output_open(options, scene, error);
+    sp_output *output = cli_output_open(options, options->output, scene, error);
     bool good = output && add_file(output, "study.json", sp_study_json(study, path, error), error) &&
                 (study->run_count == 0 || add_file(output, "study.csv", sp_study_csv(study, error), error)) &&
                 (study->place_count == 0 || add_file(output, "place.csv", sp_study_place_csv(study, error), error)) &&

@@ -29,6 +29,11 @@ sp_box sp_box_of(const sp_mesh *mesh, uint32_t triangle, double margin)
     return box;
 }
 
+sp_box sp_box_around(sp_vec3 p, double radius)
+{
+    return (sp_box){{p.x - radius, p.y - radius, p.z - radius}, {p.x + radius, p.y + radius, p.z + radius}};
+}
+
 bool sp_boxes_overlap(const sp_box *a, const sp_box *b)
 {
     for (int k = 0; k < 3; k++)
@@ -52,7 +57,8 @@ static void compare(pair_search *search, const sp_box *space, uint32_t a, uint32
 
 static void search_space(pair_search *search, const sp_box *space, const uint32_t *list, size_t count, int depth);
 
-/* False where halving along this axis leaves nearly all in both halves. */
+/* False where halving along this axis leaves too much in both halves: where each kept 1/sqrt(2) of all again and again,
+ * all pairs would be compared as often as without any halving. */
 static bool halve(pair_search *search, const sp_box *space, const uint32_t *list, size_t count, int depth, int axis)
 {
     double middle = 0.5 * (space->low[axis] + space->high[axis]);
@@ -67,7 +73,7 @@ static bool halve(pair_search *search, const sp_box *space, const uint32_t *list
         if (box->high[axis] >= middle)
             part[1][counts[1]++] = list[i];
     }
-    bool worth = part[0] && part[1] && 10 * (counts[0] + counts[1]) < 17 * count;
+    bool worth = part[0] && part[1] && 5 * (counts[0] + counts[1]) < 7 * count;
     if (!part[0] || !part[1])
         search->failed = true;
     for (int k = 0; k < 2 && worth; k++)

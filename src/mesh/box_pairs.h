@@ -11,6 +11,8 @@ typedef struct {
 
 /* The box of a triangle, wider by `margin` (m) on every side. */
 sp_box sp_box_of(const sp_mesh *mesh, uint32_t triangle, double margin);
+/* As far as `radius` (m) from a point along each axis. */
+sp_box sp_box_around(sp_vec3 point, double radius);
 bool sp_boxes_overlap(const sp_box *a, const sp_box *b);
 
 /* Of two boxes that overlap, either the first. False to stop. */

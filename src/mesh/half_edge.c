@@ -55,6 +55,23 @@ size_t sp_half_edges_of_edge(const sp_mesh *mesh, const sp_half_edges *half_edge
     return kind == SP_EDGE_OPEN ? 1 : 2;
 }
 
+size_t sp_half_edges_between(const sp_mesh *mesh, const sp_half_edges *half_edges, uint32_t a, uint32_t b)
+{
+    uint32_t from = a < b ? a : b, to = a < b ? b : a;
+    size_t count = 3 * mesh->triangle_count, low = 0, high = count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        uint32_t h = half_edges->order[middle], start = lower(mesh, h);
+        if (start < from || (start == from && higher(mesh, h) < to))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    bool found =
+        low < count && lower(mesh, half_edges->order[low]) == from && higher(mesh, half_edges->order[low]) == to;
+    return found ? low : SIZE_MAX;
+}
+
 static void pair(const sp_mesh *mesh, sp_half_edges *half_edges)
 {
     size_t of_edge;

@@ -24,6 +24,9 @@ void sp_half_edges_destroy(sp_half_edges *half_edges);
 /* How many half edges from order[first] on are of the same edge. */
 size_t sp_half_edges_of_edge(const sp_mesh *mesh, const sp_half_edges *half_edges, size_t first);
 
+/* Where in `order` the half edges between two vertices begin; SIZE_MAX where there are none. */
+size_t sp_half_edges_between(const sp_mesh *mesh, const sp_half_edges *half_edges, uint32_t a, uint32_t b);
+
 static inline uint32_t sp_half_edge_from(const sp_mesh *mesh, uint32_t half_edge)
 {
     return mesh->triangles[half_edge / 3][half_edge % 3];

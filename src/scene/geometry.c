@@ -247,6 +247,8 @@ static bool read_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml 
     for (const sp_yaml *node = list->first; node; node = node->next, index++)
         if (!set_surfaces(scene, reader, node, index, &pieces[index]))
             return false;
+    for (size_t i = 0; i < count; i++)
+        scene->file_units[i] = pieces[i].cad == SP_CAD_STEP || pieces[i].cad == SP_CAD_IGES ? 0 : pieces[i].unit;
     sum_cads(scene);
     return sp_scene_settle_dose(scene, reader);
 }
@@ -259,9 +261,10 @@ bool sp_scene_read_geometry(sp_scene *scene, const sp_reader *reader)
     sp_mesh **meshes = calloc(list->count, sizeof *meshes);
     piece *pieces = calloc(list->count, sizeof *pieces);
     scene->cads = calloc(list->count, sizeof *scene->cads);
+    scene->file_units = calloc(list->count, sizeof *scene->file_units);
     scene->cad_count = list->count;
-    bool good = meshes && pieces && scene->cads ? read_pieces(scene, reader, list, meshes, pieces)
-                                                : sp_fail_memory(reader->error) != NULL;
+    bool room = meshes && pieces && scene->cads && scene->file_units;
+    bool good = room ? read_pieces(scene, reader, list, meshes, pieces) : sp_fail_memory(reader->error) != NULL;
     for (size_t i = 0; meshes && i < list->count; i++)
         sp_mesh_destroy(meshes[i]);
     free(meshes);

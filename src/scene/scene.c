@@ -97,6 +97,7 @@ void sp_scene_destroy(sp_scene *scene)
     sp_mesh_destroy(scene->mesh);
     free(scene->surfaces);
     free(scene->cads);
+    free(scene->file_units);
     sp_yaml_destroy(scene->tree);
     free(scene->directory);
     free(scene->path);
@@ -122,6 +123,11 @@ sp_place_options sp_scene_place_options(const sp_scene *scene)
 const sp_cad_account *sp_scene_cad(const sp_scene *scene, size_t geometry)
 {
     return scene && geometry < scene->cad_count && scene->cads[geometry].triangles ? &scene->cads[geometry] : NULL;
+}
+
+double sp_scene_file_unit(const sp_scene *scene, size_t geometry)
+{
+    return scene && geometry < scene->cad_count ? scene->file_units[geometry] : 0;
 }
 bool sp_scene_has_place(const sp_scene *scene)
 {

@@ -66,6 +66,21 @@ void cli_flaws_print(const sp_mesh_diagnosis *mesh)
     }
 }
 
+void cli_flaws_print_change(const sp_mesh_diagnosis *before, const sp_mesh_diagnosis *after)
+{
+    bool any = false;
+    for (size_t kind = 0; kind < KINDS; kind++) {
+        const sp_flaw *was = told_flaw_of(before, kind), *is = told_flaw_of(after, kind);
+        if (!was->count && !was->more && !is->count && !is->more)
+            continue;
+        if (!any)
+            printf("%-24s %12s %12s\n", "flaw", "before", "after");
+        any = true;
+        printf("%-24s %11zu%c %11zu%c\n", kinds[kind].name, was->count, was->more ? '+' : ' ', is->count,
+               is->more ? '+' : ' ');
+    }
+}
+
 json_t *cli_flaws_json(const sp_mesh_diagnosis *mesh)
 {
     json_t *all = json_object();

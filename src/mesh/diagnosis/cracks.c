@@ -27,9 +27,7 @@ static bool look_at(void *user, uint32_t a, uint32_t b)
     return true;
 }
 
-/* Lists the corners on open edges, and sets how far each looks. */
-static size_t list_corners(const sp_mesh *mesh, const sp_half_edges *edges, double crack, double *radius,
-                           uint32_t *list)
+size_t sp_crack_corners(const sp_mesh *mesh, const sp_half_edges *edges, double crack, double *radius, uint32_t *list)
 {
     size_t count = 0, half_edges = 3 * mesh->triangle_count;
     for (size_t v = 0; v < mesh->vertex_count; v++)
@@ -49,11 +47,6 @@ static size_t list_corners(const sp_mesh *mesh, const sp_half_edges *edges, doub
     return count;
 }
 
-static sp_box box_around(sp_vec3 p, double radius)
-{
-    return (sp_box){{p.x - radius, p.y - radius, p.z - radius}, {p.x + radius, p.y + radius, p.z + radius}};
-}
-
 bool sp_diagnose_cracks(const sp_mesh *mesh, const sp_half_edges *edges, sp_mesh_diagnosis *diagnosis, sp_error *error)
 {
     size_t room = mesh->vertex_count + 1;
@@ -63,10 +56,10 @@ bool sp_diagnose_cracks(const sp_mesh *mesh, const sp_half_edges *edges, sp_mesh
     bool *found = calloc(room, sizeof *found);
     bool good = (boxes && list && radius && found) || sp_fail_memory(error);
     if (good) {
-        size_t count = list_corners(mesh, edges, diagnosis->crack, radius, list);
+        size_t count = sp_crack_corners(mesh, edges, diagnosis->crack, radius, list);
         crack_search search = {mesh, radius, found, SP_PAIRS_MOST(count), &diagnosis->cracks};
         for (size_t i = 0; i < count; i++)
-            boxes[list[i]] = box_around(mesh->vertices[list[i]], radius[list[i]]);
+            boxes[list[i]] = sp_box_around(mesh->vertices[list[i]], radius[list[i]]);
         good = sp_box_pairs(boxes, list, count, look_at, &search, error) || search.flaw->more;
         for (size_t i = 0; i < count; i++)
             if (found[list[i]])

@@ -12,10 +12,11 @@
 
 typedef struct {
     const sp_mesh *mesh;
-    const uint32_t *shell;
-    double least; /* m: what is nearer than that is no crossing */
-    size_t left;  /* pairs that may be looked at */
+    const uint32_t *shell; /* NULL: one of all */
+    double least;          /* m: what is nearer than that is no crossing */
+    size_t left;           /* pairs that may be looked at */
     sp_flaw *flaw;
+    bool *found; /* [triangle_count] or NULL */
 } crossing_search;
 
 static bool has_corner(const sp_mesh *mesh, uint32_t triangle, uint32_t vertex)
@@ -74,22 +75,27 @@ static bool look_at(void *user, uint32_t a, uint32_t b)
     if (search->flaw->more)
         return false;
     search->left--;
-    if (search->shell[a] != search->shell[b] || !is_cut(search, a, b, of_b) || !is_cut(search, b, a, of_a))
+    if ((search->shell && search->shell[a] != search->shell[b]) || !is_cut(search, a, b, of_b) ||
+        !is_cut(search, b, a, of_a))
         return true;
     sp_vec3 along = sp_unit(sp_cross(sp_triangle_normal(mesh, a), sp_triangle_normal(mesh, b)));
     stretch own = stretch_of(mesh, a, of_a, along), other = stretch_of(mesh, b, of_b, along);
-    if (fmin(own.to, other.to) - fmax(own.from, other.from) > search->least)
-        sp_flaw_add(search->flaw, own.from > other.from ? own.start : other.start);
+    if (!(fmin(own.to, other.to) - fmax(own.from, other.from) > search->least))
+        return true;
+    sp_flaw_add(search->flaw, own.from > other.from ? own.start : other.start);
+    if (search->found)
+        search->found[a] = search->found[b] = true;
     return true;
 }
 
-bool sp_diagnose_crossings(const sp_mesh *mesh, const uint32_t *shell, sp_mesh_diagnosis *diagnosis, sp_error *error)
+bool sp_find_crossings(const sp_mesh *mesh, const uint32_t *shell, sp_flaw *flaw, bool *found, sp_error *error)
 {
     size_t count = mesh->triangle_count;
     sp_box *boxes = malloc((count + 1) * sizeof *boxes);
     uint32_t *list = malloc((count + 1) * sizeof *list);
-    double diagonal = sp_distance(diagnosis->minimum, diagnosis->maximum);
-    crossing_search search = {mesh, shell, ROUND_OFF * diagonal, SP_PAIRS_MOST(count), &diagnosis->crossings};
+    sp_vec3 low, high;
+    double diagonal = sp_mesh_box(mesh, &low, &high);
+    crossing_search search = {mesh, shell, ROUND_OFF * diagonal, SP_PAIRS_MOST(count), flaw, found};
     bool good = (boxes && list) || sp_fail_memory(error);
     for (uint32_t t = 0; good && t < count; t++) {
         boxes[t] = sp_box_of(mesh, t, 0);

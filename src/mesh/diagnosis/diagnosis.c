@@ -3,8 +3,6 @@
 
 #include <stdlib.h>
 
-#define CRACK 1e-4 /* of the diagonal */
-
 static bool diagnose_surface(const sp_mesh *mesh, sp_mesh_diagnosis *diagnosis, sp_error *error)
 {
     sp_half_edges edges = {0};
@@ -17,7 +15,7 @@ static bool diagnose_surface(const sp_mesh *mesh, sp_mesh_diagnosis *diagnosis, 
     good = good && sp_diagnose_cracks(mesh, &edges, diagnosis, error);
     sp_half_edges_destroy(&edges);
     good = good && sp_diagnose_shells(mesh, shell, closed, diagnosis, error) &&
-           sp_diagnose_crossings(mesh, shell, diagnosis, error);
+           sp_find_crossings(mesh, shell, &diagnosis->crossings, NULL, error);
     free(shell);
     free(closed);
     return good;
@@ -26,7 +24,7 @@ static bool diagnose_surface(const sp_mesh *mesh, sp_mesh_diagnosis *diagnosis, 
 bool sp_mesh_diagnose(const sp_mesh *mesh, sp_mesh_diagnosis *diagnosis, sp_error *error)
 {
     *diagnosis = (sp_mesh_diagnosis){0};
-    diagnosis->crack = CRACK * sp_mesh_box(mesh, &diagnosis->minimum, &diagnosis->maximum);
+    diagnosis->crack = SP_CRACK * sp_mesh_box(mesh, &diagnosis->minimum, &diagnosis->maximum);
     diagnosis->area = sp_mesh_area(mesh);
     return diagnose_surface(mesh, diagnosis, error) && sp_diagnose_triangles(mesh, diagnosis, error);
 }

@@ -1,0 +1,26 @@
+/* How large each geometry file of a scene is, and which unit of length would make it as large as vessels are. */
+#ifndef CLI_SIZE_H
+#define CLI_SIZE_H
+
+#include "boxes.h"
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#define CLI_UNITS 5
+typedef struct {
+    sp_vec3 extent; /* m */
+    double unit;    /* m, as the scene has it; 0: the file knows its own */
+    bool plausible;
+    size_t count;
+    const char *name[CLI_UNITS]; /* [count] units other than that, the likeliest first; none where it is plausible */
+    sp_vec3 in_unit[CLI_UNITS];  /* [count], m: the extent that it would have */
+} cli_size;
+
+cli_size cli_size_of(cli_box box, double unit);
+/* A question for who wrote the scene. */
+void cli_size_ask(const cli_size *size, unsigned long geometry, char *text, size_t length);
+json_t *cli_size_json(const cli_size *size);
+
+#endif
