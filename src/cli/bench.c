@@ -47,7 +47,21 @@ static bool read_wish(const cli_options *options, bench_wish *wish)
     return true;
 }
 
-static bool measure(const cli_options *options, const bench_wish *wish, sp_mesh *mesh, sp_error *error)
+static sp_mesh *load_mesh(const char *path, bench_load *load, sp_error *error)
+{
+    cli_meter_start();
+    double start = bench_now();
+    sp_mesh *mesh = sp_mesh_load(path, 1, error);
+    *load = (bench_load){.seconds = bench_now() - start, .peak_bytes = cli_meter_peak()};
+    if (mesh)
+        load->bytes = mesh->vertex_count * sizeof *mesh->vertices +
+                      mesh->triangle_count * (sizeof *mesh->triangles + sizeof *mesh->part + sizeof *mesh->source) +
+                      mesh->source_triangle_count * (sizeof *mesh->source_triangles + sizeof *mesh->source_part);
+    return mesh;
+}
+
+static bool measure(const cli_options *options, const bench_wish *wish, const bench_load *load, sp_mesh *mesh,
+                    sp_error *error)
 {
     sp_run run = cli_run(options);
     bench_scaffold scaffold;
@@ -63,7 +77,7 @@ static bool measure(const cli_options *options, const bench_wish *wish, sp_mesh 
            bench_trace_all(&scaffold, &stage, wish, &run, &trace, error) &&
            cli_atlas_build(&atlas, mesh, 0, SP_PACKING_PIXELS, error) &&
            bench_study(&scaffold, &stage, atlas.atlas, &run, study, &study_count, error);
-    bench_result result = {options->inputs[0], &scaffold, &trace, study, study_count, &atlas};
+    bench_result result = {options->inputs[0], load, &scaffold, &trace, study, study_count, &atlas};
     cli_progress_end();
     if (good && options->json)
         good = bench_print_json(&result) || sp_fail_memory(error);
@@ -82,8 +96,9 @@ int cli_bench(const cli_options *options)
     bench_wish wish;
     if (!read_wish(options, &wish))
         return EXIT_USAGE;
-    sp_mesh *mesh = sp_mesh_load(options->inputs[0], 1, &error);
-    bool good = mesh && measure(options, &wish, mesh, &error);
+    bench_load loading;
+    sp_mesh *mesh = load_mesh(options->inputs[0], &loading, &error);
+    bool good = mesh && measure(options, &wish, &loading, mesh, &error);
     sp_mesh_destroy(mesh);
     return good ? EXIT_DONE : cli_fail(&error);
 }

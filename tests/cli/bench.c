@@ -169,7 +169,11 @@ static void builds_and_the_rest_are_there(void **state)
     json_t *object = expect_json("bench cube.obj --rays 64 --mode cone --trajectory line --threads 1 --json", 0);
     assert_string_equal(text_of(object, "mesh"), "cube.obj");
     assert_true(number_of(object, "triangles") == 1200);
-    const json_t *row, *builds = json_object_get(object, "build"), *rows = json_object_get(object, "trace");
+    const json_t *row, *builds = json_object_get(object, "build"), *rows = json_object_get(object, "trace"),
+                       *load = json_object_get(object, "load");
+    assert_true(number_of(load, "seconds") > 0);
+    assert_true(number_of(load, "bytes") == 602 * 24 + 1200 * 36);
+    assert_true(number_of(load, "peak_bytes") >= number_of(load, "bytes"));
     size_t i, named = 0;
     json_array_foreach(builds, i, row)
     {
@@ -286,7 +290,9 @@ static void generated_meshes_are_closed(void **state)
     expect_closed("cube.obj", 1200, 6, 1e-12);
     run_generator("refine_mesh cube.obj 5000 fine.obj");
     run_generator("refine_mesh cube.obj 5000 again.obj");
+    run_generator("refine_mesh cube.obj 5000 fine.stl");
     expect_closed("fine.obj", 5000, 6, 0.3);
+    expect_closed("fine.stl", 5000, 6, 0.3);
     size_t size, again;
     char *one = read_file("fine.obj", &size), *two = read_file("again.obj", &again);
     assert_int_equal(size, again);

@@ -107,9 +107,17 @@ enum { STUDY_ROWS = OWN * TRAJECTORIES };
 bool bench_study(const bench_scaffold *scaffold, const bench_stage *stage, const sp_atlas *atlas, const sp_run *run,
                  bench_study_row rows[STUDY_ROWS], size_t *count, sp_error *error);
 
+/* Reading and welding. */
+typedef struct {
+    double seconds;
+    size_t bytes;      /* of the mesh */
+    size_t peak_bytes; /* while it was made */
+} bench_load;
+
 /* print.c */
 typedef struct {
     const char *path;
+    const bench_load *load;
     const bench_scaffold *scaffold;
     const bench_trace *trace;
     const bench_study_row *study;

@@ -80,9 +80,11 @@ bool bench_print_json(const bench_result *result)
                               json_pack("{s:f, s:o}", "seconds", cli_atlas_seconds(result->atlas), "seconds_2008",
                                         figures_2008(study_atlas)));
     json_t *object =
-        json_pack("{s:s, s:s, s:s, s:I, s:o, s:o, s:o, s:o}", "sprayplan", SP_VERSION, "command", "bench", "mesh",
-                  result->path, "triangles", (json_int_t)result->scaffold->mesh->triangle_count, "build",
-                  builds(result->scaffold), "trace", traces(result->trace), "atlas", atlas, "study", study);
+        json_pack("{s:s, s:s, s:s, s:I, s:o, s:o, s:o, s:o, s:o}", "sprayplan", SP_VERSION, "command", "bench", "mesh",
+                  result->path, "triangles", (json_int_t)result->scaffold->mesh->triangle_count, "load",
+                  json_pack("{s:f, s:I, s:I}", "seconds", result->load->seconds, "bytes",
+                            (json_int_t)result->load->bytes, "peak_bytes", (json_int_t)result->load->peak_bytes),
+                  "build", builds(result->scaffold), "trace", traces(result->trace), "atlas", atlas, "study", study);
     if (object && result->scaffold->embree)
         json_object_set_new(object, "embree", json_string(result->scaffold->embree->version));
     bool good = object && json_dumpf(object, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(6)) == 0;

@@ -3,6 +3,13 @@
 
 #include "study_2008.h"
 
+static void print_load(const bench_load *load, size_t triangles)
+{
+    printf("load                       seconds         bytes  bytes/triangle  most bytes/triangle\n");
+    printf("  %-13s %18.4f %13zu %15.1f %20.1f\n\n", "mesh", load->seconds, load->bytes,
+           (double)load->bytes / (double)triangles, (double)load->peak_bytes / (double)triangles);
+}
+
 static void print_builds(const bench_scaffold *scaffold)
 {
     printf("build           threads    seconds         bytes  bytes/triangle\n");
@@ -83,6 +90,7 @@ static void print_study(const bench_result *result)
 void bench_print_table(const bench_result *result)
 {
     printf("%s: %zu triangles\n\n", result->path, result->scaffold->mesh->triangle_count);
+    print_load(result->load, result->scaffold->mesh->triangle_count);
     print_builds(result->scaffold);
     print_trace(result->trace);
     print_study(result);
