@@ -68,8 +68,9 @@ typedef struct {
  * as sp_cad_load does by default. Coordinates are multiplied by `unit` (m per unit of the file). Triangles before any
  * group get the part "default" (STL: the solid's name, or "default"; PLY knows no groups). Returns NULL with file and
  * line for whatever does not follow the format, for indices out of range, numbers that are not finite or beyond 1e30 m,
- * and for files without a triangle of some area. Names of parts are UTF-8; what is not is taken for Latin-1. The caller
- * destroys. */
+ * and for files without a triangle of some area. Holds at no time more than ten times the file's size and 64 MiB (CAD
+ * files have limits of their own): polygons of so few bytes a corner that their mesh would are refused. Names of parts
+ * are UTF-8; what is not is taken for Latin-1. The caller destroys. */
 sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error);
 
 /* Builds a welded mesh from `vertex_count` points and `triangle_count` triangles, all copied. `part` may be NULL: all
