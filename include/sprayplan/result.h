@@ -41,22 +41,22 @@ typedef struct {
 typedef struct {
     char *name; /* owned */
     size_t triangles;
-    double area, clean_area;                             /* of the geometry, m² */
-    double attainable_area;                              /* m², with whatever a reported layout covers */
-    double missing_area[SP_REASONS];                     /* m² that are not attainable, by reason */
-    size_t missing_count;                                /* of parts that are not wholly attainable */
-    sp_missing_figures *missing;                         /* owned; those of most area first */
-    char trajectory[16], evaluator[16];                  /* "line", "parabola" or "drag"; "forward" or "inverse" */
-    size_t reflections, jets;                            /* jets: per nozzle, unknown for the inverse evaluator */
-    size_t jets_wanted;                                  /* per nozzle, where they are fewer; else unknown */
-    double texel;                                        /* m */
-    double error_estimate, misjudged;                    /* of this layout, as sp_measured_error */
-    double error_bound;                                  /* of flying along lines, as sp_line_error */
-    double borderline;                                   /* m², as sp_borderline */
-    double flow, covered_area;                           /* m³/s, m² */
-    double coverage, of_attainable;                      /* fractions */
-    double area_per_water;                               /* m² per m³/s */
-    double flux_min, flux_mean, flux_p05, flux_max;      /* m³/s per m² */
+    double area, clean_area;                        /* of the geometry, m² */
+    double attainable_area;                         /* m², with whatever a reported layout covers */
+    double missing_area[SP_REASONS];                /* m² that are not attainable, by reason */
+    size_t missing_count;                           /* of parts that are not wholly attainable */
+    sp_missing_figures *missing;                    /* owned; those of most area first */
+    char trajectory[16], evaluator[16];             /* "line", "parabola" or "drag"; "forward" or "inverse" */
+    size_t reflections, jets;                       /* jets: per nozzle, unknown for the inverse evaluator */
+    size_t jets_wanted;                             /* per nozzle, where they are fewer; else unknown */
+    double texel;                                   /* m */
+    double error_estimate, misjudged;               /* of this layout, as sp_measured_error */
+    double error_bound;                             /* of flying along lines, as sp_line_error */
+    double borderline;                              /* m², as sp_borderline */
+    double flow, covered_area;                      /* m³/s, m² */
+    double coverage, of_attainable;                 /* fractions */
+    double area_per_water;                          /* m² per m³/s */
+    double flux_min, flux_mean, flux_p05, flux_max; /* m³/s per m² */
     double pass; /* s, over which goods that move pass, and these are means: times it they are doses; NAN: none move */
     double landed_clean, landed_other, left, unfollowed; /* m³/s, as sp_balance */
     sp_film_balance film;                                /* as sp_coverage */
@@ -128,20 +128,28 @@ char *sp_result_json(const sp_result *result, sp_error *error);
  * for a formula. Malloc'd. */
 char *sp_nozzles_csv(const sp_layout *layout, const sp_setup *setup, sp_error *error);
 
-/* A set of files that is written whole or not at all: each goes to a temporary name in `directory` (created where
- * missing, with its parents), and commit renames them all; discard removes them. An existing file is replaced only by
- * commit. */
+/* A set of files that is written whole or not at all: each goes to a folder .sprayplan-new-XXXXXX in `directory`
+ * (created where missing, with its parents), and commit moves them all; discard removes them. An existing file is
+ * replaced only by commit, after all of the set is on the disk. Sets of several processes or threads do not mix: one
+ * commit at a time, the others wait for up to 30 s. A process that is killed leaves the old files, or, killed while it
+ * moves them, a folder .sprayplan-commit from which the next commit moves the rest. */
 typedef struct sp_output sp_output;
 sp_output *sp_output_open(const char *directory, sp_error *error);
 /* Names a file that was read: asking for a path that would replace it then fails. A file that does not exist is no
  * error. */
 bool sp_output_protect(sp_output *output, const char *path, sp_error *error);
+/* The set is what a run has to say of a scene: commit removes what an earlier run left that is not replaced (figures,
+ * pictures, models and pages, where the folder's result.json or study.json is ours), but for layout.yaml, which may
+ * have been edited. */
+bool sp_output_supersede(sp_output *output, sp_error *error);
 /* A path to write `name` (no slash in it) to; owned by the output. */
 const char *sp_output_path(sp_output *output, const char *name, sp_error *error);
 bool sp_output_text(sp_output *output, const char *name, const char *text, sp_error *error);
+/* An error that names such a path names the file then that was to be written. NULL is accepted. */
+void sp_output_tell(const sp_output *output, sp_error *error);
 bool sp_output_bytes(sp_output *output, const char *name, const void *bytes, size_t size, sp_error *error);
-/* Both end the output; NULL is accepted (commit then fails and keeps the error). Where a rename fails, commit puts back
- * what it had replaced. */
+/* Both end the output; NULL is accepted (commit then fails and keeps the error). Where a file cannot be moved, commit
+ * puts back what it had replaced. */
 bool sp_output_commit(sp_output *output, sp_error *error);
 void sp_output_discard(sp_output *output);
 

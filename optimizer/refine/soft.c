@@ -38,6 +38,7 @@ typedef struct {
     sp_link *links;
     sp_soft_film film;                                  /* of no nozzles where film is not asked for */
     double *chunk_cost, *chunk_gradient, *chunk_normal; /* [CHUNKS][1], [][unknowns], [][unknowns²] */
+    sp_error *error; /* of the solver, which does not know why residuals are missing: what is told first stays */
 } sp_soft;
 
 /* The values at x, whose entries are angles: value = middle + half range * sin(x). That keeps the limits without
@@ -322,7 +323,7 @@ static bool evaluate(void *user, const double *x, double *residuals, double *jac
     size_t n = soft->unknowns;
     set_levels(soft, x, jacobian != NULL);
     if (!sum_patches(soft, jacobian != NULL))
-        return false;
+        return sp_fail_memory(soft->error);
     add_water(soft, x, jacobian != NULL);
     if (!isfinite(soft->chunk_cost[0]))
         return false;
@@ -413,6 +414,7 @@ static bool solve(sp_soft *soft, double (*values)[SP_UNKNOWNS], sp_error *error)
                                 .user = soft,
                                 .iterations = ITERATIONS,
                                 .tolerance = TOLERANCE};
+    soft->error = error;
     bool done = sp_least_squares_solve(&problem, x, NULL, error);
     for (size_t i = 0; done && i < soft->nozzle_count; i++)
         values_at(&soft->nozzles[i], x, values[i]);

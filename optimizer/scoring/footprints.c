@@ -68,8 +68,10 @@ static sp_footprint *trace(const sp_footprints *footprints, sp_pose pose, sp_err
         return sp_fail_memory(error);
     *footprint = nothing;
     /* a hole may stick in a wall where the mounting point does not */
-    if (!sp_evaluator_admits(search->coarse, &nozzle, &refused) ||
-        sp_footprint_trace(search, &nozzle, footprint, error))
+    bool admitted = sp_evaluator_admits(search->coarse, &nozzle, &refused);
+    if (refused.kind == SP_ERROR_MEMORY)
+        sp_fail_memory(error);
+    else if (!admitted || sp_footprint_trace(search, &nozzle, footprint, error))
         return footprint;
     free(footprint);
     return NULL;

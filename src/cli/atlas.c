@@ -82,7 +82,7 @@ static bool write_files(const cli_atlas_work *work, const cli_options *options, 
         free(stem);
         return sp_fail_memory(error);
     }
-    sp_output *output = cli_output_open(options, directory, NULL, error);
+    sp_output *output = cli_output_open(options, directory, NULL, 0, error);
     char *obj = output ? sp_atlas_obj(work->atlas, work->mesh, error) : NULL;
     bool good = obj && sp_output_text(output, name, obj, error) && write_pages(work->atlas, output, stem, error);
     free(obj);
@@ -125,10 +125,7 @@ json_t *cli_atlas_json(const cli_atlas_work *work)
 static bool print_json(const cli_atlas_work *work)
 {
     json_t *object = cli_atlas_json(work);
-    bool good = object && json_dumpf(object, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) == 0;
-    puts("");
-    json_decref(object);
-    return good;
+    return cli_print_object(object, 17);
 }
 
 void cli_atlas_print(const cli_atlas_work *work)

@@ -6,7 +6,6 @@
 #include "check/size.h"
 #include "cli.h"
 
-#include <jansson.h>
 #include <stdarg.h>
 #include <stdlib.h>
 
@@ -209,14 +208,17 @@ static void warn_of_hollows(findings *found)
     }
 }
 
-static void warn_of_nozzles(findings *found)
+static bool warn_of_nozzles(findings *found, sp_error *failure)
 {
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
     for (size_t i = 0; i < layout->count; i++) {
         sp_error error = {0};
         if (!sp_evaluator_admits(found->opened->evaluator, &layout->nozzles[i], &error))
             warn(found, "%s", error.message);
+        if (error.kind == SP_ERROR_MEMORY)
+            return sp_fail_memory(failure);
     }
+    return true;
 }
 
 static void print_cavity(const sp_setup *setup)
@@ -449,16 +451,14 @@ static bool print_json(const findings *found)
         (json_int_t)sp_evaluator_patches(found->opened->evaluator)->count, "texel_m",
         sp_evaluator_fidelity(found->opened->evaluator)->texel, "nozzles",
         (json_int_t)sp_scene_layout(found->opened->scene)->count, "warnings", warnings);
-    bool good = object && json_dumpf(object, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) == 0;
-    puts("");
-    json_decref(object);
-    return good;
+    return cli_print_object(object, 17);
 }
 
 static bool examine(const cli_options *options, findings *found, sp_error *error)
 {
-    if (!measure_parts(found, error) || !measure_files(found, error) ||
-        !sp_mesh_diagnose(setup_of(found)->mesh, &found->mesh, error))
+    static const char *const files[] = {"wet.png", NULL};
+    if (!cli_output_ready(options, found->opened->scene, files, error) || !measure_parts(found, error) ||
+        !measure_files(found, error) || !sp_mesh_diagnose(setup_of(found)->mesh, &found->mesh, error))
         return false;
     tell_boxes(found);
     warn_of_mesh(found);
@@ -468,8 +468,7 @@ static bool examine(const cli_options *options, findings *found, sp_error *error
     warn_of_sides(found);
     warn_of_openings(found);
     warn_of_hollows(found);
-    warn_of_nozzles(found);
-    if (!cli_write_wet(options, found->opened, error) ||
+    if (!warn_of_nozzles(found, error) || !cli_write_wet(options, found->opened, error) ||
         !cli_repair_write(options, found->opened->scene, &found->repair, error))
         return false;
     cli_progress_end();

@@ -4,6 +4,7 @@
 
 #include <sprayplan/sprayplan.h>
 
+#include <jansson.h>
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -112,23 +113,30 @@ bool cli_measure(const sp_evaluator *evaluator, const sp_layout *layout, sp_cove
 /* As cli_fail, with the place in the scene of the setting that the error is about. */
 int cli_fail_in(const cli_scene *opened, sp_error *error);
 
-/* output.c: whether files can be written where -o says, asked before the work that they are to hold. `scene` NULL: no
- * layout.yaml. True without -o. */
-bool cli_output_ready(const cli_options *options, const sp_scene *scene, sp_error *error);
+/* output.c: whether files of these names (the last is NULL) can be written where -o says, asked before the work that
+ * they are to hold. `scene`, whose files they must not replace, may be NULL. True without -o. */
+bool cli_output_ready(const cli_options *options, const sp_scene *scene, const char *const *names, sp_error *error);
+extern const char *const cli_result_files[]; /* of simulate and place */
 
-/* A folder in which no file that was read can be replaced; `scene` may be NULL. */
-sp_output *cli_output_open(const cli_options *options, const char *folder, const sp_scene *scene, sp_error *error);
+/* A folder in which no file that was read can be replaced, of the command line or of the scenes [count], which may be
+ * NULL. */
+sp_output *cli_output_open(const cli_options *options, const char *folder, const sp_scene *const *scenes, int count,
+                           sp_error *error);
 
 /* output.c: whether a file's name ends in .obj and has something before that. */
 bool cli_names_obj(const char *path);
 /* output.c: the folder that a file lies in, "." where its path names none; malloc'd, NULL where memory runs out. */
 char *cli_folder_of(const char *path);
 
-/* output.c: what simulate, place and compare end with. `layout` NULL: no layout.yaml. */
-bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *scene, const sp_layout *layout,
-               sp_error *error);
+/* output.c: what simulate, place and compare end with. `layout`, which is written as a scene after the first [count]
+ * one, NULL: no layout.yaml. */
+bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *const *scenes, int count,
+               const sp_layout *layout, sp_error *error);
 /* What check leaves: wet.png. True without -o. */
 bool cli_write_wet(const cli_options *options, const cli_scene *opened, sp_error *error);
+/* An object, which it takes, on standard output. False where memory ran out: what could not be written shows at the
+ * end. */
+bool cli_print_object(json_t *object, int digits);
 /* The result as JSON or as a table on standard output. */
 bool cli_print(const cli_options *options, const sp_result *result, sp_error *error);
 

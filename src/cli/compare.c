@@ -14,7 +14,8 @@ typedef struct {
 } compared;
 
 typedef struct {
-    compared *inputs; /* [input_count] */
+    compared *inputs;        /* [input_count] */
+    const sp_scene **scenes; /* of the inputs, NULL for a result */
     sp_design *designs;
     char **names; /* of the designs, where a result holds several */
     size_t design_count;
@@ -102,13 +103,17 @@ static bool list_designs(comparison *all, const cli_options *options, sp_error *
 static bool compare(comparison *all, const cli_options *options, sp_error *error)
 {
     all->inputs = calloc((size_t)options->input_count, sizeof *all->inputs);
-    if (!all->inputs)
+    all->scenes = calloc((size_t)options->input_count, sizeof *all->scenes);
+    if (!all->inputs || !all->scenes)
         return sp_fail_memory(error);
-    if (!cli_output_ready(options, NULL, error))
+    static const char *const files[] = {"result.json", "report.html", NULL};
+    if (!cli_output_ready(options, NULL, files, error))
         return false;
     for (int i = 0; i < options->input_count; i++)
         if (!open_input(&all->inputs[i], options->inputs[i], options, &all->clock, error))
             return false;
+    for (int i = 0; i < options->input_count; i++)
+        all->scenes[i] = all->inputs[i].opened.scene;
     if (!list_designs(all, options, error))
         return false;
     sp_result result = {.command = "compare",
@@ -117,7 +122,8 @@ static bool compare(comparison *all, const cli_options *options, sp_error *error
                         .designs = all->designs,
                         .stage_count = all->clock.count,
                         .stages = all->clock.stages};
-    return cli_write(options, &result, NULL, NULL, error) && cli_print(options, &result, error);
+    return cli_write(options, &result, all->scenes, options->input_count, NULL, error) &&
+           cli_print(options, &result, error);
 }
 
 int cli_compare(const cli_options *options)
@@ -135,6 +141,7 @@ int cli_compare(const cli_options *options)
         free(all.names[i]);
     free(all.names);
     free(all.designs);
+    free(all.scenes);
     free(all.inputs);
     return good ? EXIT_DONE : cli_fail(&error);
 }

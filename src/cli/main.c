@@ -1,7 +1,10 @@
 /* sprayplan: the program. */
 #include "cli.h"
 
+#include <fcntl.h>
+#include <signal.h>
 #include <string.h>
+#include <unistd.h>
 
 static const cli_command commands[] = {
     {"check", "SCENE [-o DIR]", "what is in it, what is wrong with it, mesh diagnostics",
@@ -116,7 +119,20 @@ static int wrong_command(const char *name)
     return EXIT_USAGE;
 }
 
-int main(int count, char **arguments)
+/* A file that is opened must not get the number of a standard stream and take what is printed; and what cannot be
+ * written, to a reader who is gone or beyond a limit, is an error like others, which leaves the old files. */
+static void keep_streams(void)
+{
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+    int file;
+    while ((file = open("/dev/null", O_RDONLY)) >= 0 && file <= STDERR_FILENO)
+        continue;
+    if (file >= 0)
+        close(file);
+}
+
+static int run(int count, char **arguments)
 {
     if (count < 2) {
         print_usage(stderr);
@@ -147,9 +163,16 @@ int main(int count, char **arguments)
         print_command_usage(stdout, command);
         return EXIT_DONE;
     }
-    int status = command->run(&options);
+    return command->run(&options);
+}
+
+int main(int count, char **arguments)
+{
+    keep_streams();
+    int status = run(count, arguments);
     cli_progress_end();
-    if (fflush(stdout) || ferror(stdout)) {
+    bool lost = ferror(stdout);
+    if (fclose(stdout) || lost) {
         fprintf(stderr, "sprayplan: standard output could not be written\n");
         return EXIT_OTHER;
     }

@@ -6,11 +6,12 @@
 
 #define FEW_JETS 10 /* on a texel that is just covered: with fewer, longer texels were more exact on the vessel */
 
-static bool protect_inputs(const cli_options *options, const sp_scene *scene, sp_output *output, sp_error *error)
+const char *const cli_result_files[] = {"result.json",  "report.html",  "layout.yaml", "nozzles.csv",
+                                        "coverage.png", "deposits.exr", "model.glb",   NULL};
+
+static bool protect_scene(const sp_scene *scene, sp_output *output, sp_error *error)
 {
     bool good = true;
-    for (int i = 0; i < options->input_count && good; i++)
-        good = sp_output_protect(output, options->inputs[i], error);
     for (size_t i = 0; i < sp_scene_file_count(scene) && good; i++) {
         char *path = sp_scene_file_path(scene, i, error);
         good = path && sp_output_protect(output, path, error);
@@ -28,39 +29,47 @@ bool cli_names_obj(const char *path)
 char *cli_folder_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
-    return slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
+    size_t length = slash ? (size_t)(slash - path) : 0;
+    return slash ? strndup(path, length ? length : 1) : strdup(".");
 }
 
-sp_output *cli_output_open(const cli_options *options, const char *folder, const sp_scene *scene, sp_error *error)
+sp_output *cli_output_open(const cli_options *options, const char *folder, const sp_scene *const *scenes, int count,
+                           sp_error *error)
 {
     sp_output *output = sp_output_open(folder, error);
-    if (output && protect_inputs(options, scene, output, error))
+    bool good = output != NULL;
+    for (int i = 0; i < options->input_count && good; i++)
+        good = sp_output_protect(output, options->inputs[i], error);
+    for (int i = 0; i < count && good; i++)
+        good = protect_scene(scenes[i], output, error);
+    if (good)
         return output;
     sp_output_discard(output);
     return NULL;
 }
 
-bool cli_output_ready(const cli_options *options, const sp_scene *scene, sp_error *error)
+bool cli_output_ready(const cli_options *options, const sp_scene *scene, const char *const *names, sp_error *error)
 {
     if (!options->output)
         return true;
-    sp_output *output = cli_output_open(options, options->output, scene, error);
-    bool good = output && sp_output_path(output, "result.json", error) &&
-                (!scene || sp_output_path(output, "layout.yaml", error));
+    sp_output *output = cli_output_open(options, options->output, &scene, 1, error);
+    bool good = output != NULL;
+    for (; *names && good; names++)
+        good = sp_output_path(output, *names, error);
     sp_output_discard(output);
     return good;
 }
 
-bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *scene, const sp_layout *layout,
-               sp_error *error)
+bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *const *scenes, int count,
+               const sp_layout *layout, sp_error *error)
 {
     if (!options->output)
         return true;
-    sp_output *output = cli_output_open(options, options->output, scene, error);
-    bool good = output && sp_report_write(result, output, error);
+    sp_output *output = cli_output_open(options, options->output, scenes, count, error);
+    bool good = output && sp_output_supersede(output, error) && sp_report_write(result, output, error);
     if (good && layout) {
         const sp_fidelity *fidelity = sp_evaluator_fidelity(result->designs[0].evaluator);
-        char *text = sp_scene_text(scene, layout, fidelity, options->output, error);
+        char *text = sp_scene_text(scenes[0], layout, fidelity, options->output, error);
         good = text && sp_output_text(output, "layout.yaml", text, error);
         free(text);
     }
@@ -74,12 +83,24 @@ bool cli_write_wet(const cli_options *options, const cli_scene *opened, sp_error
 {
     if (!options->output)
         return true;
-    sp_output *output = cli_output_open(options, options->output, opened->scene, error);
+    const sp_scene *scene = opened->scene;
+    sp_output *output = cli_output_open(options, options->output, &scene, 1, error);
     const char *path = output ? sp_output_path(output, "wet.png", error) : NULL;
     if (path && sp_report_wet_png(opened->evaluator, path, error))
         return sp_output_commit(output, error);
+    sp_output_tell(output, error);
     sp_output_discard(output);
     return false;
+}
+
+bool cli_print_object(json_t *object, int digits)
+{
+    char *text = object ? json_dumps(object, JSON_INDENT(1) | JSON_REAL_PRECISION(digits)) : NULL;
+    json_decref(object);
+    if (text)
+        puts(text);
+    free(text);
+    return text != NULL;
 }
 
 /* What of the geometry is not sound, and what was done about it, once for every evaluator. */

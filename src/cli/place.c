@@ -62,8 +62,8 @@ static int report(const cli_options *options, const cli_scene *opened, const pla
                         .proposal = found->proposal,
                         .stage_count = clock->count,
                         .stages = clock->stages};
-    if (!cli_write(options, &result, opened->scene, found->proposal->layout, error) ||
-        !cli_print(options, &result, error))
+    const sp_scene *scene = opened->scene;
+    if (!cli_write(options, &result, &scene, 1, found->proposal->layout, error) || !cli_print(options, &result, error))
         return cli_fail_in(opened, error);
     if (cli_interrupted()) {
         fprintf(stderr, "sprayplan: interrupted; this is the best layout so far\n");
@@ -116,21 +116,24 @@ static bool measure_errors(const cli_scene *opened, const placement *found, sp_e
 
 /* A nozzle of the scene's own that could not stand where it is drawn: what the proposal is compared with is in doubt.
  */
-static void warn_of_own(const cli_scene *opened, const sp_layout *own)
+static bool warn_of_own(const cli_scene *opened, const sp_layout *own, sp_error *failure)
 {
     for (size_t i = 0; i < own->count; i++) {
         sp_error error = {0};
         if (own->nozzles[i].keep || sp_evaluator_admits(opened->evaluator, &own->nozzles[i], &error))
             continue;
+        if (error.kind == SP_ERROR_MEMORY)
+            return sp_fail_memory(failure);
         cli_progress_end();
         fprintf(stderr, "sprayplan: the layout compared with is in doubt: %s\n", error.message);
     }
+    return true;
 }
 
 static int place(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error)
 {
     placement found = {0};
-    if (!cli_output_ready(options, opened->scene, error))
+    if (!cli_output_ready(options, opened->scene, cli_result_files, error))
         return cli_fail(error);
     const sp_layout *own = sp_scene_layout(opened->scene);
     if (!sp_scene_has_place(opened->scene))
@@ -146,8 +149,7 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
     }
     bool good = found.proposal && count_manual_again(opened, &found, error) && follow_liquid(opened, &found, error) &&
                 measure_errors(opened, &found, error);
-    if (good && !options->quiet)
-        warn_of_own(opened, own);
+    good = good && (options->quiet || warn_of_own(opened, own, error));
     int status = good ? report(options, opened, &found, clock, error) : cli_fail_in(opened, error);
     sp_proposal_destroy(found.proposal);
     sp_coverage_destroy(found.manual);

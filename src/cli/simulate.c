@@ -8,7 +8,7 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
         sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "nozzles: found none, expected at least one to simulate");
         return cli_fail_in(opened, error);
     }
-    if (!cli_output_ready(options, opened->scene, error))
+    if (!cli_output_ready(options, opened->scene, cli_result_files, error))
         return cli_fail(error);
     sp_coverage *coverage = cli_simulated(opened, layout, error);
     cli_clock_stage(clock, "simulate");
@@ -21,7 +21,8 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
                         .designs = &design,
                         .stage_count = clock->count,
                         .stages = clock->stages};
-    good = good && cli_write(options, &result, opened->scene, layout, error) && cli_print(options, &result, error);
+    const sp_scene *scene = opened->scene;
+    good = good && cli_write(options, &result, &scene, 1, layout, error) && cli_print(options, &result, error);
     sp_coverage_destroy(coverage);
     return good ? EXIT_DONE : cli_fail_in(opened, error);
 }

@@ -15,8 +15,9 @@ static bool write_files(const cli_options *options, const sp_scene *scene, const
     if (!options->output)
         return true;
     const char *path = options->inputs[0];
-    sp_output *output = cli_output_open(options, options->output, scene, error);
-    bool good = output && add_file(output, "study.json", sp_study_json(study, path, error), error) &&
+    sp_output *output = cli_output_open(options, options->output, &scene, 1, error);
+    bool good = output && sp_output_supersede(output, error) &&
+                add_file(output, "study.json", sp_study_json(study, path, error), error) &&
                 (study->run_count == 0 || add_file(output, "study.csv", sp_study_csv(study, error), error)) &&
                 (study->place_count == 0 || add_file(output, "place.csv", sp_study_place_csv(study, error), error)) &&
                 add_file(output, "report.html", sp_study_html(study, path, error), error);
@@ -63,9 +64,9 @@ int cli_study(const cli_options *options)
 {
     sp_error error = {0};
     const sp_run run = cli_run(options);
-    sp_scene *scene =
-        sp_scene_load_with(options->inputs[0], options->overrides, options->override_count, &run, &error);
-    bool ready = scene && cli_output_ready(options, NULL, &error);
+    sp_scene *scene = sp_scene_load_with(options->inputs[0], options->overrides, options->override_count, &run, &error);
+    static const char *const files[] = {"study.json", "study.csv", "place.csv", "report.html", NULL};
+    bool ready = scene && cli_output_ready(options, scene, files, &error);
     sp_study *study = ready ? measure(options, scene, &error) : NULL;
     bool good = study && write_files(options, scene, study, &error) && print(options, study, &error);
     int status = !good ? cli_fail(&error) : study->interrupted && cli_interrupted() ? EXIT_INTERRUPTED : EXIT_DONE;

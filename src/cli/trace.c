@@ -69,7 +69,8 @@ static bool read_batch(ray_reader *reader, sp_ray *rays, size_t *count, sp_error
     }
     if (ferror(reader->file))
         return sp_fail(error, SP_ERROR_INPUT, reader->path, 0, 0, "cannot be read");
-    return true;
+    /* What ends before the file does is a line that found no room. */
+    return *count == BATCH || feof(reader->file) || sp_fail_memory(error);
 }
 
 static void print_hit(const sp_tracer *tracer, size_t number, const sp_ray *ray, const sp_hit *hit, sp_vec3 gravity,

@@ -1,8 +1,11 @@
-/* Image files: arguments are checked here, the module of OpenImageIO writes and reads. */
+/* Image files: arguments are checked here, the module of OpenImageIO encodes and reads. */
 #include <sprayplan/image.h>
 
 #include "image/oiio/files.h"
+#include "mesh/file.h"
 #include "module/module.h"
+
+#include <stdlib.h>
 
 static const sp_image_files *files(sp_error *error)
 {
@@ -20,16 +23,26 @@ static bool png_possible(const char *path, int width, int height, int channels, 
                    height, channels);
 }
 
-bool sp_image_write_png(const char *path, const uint8_t *pixels, int width, int height, int channels, sp_error *error)
-{
-    const sp_image_files *images = png_possible(path, width, height, channels, error) ? files(error) : NULL;
-    return images && images->write_png(path, pixels, width, height, channels, error);
-}
-
 uint8_t *sp_image_encode_png(const uint8_t *pixels, int width, int height, int channels, size_t *size, sp_error *error)
 {
     const sp_image_files *images = png_possible(NULL, width, height, channels, error) ? files(error) : NULL;
     return images ? images->encode_png(pixels, width, height, channels, size, error) : NULL;
+}
+
+/* OpenImageIO does not tell of all that a file's end fails to write: files are written here. */
+static bool write_encoded(const char *path, uint8_t *bytes, size_t size, sp_error *error)
+{
+    bool written = bytes && sp_write_file(path, bytes, size, error);
+    free(bytes);
+    return written;
+}
+
+bool sp_image_write_png(const char *path, const uint8_t *pixels, int width, int height, int channels, sp_error *error)
+{
+    size_t size = 0;
+    const sp_image_files *images = png_possible(path, width, height, channels, error) ? files(error) : NULL;
+    uint8_t *bytes = images ? images->encode_png(pixels, width, height, channels, &size, error) : NULL;
+    return write_encoded(path, bytes, size, error);
 }
 
 bool sp_image_write_exr(const char *path, const sp_exr_part *parts, size_t count, const char *const *channel_names,
@@ -43,8 +56,10 @@ bool sp_image_write_exr(const char *path, const sp_exr_part *parts, size_t count
             return sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0,
                            "part %s is %d x %d pixels, expected all parts to be of one size and not empty",
                            parts[i].name, parts[i].width, parts[i].height);
+    size_t size = 0;
     const sp_image_files *images = files(error);
-    return images && images->write_exr(path, parts, count, channel_names, channels, error);
+    uint8_t *bytes = images ? images->encode_exr(parts, count, channel_names, channels, &size, error) : NULL;
+    return write_encoded(path, bytes, size, error);
 }
 
 sp_image sp_image_read(const char *path, int most_width, int most_height, const char *const names[2], sp_error *error)

@@ -9,6 +9,7 @@
 #include <sprayplan/report.h>
 #include <sprayplan/sprayplan.h>
 
+#include <errno.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -235,9 +236,12 @@ static bool write_file(const char *path, const char *json, const sp_text *binary
     bool written = file && fwrite(header, 20, 1, file) == 1 && fwrite(json, json_size, 1, file) == 1 &&
                    fwrite("   ", 1, padding, file) == padding && fwrite(chunk, 8, 1, file) == 1 &&
                    fwrite(binary->text, 1, binary->length, file) == binary->length;
-    if (file && fclose(file) != 0)
+    int cause = errno;
+    if (file && fclose(file) != 0 && written) {
         written = false;
-    return written || sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot be written");
+        cause = errno;
+    }
+    return written || sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot be written: %s", strerror(cause));
 }
 
 bool sp_model_glb(const sp_design *design, sp_flux_scale scale, const char *path, sp_error *error)

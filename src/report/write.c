@@ -26,8 +26,10 @@ static bool write_design(const sp_design *design, sp_flux_scale scale, const cha
         char name[64];
         snprintf(name, sizeof name, "%s%s.%s", files[i].name, suffix, files[i].extension);
         const char *path = sp_output_path(output, name, error);
-        if (!path || !files[i].write(design, scale, path, error))
+        if (!path || !files[i].write(design, scale, path, error)) {
+            sp_output_tell(output, error);
             return false;
+        }
     }
     return true;
 }

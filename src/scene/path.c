@@ -61,6 +61,8 @@ static char *real_directory(const char *path, sp_error *error)
     if (real)
         return real;
     int reason = errno;
+    if (reason == ENOMEM)
+        return sp_fail_memory(error);
     char *trimmed = join("", "", path, error);
     if (!trimmed)
         return NULL;

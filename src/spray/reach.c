@@ -101,7 +101,9 @@ static bool reap_all(const sp_source *source, const sp_aim *aim, extent extent, 
     if ((size_t)threads > extent.chunks)
         threads = extent.chunks ? (int)extent.chunks : 1;
     sp_flock *flocks = calloc((size_t)threads, sizeof *flocks);
-    bool done = flocks != NULL;
+    if (!flocks)
+        return false;
+    bool done = true;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads) reduction(&& : done)
     for (size_t i = 0; i < extent.chunks; i++) {
         size_t first = i * extent.chunk, end = first + extent.chunk;
@@ -109,7 +111,7 @@ static bool reap_all(const sp_source *source, const sp_aim *aim, extent extent, 
         done = done && reap(source, aim, (uint32_t)(extent.first + first), (uint32_t)(extent.first + end),
                             &flocks[omp_get_thread_num()], &harvests[i]);
     }
-    for (int i = 0; flocks && i < threads; i++)
+    for (int i = 0; i < threads; i++)
         sp_flock_free(&flocks[i]);
     free(flocks);
     return done;

@@ -87,8 +87,5 @@ bool bench_print_json(const bench_result *result)
                   "build", builds(result->scaffold), "trace", traces(result->trace), "atlas", atlas, "study", study);
     if (object && result->scaffold->embree)
         json_object_set_new(object, "embree", json_string(result->scaffold->embree->version));
-    bool good = object && json_dumpf(object, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(6)) == 0;
-    puts("");
-    json_decref(object);
-    return good;
+    return cli_print_object(object, 6);
 }

@@ -99,7 +99,7 @@ bool cli_repair_write(const cli_options *options, const sp_scene *scene, cli_rep
     repair->files = calloc(repair->count, sizeof *repair->files);
     char *folder = cli_folder_of(options->repair);
     bool good = (repair->files && folder) || sp_fail_memory(error);
-    sp_output *output = good ? cli_output_open(options, folder, scene, error) : NULL;
+    sp_output *output = good ? cli_output_open(options, folder, &scene, 1, error) : NULL;
     good = output != NULL;
     for (uint32_t i = 0; good && i < repair->count; i++) {
         repair->files[i].path = path_of(options->repair, i, repair->count);

@@ -1,4 +1,4 @@
-/* What the library asks of the module that writes and reads images through OpenImageIO. Arguments are checked before
+/* What the library asks of the module that encodes and reads images through OpenImageIO. Arguments are checked before
  * they come here; functions as in sprayplan/image.h. */
 #ifndef IMAGE_OIIO_FILES_H
 #define IMAGE_OIIO_FILES_H
@@ -10,10 +10,10 @@ extern "C" {
 #endif
 
 typedef struct {
-    bool (*write_png)(const char *path, const uint8_t *pixels, int width, int height, int channels, sp_error *error);
     uint8_t *(*encode_png)(const uint8_t *pixels, int width, int height, int channels, size_t *size, sp_error *error);
-    bool (*write_exr)(const char *path, const sp_exr_part *parts, size_t count, const char *const *channel_names,
-                      int channels, sp_error *error);
+    /* As sp_image_write_exr, in memory: malloc'd bytes, the caller frees. */
+    uint8_t *(*encode_exr)(const sp_exr_part *parts, size_t count, const char *const *channel_names, int channels,
+                           size_t *size, sp_error *error);
     sp_image (*read)(const char *path, int most_width, int most_height, const char *const names[2], sp_error *error);
 } sp_image_files;
 

@@ -1,4 +1,4 @@
-// Image files are written through OpenImageIO 2.4; this folder alone includes it.
+// Images are encoded through OpenImageIO 2.4; this folder alone includes it.
 #include "image/oiio/files.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -14,19 +14,19 @@
 namespace
 {
 
-// Without a name, to memory.
-bool encode(const char *path, OIIO::Filesystem::IOProxy *proxy, const uint8_t *pixels, int width, int height,
-            int channels, sp_error *error)
+typedef std::vector<unsigned char> encoded;
+
+bool encode(encoded &bytes, const uint8_t *pixels, int width, int height, int channels, sp_error *error)
 {
+    OIIO::Filesystem::IOVecOutput proxy(bytes);
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
     if (!output)
-        return sp_fail(error, SP_ERROR_FILE, path, 0, 0, "OpenImageIO cannot write PNG: %s", OIIO::geterror().c_str());
+        return sp_fail(error, SP_ERROR_FILE, nullptr, 0, 0, "OpenImageIO cannot write PNG: %s",
+                       OIIO::geterror().c_str());
     OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
-    if (proxy && !output->set_ioproxy(proxy))
-        return sp_fail(error, SP_ERROR_FILE, path, 0, 0, "OpenImageIO cannot write PNG to memory");
-    if (!output->open(path ? path : "memory.png", spec) || !output->write_image(OIIO::TypeDesc::UINT8, pixels) ||
-        !output->close())
-        return sp_fail(error, SP_ERROR_FILE, path, 0, 0, "%s", output->geterror().c_str());
+    if (!output->set_ioproxy(&proxy) || !output->open("memory.png", spec) ||
+        !output->write_image(OIIO::TypeDesc::UINT8, pixels) || !output->close())
+        return sp_fail(error, SP_ERROR_FILE, nullptr, 0, 0, "PNG in memory: %s", output->geterror().c_str());
     return true;
 }
 
@@ -46,58 +46,58 @@ std::vector<OIIO::ImageSpec> exr_specs(const sp_exr_part *parts, size_t count, c
     return specs;
 }
 
-bool write_parts(const char *path, const sp_exr_part *parts, size_t count, const char *const *channel_names,
-                 int channels, sp_error *error)
+bool encode_parts(encoded &bytes, const sp_exr_part *parts, size_t count, const char *const *channel_names,
+                  int channels, sp_error *error)
 {
+    OIIO::Filesystem::IOVecOutput proxy(bytes);
     std::vector<OIIO::ImageSpec> specs = exr_specs(parts, count, channel_names, channels);
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("openexr");
     if (!output)
-        return sp_fail(error, SP_ERROR_FILE, path, 0, 0, "OpenImageIO cannot write EXR: %s", OIIO::geterror().c_str());
-    bool written = output->open(path, (int)count, specs.data());
+        return sp_fail(error, SP_ERROR_FILE, nullptr, 0, 0, "OpenImageIO cannot write EXR: %s",
+                       OIIO::geterror().c_str());
+    bool written = output->set_ioproxy(&proxy) && output->open("memory.exr", (int)count, specs.data());
     for (size_t i = 0; written && i < count; ++i)
-        written = (i == 0 || output->open(path, specs[i], OIIO::ImageOutput::AppendSubimage)) &&
+        written = (i == 0 || output->open("memory.exr", specs[i], OIIO::ImageOutput::AppendSubimage)) &&
                   output->write_image(OIIO::TypeDesc::FLOAT, parts[i].pixels);
     if (!written || !output->close())
-        return sp_fail(error, SP_ERROR_FILE, path, 0, 0, "%s", output->geterror().c_str());
+        return sp_fail(error, SP_ERROR_FILE, nullptr, 0, 0, "EXR in memory: %s", output->geterror().c_str());
     return true;
 }
 
-bool write_png(const char *path, const uint8_t *pixels, int width, int height, int channels, sp_error *error)
-try {
-    return encode(path, nullptr, pixels, width, height, channels, error);
-} catch (const std::exception &exception) {
-    return sp_fail(error, SP_ERROR_MEMORY, path, 0, 0, "%s", exception.what());
-}
-
-uint8_t *encode_png(const uint8_t *pixels, int width, int height, int channels, size_t *size, sp_error *error)
-try {
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput proxy(bytes);
-    if (!encode(nullptr, &proxy, pixels, width, height, channels, error))
-        return nullptr;
+// Malloc'd.
+uint8_t *copy_of(const encoded &bytes, size_t *size, sp_error *error)
+{
     uint8_t *copy = static_cast<uint8_t *>(std::malloc(bytes.size() + 1));
     if (!copy)
         return static_cast<uint8_t *>(sp_fail_memory(error));
     std::memcpy(copy, bytes.data(), bytes.size());
     *size = bytes.size();
     return copy;
+}
+
+uint8_t *encode_png(const uint8_t *pixels, int width, int height, int channels, size_t *size, sp_error *error)
+try {
+    encoded bytes;
+    return encode(bytes, pixels, width, height, channels, error) ? copy_of(bytes, size, error) : nullptr;
 } catch (const std::exception &exception) {
     sp_fail(error, SP_ERROR_MEMORY, nullptr, 0, 0, "%s", exception.what());
     return nullptr;
 }
 
-bool write_exr(const char *path, const sp_exr_part *parts, size_t count, const char *const *channel_names, int channels,
-               sp_error *error)
+uint8_t *encode_exr(const sp_exr_part *parts, size_t count, const char *const *channel_names, int channels,
+                    size_t *size, sp_error *error)
 try {
-    return write_parts(path, parts, count, channel_names, channels, error);
+    encoded bytes;
+    return encode_parts(bytes, parts, count, channel_names, channels, error) ? copy_of(bytes, size, error) : nullptr;
 } catch (const std::exception &exception) {
-    return sp_fail(error, SP_ERROR_MEMORY, path, 0, 0, "%s", exception.what());
+    sp_fail(error, SP_ERROR_MEMORY, nullptr, 0, 0, "%s", exception.what());
+    return nullptr;
 }
 
 } // namespace
 
 extern "C" __attribute__((visibility("default"))) const sp_image_files *sp_image_module_open(void)
 {
-    static const sp_image_files files = {write_png, encode_png, write_exr, sp_image_module_read};
+    static const sp_image_files files = {encode_png, encode_exr, sp_image_module_read};
     return &files;
 }
