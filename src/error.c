@@ -15,6 +15,9 @@ bool sp_fail(sp_error *error, sp_error_kind kind, const char *file, int line, in
     va_start(arguments, format);
     vsnprintf(error->message, sizeof error->message, format, arguments);
     va_end(arguments);
+    for (char *at = error->message; *at; at++)
+        if ((unsigned char)*at < ' ' || *at == 127)
+            *at = '?';
     return false;
 }
 

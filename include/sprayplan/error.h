@@ -21,7 +21,7 @@ typedef enum {
 /* Starts as {0}. Plain data that owns nothing: it may be copied and needs no freeing. */
 typedef struct {
     sp_error_kind kind;
-    char message[768]; /* what was found, what was expected; no trailing newline */
+    char message[768]; /* what was found, what was expected; no control characters */
     char file[512];    /* empty where no file is concerned */
     int line, column;  /* from 1; 0 where unknown */
 } sp_error;

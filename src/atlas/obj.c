@@ -19,7 +19,8 @@ static void append(text *t, const char *format, ...)
     va_list arguments;
     while (!t->failed) {
         va_start(arguments, format);
-        int length = vsnprintf(t->bytes + t->count, t->capacity - t->count, format, arguments);
+        char *end = t->bytes ? t->bytes + t->count : NULL;
+        int length = vsnprintf(end, t->capacity - t->count, format, arguments);
         va_end(arguments);
         if (length >= 0 && (size_t)length < t->capacity - t->count) {
             t->count += (size_t)length;

@@ -4,8 +4,10 @@
 #include "atlas/adjacent.h"
 #include "atlas/overlap.h"
 #include "atlas/texels/texels.h"
+#include "mesh/file.h"
 #include "mesh/texture.h"
 
+#include <locale.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +20,7 @@
 
 typedef struct {
     const sp_mesh *mesh;
-    const char *path;
+    const char *path, *text;
     sp_texture texture;
     sp_atlas *atlas;
     sp_error *error;
@@ -63,7 +65,7 @@ static double scale_of(const reuse *r)
 /* What sp_atlas_obj noted in the file's first line; false where it did not. */
 static bool read_mark(const reuse *r, double *page_edge, double *texel)
 {
-    const char *text = r->texture.text;
+    const char *text = r->text;
     if (strncmp(text, SP_ATLAS_MARK, sizeof SP_ATLAS_MARK - 1) != 0)
         return false;
     char *end;
@@ -263,12 +265,11 @@ static bool build(reuse *r, double texel)
            sp_atlas_cut(atlas, mesh, r->error);
 }
 
-sp_atlas *sp_atlas_reuse(const sp_mesh *mesh, const char *path, double texel, sp_error *error)
+sp_atlas *sp_atlas_read(const sp_mesh *mesh, const char *path, const char *text, size_t size, double texel,
+                        sp_error *error)
 {
-    if (!mesh)
-        return NULL;
-    reuse r = {.mesh = mesh, .path = path, .error = error};
-    if (!sp_texture_read(path, &r.texture, error))
+    reuse r = {.mesh = mesh, .path = path, .text = text, .error = error};
+    if (!sp_texture_read(path, text, size, &r.texture, error))
         return NULL;
     r.atlas = calloc(1, sizeof *r.atlas);
     bool done = r.atlas ? build(&r, texel) : (bool)sp_fail_memory(error);
@@ -277,4 +278,24 @@ sp_atlas *sp_atlas_reuse(const sp_mesh *mesh, const char *path, double texel, sp
         return r.atlas;
     sp_atlas_destroy(r.atlas);
     return NULL;
+}
+
+sp_atlas *sp_atlas_reuse(const sp_mesh *mesh, const char *path, double texel, sp_error *error)
+{
+    size_t size;
+    if (!mesh)
+        return NULL;
+    char *text = sp_read_file(path, &size, error);
+    locale_t c = text ? newlocale(LC_ALL_MASK, "C", (locale_t)0) : (locale_t)0;
+    sp_atlas *atlas = NULL;
+    if (c != (locale_t)0) {
+        locale_t before = uselocale(c);
+        atlas = sp_atlas_read(mesh, path, text, size, texel, error);
+        uselocale(before);
+        freelocale(c);
+    } else if (text) {
+        sp_fail_memory(error);
+    }
+    free(text);
+    return atlas;
 }

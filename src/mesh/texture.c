@@ -1,12 +1,10 @@
 /* The second reading of an OBJ file, after Wavefront's "Advanced Visualizer" manual, appendix B1. */
 #include "mesh/texture.h"
 
-#include "mesh/file.h"
 #include "mesh/scanner.h"
 
-#include <sprayplan/mesh.h>
-
-#include <locale.h>
+#include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,8 +67,8 @@ static void read_corner(const reader *r, const sp_token *token, double uv[2])
 {
     const char *slash = memchr(token->text, '/', token->length);
     long index = slash ? strtol(slash + 1, NULL, 10) : 0;
-    size_t count = r->coordinate_count, at = index < 0 ? count - (size_t)-index : (size_t)index - 1;
-    bool there = index && at < count; /* the mesh's reader has seen that it is, but the file may have changed since */
+    size_t count = r->coordinate_count, at = index < 0 ? count + (size_t)index : (size_t)index - 1;
+    bool there = index && at < count; /* the mesh's reader has seen that it is, but the text may be another */
     uv[0] = there ? r->coordinates[at][0] : NAN;
     uv[1] = there ? r->coordinates[at][1] : NAN;
 }
@@ -124,22 +122,12 @@ static bool read_all(reader *r)
     return good;
 }
 
-bool sp_texture_read(const char *path, sp_texture *texture, sp_error *error)
+bool sp_texture_read(const char *path, const char *text, size_t size, sp_texture *texture, sp_error *error)
 {
-    size_t size;
-    *texture = (sp_texture){.text = sp_read_file(path, &size, error)};
-    if (!texture->text)
-        return false;
-    locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    bool good = c != (locale_t)0 || sp_fail_memory(error);
-    if (good) {
-        locale_t before = uselocale(c);
-        reader r = {.scanner = sp_scanner_open(path, texture->text, size, true), .texture = texture, .error = error};
-        good = make_room(&r, size) && read_all(&r);
-        free(r.coordinates);
-        uselocale(before);
-        freelocale(c);
-    }
+    reader r = {.scanner = sp_scanner_open(path, text, size, true), .texture = texture, .error = error};
+    *texture = (sp_texture){0};
+    bool good = make_room(&r, size) && read_all(&r);
+    free(r.coordinates);
     if (!good)
         sp_texture_free(texture);
     return good;
@@ -150,6 +138,5 @@ void sp_texture_free(sp_texture *texture)
     free(texture->uv);
     free(texture->page);
     free(texture->line);
-    free(texture->text);
     *texture = (sp_texture){0};
 }

@@ -20,22 +20,18 @@ static size_t character_length(const unsigned char *at, const unsigned char *end
     return overlong || surrogate || beyond ? 0 : length;
 }
 
-static bool is_utf8(const char *text, size_t length)
+size_t sp_utf8_length(const char *text, size_t length)
 {
     const unsigned char *at = (const unsigned char *)text, *end = at + length;
-    while (at < end) {
-        size_t of_one = character_length(at, end);
-        if (of_one == 0)
-            return false;
+    for (size_t of_one; at < end && (of_one = character_length(at, end)) > 0;)
         at += of_one;
-    }
-    return true;
+    return (size_t)((const char *)at - text);
 }
 
 size_t sp_utf8_append(char *to, const char *text, size_t length)
 {
     size_t at = 0;
-    if (is_utf8(text, length)) {
+    if (sp_utf8_length(text, length) == length) {
         memcpy(to, text, length);
         return length;
     }

@@ -9,4 +9,7 @@
  * names stay different. */
 size_t sp_utf8_append(char *to, const char *text, size_t length);
 
+/* How much of the text, from its beginning, is UTF-8. */
+size_t sp_utf8_length(const char *text, size_t length);
+
 #endif

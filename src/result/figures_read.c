@@ -1,6 +1,7 @@
 /* Figures back from a result.json, which may come from a stranger. */
 #include "figures.h"
 #include "growing_text.h"
+#include "mesh/file.h"
 
 #include <jansson.h>
 #include <stdio.h>
@@ -11,6 +12,7 @@
 #define LARGEST 1e100 /* in any unit: beyond it products of figures overflow, whatever the size of the machine */
 
 #define LARGEST_FILE (256L << 20) /* bytes */
+#define MEMORY 67108864.0         /* bytes, beyond ten times the file */
 #define MOST_LAYOUTS 1000
 
 /* Where in the file we are, for errors. */
@@ -400,20 +402,24 @@ static bool read_layout(const reader *in, const json_t *root, const json_t *layo
            read_film(in, layout, &figures->film) && read_rows(in, layout, figures);
 }
 
-static json_t *parse(const char *path, sp_error *error)
+/* At most so much is made of the text, in bytes: two copies of it, and what jansson and sp_figures need for the least
+ * that can stand for an object, a list, and an entry of either. */
+static double memory_of(const char *text, size_t size)
 {
-    struct stat status;
-    FILE *file = fopen(path, "rb");
-    if (!file || fstat(fileno(file), &status) != 0 || !S_ISREG(status.st_mode) || status.st_size > LARGEST_FILE) {
-        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "cannot be read, expected a file of at most %ld MiB",
-                LARGEST_FILE >> 20);
-        if (file)
-            fclose(file);
+    double memory = 3 * (double)size;
+    for (const char *at = text; at < text + size; at++)
+        memory += *at == '{' ? 600 : *at == ':' ? 216 : *at == '[' ? 130 : *at == ',' ? 104 : 0;
+    return memory;
+}
+
+static json_t *parse(const char *path, const char *text, size_t size, sp_error *error)
+{
+    json_error_t cause;
+    if (memory_of(text, size) > 10 * (double)size + MEMORY) {
+        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "found far more lists and objects than text, expected a result");
         return NULL;
     }
-    json_error_t cause;
-    json_t *root = json_loadf(file, JSON_REJECT_DUPLICATES, &cause);
-    fclose(file);
+    json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &cause);
     if (!root)
         sp_fail(error, SP_ERROR_INPUT, path, cause.line, cause.column, "no valid JSON: %s", cause.text);
     return root;
@@ -448,14 +454,30 @@ static sp_figures *read_all(const reader *in, const json_t *root, size_t *count)
     return figures;
 }
 
-sp_figures *sp_figures_read(const char *path, size_t *count, sp_error *error)
+sp_figures *sp_figures_parse(const char *path, const char *text, size_t size, size_t *count, sp_error *error)
 {
     *count = 0;
-    json_t *root = parse(path, error);
+    json_t *root = parse(path, text, size, error);
     if (!root)
         return NULL;
     const reader in = {path, error, ""};
     sp_figures *figures = read_all(&in, root, count);
     json_decref(root);
+    return figures;
+}
+
+sp_figures *sp_figures_read(const char *path, size_t *count, sp_error *error)
+{
+    struct stat status;
+    size_t size;
+    *count = 0;
+    if (stat(path, &status) != 0 || !S_ISREG(status.st_mode) || status.st_size > LARGEST_FILE) {
+        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "cannot be read, expected a file of at most %ld MiB",
+                LARGEST_FILE >> 20);
+        return NULL;
+    }
+    char *text = sp_read_file(path, &size, error);
+    sp_figures *figures = text ? sp_figures_parse(path, text, size, count, error) : NULL;
+    free(text);
     return figures;
 }

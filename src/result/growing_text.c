@@ -102,5 +102,6 @@ char *sp_text_utf8(const char *bytes)
             sp_text_append(&text, "\xef\xbf\xbd", 3);
         at += length ? length : 1;
     }
-    return sp_text_finish(&text, NULL);
+    char *whole = sp_text_finish(&text, NULL), *fitting = whole ? realloc(whole, text.length + 1) : NULL;
+    return fitting ? fitting : whole;
 }

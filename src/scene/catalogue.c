@@ -211,16 +211,21 @@ static bool read_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *
     return true;
 }
 
-bool sp_scene_read_catalogue(sp_scene *scene, const sp_reader *reader)
+bool sp_scene_read_types_of(sp_scene *scene, const sp_reader *reader, const sp_yaml *catalogue)
 {
     static const sp_key keys[] = {{"nozzles", true}, {NULL, false}};
+    return sp_read_keys(reader, catalogue, "catalogue", "a catalogue", keys) &&
+           read_types(scene, reader, sp_yaml_get(catalogue, "nozzles"));
+}
+
+bool sp_scene_read_catalogue(sp_scene *scene, const sp_reader *reader)
+{
     const sp_yaml *node = sp_yaml_get(scene->tree, "catalogue");
     if (!node)
         return true;
     char *path = sp_scene_file(scene->directory, "the scene", reader, node, "catalogue");
     sp_yaml *tree = path ? sp_yaml_load(path, reader->error) : NULL;
-    bool good = tree && sp_read_keys(reader, tree, "catalogue", "a catalogue", keys) &&
-                read_types(scene, reader, sp_yaml_get(tree, "nozzles"));
+    bool good = tree && sp_scene_read_types_of(scene, reader, tree);
     sp_yaml_destroy(tree);
     free(path);
     return good;

@@ -200,18 +200,21 @@ static sp_mesh *join_near(sp_scene *scene, const sp_mesh *const *meshes, sp_tran
     return sp_mesh_join(meshes, transforms, count, error);
 }
 
-static bool join_pieces(sp_scene *scene, const sp_reader *reader, const sp_mesh *const *meshes, const piece *pieces,
-                        size_t count)
+static bool join_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml *list, const sp_mesh *const *meshes,
+                        const piece *pieces)
 {
-    sp_transform *transforms = malloc(count * sizeof *transforms);
+    sp_error problem = {0};
+    sp_transform *transforms = malloc(list->count * sizeof *transforms);
     if (!transforms)
         return sp_fail_memory(reader->error);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < list->count; i++)
         transforms[i] = pieces[i].transform;
-    scene->mesh = join_near(scene, meshes, transforms, count, reader->error);
+    scene->mesh = join_near(scene, meshes, transforms, list->count, &problem);
     free(transforms);
+    if (problem.kind == SP_ERROR_MEMORY)
+        return sp_fail_memory(reader->error);
     if (!scene->mesh)
-        return false;
+        return sp_read_message(reader, list, "geometry", "%s", problem.message);
     scene->surfaces = calloc(scene->mesh->part_count, sizeof *scene->surfaces);
     return scene->surfaces || sp_fail_memory(reader->error);
 }
@@ -241,7 +244,7 @@ static bool read_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml 
         if (!read_piece(scene, reader, node, &pieces[count]) ||
             !(meshes[count] = load_piece(scene, reader, node, &pieces[count], &scene->cads[count])))
             return false;
-    if (!join_pieces(scene, reader, (const sp_mesh *const *)meshes, pieces, count))
+    if (!join_pieces(scene, reader, list, (const sp_mesh *const *)meshes, pieces))
         return false;
     uint32_t index = 0;
     for (const sp_yaml *node = list->first; node; node = node->next, index++)

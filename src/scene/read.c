@@ -37,9 +37,6 @@ static void describe(const sp_yaml *node, char text[TEXT])
         snprintf(text, TEXT, "nothing");
     else
         snprintf(text, TEXT, strlen(node->text) > 80 ? "'%.80s...'" : "'%.80s'", node->text);
-    for (char *c = text; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f)
-            *c = '?';
 }
 
 bool sp_read_fail(const sp_reader *reader, const sp_yaml *node, const char *key, const char *format, ...)

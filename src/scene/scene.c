@@ -5,16 +5,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool read_tree(sp_scene *scene, const sp_reader *reader)
+bool sp_scene_read(sp_scene *scene, const sp_reader *reader)
 {
     static const sp_key keys[] = {{"up", false},        {"geometry", true}, {"cavity", false},   {"caps", false},
                                   {"liquid", false},    {"air", false},     {"gravity", false},  {"criterion", false},
                                   {"catalogue", false}, {"nozzles", false}, {"simulate", false}, {"place", false},
                                   {NULL, false}};
-    return sp_read_keys(reader, scene->tree, "scene", "a scene", keys) && sp_scene_read_physics(scene, reader) &&
-           sp_scene_read_catalogue(scene, reader) && sp_scene_read_nozzles(scene, reader) &&
-           sp_scene_read_simulate(scene, reader) && sp_scene_read_geometry(scene, reader) &&
-           sp_scene_read_place(scene, reader);
+    bool good = sp_read_keys(reader, scene->tree, "scene", "a scene", keys) && sp_scene_read_physics(scene, reader) &&
+                sp_scene_read_catalogue(scene, reader) && sp_scene_read_nozzles(scene, reader) &&
+                sp_scene_read_simulate(scene, reader) && sp_scene_read_geometry(scene, reader) &&
+                sp_scene_read_place(scene, reader);
+    scene->setup.mesh = scene->mesh;
+    scene->setup.surfaces = scene->surfaces;
+    scene->setup.caps = scene->caps;
+    return good;
 }
 
 static bool load(sp_scene *scene, const char *path, const char *const *overrides, size_t count, sp_error *error)
@@ -33,7 +37,7 @@ static bool load(sp_scene *scene, const char *path, const char *const *overrides
         good = sp_read_fail(&reader, scene->tree, "scene", "keys and values, such as geometry: ...");
     for (size_t i = 0; good && i < count; i++)
         good = sp_scene_override(scene->tree, overrides[i], error);
-    good = good && read_tree(scene, &reader);
+    good = good && sp_scene_read(scene, &reader);
     sp_units_destroy(units);
     return good;
 }
@@ -58,14 +62,10 @@ sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, siz
     bool good = entered && load(scene, path, overrides, count, kept);
     if (entered)
         sp_locale_leave(&change);
-    if (!good) {
-        sp_scene_destroy(scene);
-        return NULL;
-    }
-    scene->setup.mesh = scene->mesh;
-    scene->setup.surfaces = scene->surfaces;
-    scene->setup.caps = scene->caps;
-    return scene;
+    if (good)
+        return scene;
+    sp_scene_destroy(scene);
+    return NULL;
 }
 
 sp_scene *sp_scene_load(const char *path, sp_error *error)

@@ -44,6 +44,9 @@ struct sp_scene {
     const sp_nozzle_type **place_types;
 };
 
+/* scene.c: what scene->tree says, a map, into a scene with a path, a directory and what is there by default. */
+bool sp_scene_read(sp_scene *scene, const sp_reader *reader);
+
 /* Each reads its block into the scene; an absent block leaves the defaults. In this order. */
 bool sp_scene_read_geometry(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_physics(sp_scene *scene, const sp_reader *reader);
@@ -60,6 +63,8 @@ bool sp_scene_settle_dose(sp_scene *scene, const sp_reader *reader);
 /* Puts "simulate.jets=20000" into the tree. */
 bool sp_scene_override(sp_yaml *tree, const char *setting, sp_error *error);
 
+/* What the tree of a catalogue says. */
+bool sp_scene_read_types_of(sp_scene *scene, const sp_reader *reader, const sp_yaml *catalogue);
 /* What a catalogue type, or a member of a cluster, sprays: `pattern`, and the angles that belong to it. */
 bool sp_scene_read_pattern(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
 bool sp_scene_read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);

@@ -1,5 +1,7 @@
 #include "scene/yaml.h"
 
+#include "mesh/utf8.h"
+
 #include <libfyaml.h>
 
 #include <errno.h>
@@ -13,6 +15,7 @@ typedef struct {
     struct fy_parser *parser;
     struct fy_diag *diag;
     const char *file;
+    int lines;
     sp_error *error;
 } source;
 
@@ -47,15 +50,16 @@ static bool fail_before(const source *s, const struct fy_mark *mark, const char 
     return sp_fail(s->error, SP_ERROR_INPUT, s->file, mark ? mark->line + 1 : 0, mark ? mark->column : 0, "%s", what);
 }
 
-/* What libfyaml says is wrong, the first of it, where it says. */
+/* What libfyaml says is wrong, the first of it, where it says; it takes the end of the last line for one more. */
 static bool fail_parse(const source *s)
 {
     void *at = NULL;
     const struct fy_diag_error *found = fy_diag_errors_iterate(s->diag, &at);
     if (!found || !found->msg)
         return sp_fail(s->error, SP_ERROR_INPUT, s->file, 0, 0, "YAML: found text that cannot be parsed");
-    return sp_fail(s->error, SP_ERROR_INPUT, s->file, found->line > 0 ? found->line : 1,
-                   found->column > 0 ? found->column : 1, "YAML: %s", found->msg);
+    bool beyond = found->line > s->lines;
+    return sp_fail(s->error, SP_ERROR_INPUT, s->file, beyond ? s->lines : found->line > 0 ? found->line : 1,
+                   beyond ? 0 : found->column > 0 ? found->column : 1, "YAML: %s", found->msg);
 }
 
 static struct fy_event *next_event(const source *s)
@@ -229,20 +233,30 @@ static sp_yaml *parse_with(source *s, const char *text, size_t size)
     return read_document(s);
 }
 
+/* How many lines the text has, 0 for what is none: libfyaml never ends on directives that are no UTF-8. */
+static int count_lines(const char *file, const char *text, size_t size, sp_error *error)
+{
+    const char *zero = size ? memchr(text, '\0', size) : NULL;
+    size_t fine = sp_utf8_length(text, zero ? (size_t)(zero - text) : size);
+    int lines = 1;
+    for (size_t i = 0; i < fine; i++)
+        lines += text[i] == '\n' || (text[i] == '\r' && i + 1 < size && text[i + 1] != '\n');
+    if (fine == size)
+        return lines;
+    sp_fail(error, SP_ERROR_INPUT, file, lines, 0, "YAML: found a %s, expected text",
+            text[fine] ? "byte that is no UTF-8" : "zero byte");
+    return 0;
+}
+
 sp_yaml *sp_yaml_parse(const char *file, const char *text, size_t size, sp_error *error)
 {
-    int line = 1;
-    for (size_t i = 0; i < size; i++) {
-        line += text[i] == '\n';
-        if (!text[i]) {
-            sp_fail(error, SP_ERROR_INPUT, file, line, 0, "YAML: found a zero byte, expected text");
-            return NULL;
-        }
-    }
+    int lines = count_lines(file, text, size, error);
+    if (!lines)
+        return NULL;
     char *name = strdup(file);
     if (!name)
         return sp_fail_memory(error);
-    source s = {.file = name, .error = error};
+    source s = {.file = name, .lines = lines, .error = error};
     sp_yaml *root = parse_with(&s, text, size);
     /* The collected errors hold tokens of the parser, and the diagnostics do not free them by themselves. */
     if (s.diag)
