@@ -87,7 +87,7 @@
     const difference = {key: "difference", name: "Difference"};
     const state = {
         quantity: flux,
-        scale: flux.log ? "log" : "linear",
+        scales: Object.fromEntries(about.quantities.map(({key, log}) => [key, log ? "log" : "linear"])),
         shown: designs.filter((design) => design.first),
         hidden: new Set(),
         cut: {axis: about.models[0].cut ? 1 : -1, place: 0, turned: false},
@@ -108,9 +108,10 @@
     /* Where on the colour bar, 0 to 1. */
     function shade(quantity, value) {
         const [low, high] = quantity.shown;
-        if (state.scale === "stepped")
+        const scale = state.scales[quantity.key];
+        if (scale === "stepped")
             return value < (quantity.step || low) ? 0.15 : 0.85;
-        const t = state.scale === "log" ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
+        const t = scale === "log" && low > 0 ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
         return Math.min(Math.max(t, 0), 1);
     }
 
@@ -124,6 +125,7 @@
         setColour(colours, i, palette[3 * k], palette[3 * k + 1], palette[3 * k + 2], kind);
     }
 
+    const coloured = () => (state.nozzle ? flux : state.quantity);
     const HALF = 128; /* of a byte of share: covered */
     const base = () => state.shown.find((design) => design.manual) || state.shown[0];
 
@@ -400,16 +402,17 @@
         const ratio = Math.min(window.devicePixelRatio || 1, 2);
         canvas.width = Math.max(1, Math.round(canvas.clientWidth * ratio));
         canvas.height = Math.max(1, Math.round(canvas.clientHeight * ratio));
-        gl.enable(gl.SCISSOR_TEST);
         gl.enable(gl.DEPTH_TEST);
         gl.clearColor(1, 1, 1, 1);
+        gl.disable(gl.SCISSOR_TEST);
+        gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+        gl.enable(gl.SCISSOR_TEST);
         const view = frame();
         state.shown.forEach((design, i) => {
             const {left, width, height} = place(i);
             const box = [left * ratio, 0, width * ratio, height * ratio].map(Math.round);
             gl.viewport(...box);
             gl.scissor(...box);
-            gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
             design.matrix = projection(view, width / height);
             drawSurface(design, design.matrix, view);
             drawLines(design, design.matrix);
@@ -535,6 +538,7 @@
             const {left, width, height} = place(i);
             const title = element("span", {class: "title"}, `${design.name}: ${design.quote}`);
             title.style.left = `${left}px`;
+            title.style.maxWidth = `${width - 16}px`;
             return [title, ...design.nozzles.map((nozzle, index) => {
                 const [x, y, , w] = [0, 1, 2, 3].map((row) =>
                     dot([design.matrix[row], design.matrix[4 + row], design.matrix[8 + row]], nozzle.at) +
@@ -565,7 +569,7 @@
             target: at.slice(),
             azimuth: Math.hypot(...level) > 1e-6 ? Math.atan2(dot(level, right), dot(level, front)) : 0,
             elevation: Math.min(Math.max(Math.asin(Math.min(1, Math.max(-1, dot(towards, up)))), -1.45), 1.45),
-            distance: Math.max(3 * extent, 0.12 * size) / REACH / 2,
+            distance: Math.max(0.9 * extent, 0.06 * size) / REACH,
         };
         show(design);
         tell(`${design.name}: uncovered region ${index + 1}, marked in yellow.`, null, -1);
@@ -614,18 +618,17 @@
         });
     }
 
+    const scales = ["log", "linear", "stepped"];
+    let scaleList;
     function addQuantities() {
         const quantities = [...about.quantities, fully, ...(designs.length > 1 ? [difference] : [])];
-        const scales = ["log", "linear", "stepped"];
         choice("Show", quantities.map((quantity) => quantity.name), quantities.indexOf(flux), (i) => {
             state.quantity = quantities[i];
             state.nozzle = null;
-            if ("log" in quantities[i])
-                scale.selectedIndex = scales.indexOf((state.scale = quantities[i].log ? "log" : "linear"));
             recolour();
         });
-        const scale = choice("Scale", ["logarithmic", "linear", "stepped at the criterion"], scales.indexOf(state.scale), (i) => {
-            state.scale = scales[i];
+        scaleList = choice("Scale", ["logarithmic", "linear", "stepped at the criterion"], 0, (i) => {
+            state.scales[coloured().key] = scales[i];
             recolour();
         });
     }
@@ -686,7 +689,7 @@
 
     function ticksOf(quantity) {
         const [from, to] = quantity.shown;
-        if (state.scale === "log" && from > 0)
+        if (state.scales[quantity.key] === "log" && from > 0)
             return [...Array(25).keys()].flatMap((power) => [1, 2, 5].map((step) => step * 10 ** (power - 12)))
                 .filter((value) => value >= from * (1 - 1e-9) && value <= to * (1 + 1e-9));
         return [0, 0.25, 0.5, 0.75, 1].map((t) => from + t * (to - from));
@@ -699,7 +702,9 @@
     }
     const HATCH = "repeating-linear-gradient(45deg,#c42636 0 2px,#faf8f5 2px 7px)";
     function drawBar() {
-        const quantity = state.nozzle ? flux : state.quantity;
+        const quantity = coloured();
+        scaleList.disabled = !(quantity.key in state.scales);
+        scaleList.selectedIndex = scales.indexOf(state.scales[quantity.key]);
         const keys = [swatch(HATCH, "not covered")];
         if (quantity === difference)
             keys.push(swatch("rgb(0,140,120)", "gained"), swatch("rgb(224,120,20)", "lost"), swatch("rgb(205,212,220)", "covered by both"));
@@ -713,13 +718,13 @@
     }
     function ramp(quantity) {
         const stops = [...Array(33).keys()].map((i) => `rgb(${palette.subarray(3 * Math.round(i * 255 / 32), 3 * Math.round(i * 255 / 32) + 3)})`);
-        const strip = element("span", {class: "ramp"});
-        strip.style.background = state.scale === "stepped"
+        const strip = element("span", {class: "ramp"}), stepped = state.scales[quantity.key] === "stepped";
+        strip.style.background = stepped
             ? `linear-gradient(90deg,${stops[5]} 50%,${stops[27]} 50%)` : `linear-gradient(90deg,${stops})`;
-        const ticks = state.scale === "stepped" ? [quantity.step || quantity.shown[0]] : ticksOf(quantity);
+        const ticks = stepped ? [quantity.step || quantity.shown[0]] : ticksOf(quantity);
         strip.append(...ticks.map((value) => {
             const tick = element("i", {}, String(Number(value.toPrecision(3))));
-            tick.style.left = `${100 * (state.scale === "stepped" ? 0.5 : shade(quantity, value))}%`;
+            tick.style.left = `${100 * (stepped ? 0.5 : shade(quantity, value))}%`;
             return tick;
         }));
         return element("span", {class: "entry"}, `${quantity.name}, ${quantity.unit} `, strip);
