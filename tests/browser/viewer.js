@@ -13,8 +13,8 @@
     const answer = viewer.querySelector(".answer"), bar = viewer.querySelector(".scale");
 
     /* Sums of each half's pixels, and how many of it are not white. */
-    async function look() {
-        await wait(100);
+    function look() {
+        dispatchEvent(new Event("resize")); /* it draws at once, whenever the browser shows frames */
         const {width, height} = canvas, half = Math.floor(width / 2);
         return [0, half].map((left) => {
             const pixels = new Uint8Array(4 * half * height);
@@ -34,12 +34,12 @@
     }
 
     press("f"); /* the window may have got its size only now */
-    found.first = await look();
+    found.first = look();
     const [show] = viewer.querySelectorAll("select");
     found.quantities = [];
     for (const {text} of [...show.options]) {
         choose(show, text);
-        found.quantities.push({text, seen: await look(), bar: bar.textContent});
+        found.quantities.push({text, seen: look(), bar: bar.textContent});
     }
     choose(show, "Liquid flux");
     canvas.focus();
@@ -47,22 +47,21 @@
     for (let i = 0; i < 24; i++) {
         press("ArrowLeft");
         press(i % 2 ? "ArrowUp" : "+");
-        await wait(20);
         press("Enter");
         found.picks.push({patch: Number(answer.dataset.patch), text: answer.querySelector("p").textContent,
             rows: [...answer.querySelectorAll("tbody tr")].map((row) => [...row.children].map((cell) => cell.textContent))});
     }
     press("f");
-    found.fitted = await look();
+    found.fitted = look();
     const row = (id) => document.querySelector(`#${id} table[data-design="0"] tbody button`);
     if (row("nozzles")) {
         row("nozzles").click();
-        found.nozzle = {text: answer.textContent, seen: await look()};
+        found.nozzle = {text: answer.textContent, seen: look()};
         row("nozzles").click();
     }
     if (row("shadows")) {
         row("shadows").click();
-        found.shadow = {text: answer.textContent, seen: await look()};
+        found.shadow = {text: answer.textContent, seen: look()};
     }
     found.requests = performance.getEntriesByType("resource").map((entry) => entry.name);
     told.textContent = JSON.stringify(found);

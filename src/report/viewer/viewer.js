@@ -828,7 +828,8 @@
     fit(...views.Fit);
     about.models.forEach(uploadModel);
     designs.forEach(uploadLines);
-    new ResizeObserver(redraw).observe(stage);
+    new ResizeObserver(draw).observe(stage);
+    addEventListener("resize", draw); /* also where the page is zoomed: pixels are of another size then */
     recolour();
     tell("Drag to turn, with shift to move; click a point, a nozzle or a row of the tables below.", null, -1);
     section.dataset.ready = "true";
