@@ -117,12 +117,12 @@ static void find_roles(sp_page *page)
 
 void sp_page_head(sp_text *text, const char *title, const char *scene)
 {
-    sp_text_add(
-        text,
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\">\n<meta name=\"generator\" content=\"sprayplan " SP_VERSION
-        "\">\n<title>%s: ",
-        title);
+    sp_text_add(text,
+                "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+                "content=\"width=device-width, initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
+                "content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src "
+                "'unsafe-inline'\">\n<meta name=\"generator\" content=\"sprayplan " SP_VERSION "\">\n<title>%s: ",
+                title);
     sp_markup_escape(text, scene);
     sp_text_add(text, "</title>\n");
     for (size_t i = 0; i < sizeof style / sizeof *style; ++i)
