@@ -92,6 +92,7 @@ typedef struct {
     double area;           /* m² */
     sp_vec3 centroid;      /* m */
     uint32_t part;         /* of the mesh: the part with most of the area */
+    uint32_t first;        /* its lowest patch */
     double reachable_area; /* m² of it that is attainable; -1 where attainable area was not computed */
     sp_reason reason;      /* of most of its area that is not attainable; attainable or unknown where there is none */
 } sp_shadow;

@@ -18,6 +18,8 @@ void sp_viridis(double value, uint8_t rgb[3]);
 bool sp_image_write_png(const char *path, const uint8_t *pixels, int width, int height, int channels, sp_error *error);
 /* The same in memory: malloc'd bytes, the caller frees. */
 uint8_t *sp_image_encode_png(const uint8_t *pixels, int width, int height, int channels, size_t *size, sp_error *error);
+/* As WebP of quality 90, RGB, for pages: a third of the bytes. malloc'd, the caller frees. */
+uint8_t *sp_image_encode_webp(const uint8_t *pixels, int width, int height, size_t *size, sp_error *error);
 
 /* One part of a multi-part OpenEXR file. */
 typedef struct {

@@ -1,4 +1,4 @@
-/* The report as one self-contained page: no scripts, nothing fetched. */
+/* The report as one self-contained page: nothing fetched, and all but the viewer there without its script. */
 #include "page.h"
 
 #include <sprayplan/sprayplan.h>
@@ -53,7 +53,7 @@ static const char *const style[] = {
     ".wide{overflow:visible}figure,.card,tr,dl,.chart,.block{break-inside:avoid}h2,h3{break-after:avoid}}\n</style>\n",
 };
 
-void sp_page_name(const sp_page *page, sp_text *text, size_t design)
+void sp_page_plain_name(const sp_page *page, sp_text *text, size_t design)
 {
     const char *name = page->figures[design].name;
     if (design == page->manual)
@@ -63,7 +63,17 @@ void sp_page_name(const sp_page *page, sp_text *text, size_t design)
     else if (design == page->main && strcmp(name, "proposed") == 0)
         sp_text_add(text, "Proposed");
     else
-        sp_markup_escape(text, name);
+        sp_text_add(text, "%s", name);
+}
+
+void sp_page_name(const sp_page *page, sp_text *text, size_t design)
+{
+    sp_text plain = {0};
+    sp_page_plain_name(page, &plain, design);
+    text->failed |= plain.failed;
+    if (!plain.failed)
+        sp_markup_escape(text, plain.text);
+    free(plain.text);
 }
 
 void sp_page_columns(const sp_page *page, sp_text *text)
@@ -107,12 +117,12 @@ static void find_roles(sp_page *page)
 
 void sp_page_head(sp_text *text, const char *title, const char *scene)
 {
-    sp_text_add(
-        text,
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-        "content=\"width=device-width, initial-scale=1\">\n<meta name=\"generator\" content=\"sprayplan " SP_VERSION
-        "\">\n<title>%s: ",
-        title);
+    sp_text_add(text,
+                "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+                "content=\"width=device-width, initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
+                "content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src "
+                "'unsafe-inline'\">\n<meta name=\"generator\" content=\"sprayplan " SP_VERSION "\">\n<title>%s: ",
+                title);
     sp_markup_escape(text, scene);
     sp_text_add(text, "</title>\n");
     for (size_t i = 0; i < sizeof style / sizeof *style; ++i)
@@ -150,13 +160,15 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
     sp_page_front_chart(page, text);
     sp_page_nozzle_counts(page, text);
     sp_page_certificate(page, text);
-    if (!sp_page_pictures(page, text, error))
+    if (!sp_page_viewer(page, text, error) || !sp_page_pictures(page, text, error))
         return false;
     sp_page_nozzles(page, text);
     sp_page_shadows(page, text);
     sp_page_assumptions(page, text);
     sp_page_stages(page, text);
-    sp_text_add(text, "<footer>Made by sprayplan " SP_VERSION ".</footer>\n</main>\n</body>\n</html>\n");
+    sp_text_add(text, "<footer>Made by sprayplan " SP_VERSION ".</footer>\n</main>\n");
+    sp_page_viewer_script(text);
+    sp_text_add(text, "</body>\n</html>\n");
     return true;
 }
 

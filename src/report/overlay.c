@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#define RIM 32      /* points on a spray's rim */
+#define RIM SP_OUTLINE
 #define LENGTH 0.12 /* of the box's diagonal that an outline reaches */
 
 /* Direction i of RIM along the edge of the spray, in the nozzle's frame. */
@@ -65,23 +65,33 @@ static void add_path(sp_text *text, const char *class_name, const spot *spots, s
 }
 
 /* So far that it stays clear of what the axis meets. */
-static double outline_length(const sp_camera *camera, const sp_evaluator *evaluator, const sp_nozzle *pattern)
+static double outline_length(double size, const sp_evaluator *evaluator, const sp_nozzle *pattern)
 {
     sp_ray ray = {pattern->position, pattern->axis, 0, INFINITY, SP_NONE};
     sp_hit hit = sp_trace_nearest(sp_evaluator_tracer(evaluator), &ray, sp_v(0, 0, 0));
-    return fmin(LENGTH * camera->size, 0.8 * hit.t);
+    return fmin(LENGTH * size, 0.8 * hit.t);
 }
 
-static void add_outline(sp_text *text, const sp_camera *camera, const sp_evaluator *evaluator, const sp_nozzle *pattern)
+void sp_overlay_outline(const sp_evaluator *evaluator, const sp_nozzle *pattern, double size, sp_vec3 rim[SP_OUTLINE])
 {
-    spot spots[RIM + 1], rim[RIM], hull[RIM + 3];
-    double xy[2], length = outline_length(camera, evaluator, pattern);
+    double length = outline_length(size, evaluator, pattern);
     sp_frame frame = sp_nozzle_frame(pattern->axis, pattern->roll, sp_evaluator_setup(evaluator)->up);
     sp_spray spray = sp_spray_create(pattern->type, sp_nozzle_angle(pattern));
     for (int i = 0; i < RIM; ++i) {
         sp_vec3 d = rim_direction(&spray, i);
         sp_vec3 world = sp_add(sp_add(sp_scale(frame.x, d.x), sp_scale(frame.y, d.y)), sp_scale(frame.z, d.z));
-        if (!sp_camera_project(camera, sp_along(pattern->position, length, world), xy))
+        rim[i] = sp_along(pattern->position, length, world);
+    }
+}
+
+static void add_outline(sp_text *text, const sp_camera *camera, const sp_evaluator *evaluator, const sp_nozzle *pattern)
+{
+    spot spots[RIM + 1], rim[RIM], hull[RIM + 3];
+    sp_vec3 points[RIM];
+    double xy[2];
+    sp_overlay_outline(evaluator, pattern, camera->size, points);
+    for (int i = 0; i < RIM; ++i) {
+        if (!sp_camera_project(camera, points[i], xy))
             return;
         spots[i] = rim[i] = (spot){xy[0], xy[1]};
     }

@@ -18,7 +18,9 @@ typedef struct {
 
 /* html.c: all before the page's first heading: title (ours, not escaped), style, the beginning of <main>. */
 void sp_page_head(sp_text *text, const char *title, const char *scene);
-/* A design's name for readers, escaped. */
+/* A design's name for readers, as plain text. */
+void sp_page_plain_name(const sp_page *page, sp_text *text, size_t design);
+/* The same, escaped. */
 void sp_page_name(const sp_page *page, sp_text *text, size_t design);
 /* html.c: a heading of a column for each design. */
 void sp_page_columns(const sp_page *page, sp_text *text);
@@ -49,6 +51,10 @@ void sp_page_nozzle_counts(const sp_page *page, sp_text *text);
 void sp_page_certificate(const sp_page *page, sp_text *text);
 /* pictures.c: three views of every design, with the colour bar. */
 bool sp_page_pictures(const sp_page *page, sp_text *text, sp_error *error);
+/* viewer/section.c: the surface to be turned and asked, its data, its script at the page's end. */
+bool sp_page_viewer(const sp_page *page, sp_text *text, sp_error *error);
+void sp_page_viewer_script(sp_text *text);
+#define SP_PAGE_SHADOWS 10 /* largest ones that are listed */
 /* tables.c */
 void sp_page_figures(const sp_page *page, sp_text *text);
 void sp_page_nozzles(const sp_page *page, sp_text *text);

@@ -116,20 +116,20 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
     const colouring by = {&shown->coverage->deposits, page->scale};
     uint8_t *pixels = sp_shot_picture(shot, colour_patch, &by, error);
     size_t size = 0;
-    uint8_t *png = pixels ? sp_image_encode_png(pixels, shot->width, shot->height, 3, &size, error) : NULL;
+    uint8_t *bytes = pixels ? sp_image_encode_webp(pixels, shot->width, shot->height, &size, error) : NULL;
     free(pixels);
-    if (!png)
+    if (!bytes)
         return false;
     sp_text_add(text, "<figure><svg class=\"view\" viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"", shot->width,
                 shot->height);
     sp_page_name(page, text, design);
     sp_text_add(text,
                 ", %s: coverage in false colour with %zu nozzles\"><image width=\"%d\" height=\"%d\" "
-                "href=\"data:image/png;base64,",
+                "href=\"data:image/webp;base64,",
                 view->caption, shown->layout->count, shot->width, shot->height);
-    sp_markup_base64(text, png, size);
+    sp_markup_base64(text, bytes, size);
     sp_text_add(text, "\"/>\n");
-    free(png);
+    free(bytes);
     sp_overlay_nozzles(text, camera, shown->evaluator, shown->layout);
     sp_text_add(text, "</svg><figcaption>");
     sp_page_name(page, text, design);

@@ -5,7 +5,6 @@
 
 #define L_MIN 6e4 /* L/min per m³/s, and L/min/m² per m/s */
 #define L 1e3     /* L/m² per m³/m² */
-#define SHADOWS_SHOWN 10
 #define MANY 10.0 /* times as much and more is said so, not in per cent */
 
 typedef double measure(const sp_figures *figures);
@@ -206,7 +205,7 @@ void sp_page_nozzles(const sp_page *page, sp_text *text)
     for (size_t i = 0; i < page->result->design_count; ++i) {
         const sp_figures *figures = &page->figures[i];
         bool codes = has_codes(figures);
-        sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\"><caption>");
+        sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\" data-design=\"%zu\"><caption>", i);
         sp_page_name(page, text, i);
         sp_text_add(text, ": %zu nozzle%s, ", figures->nozzle_count, figures->nozzle_count == 1 ? "" : "s");
         sp_markup_decimals(text, L_MIN * figures->flow, 1);
@@ -242,8 +241,8 @@ static void add_shadow(sp_text *text, const sp_shadow_figures *shadow, double cl
 static void add_shadows(const sp_page *page, sp_text *text, size_t design)
 {
     const sp_figures *figures = &page->figures[design];
-    size_t shown = figures->shadow_count < SHADOWS_SHOWN ? figures->shadow_count : SHADOWS_SHOWN;
-    sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\"><caption>");
+    size_t shown = figures->shadow_count < SP_PAGE_SHADOWS ? figures->shadow_count : SP_PAGE_SHADOWS;
+    sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\" data-design=\"%zu\"><caption>", design);
     sp_page_name(page, text, design);
     if (shown == 0) {
         sp_text_add(text, ": no uncovered region</caption></table></div>\n");

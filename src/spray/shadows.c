@@ -3,12 +3,6 @@
 
 #include <stdlib.h>
 
-/* A region while it grows. */
-typedef struct {
-    sp_shadow shadow;
-    uint32_t first; /* its lowest patch */
-} region;
-
 typedef struct {
     const sp_evaluator *evaluator;
     const sp_reason *reasons;
@@ -52,7 +46,7 @@ static sp_reason main_reason(const shadow_search *search, size_t members)
 }
 
 /* The region that holds patch `first`. */
-static region grow(const shadow_search *search, uint32_t first)
+static sp_shadow grow(const shadow_search *search, uint32_t first)
 {
     const sp_patches *patches = &search->evaluator->patches;
     size_t members = 1;
@@ -68,7 +62,7 @@ static region grow(const shadow_search *search, uint32_t first)
             }
         }
     }
-    sp_shadow shadow = {.reachable_area = search->reasons ? 0 : -1};
+    sp_shadow shadow = {.first = first, .reachable_area = search->reasons ? 0 : -1};
     for (size_t i = 0; i < members; i++) {
         uint32_t patch = search->queue[i];
         shadow.area += patches->area[patch];
@@ -79,29 +73,29 @@ static region grow(const shadow_search *search, uint32_t first)
     shadow.centroid = sp_scale(shadow.centroid, 1 / shadow.area);
     shadow.part = main_part(search, members);
     shadow.reason = main_reason(search, members);
-    return (region){shadow, first};
+    return shadow;
 }
 
 static int largest_first(const void *left, const void *right)
 {
-    const region *a = left, *b = right;
-    if (a->shadow.area != b->shadow.area)
-        return a->shadow.area > b->shadow.area ? -1 : 1;
+    const sp_shadow *a = left, *b = right;
+    if (a->area != b->area)
+        return a->area > b->area ? -1 : 1;
     return (a->first > b->first) - (a->first < b->first);
 }
 
 /* NULL only where memory runs out. */
-static region *find_regions(const shadow_search *search, size_t *count)
+static sp_shadow *find_regions(const shadow_search *search, size_t *count)
 {
     size_t room = 16;
-    region *regions = malloc(room * sizeof *regions);
+    sp_shadow *regions = malloc(room * sizeof *regions);
     *count = 0;
     for (size_t patch = 0; regions && patch < search->evaluator->patches.count; patch++) {
         if (search->visited[patch])
             continue;
         if (*count == room) {
             room *= 2;
-            region *more = realloc(regions, room * sizeof *regions);
+            sp_shadow *more = realloc(regions, room * sizeof *regions);
             if (!more) {
                 free(regions);
                 return NULL;
@@ -113,14 +107,6 @@ static region *find_regions(const shadow_search *search, size_t *count)
     if (regions)
         qsort(regions, *count, sizeof *regions, largest_first);
     return regions;
-}
-
-static bool hand_over(const region *regions, size_t count, sp_shadow **shadows)
-{
-    *shadows = count ? malloc(count * sizeof **shadows) : NULL;
-    for (size_t i = 0; *shadows && i < count; i++)
-        (*shadows)[i] = regions[i].shadow;
-    return *shadows || count == 0;
 }
 
 bool sp_shadows(const sp_evaluator *evaluator, const sp_coverage *coverage, const sp_reason *reasons,
@@ -136,16 +122,21 @@ bool sp_shadows(const sp_evaluator *evaluator, const sp_coverage *coverage, cons
                             .visited = malloc(patches ? patches * sizeof(bool) : 1),
                             .queue = malloc(patches ? patches * sizeof(uint32_t) : 1),
                             .part_area = calloc(evaluator->setup.mesh->part_count, sizeof(double))};
-    region *regions = NULL;
+    sp_shadow *regions = NULL;
     if (search.visited && search.queue && search.part_area) {
         for (size_t i = 0; i < patches; i++)
             search.visited[i] = coverage->deposits.covered[i];
         regions = find_regions(&search, count);
     }
-    bool done = regions && hand_over(regions, *count, shadows);
     free(search.visited);
     free(search.queue);
     free(search.part_area);
-    free(regions);
-    return done || sp_fail_memory(error);
+    if (!regions)
+        return sp_fail_memory(error);
+    if (*count == 0) {
+        free(regions);
+        regions = NULL;
+    }
+    *shadows = regions;
+    return true;
 }

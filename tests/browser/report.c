@@ -1,24 +1,7 @@
 /* The report as a reader sees it: opened by a browser. */
-#include "../cli/workplace.h"
+#include "browser.h"
 
 #include <sprayplan/sprayplan.h>
-
-static bool has_browser(void)
-{
-    return system("command -v chromium >/dev/null 2>&1") == 0;
-}
-
-/* Opens a page of the workplace with the browser; what it prints is the caller's. */
-static char *browse(const char *page, const char *arguments)
-{
-    char line[4096];
-    snprintf(line, sizeof line,
-             "cd '%s' && timeout 120 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage "
-             "--user-data-dir='%s/profile' --hide-scrollbars %s \"file://$PWD/%s\" >.out 2>.err </dev/null",
-             workplace, workplace, arguments, page);
-    assert_int_equal(system(line), 0);
-    return read_file(".out", NULL);
-}
 
 static int place_once(void **state)
 {
@@ -30,14 +13,6 @@ static int place_once(void **state)
     int status = result.status;
     forget(&result);
     return status == 0 ? 0 : -1;
-}
-
-static void skip_without_browser(void)
-{
-    if (!has_browser()) {
-        print_message("chromium is not installed: the report is not opened\n");
-        skip();
-    }
 }
 
 static size_t occurrences(const char *text, const char *part)

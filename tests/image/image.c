@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <cmocka.h>
+#include <webp/decode.h>
 
 static char *read_all(const char *path, size_t *size)
 {
@@ -97,6 +98,46 @@ static void png_in_memory_is_the_file(void **state)
     unlink(path);
 }
 
+/* A hatch and a ramp as the page's pictures have them: hardly any channel of a pixel is off by more than a tenth. */
+static void webp_keeps_a_hatch(void **state)
+{
+    (void)state;
+    enum { EDGE = 96 };
+    uint8_t pixels[EDGE * EDGE * 3];
+    for (int y = 0; y < EDGE; y++)
+        for (int x = 0; x < EDGE; x++) {
+            const uint8_t red[3] = {196, 38, 54}, white[3] = {250, 248, 245};
+            uint8_t *pixel = pixels + 3 * (y * EDGE + x);
+            if (x < EDGE / 2)
+                memcpy(pixel, (x + y) % 9 < 3 ? red : white, 3);
+            else
+                sp_viridis(y / (double)EDGE, pixel);
+        }
+    size_t size = 0, again_size = 0, off = 0;
+    sp_error error = {0};
+    uint8_t *bytes = sp_image_encode_webp(pixels, EDGE, EDGE, &size, &error);
+    uint8_t *again = sp_image_encode_webp(pixels, EDGE, EDGE, &again_size, &error);
+    assert_non_null(bytes);
+    assert_int_equal(size, again_size);
+    assert_memory_equal(bytes, again, size);
+    int width, height;
+    uint8_t *decoded = WebPDecodeRGB(bytes, size, &width, &height);
+    assert_non_null(decoded);
+    assert_int_equal(width, EDGE);
+    assert_int_equal(height, EDGE);
+    for (size_t i = 0; i < sizeof pixels; i++)
+        off += abs(decoded[i] - pixels[i]) > 25;
+    assert_true(off < sizeof pixels / 20);
+    WebPFree(decoded);
+    free(again);
+    free(bytes);
+    assert_null(sp_image_encode_webp(pixels, 0, 1, &size, &error));
+    assert_int_equal(error.kind, SP_ERROR_ARGUMENT);
+    error = (sp_error){0};
+    assert_null(sp_image_encode_webp(pixels, 16384, 1, &size, &error));
+    assert_int_equal(error.kind, SP_ERROR_ARGUMENT);
+}
+
 static void png_refuses_nonsense(void **state)
 {
     (void)state;
@@ -174,8 +215,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(viridis_known_colours),     cmocka_unit_test(viridis_grows_lighter),
-        cmocka_unit_test(png_in_memory_is_the_file), cmocka_unit_test(png_refuses_nonsense),
-        cmocka_unit_test(exr_holds_its_parts),       cmocka_unit_test(exr_refuses_nonsense),
+        cmocka_unit_test(png_in_memory_is_the_file), cmocka_unit_test(webp_keeps_a_hatch),
+        cmocka_unit_test(png_refuses_nonsense),      cmocka_unit_test(exr_holds_its_parts),
+        cmocka_unit_test(exr_refuses_nonsense),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

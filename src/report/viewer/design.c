@@ -1,0 +1,181 @@
+#include "design.h"
+
+#include "report/overlay.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define HALF 128 /* bytes from here on: covered */
+
+static json_t *vector_json(sp_vec3 v)
+{
+    return json_pack("[fff]", v.x, v.y, v.z);
+}
+
+static void pack_quantity(const sp_deposits *deposits, const sp_shown_quantity *quantity, const double *values,
+                          uint8_t *bytes, sp_packed *packed)
+{
+    for (size_t i = 0; i < deposits->count; ++i)
+        bytes[i] = deposits->flux[i] > 0 ? sp_shown_byte(quantity, values[i]) : 0;
+    sp_packed_bytes(packed, bytes, deposits->count);
+}
+
+static void pack_covered(const sp_deposits *deposits, uint8_t *bytes, sp_packed *packed)
+{
+    for (size_t i = 0; i < deposits->count; ++i) {
+        long share = lrint(255 * fmin(fmax(deposits->share[i], 0), 1));
+        bytes[i] = (uint8_t)(deposits->covered[i] ? (share < HALF ? HALF : share) : (share < HALF ? share : HALF - 1));
+    }
+    sp_packed_bytes(packed, bytes, deposits->count);
+    for (size_t i = 0; i < deposits->count; ++i)
+        bytes[i] = deposits->by_film[i];
+    sp_packed_bytes(packed, bytes, deposits->count);
+}
+
+/* Numbers the uncovered patches that hang together with `first`, and finds the way that they face. */
+static sp_vec3 mark_shadow(const sp_patches *patches, const sp_deposits *deposits, uint32_t first, uint8_t number,
+                           uint8_t *bytes, uint32_t *queue, double *extent)
+{
+    size_t members = 1;
+    sp_vec3 facing = {0}, low = patches->point[first], high = low;
+    queue[0] = first;
+    bytes[first] = number;
+    for (size_t i = 0; i < members; ++i) {
+        uint32_t patch = queue[i];
+        sp_vec3 p = patches->point[patch];
+        facing = sp_along(facing, patches->area[patch], patches->normal[patch]);
+        low = sp_v(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
+        high = sp_v(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
+        for (uint32_t k = patches->neighbour_start[patch]; k < patches->neighbour_start[patch + 1]; ++k) {
+            uint32_t other = patches->neighbours[k];
+            if (deposits->covered[other] || bytes[other])
+                continue;
+            bytes[other] = number;
+            queue[members++] = other;
+        }
+    }
+    *extent = sp_distance(low, high);
+    return facing;
+}
+
+/* The shadows that the page's table lists. */
+static json_t *pack_shadows(const sp_design *design, uint8_t *bytes, sp_packed *packed, sp_error *error)
+{
+    const sp_patches *patches = sp_evaluator_patches(design->evaluator);
+    sp_shadow *shadows = NULL;
+    size_t count = 0;
+    uint32_t *queue = malloc((patches->count + 1) * sizeof *queue);
+    if (!queue || !sp_shadows(design->evaluator, design->coverage, NULL, &shadows, &count, error)) {
+        free(queue);
+        return sp_fail_memory(error);
+    }
+    json_t *list = json_array();
+    memset(bytes, 0, patches->count);
+    for (size_t i = 0; i < count && i < SP_PAGE_SHADOWS; ++i) {
+        double extent;
+        sp_vec3 facing = mark_shadow(patches, &design->coverage->deposits, shadows[i].first, (uint8_t)(i + 1), bytes,
+                                     queue, &extent);
+        facing = sp_length(facing) > 0 ? sp_unit(facing) : sp_v(0, 0, 1);
+        json_array_append_new(list, json_pack("{s:o, s:o, s:f}", "at", vector_json(shadows[i].centroid), "towards",
+                                              vector_json(facing), "extent", extent));
+    }
+    sp_packed_bytes(packed, bytes, patches->count);
+    free(shadows);
+    free(queue);
+    return list;
+}
+
+static json_t *sprays_json(const sp_evaluator *evaluator, const sp_nozzle *nozzle)
+{
+    const sp_setup *setup = sp_evaluator_setup(evaluator);
+    sp_vec3 low, high;
+    double size = sp_mesh_box(setup->mesh, &low, &high);
+    size_t count = sp_nozzle_pattern_count(nozzle);
+    sp_nozzle *patterns = malloc(count * sizeof *patterns);
+    json_t *list = patterns ? json_array() : NULL;
+    if (patterns)
+        sp_nozzle_patterns(nozzle, &setup->liquid, setup->up, patterns);
+    for (size_t i = 0; list && i < count; ++i) {
+        sp_vec3 rim[SP_OUTLINE];
+        sp_overlay_outline(evaluator, &patterns[i], size, rim);
+        json_t *points = json_array();
+        for (int k = 0; k < SP_OUTLINE; ++k)
+            json_array_append_new(points, vector_json(rim[k]));
+        json_array_append_new(list, json_pack("{s:o, s:o}", "from", vector_json(patterns[i].position), "rim", points));
+    }
+    free(patterns);
+    return list;
+}
+
+/* What one nozzle brings by itself. */
+static json_t *pack_nozzle(const sp_design *design, const sp_nozzle *nozzle, const sp_shown_quantity *flux,
+                           uint8_t *bytes, sp_packed *packed, sp_error *error)
+{
+    sp_layout *alone = sp_layout_create(nozzle, 1, error);
+    sp_coverage *coverage = alone ? sp_evaluate(design->evaluator, alone, error) : NULL;
+    char *name = sp_text_utf8(nozzle->name);
+    json_t *object = NULL;
+    if (coverage && name) {
+        pack_quantity(&coverage->deposits, flux, coverage->deposits.flux, bytes, packed);
+        object = json_pack("{s:s, s:o, s:o}", "name", name, "at", vector_json(nozzle->position), "sprays",
+                           sprays_json(design->evaluator, nozzle));
+    }
+    free(name);
+    sp_coverage_destroy(coverage);
+    sp_layout_destroy(alone);
+    return object ? object : sp_fail_memory(error);
+}
+
+static json_t *pack_nozzles(const sp_design *design, const sp_shown_quantity *flux, uint8_t *bytes, sp_packed *packed,
+                            sp_error *error)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; list && i < design->layout->count; ++i) {
+        json_t *nozzle = pack_nozzle(design, &design->layout->nozzles[i], flux, bytes, packed, error);
+        if (!nozzle || json_array_append_new(list, nozzle) != 0) {
+            json_decref(list);
+            return sp_fail_memory(error);
+        }
+    }
+    return list;
+}
+
+static json_t *head_json(const sp_page *page, size_t design)
+{
+    sp_text name = {0}, quote = {0};
+    sp_page_plain_name(page, &name, design);
+    sp_text_add(&quote, "%.1f %% with %.1f L/min", 100 * page->figures[design].coverage,
+                6e4 * page->figures[design].flow);
+    json_t *object = NULL;
+    if (!name.failed && !quote.failed)
+        object = json_pack("{s:I, s:s, s:s, s:b, s:b}", "index", (json_int_t)design, "name", name.text, "quote",
+                           quote.text, "manual", (int)(design == page->manual), "first", (int)(design != page->greedy));
+    free(name.text);
+    free(quote.text);
+    return object;
+}
+
+json_t *sp_viewer_design(const sp_page *page, size_t index, const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES],
+                         sp_packed *packed, sp_error *error)
+{
+    const sp_design *design = &page->result->designs[index];
+    const sp_deposits *deposits = &design->coverage->deposits;
+    uint8_t *bytes = malloc(deposits->count + 1);
+    json_t *object = bytes ? head_json(page, index) : NULL;
+    if (!object) {
+        free(bytes);
+        return sp_fail_memory(error);
+    }
+    for (int k = 0; k < SP_SHOWN_QUANTITIES; ++k)
+        pack_quantity(deposits, &quantities[k], sp_shown_values(deposits, k), bytes, packed);
+    pack_covered(deposits, bytes, packed);
+    json_t *shadows = pack_shadows(design, bytes, packed, error);
+    json_t *nozzles = shadows ? pack_nozzles(design, &quantities[SP_SHOWN_FLUX], bytes, packed, error) : NULL;
+    bool good =
+        json_object_set_new(object, "shadows", shadows) == 0 && json_object_set_new(object, "nozzles", nozzles) == 0;
+    free(bytes);
+    if (good)
+        return object;
+    json_decref(object);
+    return sp_fail_memory(error);
+}

@@ -1,0 +1,212 @@
+#include "model.h"
+
+#include "design.h"
+#include "report/camera.h"
+#include "surface.h"
+
+#include <sprayplan/image.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+static json_t *vector_json(sp_vec3 v)
+{
+    return json_pack("[fff]", v.x, v.y, v.z);
+}
+
+static json_t *colour_json(const uint8_t rgb[3])
+{
+    return json_pack("[iii]", rgb[0], rgb[1], rgb[2]);
+}
+
+/* All 256 colours of the bar, six hexadecimal digits each. */
+static json_t *palette_json(void)
+{
+    char digits[6 * 256 + 1];
+    for (int i = 0; i < 256; ++i) {
+        uint8_t rgb[3];
+        sp_viridis(i / 255.0, rgb);
+        snprintf(digits + 6 * i, 7, "%02x%02x%02x", rgb[0], rgb[1], rgb[2]);
+    }
+    return json_string(digits);
+}
+
+static json_t *quantities_json(const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES])
+{
+    json_t *list = json_array();
+    for (int k = 0; k < SP_SHOWN_QUANTITIES; ++k) {
+        const sp_shown_quantity *q = &quantities[k];
+        json_array_append_new(list, json_pack("{s:s, s:s, s:s, s:f, s:f, s:b, s:[ff], s:f}", "key", q->key, "name",
+                                              q->name, "unit", q->unit, "low", q->low, "high", q->high, "log",
+                                              (int)q->log, "shown", q->shown[0], q->shown[1], "step", q->criterion));
+    }
+    return list;
+}
+
+static json_t *parts_json(const sp_mesh *mesh)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < mesh->part_count; ++i)
+        json_array_append_new(list, json_pack("{s:s}", "name", mesh->parts[i].name));
+    return list;
+}
+
+static json_t *ranges_json(const sp_drawn_surface *surface)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < surface->range_count; ++i) {
+        const sp_drawn_range *r = &surface->ranges[i];
+        json_array_append_new(list, json_pack("{s:I, s:I, s:i, s:I, s:I}", "part", (json_int_t)r->part, "page",
+                                              r->page == SP_NONE ? (json_int_t)-1 : (json_int_t)r->page, "layer",
+                                              r->layer, "first", (json_int_t)r->first, "count", (json_int_t)r->count));
+    }
+    return list;
+}
+
+static void pack_surface(const sp_drawn_surface *surface, sp_packed *packed)
+{
+    for (int k = 0; k < SP_DRAWN_NUMBERS; ++k)
+        sp_packed_shorts(packed, surface->numbers[k], surface->vertex_count, true);
+    sp_packed_words(packed, surface->corners[0], 3 * surface->triangle_count, true);
+}
+
+/* Where the pages' pixels are, and which patch each of them shows. */
+static bool pack_pages(const sp_layers *layers, sp_packed *packed, sp_error *error)
+{
+    const sp_atlas *atlas = sp_evaluator_atlas(layers->evaluator);
+    size_t room = atlas->run_count > atlas->pixel_count ? atlas->run_count : atlas->pixel_count;
+    uint32_t *words = malloc((room + 1) * sizeof *words);
+    uint16_t *shorts = malloc((room + 1) * sizeof *shorts);
+    if (words && shorts) {
+        for (size_t i = 0; i < atlas->run_count; ++i)
+            words[i] = atlas->runs[i].row;
+        sp_packed_words(packed, words, atlas->run_count, true);
+        for (size_t i = 0; i < atlas->run_count; ++i)
+            shorts[i] = atlas->runs[i].x;
+        sp_packed_shorts(packed, shorts, atlas->run_count, false);
+        for (size_t i = 0; i < atlas->run_count; ++i)
+            shorts[i] = atlas->runs[i].count;
+        sp_packed_shorts(packed, shorts, atlas->run_count, false);
+        for (int layer = 0; layer < (layers->has_back ? 2 : 1); ++layer) {
+            for (size_t i = 0; i < atlas->pixel_count; ++i)
+                words[i] = layers->patch[layer][i] + 1; /* SP_NONE: 0 */
+            sp_packed_words(packed, words, atlas->pixel_count, true);
+        }
+    }
+    bool done = words && shorts;
+    free(words);
+    free(shorts);
+    return done || sp_fail_memory(error);
+}
+
+/* The designs of one evaluator, their arrays behind those of its surface. */
+static json_t *designs_json(const sp_page *page, const sp_evaluator *evaluator,
+                            const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], sp_packed *packed, sp_error *error)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; list && i < page->result->design_count; ++i) {
+        if (page->result->designs[i].evaluator != evaluator)
+            continue;
+        json_t *design = sp_viewer_design(page, i, quantities, packed, error);
+        if (!design || json_array_append_new(list, design) != 0) {
+            json_decref(list);
+            list = NULL;
+        }
+    }
+    return list ? list : sp_fail_memory(error);
+}
+
+static json_t *surface_json(const sp_layers *layers, const sp_drawn_surface *surface)
+{
+    const sp_evaluator *evaluator = layers->evaluator;
+    const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
+    const sp_setup *setup = sp_evaluator_setup(evaluator);
+    return json_pack("{s:o, s:o, s:o, s:b, s:I, s:I, s:I, s:i, s:I, s:I, s:I, s:I, s:o, s:o}", "low",
+                     vector_json(surface->low), "high", vector_json(surface->high), "origin",
+                     vector_json(setup->origin), "twoSided", (int)layers->two_sided, "vertices",
+                     (json_int_t)surface->vertex_count, "triangles", (json_int_t)surface->triangle_count, "edge",
+                     (json_int_t)atlas->page_edge, "layers", layers->has_back ? 2 : 1, "pages",
+                     (json_int_t)atlas->page_count, "runs", (json_int_t)atlas->run_count, "pixels",
+                     (json_int_t)atlas->pixel_count, "patches", (json_int_t)sp_evaluator_patches(evaluator)->count,
+                     "parts", parts_json(setup->mesh), "draws", ranges_json(surface));
+}
+
+static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator,
+                          const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], sp_error *error)
+{
+    sp_layers layers = {0};
+    sp_drawn_surface surface = {0};
+    sp_packed packed = {0};
+    json_t *object = NULL, *designs = NULL;
+    if (sp_layers_create(&layers, evaluator, error) && sp_drawn_surface_create(&surface, &layers, error)) {
+        pack_surface(&surface, &packed);
+        if (pack_pages(&layers, &packed, error))
+            designs = designs_json(page, evaluator, quantities, &packed, error);
+        char *data = designs ? sp_packed_finish(&packed, error) : NULL;
+        object = data ? surface_json(&layers, &surface) : NULL;
+        sp_camera camera = sp_camera_create(evaluator, page->result, &sp_views[0], 1);
+        if (!object || json_object_set(object, "designs", designs) != 0 ||
+            json_object_set_new(object, "cut", json_boolean(camera.cut)) != 0 ||
+            json_object_set_new(object, "data", json_string_nocheck(data)) != 0) {
+            json_decref(object);
+            object = sp_fail_memory(error);
+        }
+        free(data);
+    }
+    json_decref(designs);
+    free(packed.text);
+    sp_drawn_surface_free(&surface);
+    sp_layers_free(&layers);
+    return object;
+}
+
+/* One for each evaluator that the designs have. */
+static json_t *models_json(const sp_page *page, const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES],
+                           sp_error *error)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; list && i < page->result->design_count; ++i) {
+        const sp_evaluator *evaluator = page->result->designs[i].evaluator;
+        bool known = !evaluator;
+        for (size_t k = 0; k < i; ++k)
+            known |= page->result->designs[k].evaluator == evaluator;
+        json_t *model = known ? NULL : model_json(page, evaluator, quantities, error);
+        if (!known && (!model || json_array_append_new(list, model) != 0)) {
+            json_decref(list);
+            return sp_fail_memory(error);
+        }
+    }
+    return list;
+}
+
+/* JSON may hold what ends a script: names come from strangers. */
+static void add_safely(sp_text *text, const char *json)
+{
+    for (const char *rest; (rest = strchr(json, '<')); json = rest + 1) {
+        sp_text_append(text, json, (size_t)(rest - json));
+        sp_text_add(text, "\\u003c");
+    }
+    sp_text_append(text, json, strlen(json));
+}
+
+bool sp_viewer_model(const sp_page *page, sp_text *text, sp_error *error)
+{
+    sp_shown_quantity quantities[SP_SHOWN_QUANTITIES];
+    sp_shown_quantities(page, quantities);
+    json_t *models = models_json(page, quantities, error);
+    if (!models)
+        return false;
+    sp_vec3 up = sp_v(0, 0, 1);
+    for (size_t i = page->result->design_count; i-- > 0;)
+        if (page->result->designs[i].evaluator)
+            up = sp_evaluator_setup(page->result->designs[i].evaluator)->up;
+    json_t *all = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "up", vector_json(up), "palette", palette_json(), "grey",
+                            colour_json(sp_colour_obstacle), "film", colour_json(sp_colour_film), "quantities",
+                            quantities_json(quantities), "models", models);
+    char *json = all ? json_dumps(all, JSON_COMPACT | JSON_REAL_PRECISION(7)) : NULL;
+    if (json)
+        add_safely(text, json);
+    free(json);
+    json_decref(all);
+    return json || sp_fail_memory(error);
+}

@@ -1,0 +1,51 @@
+#include "packed.h"
+
+#include <stdlib.h>
+#include <zlib.h>
+
+static void put(sp_packed *packed, uint32_t value, int bytes)
+{
+    char little[4];
+    for (int k = 0; k < bytes; ++k)
+        little[k] = (char)(value >> (8 * k) & 0xff);
+    sp_text_append(packed, little, (size_t)bytes);
+}
+
+static void align(sp_packed *packed)
+{
+    sp_text_append(packed, "\0\0\0", (4 - packed->length % 4) % 4);
+}
+
+void sp_packed_bytes(sp_packed *packed, const uint8_t *values, size_t count)
+{
+    sp_text_append(packed, (const char *)values, count);
+    align(packed);
+}
+
+void sp_packed_shorts(sp_packed *packed, const uint16_t *values, size_t count, bool differences)
+{
+    for (size_t i = 0; i < count; ++i)
+        put(packed, differences && i ? (uint32_t)values[i] - values[i - 1] : values[i], 2);
+    align(packed);
+}
+
+void sp_packed_words(sp_packed *packed, const uint32_t *values, size_t count, bool differences)
+{
+    for (size_t i = 0; i < count; ++i)
+        put(packed, differences && i ? values[i] - values[i - 1] : values[i], 4);
+}
+
+char *sp_packed_finish(const sp_packed *packed, sp_error *error)
+{
+    uLongf size = compressBound(packed->length);
+    uint8_t *deflated = packed->failed ? NULL : malloc(size);
+    if (!deflated)
+        return sp_fail_memory(error);
+    sp_text text = {0};
+    if (compress2(deflated, &size, (const Bytef *)packed->text, packed->length, Z_BEST_COMPRESSION) == Z_OK)
+        sp_markup_base64(&text, deflated, size);
+    else
+        text.failed = true;
+    free(deflated);
+    return sp_text_finish(&text, error);
+}

@@ -1,0 +1,18 @@
+/* Arrays as the viewer's script reads them: little-endian one after the other, each from a multiple of four bytes on,
+ * deflated (RFC 1950) and in base64. */
+#ifndef REPORT_VIEWER_PACKED_H
+#define REPORT_VIEWER_PACKED_H
+
+#include "report/markup.h"
+
+/* Bytes that grow; starts as {0}. */
+typedef sp_text sp_packed;
+
+void sp_packed_bytes(sp_packed *packed, const uint8_t *values, size_t count);
+/* With `differences` each as what it is more than the value before, modulo 2^16 and 2^32: such deflate better. */
+void sp_packed_shorts(sp_packed *packed, const uint16_t *values, size_t count, bool differences);
+void sp_packed_words(sp_packed *packed, const uint32_t *values, size_t count, bool differences);
+/* As base64, malloc'd; NULL on error. */
+char *sp_packed_finish(const sp_packed *packed, sp_error *error);
+
+#endif

@@ -1,0 +1,78 @@
+#include "quantities.h"
+
+#define DECADES 5.0 /* of a logarithmic scale's bytes: steps of 4.6 % */
+
+const double *sp_shown_values(const sp_deposits *deposits, int quantity)
+{
+    const double *const values[SP_SHOWN_QUANTITIES] = {deposits->flux, deposits->speed, deposits->incidence,
+                                                       deposits->impact};
+    return values[quantity];
+}
+
+/* Of all designs, in SI. */
+static double most(const sp_page *page, int quantity)
+{
+    double found = 0;
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        const sp_design *design = &page->result->designs[i];
+        const double *values = design->evaluator ? sp_shown_values(&design->coverage->deposits, quantity) : NULL;
+        for (size_t k = 0; values && k < design->coverage->deposits.count; ++k)
+            found = fmax(found, values[k]);
+    }
+    return found;
+}
+
+static double rounded_up(double value)
+{
+    double power = pow(10, floor(log10(value)));
+    return value <= power ? power : value <= 2 * power ? 2 * power : value <= 5 * power ? 5 * power : 10 * power;
+}
+
+static void scale_evenly(sp_shown_quantity *q, double high)
+{
+    q->low = q->shown[0] = 0;
+    q->high = q->shown[1] = high > 0 ? rounded_up(high) : 1;
+}
+
+static void scale_by_ratios(sp_shown_quantity *q, double high)
+{
+    q->log = true;
+    q->high = high > 0 ? high : 1;
+    q->low = q->high * pow(10, -DECADES);
+    q->shown[1] = rounded_up(q->high);
+    q->shown[0] = q->shown[1] / 1000;
+}
+
+void sp_shown_quantities(const sp_page *page, sp_shown_quantity quantities[SP_SHOWN_QUANTITIES])
+{
+    const sp_shown_quantity all[SP_SHOWN_QUANTITIES] = {
+        {.key = "flux", .name = "Liquid flux", .unit = "L/min per m\xc2\xb2", .to_unit = 6e4},
+        {.key = "speed", .name = "Impact speed", .unit = "m/s", .to_unit = 1},
+        {.key = "incidence", .name = "Incidence", .unit = "deg", .to_unit = 180 / M_PI},
+        {.key = "impact", .name = "Impact pressure", .unit = "Pa", .to_unit = 1},
+    };
+    const sp_criterion *criterion = NULL;
+    for (size_t i = 0; i < page->result->design_count && !criterion; ++i)
+        if (page->result->designs[i].evaluator)
+            criterion = &sp_evaluator_setup(page->result->designs[i].evaluator)->criterion;
+    for (int k = 0; k < SP_SHOWN_QUANTITIES; ++k)
+        quantities[k] = all[k];
+    scale_by_ratios(&quantities[SP_SHOWN_FLUX], 6e4 * most(page, SP_SHOWN_FLUX));
+    quantities[SP_SHOWN_FLUX].shown[0] = 6e4 * page->scale.low;
+    quantities[SP_SHOWN_FLUX].shown[1] = 6e4 * page->scale.high;
+    scale_evenly(&quantities[SP_SHOWN_SPEED], most(page, SP_SHOWN_SPEED));
+    scale_by_ratios(&quantities[SP_SHOWN_IMPACT], most(page, SP_SHOWN_IMPACT));
+    quantities[SP_SHOWN_INCIDENCE].high = quantities[SP_SHOWN_INCIDENCE].shown[1] = 90;
+    if (!criterion)
+        return;
+    quantities[SP_SHOWN_FLUX].criterion = 6e4 * criterion->flux;
+    quantities[SP_SHOWN_SPEED].criterion = criterion->impact_speed;
+    quantities[SP_SHOWN_INCIDENCE].criterion = criterion->incidence < M_PI / 2 ? 180 / M_PI * criterion->incidence : 0;
+}
+
+uint8_t sp_shown_byte(const sp_shown_quantity *q, double value)
+{
+    double told = value * q->to_unit;
+    double place = q->log ? log(told / q->low) / log(q->high / q->low) : (told - q->low) / (q->high - q->low);
+    return (uint8_t)(1 + lrint(254 * fmin(fmax(place, 0), 1)));
+}

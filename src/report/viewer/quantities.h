@@ -1,0 +1,26 @@
+/* What the viewer can show of a patch, one byte a value. */
+#ifndef REPORT_VIEWER_QUANTITIES_H
+#define REPORT_VIEWER_QUANTITIES_H
+
+#include "report/page.h"
+
+enum { SP_SHOWN_FLUX, SP_SHOWN_SPEED, SP_SHOWN_INCIDENCE, SP_SHOWN_IMPACT, SP_SHOWN_QUANTITIES };
+
+/* Byte 0: no liquid. 1 to 255: from `low` to `high` in 254 steps, in equal ratios where `log`; the ends mean that or
+ * beyond. All in the reader's unit. */
+typedef struct {
+    const char *key, *name, *unit;
+    double to_unit; /* times a value in SI */
+    double low, high;
+    bool log;
+    double shown[2];  /* ends of the colour bar */
+    double criterion; /* 0: none */
+} sp_shown_quantity;
+
+/* One scale for all designs of the page. */
+void sp_shown_quantities(const sp_page *page, sp_shown_quantity quantities[SP_SHOWN_QUANTITIES]);
+const double *sp_shown_values(const sp_deposits *deposits, int quantity);
+/* `value` in SI. */
+uint8_t sp_shown_byte(const sp_shown_quantity *quantity, double value);
+
+#endif

@@ -1,0 +1,16 @@
+#include "script.h"
+
+/* The assembler takes the files in, so that nothing is generated. */
+#ifdef __APPLE__
+#define SECTION ".const_data"
+#define SYMBOL(name) "_" name
+#else
+#define SECTION ".section .rodata"
+#define SYMBOL(name) name
+#endif
+#define EMBED(name, file)                                                                                              \
+    __asm__(SECTION "\n.globl " SYMBOL(name) "\n" SYMBOL(name) ":\n.incbin \"" file "\"\n.globl " SYMBOL(              \
+        name "_end") "\n" SYMBOL(name "_end") ":\n.byte 0\n.text\n")
+
+EMBED("sp_viewer_script", SPRAYPLAN_VIEWER "/viewer.js");
+EMBED("sp_viewer_style", SPRAYPLAN_VIEWER "/viewer.css");

@@ -1,0 +1,33 @@
+/* Pages of the workplace in headless Chromium, with WebGL by software. */
+#ifndef BROWSER_BROWSER_H
+#define BROWSER_BROWSER_H
+
+#include "../cli/workplace.h"
+
+static inline bool has_browser(void)
+{
+    return system("command -v chromium >/dev/null 2>&1") == 0;
+}
+
+static inline void skip_without_browser(void)
+{
+    if (!has_browser()) {
+        print_message("chromium is not installed: the report is not opened\n");
+        skip();
+    }
+}
+
+/* Opens a page with the browser; what it prints is the caller's. Messages of the page's console are in .err. */
+static inline char *browse(const char *page, const char *arguments)
+{
+    char line[4096];
+    snprintf(line, sizeof line,
+             "cd '%s' && timeout 120 chromium --headless --no-sandbox --use-gl=angle --use-angle=swiftshader "
+             "--enable-unsafe-swiftshader --disable-dev-shm-usage --user-data-dir='%s/profile' --hide-scrollbars "
+             "--enable-logging=stderr %s \"file://$PWD/%s\" >.out 2>.err </dev/null",
+             workplace, workplace, arguments, page);
+    assert_int_equal(system(line), 0);
+    return read_file(".out", NULL);
+}
+
+#endif

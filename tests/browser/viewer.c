@@ -1,0 +1,223 @@
+/* The report's viewer as a reader uses it: both designs are drawn, asked and told by mouse and keyboard. */
+#include "browser.h"
+
+#include <sprayplan/sprayplan.h>
+
+#include <math.h>
+
+static json_t *found;   /* what the page's reader saw */
+static sp_scene *scene; /* the proposal */
+static sp_evaluator *evaluator;
+static sp_coverage *coverage;
+
+/* The report with the test's own script behind the viewer's. */
+static void write_page_with_reader(void)
+{
+    char *page = read_file("placed/report.html", NULL), *end = page ? strstr(page, "</body>") : NULL;
+    assert_non_null(end);
+    *end = 0;
+    char line[2048], path[1024];
+    snprintf(path, sizeof path, "%s/read.html", workplace);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fprintf(file, "%s<script>\n", page);
+    fclose(file);
+    snprintf(line, sizeof line, "cat '" SOURCE_DIR "/tests/browser/viewer.js' >>'%s'", path);
+    assert_int_equal(system(line), 0);
+    snprintf(line, sizeof line, "echo '</script></body></html>' >>'%s'", path);
+    assert_int_equal(system(line), 0);
+    free(page);
+}
+
+/* The text of <pre id="told">, as JSON. */
+static json_t *what_was_told(char *page)
+{
+    char *from = strstr(page, "<pre id=\"told\">"), *to = from ? strstr(from, "</pre>") : NULL;
+    assert_non_null(to);
+    *to = 0;
+    char *text = from + strlen("<pre id=\"told\">"), *write = text;
+    for (const char *read = text; *read; ++write) { /* the browser escapes these three */
+        static const char *const entities[][2] = {{"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}};
+        *write = *read++;
+        for (int k = 0; k < 3; k++)
+            if (!strncmp(read - 1, entities[k][0], strlen(entities[k][0]))) {
+                *write = entities[k][1][0];
+                read += strlen(entities[k][0]) - 1;
+            }
+    }
+    *write = 0;
+    return json_loads(text, 0, NULL);
+}
+
+static int use_the_viewer(void **state)
+{
+    if (open_workplace(state) != 0)
+        return -1;
+    if (!has_browser())
+        return 0;
+    outcome result = run_program("place room.yaml -o placed --quiet");
+    int status = result.status;
+    forget(&result);
+    if (status != 0)
+        return -1;
+    write_page_with_reader();
+    char *page = browse("read.html", "--window-size=1200,900 --virtual-time-budget=60000 --dump-dom");
+    found = what_was_told(page);
+    free(page);
+    sp_error error = {0};
+    char path[1024];
+    snprintf(path, sizeof path, "%s/placed/layout.yaml", workplace);
+    scene = sp_scene_load(path, &error);
+    evaluator = sp_evaluator_create(sp_scene_setup(scene), &error);
+    coverage = sp_evaluate(evaluator, sp_scene_layout(scene), &error);
+    return found && coverage ? 0 : -1;
+}
+
+static int put_away(void **state)
+{
+    json_decref(found);
+    sp_coverage_destroy(coverage);
+    sp_evaluator_destroy(evaluator);
+    sp_scene_destroy(scene);
+    return close_workplace(state);
+}
+
+static double number(const json_t *of, const char *key)
+{
+    return json_number_value(json_object_get(of, key));
+}
+
+static void it_opens_without_requests_or_messages(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    assert_string_equal(json_string_value(json_object_get(found, "ready")), "true");
+    assert_int_equal(json_array_size(json_object_get(found, "errors")), 0);
+    assert_int_equal(json_array_size(json_object_get(found, "requests")), 0);
+    char *messages = read_file(".err", NULL);
+    assert_null(strstr(messages, ":CONSOLE"));
+    free(messages);
+}
+
+static void both_designs_are_drawn(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    for (size_t i = 0; i < 2; i++)
+        assert_true(number(json_array_get(json_object_get(found, "first"), i), "drawn") > 5000);
+}
+
+static bool looks_alike(const json_t *one, const json_t *other)
+{
+    return json_equal(one, other);
+}
+
+static void another_quantity_changes_pixels_and_bar(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    json_t *quantities = json_object_get(found, "quantities");
+    size_t count = json_array_size(quantities);
+    assert_int_equal(count, 6);
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < i; k++) {
+            const json_t *one = json_array_get(quantities, i), *other = json_array_get(quantities, k);
+            assert_false(looks_alike(json_object_get(one, "seen"), json_object_get(other, "seen")));
+            assert_string_not_equal(json_string_value(json_object_get(one, "bar")),
+                                    json_string_value(json_object_get(other, "bar")));
+        }
+}
+
+/* "12.3 L/min per m²"; 0 for "none". */
+static double leading_number(const char *text)
+{
+    text += strcspn(text, "0123456789");
+    return strtod(text, NULL);
+}
+
+static const char *last_cell(const json_t *pick, size_t row)
+{
+    const json_t *cells = json_array_get(json_object_get(pick, "rows"), row);
+    return json_string_value(json_array_get(cells, json_array_size(cells) - 1));
+}
+
+/* Three significant digits, and half a step of a scale of 254 over five decades or over all of it. */
+static void expect_figure(const char *text, double value, double step, bool ratio)
+{
+    double told = leading_number(text);
+    double allowed = ratio ? value * (step / 2 + 0.006) : step / 2 + 0.006 * value;
+    if (strncmp(text, "at most", 7) == 0)
+        assert_true(value <= told * 1.006);
+    else if (!(fabs(told - value) <= allowed))
+        fail_msg("told %s, expected %g", text, value);
+}
+
+static void a_point_is_told_as_it_is(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    const sp_patches *patches = sp_evaluator_patches(evaluator);
+    const sp_deposits *deposits = &coverage->deposits;
+    double fastest = 0;
+    size_t asked = 0;
+    for (size_t i = 0; i < deposits->count; i++)
+        fastest = fmax(fastest, deposits->speed[i]);
+    for (size_t i = 0; i < json_array_size(json_object_get(found, "picks")); i++) {
+        const json_t *pick = json_array_get(json_object_get(found, "picks"), i);
+        size_t patch = (size_t)number(pick, "patch");
+        assert_true(patch < patches->count);
+        char part[64];
+        sp_vec3 at;
+        const char *text = json_string_value(json_object_get(pick, "text"));
+        assert_int_equal(sscanf(text, "%63s at %lf, %lf, %lf m", part, &at.x, &at.y, &at.z), 4);
+        assert_true(sp_distance(at, patches->point[patch]) <= 1.5 * patches->length[patch]);
+        if (!(deposits->flux[patch] > 0)) {
+            assert_string_equal(last_cell(pick, 0), "none");
+            continue;
+        }
+        asked++;
+        expect_figure(last_cell(pick, 0), 6e4 * deposits->flux[patch], 5 * log(10) / 254, true);
+        expect_figure(last_cell(pick, 1), deposits->speed[patch], 5 * fastest / 254, false);
+        expect_figure(last_cell(pick, 2), deposits->incidence[patch] * 180 / M_PI, 90.0 / 254, false);
+        expect_figure(last_cell(pick, 3), deposits->impact[patch], 5 * log(10) / 254, true);
+        assert_int_equal(leading_number(last_cell(pick, 4)) >= 50, deposits->covered[patch]);
+    }
+    assert_true(asked >= 5);
+}
+
+static void keys_turn_and_fit(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    assert_true(json_is_true(json_object_get(found, "focused")));
+    const json_t *picks = json_object_get(found, "picks");
+    assert_string_not_equal(json_string_value(json_object_get(json_array_get(picks, 0), "text")),
+                            json_string_value(json_object_get(json_array_get(picks, 23), "text")));
+    assert_true(looks_alike(json_object_get(found, "first"), json_object_get(found, "fitted")));
+}
+
+static void rows_of_the_tables_act(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    const json_t *nozzle = json_object_get(found, "nozzle"), *shadow = json_object_get(found, "shadow");
+    assert_non_null(nozzle);
+    assert_non_null(strstr(json_string_value(json_object_get(nozzle, "text")), "N1"));
+    assert_false(looks_alike(json_object_get(nozzle, "seen"), json_object_get(found, "first")));
+    assert_non_null(shadow);
+    assert_non_null(strstr(json_string_value(json_object_get(shadow, "text")), "region 1"));
+    assert_false(looks_alike(json_object_get(shadow, "seen"), json_object_get(found, "first")));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(it_opens_without_requests_or_messages),
+        cmocka_unit_test(both_designs_are_drawn),
+        cmocka_unit_test(another_quantity_changes_pixels_and_bar),
+        cmocka_unit_test(a_point_is_told_as_it_is),
+        cmocka_unit_test(keys_turn_and_fit),
+        cmocka_unit_test(rows_of_the_tables_act),
+    };
+    return cmocka_run_group_tests(tests, use_the_viewer, put_away);
+}

@@ -1,0 +1,69 @@
+/* Put behind the report's own script by a test: uses the viewer as a reader would, and writes what it saw into the page. */
+(async () => {
+    const found = {errors: [], picks: []};
+    const told = document.createElement("pre");
+    told.id = "told";
+    addEventListener("error", (event) => found.errors.push(event.message));
+    const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+    const viewer = document.getElementById("viewer");
+    for (let i = 0; i < 200 && !viewer.dataset.ready; i++)
+        await wait(50);
+    found.ready = viewer.dataset.ready || "";
+    const canvas = viewer.querySelector("canvas"), gl = canvas.getContext("webgl2");
+    const answer = viewer.querySelector(".answer"), bar = viewer.querySelector(".scale");
+
+    /* Sums of each half's pixels, and how many of it are not white. */
+    function look() {
+        dispatchEvent(new Event("resize")); /* it draws at once, whenever the browser shows frames */
+        const {width, height} = canvas, half = Math.floor(width / 2);
+        return [0, half].map((left) => {
+            const pixels = new Uint8Array(4 * half * height);
+            gl.readPixels(left, 0, half, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+            let drawn = 0, sum = 0;
+            for (let i = 0; i < pixels.length; i += 4) {
+                drawn += pixels[i] + pixels[i + 1] + pixels[i + 2] < 765;
+                sum = (sum * 31 + pixels[i] + 256 * pixels[i + 1] + 65536 * pixels[i + 2]) % 2147483647;
+            }
+            return {drawn, sum};
+        });
+    }
+    const press = (key, more) => canvas.dispatchEvent(new KeyboardEvent("keydown", {key, bubbles: true, cancelable: true, ...more}));
+    function choose(list, text) {
+        list.selectedIndex = [...list.options].findIndex((option) => option.text === text);
+        list.dispatchEvent(new Event("change"));
+    }
+
+    press("f"); /* the window may have got its size only now */
+    found.first = look();
+    const [show] = viewer.querySelectorAll("select");
+    found.quantities = [];
+    for (const {text} of [...show.options]) {
+        choose(show, text);
+        found.quantities.push({text, seen: look(), bar: bar.textContent});
+    }
+    choose(show, "Liquid flux");
+    canvas.focus();
+    found.focused = document.activeElement === canvas;
+    for (let i = 0; i < 24; i++) {
+        press("ArrowLeft");
+        press(i % 2 ? "ArrowUp" : "+");
+        press("Enter");
+        found.picks.push({patch: Number(answer.dataset.patch), text: answer.querySelector("p").textContent,
+            rows: [...answer.querySelectorAll("tbody tr")].map((row) => [...row.children].map((cell) => cell.textContent))});
+    }
+    press("f");
+    found.fitted = look();
+    const row = (id) => document.querySelector(`#${id} table[data-design="0"] tbody button`);
+    if (row("nozzles")) {
+        row("nozzles").click();
+        found.nozzle = {text: answer.textContent, seen: look()};
+        row("nozzles").click();
+    }
+    if (row("shadows")) {
+        row("shadows").click();
+        found.shadow = {text: answer.textContent, seen: look()};
+    }
+    found.requests = performance.getEntriesByType("resource").map((entry) => entry.name);
+    told.textContent = JSON.stringify(found);
+    document.body.append(told);
+})();
