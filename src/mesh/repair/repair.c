@@ -9,7 +9,8 @@ enum { MOST_PASSES = 30, MOST_ROUNDS = 20 };
 
 typedef struct {
     sp_mesh *mesh;
-    sp_mesh_diagnosis diagnosis; /* of the mesh */
+    bool diagnosed;
+    sp_mesh_diagnosis diagnosis; /* of the mesh, once it is diagnosed */
     size_t changes;
     sp_repair_account *account;
 } mending;
@@ -71,12 +72,18 @@ static bool is_better(const mending *m, const sp_mesh *made, const sp_mesh_diagn
     return good;
 }
 
+static bool diagnose(mending *m, sp_error *error)
+{
+    m->diagnosed = m->diagnosed || sp_mesh_diagnose(m->mesh, &m->diagnosis, error);
+    return m->diagnosed;
+}
+
 /* Takes the mesh over. */
-static void accept(mending *m, sp_mesh *made, const sp_mesh_diagnosis *diagnosis)
+static void accept(mending *m, sp_mesh *made)
 {
     sp_mesh_destroy(m->mesh);
     m->mesh = made;
-    m->diagnosis = *diagnosis;
+    m->diagnosed = false;
     m->changes++;
 }
 
@@ -84,30 +91,26 @@ static void accept(mending *m, sp_mesh *made, const sp_mesh_diagnosis *diagnosis
 static bool do_for_sure(mending *m, sp_mender *mend, size_t *count, sp_error *error)
 {
     sp_mesh *made;
-    sp_mesh_diagnosis diagnosis;
     size_t done;
     if (!apply(m->mesh, mend, false, &made, &done, error))
         return false;
-    if (!made)
-        return true;
-    if (!sp_mesh_diagnose(made, &diagnosis, error)) {
-        sp_mesh_destroy(made);
-        return false;
-    }
-    accept(m, made, &diagnosis);
+    if (made)
+        accept(m, made);
     *count += done;
     return true;
 }
 
-/* What may: with neighbours turned to agree where it brought them together. */
-static bool attempt(mending *m, sp_mender *mend, bool careful, size_t *count, bool *taken, sp_error *error)
+/* What may: with neighbours turned to agree where it brought them together. *settled: there was nothing to do, or it
+ * was for the better. */
+static bool attempt(mending *m, sp_mender *mend, bool careful, size_t *count, bool *settled, sp_error *error)
 {
     sp_mesh *made, *turned;
     sp_mesh_diagnosis diagnosis;
     size_t done, turns;
-    *taken = false;
+    *settled = false;
     if (!apply(m->mesh, mend, careful, &made, &done, error))
         return false;
+    *settled = !made;
     if (!made)
         return true;
     bool good = apply(made, sp_turn_over, false, &turned, &turns, error);
@@ -115,12 +118,15 @@ static bool attempt(mending *m, sp_mender *mend, bool careful, size_t *count, bo
         sp_mesh_destroy(made);
         made = turned;
     }
-    good = good && sp_mesh_diagnose(made, &diagnosis, error) && is_better(m, made, &diagnosis, taken, error);
-    if (!*taken) {
+    good = good && diagnose(m, error) && sp_mesh_diagnose(made, &diagnosis, error) &&
+           is_better(m, made, &diagnosis, settled, error);
+    if (!*settled) {
         sp_mesh_destroy(made);
         return good;
     }
-    accept(m, made, &diagnosis);
+    accept(m, made);
+    m->diagnosis = diagnosis;
+    m->diagnosed = true;
     *count += done;
     m->account->turned += turns;
     return true;
@@ -128,10 +134,9 @@ static bool attempt(mending *m, sp_mender *mend, bool careful, size_t *count, bo
 
 static bool try(mending *m, sp_mender *mend, size_t *count, sp_error *error)
 {
-    bool taken;
-    if (m->diagnosis.crossings.more || m->diagnosis.cracks.more)
-        return true; /* whether it does harm could not be told */
-    return attempt(m, mend, false, count, &taken, error) && (taken || attempt(m, mend, true, count, &taken, error));
+    bool settled;
+    return attempt(m, mend, false, count, &settled, error) &&
+           (settled || attempt(m, mend, true, count, &settled, error));
 }
 
 static bool mend_all(mending *m, sp_error *error)
@@ -149,7 +154,7 @@ static bool mend_all(mending *m, sp_error *error)
     return true;
 }
 
-/* The mesh without its degenerate triangles and, of its vertices, with those in use. */
+/* The mesh without its degenerate triangles. */
 static sp_mesh *cleared(const sp_mesh *mesh, sp_error *error)
 {
     sp_mesh_draft draft = {
@@ -160,12 +165,12 @@ static sp_mesh *cleared(const sp_mesh *mesh, sp_error *error)
 sp_mesh *sp_mesh_repair(const sp_mesh *mesh, sp_repair_account *account, sp_error *error)
 {
     *account = (sp_repair_account){0};
-    mending m = {.account = account};
+    mending m = {.account = account, .diagnosed = true};
     bool good = sp_mesh_diagnose(mesh, &account->before, error) && (m.mesh = cleared(mesh, error));
     m.diagnosis = account->before;
     m.diagnosis.degenerate = (sp_flaw){0};
     account->dropped = account->before.degenerate.count;
-    good = good && mend_all(&m, error);
+    good = good && mend_all(&m, error) && diagnose(&m, error);
     account->after = m.diagnosis;
     if (good)
         return m.mesh;
