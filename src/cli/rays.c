@@ -30,7 +30,8 @@ static bool parse_ray(const cli_rays *reader, const char *at, sp_ray *ray, sp_er
             return fail_at(reader, at, "found \"%.40s\", expected a number up to 1e30 (ox,oy,oz,vx,vy,vz)", error);
         at = skip_blanks(end);
         if (i < 5 && *at++ != ',')
-            return fail_at(reader, at - 1, "found \"%.40s\", expected a comma and six numbers (ox,oy,oz,vx,vy,vz)", error);
+            return fail_at(reader, at - 1, "found \"%.40s\", expected a comma and six numbers (ox,oy,oz,vx,vy,vz)",
+                           error);
     }
     if (*at && *at != '#')
         return fail_at(reader, at, "found \"%.40s\" after 6 numbers, expected the end of the line", error);

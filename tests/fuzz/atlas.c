@@ -23,7 +23,7 @@ static double texel_to_ask(const sp_mesh *mesh, const char *text)
 {
     double page_edge, texel, area = sp_mesh_area(mesh);
     if (sscanf(text, SP_ATLAS_MARK "%lf %lf", &page_edge, &texel) == 2 && area <= MOST_TEXELS * texel * texel &&
-        page_edge <= MOST_TEXELS)
+        page_edge >= 1 && page_edge <= MOST_TEXELS && page_edge == floor(page_edge))
         return 0;
     return sqrt(area / 100);
 }

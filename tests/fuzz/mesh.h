@@ -62,9 +62,8 @@ static inline sp_mesh *weld_soup(sp_soup *soup)
 static inline void require_welded(const sp_mesh *mesh)
 {
     sp_error error = {0};
-    sp_mesh *again =
-        sp_mesh_create(mesh->vertices, mesh->vertex_count, (const uint32_t(*)[3])mesh->source_triangles,
-                       mesh->source_triangle_count, mesh->source_part, NULL, mesh->part_count, &error);
+    sp_mesh *again = sp_mesh_create(mesh->vertices, mesh->vertex_count, (const uint32_t(*)[3])mesh->source_triangles,
+                                    mesh->source_triangle_count, mesh->source_part, NULL, mesh->part_count, &error);
     REQUIRE(again && again->vertex_count == mesh->vertex_count && again->triangle_count == mesh->triangle_count);
     if (mesh->triangle_count)
         REQUIRE(memcmp(again->source, mesh->source, mesh->triangle_count * sizeof *mesh->source) == 0);

@@ -9,9 +9,7 @@
 
 #if defined(__SANITIZE_ADDRESS__) || HAS_FEATURE(address_sanitizer)
 
-void meter_start(void)
-{
-}
+void meter_start(void) {}
 
 size_t meter_peak(void)
 {

@@ -35,14 +35,15 @@ run() {
     local dictionary=$PWD/tests/fuzz/dictionaries/$1 log=$corpus/$1.log options=()
     [ ! -f "$dictionary" ] || options=(-dict="$dictionary")
     mkdir -p "$corpus/$reader" "$corpus/found"
-    (cd "$corpus" && nice -n 19 "$program" "$limit" -timeout=5 -rss_limit_mb=1024 -print_final_stats=1 \
-        -artifact_prefix="found/$reader-" "${options[@]}" "$reader" "$seeds" >"$log" 2>&1) || true
-    awk -v reader="$reader" '/number_of_executed_units/ {inputs = $2} /average_exec_per_sec/ {speed = $2}
-        /^SUMMARY/ {found++; what = $0} END {
-        printf "%-10s %12d %10d %9d  %s\n", reader, inputs, speed, found > 0, what; exit found > 0}' "$log"
+    TIMEFORMAT='seconds: %U %S'
+    { time (cd "$corpus" && nice -n 19 "$program" "$limit" -timeout=5 -rss_limit_mb=1024 -print_final_stats=1 \
+        -artifact_prefix="found/$reader-" "${options[@]}" "$reader" "$seeds" 2>&1); } >"$log" 2>&1 || true
+    awk -v reader="$reader" '/number_of_executed_units/ {inputs = $2} /^seconds:/ {seconds = $2 + $3}
+        /^SUMMARY/ {found = 1; what = $0} END {
+        printf "%-10s %12d %10d %9d  %s\n", reader, inputs, inputs / seconds, found, what; exit found}' "$log"
 }
 export -f run
 export corpus preset limit
 
-printf '%-10s %12s %10s %9s\n' reader inputs "exec/s" findings
+printf '%-10s %12s %10s %9s\n' reader inputs "per CPU s" findings
 printf '%s\n' "${readers[@]}" | xargs -P "$jobs" -I{} bash -euc 'run {}'

@@ -1,5 +1,5 @@
-/* What a fuzz target is made of. Each feeds one reader with the bytes it is given and looks at what comes out; libFuzzer
- * calls it in the build for fuzzing, replay.c in the ordinary tests. */
+/* What a fuzz target is made of. Each feeds one reader with the bytes it is given and looks at what comes out;
+ * libFuzzer calls it in the build for fuzzing, replay.c in the ordinary tests. */
 #ifndef TESTS_FUZZ_TARGET_H
 #define TESTS_FUZZ_TARGET_H
 
@@ -21,7 +21,7 @@ extern bool target_accepted;
 #define REQUIRE(condition)                                                                                             \
     do {                                                                                                               \
         if (!(condition)) {                                                                                            \
-            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);                                     \
+            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);                                    \
             abort();                                                                                                   \
         }                                                                                                              \
     } while (0)
