@@ -230,7 +230,7 @@ static void folder_is_read_only(void **state)
             "out: cannot be written to: Read-only file system");
 }
 
-/* Standard output, where what is printed goes nowhere. */
+/* Standard output, where what is printed goes nowhere: a full disk, none, and a reader who has gone. */
 static void standard_output_fails(void **state)
 {
     (void)state;
@@ -244,15 +244,17 @@ static void standard_output_fails(void **state)
         "atlas room.obj --json",
         "trace room.obj --rays rays.csv",
     };
-    static const char *const ways[] = {
-        "%s >/dev/full 2>.err", "%s >&- 2>.err",
-        "(%s 2>.err; echo $? >.status) | sh -c 'exec <&-; sleep 0.1'; exit $(cat .status)"};
+    int ends[2];
+    char gone[16];
+    assert_int_equal(pipe(ends), 0);
+    close(ends[0]);
+    snprintf(gone, sizeof gone, "&%d", ends[1]);
+    const char *const ways[] = {"/dev/full", "&-", gone};
     for (size_t i = 0; i < sizeof calls / sizeof *calls; i++)
         for (size_t k = i % FEW; k < sizeof ways / sizeof *ways; k += FEW) {
-            char program[512], way[1024], line[2048];
-            snprintf(program, sizeof program, "'%s/sprayplan' %s </dev/null", BINARY_DIR, calls[i]);
-            snprintf(way, sizeof way, ways[k], program);
-            snprintf(line, sizeof line, "cd '%s' && %s", workplace, way);
+            char line[2048];
+            snprintf(line, sizeof line, "cd '%s' && exec '%s/sprayplan' %s </dev/null 2>.err >%s", workplace,
+                     BINARY_DIR, calls[i], ways[k]);
             int status = system(line);
             char *err = read_file(".err", NULL);
             if (!WIFEXITED(status) || WEXITSTATUS(status) != 1)
@@ -261,6 +263,7 @@ static void standard_output_fails(void **state)
             assert_string_equal(err, "sprayplan: standard output could not be written\n");
             free(err);
         }
+    close(ends[1]);
 }
 
 /* Two scenes into one folder at the same time: all files are of one of them. */

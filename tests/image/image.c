@@ -167,7 +167,7 @@ static void exr_holds_its_parts(void **state)
     }
     const sp_exr_part parts[2] = {{"page0", 2, 1, first}, {"page0-back", 2, 1, second}};
     sp_error error = {0};
-    assert_true(sp_image_write_exr(path, parts, 2, channels, 3, &error) || !fprintf(stderr, "E:%s\n", error.message));
+    assert_true(sp_image_write_exr(path, parts, 2, channels, 3, &error));
     size_t size, again_size;
     char *bytes = read_all(path, &size);
     const uint8_t magic[] = {0x76, 0x2f, 0x31, 0x01};

@@ -4,11 +4,15 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
 #include <string>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <vector>
 
 namespace
@@ -46,22 +50,48 @@ std::vector<OIIO::ImageSpec> exr_specs(const sp_exr_part *parts, size_t count, c
     return specs;
 }
 
+// OpenImageIO 2.4 writes files of several parts to names alone: this one is a name of memory.
+struct memory_file {
+    int descriptor = memfd_create("sprayplan", MFD_CLOEXEC);
+    std::string name = "/proc/self/fd/" + std::to_string(descriptor);
+    ~memory_file()
+    {
+        if (descriptor >= 0)
+            close(descriptor);
+    }
+};
+
+bool read_back(const memory_file &file, encoded &bytes, sp_error *error)
+{
+    struct stat status;
+    if (fstat(file.descriptor, &status) != 0)
+        return sp_fail(error, SP_ERROR_FILE, nullptr, 0, 0, "EXR in memory: %s", std::strerror(errno));
+    bytes.resize((size_t)status.st_size);
+    for (size_t done = 0; done < bytes.size();) {
+        ssize_t more = pread(file.descriptor, bytes.data() + done, bytes.size() - done, (off_t)done);
+        if (more <= 0)
+            return sp_fail(error, SP_ERROR_FILE, nullptr, 0, 0, "EXR in memory: %s", std::strerror(errno));
+        done += (size_t)more;
+    }
+    return true;
+}
+
 bool encode_parts(encoded &bytes, const sp_exr_part *parts, size_t count, const char *const *channel_names,
                   int channels, sp_error *error)
 {
-    OIIO::Filesystem::IOVecOutput proxy(bytes);
+    memory_file file;
     std::vector<OIIO::ImageSpec> specs = exr_specs(parts, count, channel_names, channels);
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("openexr");
-    if (!output)
+    if (!output || file.descriptor < 0)
         return sp_fail(error, SP_ERROR_FILE, nullptr, 0, 0, "OpenImageIO cannot write EXR: %s",
-                       OIIO::geterror().c_str());
-    bool written = output->set_ioproxy(&proxy) && output->open("memory.exr", (int)count, specs.data());
+                       output ? std::strerror(errno) : OIIO::geterror().c_str());
+    bool written = output->open(file.name, (int)count, specs.data());
     for (size_t i = 0; written && i < count; ++i)
-        written = (i == 0 || output->open("memory.exr", specs[i], OIIO::ImageOutput::AppendSubimage)) &&
+        written = (i == 0 || output->open(file.name, specs[i], OIIO::ImageOutput::AppendSubimage)) &&
                   output->write_image(OIIO::TypeDesc::FLOAT, parts[i].pixels);
     if (!written || !output->close())
         return sp_fail(error, SP_ERROR_FILE, nullptr, 0, 0, "EXR in memory: %s", output->geterror().c_str());
-    return true;
+    return read_back(file, bytes, error);
 }
 
 // Malloc'd.
