@@ -30,4 +30,17 @@ static inline char *browse(const char *page, const char *arguments)
     return read_file(".out", NULL);
 }
 
+/* The workplace with the room's proposal in placed/, where there is a browser to open it. */
+static inline int place_once(void **state)
+{
+    if (open_workplace(state) != 0)
+        return -1;
+    if (!has_browser())
+        return 0;
+    outcome result = run_program("place room.yaml -o placed --quiet");
+    int status = result.status;
+    forget(&result);
+    return status == 0 ? 0 : -1;
+}
+
 #endif

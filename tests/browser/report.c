@@ -3,18 +3,6 @@
 
 #include <sprayplan/sprayplan.h>
 
-static int place_once(void **state)
-{
-    if (open_workplace(state) != 0)
-        return -1;
-    if (!has_browser())
-        return 0;
-    outcome result = run_program("place room.yaml -o placed --quiet");
-    int status = result.status;
-    forget(&result);
-    return status == 0 ? 0 : -1;
-}
-
 static size_t occurrences(const char *text, const char *part)
 {
     size_t count = 0;

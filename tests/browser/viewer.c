@@ -51,15 +51,10 @@ static json_t *what_was_told(char *page)
 
 static int use_the_viewer(void **state)
 {
-    if (open_workplace(state) != 0)
+    if (place_once(state) != 0)
         return -1;
     if (!has_browser())
         return 0;
-    outcome result = run_program("place room.yaml -o placed --quiet");
-    int status = result.status;
-    forget(&result);
-    if (status != 0)
-        return -1;
     write_page_with_reader();
     char *page = browse("read.html", "--window-size=1200,900 --virtual-time-budget=60000 --dump-dom");
     found = what_was_told(page);

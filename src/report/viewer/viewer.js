@@ -111,7 +111,8 @@
         const scale = state.scales[quantity.key];
         if (scale === "stepped")
             return value < (quantity.step || low) ? 0.15 : 0.85;
-        const t = scale === "log" && low > 0 ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
+        const t = scale === "log" && low > 0 ? Math.log(value / low) / Math.log(high / low)
+                                             : (value - low) / (high - low);
         return Math.min(Math.max(t, 0), 1);
     }
 
@@ -352,7 +353,8 @@
         const colours = coloursOf(design);
         design.colours = design.colours || gl.createTexture();
         gl.bindTexture(gl.TEXTURE_2D, design.colours);
-        gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, WIDE, colours.length / 4 / WIDE, 0, gl.RGBA, gl.UNSIGNED_BYTE, colours);
+        gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, WIDE, colours.length / 4 / WIDE, 0, gl.RGBA, gl.UNSIGNED_BYTE,
+                      colours);
         gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
         gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
     }
@@ -448,7 +450,8 @@
                     continue;
                 const to = add(eye, from, -1), u = dot(to, p) / det, q = cross(to, e), v = dot(ray, q) / det;
                 const far = dot(f, q) / det;
-                if (u < 0 || v < 0 || u + v > 1 || far <= 0 || far >= reach || dot(plane, add(eye, ray, far)) > plane[3])
+                if (u < 0 || v < 0 || u + v > 1 || far <= 0 || far >= reach ||
+                    dot(plane, add(eye, ray, far)) > plane[3])
                     continue;
                 reach = far;
                 found = {drawn, u, v, corners: [a / 3, b / 3, c / 3], at: add(eye, ray, far)};
@@ -474,7 +477,8 @@
     }
 
     function figuresAt(design, patch) {
-        const rows = about.quantities.map((quantity) => [quantity.name, figure(quantity, design.values[quantity.key][patch])]);
+        const rows = about.quantities.map((quantity) =>
+            [quantity.name, figure(quantity, design.values[quantity.key][patch])]);
         const bringing = design.nozzles.filter((nozzle) => nozzle.flux[patch] > 0)
             .map((nozzle) => `${nozzle.name} ${figure(flux, nozzle.flux[patch])}`);
         rows.push(["Covered", `${Math.round(design.share[patch] / 2.55)} %${design.film[patch] ? ", by film" : ""}`]);
@@ -558,7 +562,8 @@
         const same = state.nozzle && state.nozzle.design === design && state.nozzle.index === index;
         state.nozzle = same ? null : {design, index};
         show(design);
-        tell(same ? "All nozzles." : `${design.name}: what ${design.nozzles[index].name} does alone, as liquid flux.`, null, -1);
+        const name = design.nozzles[index].name;
+        tell(same ? "All nozzles." : `${design.name}: what ${name} does alone, as liquid flux.`, null, -1);
     }
 
     function chooseShadow(design, index) {
@@ -607,7 +612,8 @@
     function addDesigns() {
         designs.forEach((design) => {
             const [box, label] = checkbox(design.name, state.shown.includes(design), (changed) => {
-                const shown = designs.filter((other) => (other === design ? changed.checked : state.shown.includes(other)));
+                const shown = designs.filter((other) =>
+                    (other === design ? changed.checked : state.shown.includes(other)));
                 if (shown.length)
                     state.shown = shown;
                 changed.checked = state.shown.includes(design);
@@ -638,7 +644,8 @@
             state.cut.axis = i - 1;
             redraw();
         });
-        const slider = element("input", {type: "range", min: "-1", max: "1", step: "0.01", value: "0", "aria-label": "Place of the cut"});
+        const slider = element("input", {type: "range", min: "-1", max: "1", step: "0.01", value: "0",
+                                         "aria-label": "Place of the cut"});
         slider.addEventListener("input", () => {
             state.cut.place = Number(slider.value);
             redraw();
@@ -707,7 +714,8 @@
         scaleList.selectedIndex = scales.indexOf(state.scales[quantity.key]);
         const keys = [swatch(HATCH, "not covered")];
         if (quantity === difference)
-            keys.push(swatch("rgb(0,140,120)", "gained"), swatch("rgb(224,120,20)", "lost"), swatch("rgb(205,212,220)", "covered by both"));
+            keys.push(swatch("rgb(0,140,120)", "gained"), swatch("rgb(224,120,20)", "lost"),
+                      swatch("rgb(205,212,220)", "covered by both"));
         else if (quantity === fully)
             keys.push(swatch("rgb(70,130,180)", "covered"));
         else
@@ -717,7 +725,8 @@
         bar.replaceChildren(...keys, swatch(`rgb(${about.grey})`, "no cleaning asked"));
     }
     function ramp(quantity) {
-        const stops = [...Array(33).keys()].map((i) => `rgb(${palette.subarray(3 * Math.round(i * 255 / 32), 3 * Math.round(i * 255 / 32) + 3)})`);
+        const stops = [...Array(33).keys()].map((i) => 3 * Math.round((i * 255) / 32))
+            .map((at) => `rgb(${palette.subarray(at, at + 3)})`);
         const strip = element("span", {class: "ramp"}), stepped = state.scales[quantity.key] === "stepped";
         strip.style.background = stepped
             ? `linear-gradient(90deg,${stops[5]} 50%,${stops[27]} 50%)` : `linear-gradient(90deg,${stops})`;
@@ -790,8 +799,9 @@
 
     function bindKeys() {
         const steps = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
-        const acts = {"+": () => zoom(0.85), "=": () => zoom(0.85), "-": () => zoom(1 / 0.85), f: () => fit(...views.Fit),
-                      1: () => fit(...views.Front), 2: () => fit(...views.Side), 3: () => fit(...views.Top)};
+        const acts = {"+": () => zoom(0.85), "=": () => zoom(0.85), "-": () => zoom(1 / 0.85),
+                      f: () => fit(...views.Fit), 1: () => fit(...views.Front), 2: () => fit(...views.Side),
+                      3: () => fit(...views.Top)};
         canvas.addEventListener("keydown", (event) => {
             const step = steps[event.key];
             if (step)
