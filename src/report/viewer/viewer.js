@@ -83,7 +83,7 @@
 
     /* ---- what is shown ---- */
 
-    const fully = {key: "covered", name: "Covered"};
+    const coverage = {key: "covered", name: "Covered"};
     const difference = {key: "difference", name: "Difference"};
     const state = {
         quantity: flux,
@@ -165,7 +165,7 @@
             colourQuantity(colours, design, flux, design.nozzles[state.nozzle.index].flux, false);
         else if (quantity === difference && design.model === base().model && design !== base())
             colourDifference(colours, design, base());
-        else if (quantity === fully || quantity === difference)
+        else if (quantity === coverage || quantity === difference)
             design.share.forEach((share, i) => setColour(colours, i, 70, 130, 180, share >= HALF ? PLAIN : UNCOVERED));
         else
             colourQuantity(colours, design, quantity, design.values[quantity.key], true);
@@ -627,7 +627,7 @@
     const scales = ["log", "linear", "stepped"];
     let scaleList;
     function addQuantities() {
-        const quantities = [...about.quantities, fully, ...(designs.length > 1 ? [difference] : [])];
+        const quantities = [...about.quantities, coverage, ...(designs.length > 1 ? [difference] : [])];
         choice("Show", quantities.map((quantity) => quantity.name), quantities.indexOf(flux), (i) => {
             state.quantity = quantities[i];
             state.nozzle = null;
@@ -716,7 +716,7 @@
         if (quantity === difference)
             keys.push(swatch("rgb(0,140,120)", "gained"), swatch("rgb(224,120,20)", "lost"),
                       swatch("rgb(205,212,220)", "covered by both"));
-        else if (quantity === fully)
+        else if (quantity === coverage)
             keys.push(swatch("rgb(70,130,180)", "covered"));
         else
             keys.unshift(ramp(quantity));
