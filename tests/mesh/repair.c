@@ -222,15 +222,26 @@ static drawing finely_cut_sides(uint32_t pieces, double off)
 static void edges_that_meet_halfway_are_cut(void **state)
 {
     (void)state;
+    sp_repair_account account;
     for (uint32_t pieces = 2; pieces <= 8; pieces *= 2) {
         drawing d = finely_cut_sides(pieces, 0);
-        sp_repair_account account = expect_body(&d, 22, 6);
+        account = expect_body(&d, 22, 6);
         assert_int_equal(account.split, 4); /* either triangle of the lid at two of its edges */
         assert_int_equal(account.before.open_edges.count, 4 + 4 * pieces);
         assert_int_equal(account.after.open_edges.count, 0);
     }
-    drawing d = finely_cut_sides(4, 1e-5);
-    sp_repair_account account;
+    drawing d = finely_cut_sides(4, 0); /* beside it, one that would gain nothing */
+    uint32_t first = d.point_count;
+    const double strip[][2] = {{0, 0}, {6, 0}, {3, 3}, {2, 0}, {4, 0}, {3, -1}};
+    for (int i = 0; i < 6; i++)
+        put_point(&d, strip[i][0], strip[i][1], 9);
+    put(&d, first, first + 1, first + 2);
+    put(&d, first + 3, first + 5, first + 4);
+    sp_mesh *beside = make(&d), *split = mend(beside, &account);
+    assert_int_equal(account.split, 4);
+    sp_mesh_destroy(split);
+    sp_mesh_destroy(beside);
+    d = finely_cut_sides(4, 1e-5);
     sp_mesh *mesh = make(&d), *mended = mend(mesh, &account);
     assert_int_equal(account.after.closed_shells, 1);
     assert_true(fabs(volume_of(mended) - 6) < 6e-5);
@@ -363,11 +374,15 @@ static void only_single_triangles_are_filled_in(void **state)
     assert_int_equal(account.filled, 1);
     d = one_box(2);
     expect_left(&d);
-    d = (drawing){.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, .point_count = 4};
-    put(&d, 0, 2, 1);
+    d = (drawing){0};
+    for (int i = 0; i < 3; i++)
+        put_point(&d, cos(2 * M_PI * i / 3), sin(2 * M_PI * i / 3), 0);
+    put(&d, 0, 1, 2);
     expect_left(&d);
-    put(&d, 0, 1, 3);
-    put(&d, 0, 3, 2); /* a funnel */
+    put_point(&d, 0, 0, -1.3);
+    for (uint32_t i = 0; i < 3; i++) /* a funnel */
+        memcpy(d.triangles[i], (uint32_t[3]){(i + 1) % 3, i, 3}, sizeof *d.triangles);
+    d.count = 3;
     expect_left(&d);
 }
 
