@@ -19,32 +19,50 @@ static double area_of_piece(const sp_triangle_piece *piece)
     return fabs(twice); /* of the triangle's, whose own is 1/2 in weights */
 }
 
+/* A piece has few of the corners that it has room for: what is kept of it are these. */
 typedef struct {
     sp_faces *faces;
-    sp_triangle_piece *largest; /* [cells] */
-    double *largest_area;       /* [cells] */
+    double *largest; /* [cells], share of the triangle that the piece takes whose corners are kept */
+    size_t used, room;
     double triangle_area;
+    bool failed;
 } cell_measure;
+
+static void keep_corners(cell_measure *measure, uint32_t cell, const sp_triangle_piece *piece)
+{
+    sp_faces *faces = measure->faces;
+    if (measure->used + (size_t)piece->count > measure->room) {
+        size_t room = 2 * measure->room + SP_PIECE_POINTS;
+        void *more = realloc(faces->corners, room * sizeof *faces->corners);
+        measure->failed = !more;
+        if (!more)
+            return;
+        faces->corners = more;
+        measure->room = room;
+    }
+    memcpy(faces->corners + measure->used, piece->at, (size_t)piece->count * sizeof *piece->at);
+    faces->corner_start[cell] = measure->used;
+    faces->corner_count[cell] = (uint8_t)piece->count;
+    measure->used += (size_t)piece->count;
+}
 
 static void measure_cell(void *user, uint32_t cell, const sp_triangle_piece *part)
 {
     cell_measure *measure = user;
     double share = area_of_piece(part);
     measure->faces->area[measure->faces->mesh->triangle_count + cell] += share * measure->triangle_area;
-    if (share > measure->largest_area[cell]) {
-        measure->largest_area[cell] = share;
-        measure->largest[cell] = *part;
+    if (share > measure->largest[cell] && !measure->failed) {
+        measure->largest[cell] = share;
+        keep_corners(measure, cell, part);
     }
 }
 
 static bool draw_cells(sp_faces *faces, sp_error *error)
 {
     const sp_cuts *cuts = faces->cuts;
-    cell_measure measure = {.faces = faces,
-                            .largest = calloc(cuts->cell_count + 1, sizeof *measure.largest),
-                            .largest_area = calloc(cuts->cell_count + 1, sizeof *measure.largest_area)};
-    bool done = measure.largest && measure.largest_area;
-    for (uint32_t t = 0; done && t < faces->mesh->triangle_count; t++) {
+    cell_measure measure = {.faces = faces, .largest = calloc(cuts->cell_count + 1, sizeof *measure.largest)};
+    measure.failed = !measure.largest;
+    for (uint32_t t = 0; !measure.failed && t < faces->mesh->triangle_count; t++) {
         measure.triangle_area = sp_triangle_area(faces->mesh, t);
         const sp_triangle_piece whole = {.count = 3, .at = {{0, 0}, {1, 0}, {0, 1}}};
         if (cuts->root[t] == SP_NONE)
@@ -52,20 +70,8 @@ static bool draw_cells(sp_faces *faces, sp_error *error)
         else
             sp_cuts_split(cuts, t, &whole, measure_cell, &measure);
     }
-    size_t corners = 0;
-    for (size_t c = 0; done && c < cuts->cell_count; c++) {
-        faces->corner_start[c] = corners;
-        corners += (size_t)measure.largest[c].count;
-    }
-    faces->corner_start[cuts->cell_count] = corners;
-    faces->corners = malloc((corners + 1) * sizeof *faces->corners);
-    done = done && faces->corners;
-    for (size_t c = 0; done && c < cuts->cell_count; c++)
-        memcpy(faces->corners + faces->corner_start[c], measure.largest[c].at,
-               (size_t)measure.largest[c].count * sizeof *faces->corners);
     free(measure.largest);
-    free(measure.largest_area);
-    return done || sp_fail_memory(error);
+    return !measure.failed || sp_fail_memory(error);
 }
 
 uint32_t sp_face_triangle(const sp_faces *faces, uint32_t face)
@@ -92,7 +98,7 @@ static bool face_corners(const sp_faces *faces, uint32_t face, const double (**c
     if (face >= triangles) {
         size_t cell = face - triangles;
         *corners = (const double(*)[2])(faces->corners + faces->corner_start[cell]);
-        *count = (int)(faces->corner_start[cell + 1] - faces->corner_start[cell]);
+        *count = faces->corner_count[cell];
     }
     return *count >= 3;
 }
@@ -209,9 +215,10 @@ bool sp_faces_create(sp_faces *faces, const sp_mesh *mesh, const sp_shells *shel
                        count);
     faces->area = calloc(count + 1, sizeof *faces->area);
     faces->corner_start = calloc(cuts->cell_count + 1, sizeof *faces->corner_start);
+    faces->corner_count = calloc(cuts->cell_count + 1, sizeof *faces->corner_count);
     faces->state = malloc(2 * count + 1);
     faces->stands_for = malloc((2 * count + 1) * sizeof *faces->stands_for);
-    bool done = faces->area && faces->corner_start && faces->state && faces->stands_for;
+    bool done = faces->area && faces->corner_start && faces->corner_count && faces->state && faces->stands_for;
     if (!done)
         sp_fail_memory(error);
     done = done && draw_cells(faces, error);
@@ -231,6 +238,7 @@ void sp_faces_destroy(sp_faces *faces)
 {
     free(faces->area);
     free(faces->corner_start);
+    free(faces->corner_count);
     free(faces->corners);
     free(faces->state);
     free(faces->stands_for);

@@ -20,11 +20,12 @@ typedef struct {
     const sp_mesh *mesh;
     const sp_cuts *cuts;
     size_t count;
-    double *area;         /* [count], m² */
-    size_t *corner_start; /* [cell_count + 1], corners of cell c are [corner_start[c], corner_start[c + 1]) */
-    double (*corners)[2]; /* weights of the second and third corner of the cell's triangle, round its largest piece */
-    uint8_t *state;       /* [2 count], sp_face_state */
-    uint32_t *stands_for; /* [2 count], of touching sides: the side that counts in its place, or SP_NONE */
+    double *area;          /* [count], m² */
+    size_t *corner_start;  /* [cell_count + 1], where the corners of a cell begin */
+    uint8_t *corner_count; /* [cell_count + 1], 0 of a cell without area */
+    double (*corners)[2];  /* weights of the second and third corner of the cell's triangle, round its largest piece */
+    uint8_t *state;        /* [2 count], sp_face_state */
+    uint32_t *stands_for;  /* [2 count], of touching sides: the side that counts in its place, or SP_NONE */
 } sp_faces;
 
 /* `solids` tells where material is, above -base; NULL: nowhere. All borrowed. */
