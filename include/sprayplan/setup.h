@@ -90,6 +90,8 @@ typedef struct {
     /* m: where the setup's (0, 0, 0) lies in the coordinates that are read and written; (0, 0, 0) but for a scene that
      * lies far from theirs. */
     sp_vec3 origin;
+    sp_transform file;  /* from the coordinates of the first geometry file, in its own unit, to those; the identity but
+                         * for a scene: what is to be loaded beside that file is written in its coordinates */
     const sp_cap *caps; /* borrowed: [cap_count]; NULL for none */
     size_t cap_count;
     sp_sweep sweep;  /* speed 0: nothing moves */

@@ -219,6 +219,14 @@ static bool join_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml 
     return scene->surfaces || sp_fail_memory(reader->error);
 }
 
+/* Programs that read STEP and IGES files show them in mm, whatever unit these are in, as OpenCASCADE does. */
+static sp_transform from_file(const piece *p)
+{
+    sp_transform transform = p->transform;
+    transform.scale *= p->cad == SP_CAD_STEP || p->cad == SP_CAD_IGES ? 1e-3 : p->unit;
+    return transform;
+}
+
 /* What came of all CAD files together. */
 static void sum_cads(sp_scene *scene)
 {
@@ -246,6 +254,7 @@ static bool read_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml 
             return false;
     if (!join_pieces(scene, reader, list, (const sp_mesh *const *)meshes, pieces))
         return false;
+    scene->setup.file = from_file(&pieces[0]);
     uint32_t index = 0;
     for (const sp_yaml *node = list->first; node; node = node->next, index++)
         if (!set_surfaces(scene, reader, node, index, &pieces[index]))

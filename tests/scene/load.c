@@ -72,6 +72,25 @@ static void defaults(void **state)
     sp_scene_destroy(scene);
 }
 
+/* What is written to be loaded beside the first file is in that file's own coordinates, also far away. */
+static void the_first_file_has_its_own_coordinates(void **state)
+{
+    (void)state;
+    sp_scene *scene = load(least);
+    near(sp_scene_setup(scene)->file.scale, 1);
+    near_vector(sp_transform_point(&sp_scene_setup(scene)->file, sp_v(1, 2, 3)), 1, 2, 3);
+    sp_scene_destroy(scene);
+    scene = load("geometry:\n"
+                 "  - {file: tank.obj, unit: mm, scale: 2, rotate: {axis: [0, 0, 1], angle: 90 deg},\n"
+                 "     translate: [1000 m, 2000 m, 3000 m]}\n"
+                 "  - {file: tank.obj, translate: [1000 m, 2000 m, 3000 m]}\n");
+    const sp_setup *setup = sp_scene_setup(scene);
+    assert_true(sp_length(setup->origin) > 0);
+    near(setup->file.scale, 2e-3);
+    near_vector(sp_transform_point(&setup->file, sp_v(500, 0, 1000)), 1000, 2001, 3002);
+    sp_scene_destroy(scene);
+}
+
 static void place_defaults(void **state)
 {
     (void)state;
@@ -380,6 +399,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(defaults),
+        cmocka_unit_test(the_first_file_has_its_own_coordinates),
         cmocka_unit_test(place_defaults),
         cmocka_unit_test(surfaces_and_physics),
         cmocka_unit_test(nozzles_and_simulation),
