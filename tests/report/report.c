@@ -519,61 +519,6 @@ static void a_certificate_is_told_in_full(void **state)
     free(text);
 }
 
-static uint32_t word(const char *bytes)
-{
-    const unsigned char *b = (const unsigned char *)bytes;
-    return (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
-}
-
-static size_t number(const json_t *object, const char *key)
-{
-    return (size_t)json_integer_value(json_object_get(object, key));
-}
-
-/* Every accessor lies within its view, every view within the buffer (glTF 2.0, 3.6). */
-static void check_accessors(const json_t *model, size_t buffer)
-{
-    json_t *views = json_object_get(model, "bufferViews"), *accessors = json_object_get(model, "accessors"), *item;
-    size_t i;
-    json_array_foreach(views, i, item) assert_true(number(item, "byteOffset") + number(item, "byteLength") <= buffer);
-    json_array_foreach(accessors, i, item)
-    {
-        const char *type = json_string_value(json_object_get(item, "type"));
-        size_t components = !strcmp(type, "SCALAR") ? 1 : !strcmp(type, "VEC2") ? 2 : 3;
-        json_t *view = json_array_get(views, number(item, "bufferView"));
-        size_t width = number(item, "componentType") == 5123 ? 2 : 4;
-        assert_non_null(view);
-        assert_true(number(item, "byteOffset") + number(item, "count") * components * width <=
-                    number(view, "byteLength"));
-    }
-}
-
-/* glTF 2.0, 4.4: a header, a JSON chunk, a binary chunk. */
-static void the_model_is_a_gltf(void **state)
-{
-    (void)state;
-    size_t size;
-    char *bytes = read_whole("model.glb", &size);
-    assert_memory_equal(bytes, "glTF", 4);
-    assert_int_equal(word(bytes + 4), 2);
-    assert_int_equal(word(bytes + 8), size);
-    size_t length = word(bytes + 12);
-    assert_memory_equal(bytes + 16, "JSON", 4);
-    assert_int_equal(length % 4, 0);
-    json_t *model = json_loadb(bytes + 20, length, JSON_REJECT_DUPLICATES, NULL);
-    assert_non_null(model);
-    assert_memory_equal(bytes + 20 + length + 4, "BIN", 4);
-    size_t buffer = word(bytes + 20 + length);
-    assert_int_equal(28 + length + buffer, size);
-    size_t stated = number(json_array_get(json_object_get(model, "buffers"), 0), "byteLength");
-    assert_true(stated <= buffer && buffer - stated < 4);
-    check_accessors(model, stated);
-    assert_true(json_array_size(json_object_get(model, "meshes")) >= 1);
-    assert_true(json_array_size(json_object_get(model, "images")) >= 1);
-    json_decref(model);
-    free(bytes);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -588,7 +533,6 @@ int main(void)
         cmocka_unit_test(what_is_out_of_reach_is_said_first),
         cmocka_unit_test(what_jets_say_otherwise_is_a_warning),
         cmocka_unit_test(a_certificate_is_told_in_full),
-        cmocka_unit_test(the_model_is_a_gltf),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -2,7 +2,7 @@
 
 #include "design.h"
 #include "report/camera.h"
-#include "surface.h"
+#include "report/surface.h"
 
 #include <sprayplan/image.h>
 
@@ -63,11 +63,59 @@ static json_t *ranges_json(const sp_drawn_surface *surface)
     return list;
 }
 
-static void pack_surface(const sp_drawn_surface *surface, sp_packed *packed)
+#define FULL 65535.0
+
+/* m, in the setup's coordinates: what x, y and z of 0 and of FULL mean. */
+typedef struct {
+    double low[3], high[3];
+} box;
+
+static void point_of(const sp_evaluator *evaluator, const sp_drawn_vertex *vertex, double xyz[3])
 {
-    for (int k = 0; k < SP_DRAWN_NUMBERS; ++k)
-        sp_packed_shorts(packed, surface->numbers[k], surface->vertex_count, true);
+    sp_vec3 point = sp_evaluator_setup(evaluator)->mesh->vertices[vertex->at];
+    xyz[0] = point.x;
+    xyz[1] = point.y;
+    xyz[2] = point.z;
+}
+
+static box box_of(const sp_evaluator *evaluator, const sp_drawn_surface *surface)
+{
+    box around = {{0, 0, 0}, {0, 0, 0}};
+    for (size_t i = 0; i < surface->vertex_count; ++i) {
+        double point[3];
+        point_of(evaluator, &surface->vertices[i], point);
+        for (int k = 0; k < 3; ++k) {
+            around.low[k] = i ? fmin(around.low[k], point[k]) : point[k];
+            around.high[k] = i ? fmax(around.high[k], point[k]) : point[k];
+        }
+    }
+    return around;
+}
+
+static uint16_t in_parts(double value, double low, double high)
+{
+    return high > low ? (uint16_t)lrint(FULL * fmin(fmax((value - low) / (high - low), 0), 1)) : 0;
+}
+
+/* Places, then texture coordinates in parts of a page's edge, then corners. */
+static bool pack_surface(const sp_evaluator *evaluator, const sp_drawn_surface *surface, const box *around,
+                         sp_packed *packed, sp_error *error)
+{
+    uint16_t *numbers = malloc((surface->vertex_count + 1) * sizeof *numbers);
+    if (!numbers)
+        return sp_fail_memory(error);
+    for (int k = 0; k < 5; ++k) {
+        for (size_t i = 0; i < surface->vertex_count; ++i) {
+            double point[3];
+            point_of(evaluator, &surface->vertices[i], point);
+            numbers[i] = k < 3 ? in_parts(point[k], around->low[k], around->high[k])
+                               : in_parts((double)surface->vertices[i].uv[k - 3], 0, 1);
+        }
+        sp_packed_shorts(packed, numbers, surface->vertex_count, true);
+    }
+    free(numbers);
     sp_packed_words(packed, surface->corners[0], 3 * surface->triangle_count, true);
+    return true;
 }
 
 /* Where the pages' pixels are, and which patch each of them shows. */
@@ -116,13 +164,14 @@ static json_t *designs_json(const sp_page *page, const sp_evaluator *evaluator,
     return list ? list : sp_fail_memory(error);
 }
 
-static json_t *surface_json(const sp_layers *layers, const sp_drawn_surface *surface)
+static json_t *surface_json(const sp_layers *layers, const sp_drawn_surface *surface, const box *around)
 {
     const sp_evaluator *evaluator = layers->evaluator;
     const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
     const sp_setup *setup = sp_evaluator_setup(evaluator);
     return json_pack("{s:o, s:o, s:o, s:b, s:I, s:I, s:I, s:i, s:I, s:I, s:I, s:I, s:o, s:o}", "low",
-                     vector_json(surface->low), "high", vector_json(surface->high), "origin",
+                     vector_json(sp_v(around->low[0], around->low[1], around->low[2])), "high",
+                     vector_json(sp_v(around->high[0], around->high[1], around->high[2])), "origin",
                      vector_json(setup->origin), "twoSided", (int)layers->two_sided, "vertices",
                      (json_int_t)surface->vertex_count, "triangles", (json_int_t)surface->triangle_count, "edge",
                      (json_int_t)atlas->page_edge, "layers", layers->has_back ? 2 : 1, "pages",
@@ -139,11 +188,11 @@ static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator,
     sp_packed packed = {0};
     json_t *object = NULL, *designs = NULL;
     if (sp_layers_create(&layers, evaluator, error) && sp_drawn_surface_create(&surface, &layers, error)) {
-        pack_surface(&surface, &packed);
-        if (pack_pages(&layers, &packed, error))
+        box around = box_of(evaluator, &surface);
+        if (pack_surface(evaluator, &surface, &around, &packed, error) && pack_pages(&layers, &packed, error))
             designs = designs_json(page, evaluator, quantities, &packed, error);
         char *data = designs ? sp_packed_finish(&packed, error) : NULL;
-        object = data ? surface_json(&layers, &surface) : NULL;
+        object = data ? surface_json(&layers, &surface, &around) : NULL;
         sp_camera camera = sp_camera_create(evaluator, page->result, &sp_views[0], 1);
         if (!object || json_object_set(object, "designs", designs) != 0 ||
             json_object_set_new(object, "cut", json_boolean(camera.cut)) != 0 ||

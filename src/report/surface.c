@@ -3,8 +3,7 @@
 #include "mesh/grow.h"
 
 #include <stdlib.h>
-
-#define FULL 65535.0
+#include <string.h>
 
 /* One side of a triangle, and where it comes in the order of parts, pages and layers. */
 typedef struct {
@@ -55,27 +54,22 @@ static drawn_side *list_sides(const sp_layers *layers, size_t *count, sp_error *
     return sides;
 }
 
-/* Vertices of the drawing by the vertex of the mesh that they are at: a chain of those that differ in the texture. */
+/* Vertices of the drawing by the vertex of the mesh that they are at: a chain of those that differ in the texture or
+ * the part, the latest first. */
 typedef struct {
     sp_drawn_surface *surface;
     const sp_evaluator *evaluator;
     size_t room;
-    uint32_t *first; /* [vertex_count of the mesh], SP_NONE: none yet */
-    uint32_t *next;  /* [room] */
+    size_t part_first; /* vertex, of the part that is being drawn */
+    uint32_t *first;   /* [vertex_count of the mesh], SP_NONE: none yet */
+    uint32_t *next;    /* [room] */
 } vertices;
-
-static uint16_t in_parts(double value, double low, double high)
-{
-    return high > low ? (uint16_t)lrint(FULL * fmin(fmax((value - low) / (high - low), 0), 1)) : 0;
-}
 
 static bool make_room(vertices *v)
 {
     size_t room = v->room ? 2 * v->room : 1024;
-    for (int k = 0; k < SP_DRAWN_NUMBERS; ++k)
-        if (!sp_reallocate(&v->surface->numbers[k], room, sizeof(uint16_t)))
-            return false;
-    if (!sp_reallocate(&v->next, room, sizeof *v->next))
+    if (!sp_reallocate(&v->surface->vertices, room, sizeof *v->surface->vertices) ||
+        !sp_reallocate(&v->next, room, sizeof *v->next))
         return false;
     v->room = room;
     return true;
@@ -85,61 +79,54 @@ static bool make_room(vertices *v)
 static uint32_t vertex_at(vertices *v, uint32_t triangle, int corner)
 {
     const sp_atlas *atlas = sp_evaluator_atlas(v->evaluator);
-    const sp_mesh *mesh = sp_evaluator_setup(v->evaluator)->mesh;
     sp_drawn_surface *s = v->surface;
-    uint32_t at = mesh->triangles[triangle][corner];
-    uint16_t spot[2] = {in_parts(atlas->uv[triangle][corner][0], 0, atlas->page_edge),
-                        in_parts(atlas->uv[triangle][corner][1], 0, atlas->page_edge)};
-    for (uint32_t i = v->first[at]; i != SP_NONE; i = v->next[i])
-        if (s->numbers[SP_DRAWN_U][i] == spot[0] && s->numbers[SP_DRAWN_V][i] == spot[1])
+    uint32_t at = sp_evaluator_setup(v->evaluator)->mesh->triangles[triangle][corner];
+    const double *place = atlas->uv[triangle][corner];
+    sp_drawn_vertex made = {at, {(float)(place[0] / atlas->page_edge), (float)(place[1] / atlas->page_edge)}};
+    for (uint32_t i = v->first[at]; i != SP_NONE && i >= v->part_first; i = v->next[i])
+        if (memcmp(s->vertices[i].uv, made.uv, sizeof made.uv) == 0)
             return i;
     if (s->vertex_count == SP_NONE || (s->vertex_count == v->room && !make_room(v)))
         return SP_NONE;
-    uint32_t made = (uint32_t)s->vertex_count++;
-    sp_vec3 p = mesh->vertices[at];
-    s->numbers[SP_DRAWN_X][made] = in_parts(p.x, s->low.x, s->high.x);
-    s->numbers[SP_DRAWN_Y][made] = in_parts(p.y, s->low.y, s->high.y);
-    s->numbers[SP_DRAWN_Z][made] = in_parts(p.z, s->low.z, s->high.z);
-    s->numbers[SP_DRAWN_U][made] = spot[0];
-    s->numbers[SP_DRAWN_V][made] = spot[1];
-    v->next[made] = v->first[at];
-    v->first[at] = made;
-    return made;
+    uint32_t number = (uint32_t)s->vertex_count++;
+    s->vertices[number] = made;
+    v->next[number] = v->first[at];
+    v->first[at] = number;
+    return number;
 }
 
-static void box_of(sp_drawn_surface *surface, const sp_mesh *mesh, const drawn_side *sides, size_t count)
+/* Opens the range of a side that is not of the range before it. */
+static bool begin_range(vertices *v, size_t *room, const drawn_side *sides, size_t i)
 {
-    surface->low = sp_v(INFINITY, INFINITY, INFINITY);
-    surface->high = sp_v(-INFINITY, -INFINITY, -INFINITY);
-    for (size_t i = 0; i < count; ++i)
-        for (int k = 0; k < 3; ++k) {
-            sp_vec3 p = mesh->vertices[mesh->triangles[sides[i].triangle][k]];
-            surface->low = sp_v(fmin(surface->low.x, p.x), fmin(surface->low.y, p.y), fmin(surface->low.z, p.z));
-            surface->high = sp_v(fmax(surface->high.x, p.x), fmax(surface->high.y, p.y), fmax(surface->high.z, p.z));
-        }
-    if (count == 0)
-        surface->low = surface->high = sp_v(0, 0, 0);
+    sp_drawn_surface *s = v->surface;
+    if (i > 0 && sides[i].order == sides[i - 1].order)
+        return true;
+    if (!sp_grow(&s->ranges, room, s->range_count + 1, sizeof *s->ranges))
+        return false;
+    sp_drawn_range range = range_of(sides[i].order, sp_evaluator_atlas(v->evaluator));
+    if (s->range_count == 0 || s->ranges[s->range_count - 1].part != range.part)
+        v->part_first = s->vertex_count;
+    range.first = i;
+    range.vertex_first = v->part_first;
+    s->ranges[s->range_count++] = range;
+    return true;
 }
 
 static bool fill(vertices *v, const drawn_side *sides, size_t count)
 {
     sp_drawn_surface *s = v->surface;
-    size_t ranges = 0;
+    size_t room = 0;
     for (size_t i = 0; i < count; ++i) {
-        if (i == 0 || sides[i].order != sides[i - 1].order) {
-            s->range_count++;
-            if (!sp_grow(&s->ranges, &ranges, s->range_count, sizeof *s->ranges))
-                return false;
-            s->ranges[s->range_count - 1] = range_of(sides[i].order, sp_evaluator_atlas(v->evaluator));
-            s->ranges[s->range_count - 1].first = i;
-        }
+        if (!begin_range(v, &room, sides, i))
+            return false;
         s->ranges[s->range_count - 1].count++;
+        s->triangles[i] = sides[i].triangle;
         for (int k = 0; k < 3; ++k) {
-            uint32_t vertex = vertex_at(v, sides[i].triangle, sides[i].order % 2 ? 2 - k : k);
-            if (vertex == SP_NONE)
+            s->corners[i][k] = vertex_at(v, sides[i].triangle, sides[i].order % 2 ? 2 - k : k);
+            if (s->corners[i][k] == SP_NONE)
                 return false;
-            s->corners[i][k] = vertex;
         }
+        s->ranges[s->range_count - 1].vertex_end = s->vertex_count;
     }
     s->triangle_count = count;
     return true;
@@ -153,12 +140,12 @@ bool sp_drawn_surface_create(sp_drawn_surface *surface, const sp_layers *layers,
     drawn_side *sides = list_sides(layers, &count, error);
     if (!sides)
         return false;
-    box_of(surface, mesh, sides, count);
     surface->corners = malloc((count + 1) * sizeof *surface->corners);
-    vertices v = {surface, layers->evaluator, 0, malloc((mesh->vertex_count + 1) * sizeof(uint32_t)), NULL};
+    surface->triangles = malloc((count + 1) * sizeof *surface->triangles);
+    vertices v = {surface, layers->evaluator, 0, 0, malloc((mesh->vertex_count + 1) * sizeof(uint32_t)), NULL};
     if (v.first)
         memset(v.first, 0xff, (mesh->vertex_count + 1) * sizeof *v.first);
-    bool done = surface->corners && v.first && fill(&v, sides, count);
+    bool done = surface->corners && surface->triangles && v.first && fill(&v, sides, count);
     free(v.first);
     free(v.next);
     free(sides);
@@ -169,9 +156,9 @@ bool sp_drawn_surface_create(sp_drawn_surface *surface, const sp_layers *layers,
 
 void sp_drawn_surface_free(sp_drawn_surface *surface)
 {
-    for (int k = 0; k < SP_DRAWN_NUMBERS; ++k)
-        free(surface->numbers[k]);
+    free(surface->vertices);
     free(surface->corners);
+    free(surface->triangles);
     free(surface->ranges);
     *surface = (sp_drawn_surface){0};
 }
