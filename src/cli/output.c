@@ -6,8 +6,9 @@
 
 #define FEW_JETS 10 /* on a texel that is just covered: with fewer, longer texels were more exact on the vessel */
 
-const char *const cli_result_files[] = {"result.json",  "report.html",  "layout.yaml", "nozzles.csv",
-                                        "coverage.png", "deposits.exr", "model.glb",   NULL};
+const char *const cli_result_files[] = {
+    "result.json",  "report.html", "layout.yaml", "nozzles.csv", "nozzles.stl", "coverage.png",
+    "deposits.exr", "model.glb",   "surface.vtp", "texels.vtp",  NULL};
 
 static bool protect_scene(const sp_scene *scene, sp_output *output, sp_error *error)
 {

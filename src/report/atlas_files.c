@@ -1,4 +1,5 @@
 /* What lies on the atlas as files: coverage.png, deposits.exr, pictures of the charts. */
+#include "channels.h"
 #include "layers.h"
 #include "scaled_files.h"
 
@@ -58,41 +59,28 @@ bool sp_report_coverage_png(const sp_design *design, const char *path, sp_error 
     return sp_coverage_png(design, sp_flux_scale_of(design, 1), path, error);
 }
 
-#define CHANNELS 12
-static const char *const channel_names[CHANNELS] = {"flux",      "jets",          "speed",  "speed_max",
-                                                    "incidence", "incidence_min", "impact", "impact_max",
-                                                    "covered",   "area",          "film",   "chart"};
-
-static void fill_part(const sp_layers *layers, const sp_deposits *deposits, size_t page, int layer, float *pixels)
+static void fill_part(const sp_layers *layers, const sp_design *design, size_t page, int layer, float *pixels)
 {
     const sp_atlas *atlas = sp_evaluator_atlas(layers->evaluator);
-    const sp_patches *patches = sp_evaluator_patches(layers->evaluator);
     for (size_t i = 0; i < (size_t)atlas->page_edge * atlas->page_edge; ++i)
-        pixels[CHANNELS * i + CHANNELS - 1] = -1;                   /* no chart */
+        pixels[SP_CHANNELS * i + SP_CHANNEL_CHART] = -1;            /* no chart */
     for (uint32_t texel = 0; texel < atlas->pixel_count; ++texel) { /* the largest patch of each pixel */
         sp_texel_place place = sp_atlas_place(atlas, texel);
         if (place.page != page)
             continue;
-        float *pixel = pixels + CHANNELS * sp_layers_pixel(atlas, place);
+        float *pixel = pixels + SP_CHANNELS * sp_layers_pixel(atlas, place);
         uint32_t patch = layers->patch[layer][texel];
-        pixel[CHANNELS - 1] = (float)place.chart;
-        if (patch == SP_NONE)
-            continue;
-        const double values[CHANNELS - 1] = {
-            deposits->flux[patch],      deposits->jets[patch],       deposits->speed[patch],
-            deposits->speed_max[patch], deposits->incidence[patch],  deposits->incidence_min[patch],
-            deposits->impact[patch],    deposits->impact_max[patch], deposits->share[patch],
-            patches->area[patch],       deposits->film[patch]};
-        for (int k = 0; k < CHANNELS - 1; ++k)
-            pixel[k] = (float)values[k];
+        pixel[SP_CHANNEL_CHART] = (float)place.chart;
+        for (int k = 0; patch != SP_NONE && k < SP_CHANNEL_CHART; ++k)
+            pixel[k] = (float)sp_channel_of(design, patch, k);
     }
 }
 
-static bool write_parts(const sp_layers *layers, const sp_coverage *coverage, const char *path, sp_error *error)
+static bool write_parts(const sp_layers *layers, const sp_design *design, const char *path, sp_error *error)
 {
     const sp_atlas *atlas = sp_evaluator_atlas(layers->evaluator);
     size_t sides = layers->has_back ? 2 : 1, count = atlas->page_count * sides;
-    size_t page_size = (size_t)atlas->page_edge * atlas->page_edge * CHANNELS;
+    size_t page_size = (size_t)atlas->page_edge * atlas->page_edge * SP_CHANNELS;
     float *pixels = count <= SIZE_MAX / sizeof(float) / page_size ? calloc(count, page_size * sizeof *pixels) : NULL;
     sp_exr_part *parts = calloc(count, sizeof *parts);
     char(*names)[40] = calloc(count, sizeof *names);
@@ -103,10 +91,10 @@ static bool write_parts(const sp_layers *layers, const sp_coverage *coverage, co
         size_t page = i / sides;
         int layer = (int)(i % sides);
         snprintf(names[i], sizeof names[i], "page%zu%s", page, layer ? "-back" : "");
-        fill_part(layers, &coverage->deposits, page, layer, pixels + i * page_size);
+        fill_part(layers, design, page, layer, pixels + i * page_size);
         parts[i] = (sp_exr_part){names[i], (int)atlas->page_edge, (int)atlas->page_edge, pixels + i * page_size};
     }
-    done = done && sp_image_write_exr(path, parts, count, channel_names, CHANNELS, error);
+    done = done && sp_image_write_exr(path, parts, count, sp_channel_names, SP_CHANNELS, error);
     free(names);
     free(parts);
     free(pixels);
@@ -118,7 +106,7 @@ bool sp_report_deposits_exr(const sp_design *design, const char *path, sp_error 
     sp_layers layers;
     if (!sp_layers_create(&layers, design->evaluator, error))
         return false;
-    bool done = write_parts(&layers, design->coverage, path, error);
+    bool done = write_parts(&layers, design, path, error);
     sp_layers_free(&layers);
     return done;
 }

@@ -15,6 +15,25 @@ static bool deposits(const sp_design *design, sp_flux_scale scale, const char *p
     return sp_report_deposits_exr(design, path, error);
 }
 
+/* What is written of the main design alone: a manual one has its own from `simulate`. */
+static bool write_main(const sp_design *design, sp_output *output, sp_error *error)
+{
+    static const struct {
+        const char *name;
+        bool (*write)(const sp_design *design, const char *path, sp_error *error);
+    } files[] = {{"surface.vtp", sp_report_surface_vtp},
+                 {"texels.vtp", sp_report_texels_vtp},
+                 {"nozzles.stl", sp_report_nozzles_stl}};
+    for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
+        const char *path = sp_output_path(output, files[i].name, error);
+        if (!path || !files[i].write(design, path, error)) {
+            sp_output_tell(output, error);
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool write_design(const sp_design *design, sp_flux_scale scale, const char *suffix, sp_output *output,
                          sp_error *error)
 {
@@ -67,7 +86,8 @@ static bool write_designs(const sp_result *result, const sp_design *main, sp_out
     if (!main || !main->evaluator)
         return true;
     const sp_setup *setup = sp_evaluator_setup(main->evaluator);
-    return write_text(output, "nozzles.csv", sp_nozzles_csv(main->layout, setup, error), error);
+    return write_text(output, "nozzles.csv", sp_nozzles_csv(main->layout, setup, error), error) &&
+           write_main(main, output, error);
 }
 
 bool sp_report_write(const sp_result *result, sp_output *output, sp_error *error)

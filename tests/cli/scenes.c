@@ -195,8 +195,9 @@ static void simulate_writes_its_files(void **state)
     free(written);
     forget(&result);
     char *names = list_folder("simulated");
-    assert_string_equal(names, "coverage.png\ndeposits.exr\nlayout.yaml\nmodel.glb\nnozzles.csv\nreport.html\n"
-                               "result.json\n");
+    assert_string_equal(names,
+                        "coverage.png\ndeposits.exr\nlayout.yaml\nmodel.glb\nnozzles.csv\nnozzles.stl\nreport.html\n"
+                        "result.json\nsurface.vtp\ntexels.vtp\n");
     free(names);
 }
 
@@ -329,9 +330,9 @@ static void place_gives_the_same_bytes_for_any_number_of_threads(void **state)
     ensure("one", "place room.yaml --threads 1");
     ensure("three", "place room.yaml --threads 3");
     static const char *const files[] = {
-        "layout.yaml",         "nozzles.csv",         "coverage.png",        "deposits.exr",
-        "model.glb",           "coverage-manual.png", "deposits-manual.exr", "model-manual.glb",
-        "coverage-greedy.png", "deposits-greedy.exr", "model-greedy.glb",
+        "layout.yaml",         "nozzles.csv",         "coverage.png",     "deposits.exr",        "model.glb",
+        "coverage-manual.png", "deposits-manual.exr", "model-manual.glb", "coverage-greedy.png", "deposits-greedy.exr",
+        "model-greedy.glb",    "surface.vtp",         "texels.vtp",       "nozzles.stl",
     };
     for (size_t i = 0; i < sizeof files / sizeof *files; ++i)
         same_file("one", "three", files[i]);

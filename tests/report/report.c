@@ -122,10 +122,10 @@ static void write_report(const fixture *f)
     assert_true(sp_output_commit(output, &error));
 }
 
-static const char *const files[] = {"result.json",         "report.html",         "nozzles.csv",
-                                    "coverage.png",        "deposits.exr",        "model.glb",
-                                    "coverage-manual.png", "deposits-manual.exr", "model-manual.glb",
-                                    "coverage-greedy.png", "deposits-greedy.exr", "model-greedy.glb"};
+static const char *const files[] = {
+    "result.json",         "report.html",         "nozzles.csv",         "coverage.png",     "deposits.exr",
+    "model.glb",           "coverage-manual.png", "deposits-manual.exr", "model-manual.glb", "coverage-greedy.png",
+    "deposits-greedy.exr", "model-greedy.glb",    "surface.vtp",         "texels.vtp",       "nozzles.stl"};
 #define FILES (sizeof files / sizeof *files)
 
 static void the_same_bytes_every_time(void **state)
