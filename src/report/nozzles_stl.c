@@ -1,11 +1,11 @@
 /* Bodies of the nozzles, to be loaded beside the vessel: binary STL in the coordinates of the vessel's own file. */
 #include "nozzle_body.h"
 
+#include "mesh/file.h"
 #include "result/growing_text.h"
 
 #include <sprayplan/report.h>
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,18 +58,6 @@ static void put_nozzle(sp_text *bytes, const sp_setup *setup, const sp_nozzle_bo
     }
 }
 
-static bool write_file(const char *path, const sp_text *bytes, sp_error *error)
-{
-    FILE *file = fopen(path, "wb");
-    bool written = file && fwrite(bytes->text, 1, bytes->length, file) == bytes->length;
-    int cause = errno;
-    if (file && fclose(file) != 0 && written) {
-        written = false;
-        cause = errno;
-    }
-    return written || sp_fail(error, SP_ERROR_FILE, path, 0, 0, "cannot be written: %s", strerror(cause));
-}
-
 bool sp_report_nozzles_stl(const sp_design *design, const char *path, sp_error *error)
 {
     const sp_setup *setup = sp_evaluator_setup(design->evaluator);
@@ -83,7 +71,7 @@ bool sp_report_nozzles_stl(const sp_design *design, const char *path, sp_error *
     put(&bytes, (uint32_t)(design->layout->count * SP_BODY_TRIANGLES), 4);
     for (size_t i = 0; i < design->layout->count; ++i)
         put_nozzle(&bytes, setup, &body, &design->layout->nozzles[i]);
-    bool done = bytes.failed ? sp_fail_memory(error) != NULL : write_file(path, &bytes, error);
+    bool done = bytes.failed ? sp_fail_memory(error) != NULL : sp_write_file(path, bytes.text, bytes.length, error);
     free(bytes.text);
     return done;
 }
