@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_DEPTH = 32, MAX_BYTES = 16 << 20 };
+enum { MAX_DEPTH = 32, FIRST_BYTES = 16 << 10, MAX_BYTES = 16 << 20 };
 
 typedef struct {
     struct fy_parser *parser;
@@ -58,8 +58,14 @@ static bool fail_parse(const source *s)
     if (!found || !found->msg)
         return sp_fail(s->error, SP_ERROR_INPUT, s->file, 0, 0, "YAML: found text that cannot be parsed");
     bool beyond = found->line > s->lines;
-    return sp_fail(s->error, SP_ERROR_INPUT, s->file, beyond ? s->lines : found->line > 0 ? found->line : 1,
-                   beyond ? 0 : found->column > 0 ? found->column : 1, "YAML: %s", found->msg);
+    return sp_fail(s->error, SP_ERROR_INPUT, s->file,
+                   beyond            ? s->lines
+                   : found->line > 0 ? found->line
+                                     : 1,
+                   beyond              ? 0
+                   : found->column > 0 ? found->column
+                                       : 1,
+                   "YAML: %s", found->msg);
 }
 
 static struct fy_event *next_event(const source *s)
@@ -272,13 +278,33 @@ sp_yaml *sp_yaml_parse(const char *file, const char *text, size_t size, sp_error
     return root;
 }
 
+/* At most MAX_BYTES + 1 of the stream; NULL where memory ran out. Most scenes are a thousandth of that. */
+static char *read_stream(FILE *stream, size_t *size)
+{
+    size_t room = FIRST_BYTES;
+    char *text = NULL;
+    for (*size = 0; *size < MAX_BYTES + 1; room *= 2) {
+        room = room < MAX_BYTES + 1 ? room : MAX_BYTES + 1;
+        char *more = realloc(text, room);
+        if (!more) {
+            free(text);
+            return NULL;
+        }
+        text = more;
+        *size += fread(text + *size, 1, room - *size, stream);
+        if (*size < room)
+            break;
+    }
+    return text;
+}
+
 static sp_yaml *load_stream(FILE *stream, const char *file, sp_error *error)
 {
-    char *text = malloc(MAX_BYTES + 1);
+    size_t size;
+    errno = 0;
+    char *text = read_stream(stream, &size);
     if (!text)
         return sp_fail_memory(error);
-    errno = 0;
-    size_t size = fread(text, 1, MAX_BYTES + 1, stream);
     sp_yaml *root = NULL;
     if (ferror(stream))
         sp_fail(error, SP_ERROR_INPUT, file, 0, 0, "cannot read: %s", strerror(errno));
