@@ -87,6 +87,16 @@ typedef enum {
     SP_REASONS,
 } sp_reason;
 
+/* What a layout's liquid lacks where it does not cover. */
+typedef enum {
+    SP_LACK_NOTHING, /* it covers */
+    SP_LACK_REACH,   /* no liquid arrives */
+    SP_LACK_SPEED,   /* all that arrives is slower than the criterion asks */
+    SP_LACK_ANGLE,   /* what arrives fast enough is more slanted than the criterion allows */
+    SP_LACK_FLUX,    /* what arrives fast and steeply enough is too little */
+    SP_LACKS,
+} sp_lack;
+
 /* A connected region without coverage. */
 typedef struct {
     double area;           /* m² */
@@ -95,6 +105,7 @@ typedef struct {
     uint32_t first;        /* its lowest patch */
     double reachable_area; /* m² of it that is attainable; -1 where attainable area was not computed */
     sp_reason reason;      /* of most of its area that is not attainable; attainable or unknown where there is none */
+    sp_lack lack;          /* of most of its area; of equal ones the first */
 } sp_shadow;
 
 /* Where a layout's liquid ends, m³/s; the sum is what leaves its nozzles. */
@@ -108,14 +119,14 @@ typedef struct {
 
 /* What has hit a wall and runs down it, m³/s, and what that does. */
 typedef struct {
-    bool known;         /* false: the criterion does not ask for film, and nothing below means anything */
-    double arriving;    /* on wet surface, cleaned or not, at the first impact */
-    double left;        /* of it, runs or drips out of the geometry */
-    double astray;      /* drips on surface that is not wet */
-    double held;        /* stands where it cannot drain */
-    double area;        /* m² that impact does not cover and film does */
+    bool known;       /* false: the criterion does not ask for film, and nothing below means anything */
+    double arriving;  /* on wet surface, cleaned or not, at the first impact */
+    double left;      /* of it, runs or drips out of the geometry */
+    double astray;    /* drips on surface that is not wet */
+    double held;      /* stands where it cannot drain */
+    double area;      /* m² that impact does not cover and film does */
     double per_girth; /* m²/s: arriving over the length around all wet walls seen from above (their convex hull),
-                         * the measure of rules of thumb; not what the criterion asks for */
+                       * the measure of rules of thumb; not what the criterion asks for */
 } sp_film_balance;
 
 /* How far a coverage is off, measured at points (see sp_measure_error); shares of the area. */
@@ -168,6 +179,12 @@ struct sp_evaluator;
  * On success *shadows is malloc'd (NULL where there are none) and the caller frees it. */
 bool sp_shadows(const struct sp_evaluator *evaluator, const sp_coverage *coverage, const sp_reason *reasons,
                 sp_shadow **shadows, size_t *count, sp_error *error);
+/* Which of the first `count` of these shadows each patch lies in: numbers [patches], the caller's, from 1, 0 for none.
+ */
+bool sp_shadow_numbers(const struct sp_evaluator *evaluator, const sp_coverage *coverage, const sp_shadow *shadows,
+                       size_t count, uint32_t *numbers, sp_error *error);
+/* What a patch lacks. */
+sp_lack sp_patch_lack(const struct sp_evaluator *evaluator, const sp_coverage *coverage, uint32_t patch);
 
 #ifdef __cplusplus
 }

@@ -157,6 +157,21 @@ sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout 
 bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
                          sp_error *error);
 
+/* What each nozzle of a layout does for its coverage. */
+typedef struct {
+    size_t count, patches; /* nozzles; patches of the evaluator */
+    double *alone;         /* [count], m² that it covers by itself */
+    double *lost;          /* [count], m² that the layout covers less without it */
+    float *flux;           /* [count][patches], m³/s per m² that arrive of it alone */
+} sp_contributions;
+/* Evaluates every nozzle alone and the layout without each, by the scene's own method; `coverage` is that of the
+ * layout. Takes about as long as the layout's evaluation times the number of its nozzles, and one coverage's memory
+ * besides what it returns. The caller destroys; NULL on error. */
+sp_contributions *sp_contributions_create(const sp_evaluator *evaluator, const sp_layout *layout,
+                                          const sp_coverage *coverage, sp_error *error);
+/* Accepts NULL. */
+void sp_contributions_destroy(sp_contributions *contributions);
+
 /* Finds the patches whose verdict round-off could turn, for `coverage` that sp_evaluate_inverse found for this layout:
  * where a flux, speed or incidence lies within 1e-9 (relative) of its criterion, or the patch's point, or that of a
  * cell of it, within 1e-9 rad of the edge of a spray or of what stands before it; and with no criterion of flux and

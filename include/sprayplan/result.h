@@ -20,7 +20,15 @@ typedef struct {
     char *part;       /* owned */
     int reachable;    /* 1 where most of it is attainable, 0 where not, -1: not known */
     sp_reason reason; /* where not, of most of what is not attainable of it; else unknown */
+    sp_lack lack;     /* what liquid the layout brings there lacks; SP_LACK_NOTHING: not known */
+    char *nozzle; /* owned; of the layout, that alone brings it most liquid; "" where none does or it is not known */
 } sp_shadow_figures;
+
+/* One part that is to be cleaned. */
+typedef struct {
+    char *part;           /* owned */
+    double area, covered; /* m² */
+} sp_part_figures;
 
 /* What of one part is not attainable. */
 typedef struct {
@@ -35,6 +43,7 @@ typedef struct {
     sp_vec3 position;                          /* m */
     sp_vec3 axis;                              /* unit */
     double roll, angle, pressure, flow, speed; /* rad, rad, Pa, m³/s, m/s */
+    double alone, lost;                        /* m², as sp_contributions */
     sp_track_gaps tracks;                      /* of a two-axis head */
 } sp_nozzle_figures;
 
@@ -64,6 +73,8 @@ typedef struct {
     sp_shadow_figures *shadows;                          /* owned */
     size_t nozzle_count;
     sp_nozzle_figures *nozzles; /* owned */
+    size_t part_count;
+    sp_part_figures *parts; /* owned; those that are to be cleaned, in the mesh's order */
 } sp_figures;
 
 #define SP_SHADOWS_KEPT 100
@@ -72,6 +83,10 @@ typedef struct {
 const char *sp_reason_key(sp_reason reason);
 /* The same for readers, "no line of reach". */
 const char *sp_reason_text(sp_reason reason);
+/* The name of a lack in result.json, "no_nozzle_in_reach" for instance; NULL for none. */
+const char *sp_lack_key(sp_lack lack);
+/* The same for readers, "no nozzle in reach". */
+const char *sp_lack_text(sp_lack lack);
 /* Index in `missing` of the part of which the reason keeps most out of reach, of equal ones the first; given one such
  * index as `last`, of the next; SP_UNKNOWN before the first and after the last. */
 size_t sp_missing_next(const sp_figures *figures, sp_reason reason, size_t last);
@@ -91,8 +106,18 @@ typedef struct {
     const sp_evaluator *evaluator;
     const sp_layout *layout;
     const sp_coverage *coverage;
-    const sp_figures *figures; /* NULL where there is an evaluator */
+    const sp_figures *figures;             /* NULL where there is an evaluator */
+    const sp_contributions *contributions; /* of its nozzles; NULL where they were not worked out */
 } sp_design;
+
+/* A file that was read. */
+#define SP_SHA256 65 /* hexadecimal digits, and the terminating zero */
+typedef struct {
+    const char *path; /* as it was opened, borrowed */
+    char sha256[SP_SHA256];
+} sp_input;
+/* The SHA-256 of a file's bytes (FIPS 180-4). False with an error of the file where it cannot be read. */
+bool sp_file_sha256(const char *path, char sha256[SP_SHA256], sp_error *error);
 
 /* What a command found. Everything is borrowed. designs[0] is not special; pictures and layout.yaml are for the design
  * named "proposed", or the only one. */
@@ -104,6 +129,11 @@ typedef struct {
     const sp_proposal *proposal; /* NULL unless the command is place */
     size_t stage_count;          /* stages besides the proposal's own, in order: "load", "atlas", ... */
     const sp_stage *stages;
+    size_t input_count; /* files that were read, 0 where that is not told */
+    const sp_input *inputs;
+    /* For the page's foot alone, so that result.json is the same of the same scene: the command as it was given, and
+     * when. NULL where that is not told. */
+    const char *command_line, *date;
 } sp_result;
 
 /* The figures of every design, in order [design_count]. With a proposal, attainable is what it calls attainable and
@@ -127,6 +157,26 @@ char *sp_result_json(const sp_result *result, sp_error *error);
  * A text that begins with =, +, -, @, a tab or a line's end has an apostrophe in front, so that no spreadsheet takes it
  * for a formula. Malloc'd. */
 char *sp_nozzles_csv(const sp_layout *layout, const sp_setup *setup, sp_error *error);
+
+/* A place to look at first. */
+typedef struct {
+    uint32_t patch;
+    sp_vec3 place;    /* m, as they are written */
+    const char *part; /* its name, borrowed of the mesh */
+    double received;  /* what the criterion counts there (counted flux, or film), as a share of what it asks for; NAN
+                       * where it asks for neither */
+    double flux;      /* all that arrives, m³/s per m² */
+    double speed, incidence; /* mean, m/s and rad; NAN where nothing arrives */
+    sp_lack lack;
+} sp_swab;
+#define SP_SWABS 10
+/* The worst places of a design with an evaluator, worst first: those that receive the least share of what the criterion
+ * asks for, of equally bad ones those farthest from anything covered, counted in patches; no two nearer to each other
+ * than 5 % of the geometry's diagonal. */
+bool sp_find_swabs(const sp_design *design, sp_swab swabs[SP_SWABS], size_t *count, sp_error *error);
+/* swabs.csv: number,part,x_m,y_m,z_m,received_percent,flux_l_min_m2,speed_m_s,incidence_deg,lack. What is not known is
+ * empty; texts as in nozzles.csv. Malloc'd. */
+char *sp_swabs_csv(const sp_design *design, sp_error *error);
 
 /* A set of files that is written whole or not at all: each goes to a folder .sprayplan-new-XXXXXX in `directory`
  * (created where missing, with its parents), and commit moves them all; discard removes them. An existing file is

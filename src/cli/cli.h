@@ -16,6 +16,8 @@ enum { EXIT_DONE = 0, EXIT_OTHER = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_SHORT
 typedef struct {
     const char *const *inputs; /* what stands on the command line besides options */
     int input_count;
+    char *const *arguments; /* the command and all that follows it */
+    int argument_count;
     bool json, quiet, version, prove;
     int threads;
     double time_limit;  /* s, 0: none */
@@ -128,9 +130,14 @@ bool cli_names_obj(const char *path);
 /* output.c: the folder that a file lies in, "." where its path names none; malloc'd, NULL where memory runs out. */
 char *cli_folder_of(const char *path);
 
-/* output.c: what simulate, place and compare end with. `layout`, which is written as a scene after the first [count]
- * one, NULL: no layout.yaml. */
-bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *const *scenes, int count,
+/* report.c: what simulate, place and compare end with: files where -o says, and the result on standard output. `scenes`
+ * [input_count], NULL for what is none. `layout`, which is written as a scene after the first one, NULL: no
+ * layout.yaml. */
+bool cli_report(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
+                const sp_layout *layout, sp_error *error);
+
+/* output.c: the files, as cli_report. */
+bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
                const sp_layout *layout, sp_error *error);
 /* What check leaves: wet.png. True without -o. */
 bool cli_write_wet(const cli_options *options, const cli_scene *opened, sp_error *error);

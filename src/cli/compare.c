@@ -15,7 +15,7 @@ typedef struct {
 
 typedef struct {
     compared *inputs;        /* [input_count] */
-    const sp_scene **scenes; /* of the inputs, NULL for a result */
+    const sp_scene **scenes; /* [input_count], NULL for a result */
     sp_design *designs;
     char **names; /* of the designs, where a result holds several */
     size_t design_count;
@@ -122,8 +122,7 @@ static bool compare(comparison *all, const cli_options *options, sp_error *error
                         .designs = all->designs,
                         .stage_count = all->clock.count,
                         .stages = all->clock.stages};
-    return cli_write(options, &result, all->scenes, options->input_count, NULL, error) &&
-           cli_print(options, &result, error);
+    return cli_report(options, &result, all->scenes, NULL, error);
 }
 
 int cli_compare(const cli_options *options)

@@ -258,7 +258,7 @@ static bool take_option(int option, const char *value, cli_options *options, boo
 
 bool cli_parse(const cli_command *command, int count, char **arguments, cli_options *options, bool *help)
 {
-    *options = (cli_options){.accelerator = SP_ACCELERATOR_BVH};
+    *options = (cli_options){.accelerator = SP_ACCELERATOR_BVH, .arguments = arguments, .argument_count = count};
     int option;
     while ((option = getopt_long(count, arguments, "o:h", long_options, NULL)) != -1) {
         unsigned flag = flag_of(option);

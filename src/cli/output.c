@@ -6,9 +6,9 @@
 
 #define FEW_JETS 10 /* on a texel that is just covered: with fewer, longer texels were more exact on the vessel */
 
-const char *const cli_result_files[] = {
-    "result.json",  "report.html", "layout.yaml", "nozzles.csv", "nozzles.stl", "coverage.png",
-    "deposits.exr", "model.glb",   "surface.vtp", "texels.vtp",  NULL};
+const char *const cli_result_files[] = {"result.json", "report.html", "layout.yaml",  "nozzles.csv",
+                                        "nozzles.stl", "swabs.csv",   "coverage.png", "deposits.exr",
+                                        "model.glb",   "surface.vtp", "texels.vtp",   NULL};
 
 static bool protect_scene(const sp_scene *scene, sp_output *output, sp_error *error)
 {
@@ -61,12 +61,12 @@ bool cli_output_ready(const cli_options *options, const sp_scene *scene, const c
     return good;
 }
 
-bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *const *scenes, int count,
+bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
                const sp_layout *layout, sp_error *error)
 {
     if (!options->output)
         return true;
-    sp_output *output = cli_output_open(options, options->output, scenes, count, error);
+    sp_output *output = cli_output_open(options, options->output, scenes, options->input_count, error);
     bool good = output && sp_output_supersede(output, error) && sp_report_write(result, output, error);
     if (good && layout) {
         const sp_fidelity *fidelity = sp_evaluator_fidelity(result->designs[0].evaluator);

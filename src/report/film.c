@@ -29,7 +29,7 @@ static void add_row(const sp_page *page, sp_text *text, const char *title, const
 {
     sp_text_add(text, "<tr><th scope=\"row\">%s <span class=\"unit\">(%s)</span></th>", title, unit);
     for (size_t i = 0; i < page->result->design_count; ++i) {
-        sp_text_add(text, "<td>");
+        sp_text_add(text, "<td%s>", sp_page_aside(page, i));
         if (page->figures[i].film.known)
             sp_markup_decimals(text, value(&page->figures[i]), decimals);
         sp_text_add(text, "</td>");

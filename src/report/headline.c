@@ -5,8 +5,8 @@ static void add_statement(const sp_page *page, sp_text *text, size_t design)
 {
     const sp_figures *figures = &page->figures[design];
     sp_text_add(text, "covers <strong>");
-    sp_markup_decimals(text, 100 * figures->coverage, 1);
-    sp_text_add(text, "&nbsp;%%</strong> of the surface to be cleaned with <strong>");
+    sp_page_coverage(text, figures);
+    sp_text_add(text, "</strong> of the surface to be cleaned with <strong>");
     sp_markup_decimals(text, 6e4 * figures->flow, 1);
     sp_text_add(text, "&nbsp;L/min</strong>");
 }
@@ -16,6 +16,8 @@ static void add_card(const sp_page *page, sp_text *text, const char *title, cons
 {
     sp_text_add(text, "<div class=\"card\"><div class=\"title\">%s</div><div class=\"value\">", title);
     sp_markup_decimals(text, values[0], decimals);
+    if (points)
+        sp_page_error(text, &page->figures[page->main]);
     sp_text_add(text, " <span class=\"unit\">%s</span></div>", unit);
     if (page->manual != SP_UNKNOWN && page->manual != page->main && isfinite(values[1])) {
         sp_text_add(text, "<div class=\"against\">manual ");

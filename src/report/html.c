@@ -28,7 +28,8 @@ static const char *const style[] = {
     "caption{text-align:left;font-weight:600;padding:8px 0}\n"
     "th,td{padding:6px 10px;border-bottom:1px solid var(--line);text-align:right;vertical-align:top}\n"
     "thead th{border-bottom:2px solid var(--ink);font-size:14px;vertical-align:bottom}\n"
-    "th[scope=row],th:first-child,.text{text-align:left}\nth[scope=row]{font-weight:500;overflow-wrap:anywhere}\n"
+    "th[scope=row],th:first-child,.text{text-align:left}\nth[scope=row]{font-weight:500}\n"
+    ".sub th:first-child{text-align:right}\nth,td{overflow-wrap:break-word;hyphens:manual}\n"
     "td:last-child{font-weight:600}\n.small{font-size:13.5px}\n.small td:last-child{font-weight:400}\n"
     ".small th,.small td{padding:4px 7px}\n.narrow{width:auto;min-width:280px}\n",
     ".views{display:grid;gap:18px;align-items:end}\n.of1{grid-template-columns:minmax(0,640px)}\n"
@@ -40,6 +41,8 @@ static const char *const style[] = {
     ".nozzle{fill:#fff;stroke:#10202a;stroke-width:4}\n"
     ".name{font-size:26px;font-weight:600;fill:#10202a;stroke:#fff;stroke-width:6;stroke-linejoin:round;paint-order:"
     "stroke}\n"
+    ".shadow{fill:#fff;stroke:#c42636;stroke-width:2.5}\n.number{font-size:20px;font-weight:700;fill:#a51526;"
+    "text-anchor:middle}\n"
     ".chart,.bar{display:block;width:100%;max-width:860px;height:auto;font-size:13px}\n.chart text,.bar "
     "text{fill:var(--ink)}\n"
     ".grid{stroke:var(--line)}\n.tick{stroke:var(--ink);fill:none}\n.swatch{stroke:#8b97a1}\n"
@@ -47,10 +50,20 @@ static const char *const style[] = {
     ".bound{fill:none;stroke:#8a5a00;stroke-width:1.5;stroke-dasharray:6 4}\n"
     "dl{display:grid;grid-template-columns:max-content 1fr;gap:6px 22px;margin:0}\ndt{font-weight:600}\ndd{margin:0}\n"
     "footer{margin-top:44px;padding-top:12px;border-top:1px solid var(--line);color:var(--soft);font-size:14px}\n"
+    ".digest,code{overflow-wrap:anywhere;font-family:ui-monospace,\"DejaVu Sans Mono\",monospace;font-size:.92em}\n",
     "@media (max-width:640px){.of2,.of3{grid-template-columns:1fr}dl{grid-template-columns:1fr}}\n"
+    /* The column that decides stays: the one before refinement goes, and what is measured stands still. */
+    "@media screen and (max-width:480px){main{padding:0 12px 30px}body{font-size:15px}.aside{display:none}"
+    "th,td{padding:5px 6px}.numbers{font-size:14px}"
+    ".wide :not(.sub)>th:first-child{position:sticky;left:0;background:#fff}}\n",
+    "@page{size:A4;margin:16mm 14mm 18mm;@bottom-right{content:counter(page) \" / \" counter(pages);"
+    "font:9pt system-ui,\"DejaVu Sans\",Arial,sans-serif;color:#55636f}}\n"
     "@media "
     "print{body{font-size:11pt;-webkit-print-color-adjust:exact;print-color-adjust:exact}main{max-width:none;padding:0}"
-    ".wide{overflow:visible}figure,.card,tr,dl,.chart,.block{break-inside:avoid}h2,h3{break-after:avoid}}\n</style>\n",
+    "header{padding-top:10px}.wide{overflow:visible}.small{font-size:8.5pt}.small th,.small td{padding:2px 4px}"
+    ".small thead th{font-size:8.5pt}.view{max-height:72mm}"
+    "figure,.card,tr,dl>div,.chart,.block{break-inside:avoid}thead{display:table-header-group}"
+    "h2,h3,caption{break-after:avoid}a{color:inherit;text-decoration:none}}\n</style>\n",
 };
 
 void sp_page_plain_name(const sp_page *page, sp_text *text, size_t design)
@@ -76,13 +89,33 @@ void sp_page_name(const sp_page *page, sp_text *text, size_t design)
     free(plain.text);
 }
 
+const char *sp_page_aside(const sp_page *page, size_t design)
+{
+    return design == page->greedy ? " class=\"aside\"" : "";
+}
+
 void sp_page_columns(const sp_page *page, sp_text *text)
 {
     for (size_t i = 0; i < page->result->design_count; ++i) {
-        sp_text_add(text, "<th scope=\"col\">");
+        sp_text_add(text, "<th scope=\"col\"%s>", sp_page_aside(page, i));
         sp_page_name(page, text, i);
         sp_text_add(text, "</th>");
     }
+}
+
+void sp_page_error(sp_text *text, const sp_figures *figures)
+{
+    if (!isfinite(figures->error_estimate))
+        return;
+    sp_text_add(text, "&nbsp;\xc2\xb1&nbsp;");
+    sp_markup_decimals(text, ceil(1e3 * figures->error_estimate - 1e-9) / 10, 1);
+}
+
+void sp_page_coverage(sp_text *text, const sp_figures *figures)
+{
+    sp_markup_decimals(text, 100 * figures->coverage, 1);
+    sp_text_add(text, "&nbsp;%%");
+    sp_page_error(text, figures);
 }
 
 const char *sp_page_colour(const sp_page *page, size_t design)
@@ -153,6 +186,7 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
     sp_page_headline(page, text);
     sp_page_attainable(page, text);
     sp_page_figures(page, text);
+    sp_page_parts(page, text);
     sp_page_comparison(page, text);
     sp_page_liquid(page, text);
     sp_page_film(page, text);
@@ -163,10 +197,15 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
     if (!sp_page_viewer(page, text, error) || !sp_page_pictures(page, text, error))
         return false;
     sp_page_nozzles(page, text);
+    sp_page_contributions(page, text);
     sp_page_shadows(page, text);
+    if (!sp_page_swabs(page, text, error))
+        return false;
     sp_page_assumptions(page, text);
     sp_page_stages(page, text);
-    sp_text_add(text, "<footer>Made by sprayplan " SP_VERSION ".</footer>\n</main>\n");
+    sp_page_inputs(page, text);
+    sp_page_foot(page, text);
+    sp_text_add(text, "</main>\n");
     sp_page_viewer_script(text);
     sp_text_add(text, "</body>\n</html>\n");
     return true;

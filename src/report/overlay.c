@@ -116,22 +116,8 @@ static void add_outlines(sp_text *text, const sp_camera *camera, const sp_evalua
     free(patterns);
 }
 
-void sp_overlay_nozzles(sp_text *text, const sp_camera *camera, const sp_evaluator *evaluator, const sp_layout *layout)
+void sp_overlay_sprays(sp_text *text, const sp_camera *camera, const sp_evaluator *evaluator, const sp_layout *layout)
 {
-    double xy[2];
     for (size_t i = 0; i < layout->count; ++i)
         add_outlines(text, camera, evaluator, &layout->nozzles[i]);
-    for (size_t i = 0; i < layout->count; ++i) {
-        if (!sp_camera_shows(camera, layout->nozzles[i].position, xy))
-            continue;
-        char *name = sp_text_utf8(layout->nozzles[i].name);
-        sp_text_add(
-            text,
-            "<circle class=\"nozzle\" cx=\"%.1f\" cy=\"%.1f\" r=\"7\"/><text class=\"name\" x=\"%.1f\" y=\"%.1f\">",
-            xy[0], xy[1], xy[0] + 12, xy[1] - 8);
-        sp_markup_escape(text, name ? name : "");
-        sp_text_add(text, "</text>\n");
-        text->failed |= !name;
-        free(name);
-    }
 }

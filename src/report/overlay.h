@@ -6,11 +6,11 @@
 #include "markup.h"
 
 #define SP_OUTLINE 32 /* points on a spray's rim */
-/* The rim of a pattern's spray a little way along, of what is `size` (m) large: points in the setup's coordinates, around
- * it in turn. */
+/* The rim of a pattern's spray a little way along, of what is `size` (m) large: points in the setup's coordinates,
+ * around it in turn. */
 void sp_overlay_outline(const sp_evaluator *evaluator, const sp_nozzle *pattern, double size, sp_vec3 rim[SP_OUTLINE]);
 
-/* Every nozzle: a dot, its name and the outline of its spray, a little way along; of a cluster that of each pattern. */
-void sp_overlay_nozzles(sp_text *text, const sp_camera *camera, const sp_evaluator *evaluator, const sp_layout *layout);
+/* The outline of every nozzle's spray, a little way along; of a cluster that of each pattern. */
+void sp_overlay_sprays(sp_text *text, const sp_camera *camera, const sp_evaluator *evaluator, const sp_layout *layout);
 
 #endif

@@ -22,8 +22,14 @@ void sp_page_head(sp_text *text, const char *title, const char *scene);
 void sp_page_plain_name(const sp_page *page, sp_text *text, size_t design);
 /* The same, escaped. */
 void sp_page_name(const sp_page *page, sp_text *text, size_t design);
+/* html.c: what its cells have of attributes: narrow screens leave a layout before refinement out. */
+const char *sp_page_aside(const sp_page *page, size_t design);
 /* html.c: a heading of a column for each design. */
 void sp_page_columns(const sp_page *page, sp_text *text);
+/* html.c: the coverage of the surface to be cleaned and by how much it may be off, "98.3 % ± 0.2", rounded upwards. */
+void sp_page_coverage(sp_text *text, const sp_figures *figures);
+/* The last of that; nothing where it was not measured. */
+void sp_page_error(sp_text *text, const sp_figures *figures);
 /* Colour of a design in charts, "#rrggbb". */
 const char *sp_page_colour(const sp_page *page, size_t design);
 
@@ -43,6 +49,10 @@ void sp_page_liquid(const sp_page *page, sp_text *text);
 void sp_page_film(const sp_page *page, sp_text *text);
 /* tracks.c: how far the surface is from the tracks of two-axis heads; nothing where there are none. */
 void sp_page_tracks(const sp_page *page, sp_text *text);
+/* parts.c: coverage of each part, the least covered first. */
+void sp_page_parts(const sp_page *page, sp_text *text);
+/* contributions.c: what each nozzle does alone, and what is lost without it; nothing where that is not known. */
+void sp_page_contributions(const sp_page *page, sp_text *text);
 /* front_chart.c: coverage against water, SVG. */
 void sp_page_front_chart(const sp_page *page, sp_text *text);
 /* nozzle_counts.c: coverage against number of nozzles; nothing without a front. */
@@ -62,6 +72,11 @@ void sp_page_shadows(const sp_page *page, sp_text *text);
 void sp_page_stages(const sp_page *page, sp_text *text);
 /* spread.c: how liquid leaves the nozzles of the designs on an evaluator, within a sentence. */
 void sp_page_spread(sp_text *text, const sp_result *result, const sp_evaluator *evaluator);
+/* swabs.c: the worst places of the main design; nothing where it has no evaluator. */
+bool sp_page_swabs(const sp_page *page, sp_text *text, sp_error *error);
+/* inputs.c: the files that were read, where they are told; version, date and command. */
+void sp_page_inputs(const sp_page *page, sp_text *text);
+void sp_page_foot(const sp_page *page, sp_text *text);
 /* assumptions.c: physics, fidelity, criteria, liquid. */
 void sp_page_assumptions(const sp_page *page, sp_text *text);
 

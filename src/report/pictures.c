@@ -1,4 +1,5 @@
 /* Three views of every design, with the colour bar. */
+#include "labels.h"
 #include "layers.h"
 #include "overlay.h"
 #include "page.h"
@@ -110,7 +111,7 @@ static void colour_patch(const void *user, uint32_t look, int stripe, uint8_t rg
 }
 
 static bool add_picture(const sp_page *page, sp_text *text, size_t design, const sp_view *view, const sp_camera *camera,
-                        const sp_shot *shot, sp_error *error)
+                        const sp_shot *shot, const sp_listed_shadows *shadows, sp_error *error)
 {
     const sp_design *shown = &page->result->designs[design];
     const colouring by = {&shown->coverage->deposits, page->scale};
@@ -130,19 +131,23 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
     sp_markup_base64(text, bytes, size);
     sp_text_add(text, "\"/>\n");
     free(bytes);
-    sp_overlay_nozzles(text, camera, shown->evaluator, shown->layout);
+    sp_overlay_sprays(text, camera, shown->evaluator, shown->layout);
+    sp_labels labels = {0};
+    sp_labels_nozzles(&labels, text, camera, shown->layout);
+    sp_labels_shadows(&labels, text, shot, shadows);
     sp_text_add(text, "</svg><figcaption>");
     sp_page_name(page, text, design);
     sp_text_add(text, "<br><span class=\"unit\">");
-    sp_markup_decimals(text, 100 * page->figures[design].coverage, 1);
-    sp_text_add(text, "&nbsp;%% with ");
+    sp_page_coverage(text, &page->figures[design]);
+    sp_text_add(text, " with ");
     sp_markup_decimals(text, 6e4 * page->figures[design].flow, 1);
     sp_text_add(text, "&nbsp;L/min</span></figcaption></figure>\n");
     return true;
 }
 
 /* What is traced once serves all designs in a row that share an evaluator. */
-static bool add_view(const sp_page *page, sp_text *text, const sp_view *view, int pixels, sp_error *error)
+static bool add_view(const sp_page *page, sp_text *text, const sp_view *view, int pixels,
+                     const sp_listed_shadows *shadows, sp_error *error)
 {
     sp_camera camera = {0};
     sp_layers layers = {0};
@@ -159,7 +164,7 @@ static bool add_view(const sp_page *page, sp_text *text, const sp_view *view, in
             done = sp_layers_create(&layers, evaluator, error) &&
                    sp_shot_create(&shot, evaluator, &camera, look_at_patch, &layers, error);
         }
-        done = done && add_picture(page, text, i, view, &camera, &shot, error);
+        done = done && add_picture(page, text, i, view, &camera, &shot, &shadows[i], error);
     }
     sp_shot_free(&shot);
     sp_layers_free(&layers);
@@ -174,7 +179,7 @@ static void add_note(const sp_page *page, sp_text *text, const sp_evaluator *fir
     sp_text_add(
         text,
         "<p class=\"note\">One colour scale for all pictures. %s Dots are nozzles; the outlines show where and how "
-        "wide they spray, not how far.",
+        "wide they spray, not how far. Numbers are those of the <a href=\"#shadows\">spray shadows</a>.",
         cavity == SP_CAVITY_POINT ? "Walls are looked through from outside, so that their wet inner sides show."
         : camera.cut              ? "The geometry is cut open across the line of sight at its middle."
                                   : "");
@@ -184,6 +189,38 @@ static void add_note(const sp_page *page, sp_text *text, const sp_evaluator *fir
             break;
         }
     sp_text_add(text, "</p>\n");
+}
+
+/* Of every design [design_count]; all zeros of those without an evaluator. */
+static sp_listed_shadows *list_shadows(const sp_result *result, sp_error *error)
+{
+    sp_listed_shadows *shadows = calloc(result->design_count + 1, sizeof *shadows);
+    bool done = shadows || sp_fail_memory(error);
+    for (size_t i = 0; done && i < result->design_count; ++i)
+        done = !result->designs[i].evaluator || sp_listed_shadows_find(&shadows[i], &result->designs[i], error);
+    for (size_t i = 0; !done && shadows && i < result->design_count; ++i)
+        sp_listed_shadows_free(&shadows[i]);
+    if (!done) {
+        free(shadows);
+        shadows = NULL;
+    }
+    return shadows;
+}
+
+static bool add_views(const sp_page *page, sp_text *text, size_t drawn, sp_error *error)
+{
+    sp_listed_shadows *shadows = list_shadows(page->result, error);
+    bool done = shadows != NULL;
+    for (int i = 0; done && i < SP_VIEWS; ++i) {
+        sp_text_add(text, "<div class=\"block\"><h3>%s</h3>\n<div class=\"views of%zu\">\n", sp_views[i].caption,
+                    drawn < 3 ? drawn : 3);
+        done = add_view(page, text, &sp_views[i], drawn > 4 ? PIXELS_OF_MANY : PIXELS, shadows, error);
+        sp_text_add(text, "</div></div>\n");
+    }
+    for (size_t i = 0; shadows && i < page->result->design_count; ++i)
+        sp_listed_shadows_free(&shadows[i]);
+    free(shadows);
+    return done;
 }
 
 bool sp_page_pictures(const sp_page *page, sp_text *text, sp_error *error)
@@ -200,13 +237,7 @@ bool sp_page_pictures(const sp_page *page, sp_text *text, sp_error *error)
     sp_text_add(text, "<section id=\"pictures\"><h2>Coverage in pictures</h2>\n");
     add_colour_bar(page, text);
     add_note(page, text, first);
-    bool done = true;
-    for (int i = 0; done && i < SP_VIEWS; ++i) {
-        sp_text_add(text, "<div class=\"block\"><h3>%s</h3>\n<div class=\"views of%zu\">\n", sp_views[i].caption,
-                    drawn < 3 ? drawn : 3);
-        done = add_view(page, text, &sp_views[i], drawn > 4 ? PIXELS_OF_MANY : PIXELS, error);
-        sp_text_add(text, "</div></div>\n");
-    }
+    bool done = add_views(page, text, drawn, error);
     sp_text_add(text, "</section>\n");
     return done;
 }

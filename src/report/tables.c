@@ -91,13 +91,16 @@ static const row rows[] = {
     {"Dose, highest", "L/m\xc2\xb2", dose_max, 3, false, false},
 };
 
-static void add_value(sp_text *text, const row *r, double value)
+static void add_value(const sp_page *page, sp_text *text, const row *r, size_t design)
 {
-    sp_text_add(text, "<td>");
+    const sp_figures *figures = &page->figures[design];
+    sp_text_add(text, "<td%s>", sp_page_aside(page, design));
     if (r->decimal)
-        sp_markup_decimals(text, value, r->digits);
+        sp_markup_decimals(text, r->value(figures), r->digits);
     else
-        sp_markup_significant(text, value, r->digits);
+        sp_markup_significant(text, r->value(figures), r->digits);
+    if (r->value == of_clean)
+        sp_page_error(text, figures);
     sp_text_add(text, "</td>");
 }
 
@@ -127,7 +130,7 @@ static void add_row(const sp_page *page, sp_text *text, const row *r)
     sp_text_add(text, "<tr><th scope=\"row\">%s%s%s%s</th>", r->title, r->unit[0] ? " <span class=\"unit\">" : "",
                 r->unit, r->unit[0] ? "</span>" : "");
     for (size_t i = 0; i < page->result->design_count; ++i)
-        add_value(text, r, r->value(&page->figures[i]));
+        add_value(page, text, r, i);
     if (difference)
         add_difference(text, r, r->value(&page->figures[page->manual]), r->value(&page->figures[page->main]));
     sp_text_add(text, "</tr>\n");
@@ -225,15 +228,26 @@ void sp_page_nozzles(const sp_page *page, sp_text *text)
     sp_text_add(text, "</section>\n");
 }
 
-static void add_shadow(sp_text *text, const sp_shadow_figures *shadow, double clean_area)
+/* Why it is dry, and who brings it most. */
+static void add_lack(sp_text *text, const sp_shadow_figures *shadow)
+{
+    const char *lack = sp_lack_text(shadow->lack);
+    sp_text_add(text, "<td class=\"text\">%s", lack ? lack : "\xe2\x80\x93");
+    sp_text_add(text, "</td><td class=\"text\">");
+    sp_markup_escape(text, shadow->nozzle[0] ? shadow->nozzle : "\xe2\x80\x93");
+    sp_text_add(text, "</td>");
+}
+
+static void add_shadow(sp_text *text, size_t number, const sp_shadow_figures *shadow, double clean_area)
 {
     const double values[] = {shadow->area * 1e4, 100 * shadow->area / clean_area, shadow->centroid.x,
                              shadow->centroid.y, shadow->centroid.z};
     const int decimals[] = {0, 2, 2, 2, 2};
     const char *reachable = shadow->reachable < 0 ? "\xe2\x80\x93" : shadow->reachable ? "yes" : "no";
-    sp_text_add(text, "<tr>");
-    add_text_cell(text, "th scope=\"row\"", shadow->part);
+    sp_text_add(text, "<tr><th scope=\"row\">%zu</th>", number);
+    add_text_cell(text, "td class=\"text\"", shadow->part);
     add_numbers(text, values, decimals, 5);
+    add_lack(text, shadow);
     const char *reason = shadow->reachable == 0 ? sp_reason_text(shadow->reason) : NULL;
     sp_text_add(text, "<td class=\"text\">%s%s%s</td></tr>\n", reachable, reason ? ": " : "", reason ? reason : "");
 }
@@ -249,22 +263,29 @@ static void add_shadows(const sp_page *page, sp_text *text, size_t design)
         return;
     }
     sp_text_add(text,
-                ": the %zu largest uncovered regions</caption>\n<thead><tr><th scope=\"col\">Part</th><th "
+                ": the %zu largest uncovered regions</caption>\n<thead><tr><th scope=\"col\">No.</th><th scope=\"col\" "
+                "class=\"text\">Part</th><th "
                 "scope=\"col\">cm\xc2\xb2</th><th scope=\"col\">%% of the surface</th><th scope=\"col\">x&nbsp;m</th>"
                 "<th scope=\"col\">y&nbsp;m</th><th scope=\"col\">z&nbsp;m</th><th scope=\"col\" class=\"text\">"
+                "Lacks</th><th scope=\"col\" class=\"text\">Most from</th><th scope=\"col\" class=\"text\">"
                 "Attainable</th></tr></thead>\n<tbody>\n",
                 shown);
     for (size_t i = 0; i < shown; ++i)
-        add_shadow(text, &figures->shadows[i], figures->clean_area);
+        add_shadow(text, i + 1, &figures->shadows[i], figures->clean_area);
     sp_text_add(text, "</tbody></table></div>\n");
 }
 
 void sp_page_shadows(const sp_page *page, sp_text *text)
 {
-    sp_text_add(text, "<section id=\"shadows\"><h2>Spray shadows</h2>\n<p>Connected regions that do not meet the "
-                      "criterion, with the middle of each. A region that is not attainable is out of reach of every "
-                      "allowed nozzle: a matter of the vessel, not of the layout. All that result.json lists are in "
-                      "that file.</p>\n");
+    sp_text_add(text,
+                "<section id=\"shadows\"><h2>Spray shadows</h2>\n<p>Connected regions that do not meet the "
+                "criterion, with the middle of each, numbered as in the pictures. What most of a region lacks: a "
+                "nozzle of the layout in "
+                "reach (nothing arrives there), or what arrives is too slow, too slanted or too little. Most from: the "
+                "nozzle that by itself brings the region most liquid, and is nearest to mending it. A region that is "
+                "not attainable is out of reach of every "
+                "allowed nozzle: a matter of the vessel, not of the layout. All that result.json lists are in "
+                "that file.</p>\n");
     for (size_t i = 0; i < page->result->design_count; ++i)
         add_shadows(page, text, i);
     sp_text_add(text, "</section>\n");

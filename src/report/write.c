@@ -87,7 +87,7 @@ static bool write_designs(const sp_result *result, const sp_design *main, sp_out
         return true;
     const sp_setup *setup = sp_evaluator_setup(main->evaluator);
     return write_text(output, "nozzles.csv", sp_nozzles_csv(main->layout, setup, error), error) &&
-           write_main(main, output, error);
+           write_text(output, "swabs.csv", sp_swabs_csv(main, error), error) && write_main(main, output, error);
 }
 
 bool sp_report_write(const sp_result *result, sp_output *output, sp_error *error)

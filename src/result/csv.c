@@ -1,4 +1,4 @@
-/* The nozzle list for spreadsheets (RFC 4180). */
+/* Nozzles and places to swab for spreadsheets (RFC 4180). */
 #include "growing_text.h"
 
 #include <sprayplan/result.h>
@@ -53,6 +53,40 @@ char *sp_nozzles_csv(const sp_layout *layout, const sp_setup *setup, sp_error *e
         sp_text_append(&text, ",", 1);
         add_field(&text, nozzle->type->url);
         sp_text_append(&text, "\n", 1);
+    }
+    return sp_text_finish(&text, error);
+}
+
+/* Nothing where it is not known. */
+static void add_known(sp_text *text, double value)
+{
+    sp_text_append(text, ",", 1);
+    if (isfinite(value))
+        sp_text_number(text, value);
+}
+
+char *sp_swabs_csv(const sp_design *design, sp_error *error)
+{
+    sp_swab swabs[SP_SWABS];
+    size_t count;
+    if (!sp_find_swabs(design, swabs, &count, error))
+        return NULL;
+    sp_text text = {0};
+    sp_text_add(&text, "number,part,x_m,y_m,z_m,received_percent,flux_l_min_m2,speed_m_s,incidence_deg,lack\n");
+    for (size_t i = 0; i < count; ++i) {
+        const sp_swab *swab = &swabs[i];
+        const double values[] = {swab->place.x,
+                                 swab->place.y,
+                                 swab->place.z,
+                                 100 * swab->received,
+                                 6e4 * swab->flux,
+                                 swab->speed,
+                                 swab->incidence * 180 / M_PI};
+        sp_text_add(&text, "%zu,", i + 1);
+        add_field(&text, swab->part);
+        for (size_t k = 0; k < sizeof values / sizeof *values; ++k)
+            add_known(&text, values[k]);
+        sp_text_add(&text, ",%s\n", sp_lack_key(swab->lack) ? sp_lack_key(swab->lack) : "");
     }
     return sp_text_finish(&text, error);
 }

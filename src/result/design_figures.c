@@ -48,8 +48,11 @@ static void set_coverage(sp_figures *figures, const sp_coverage *coverage, const
     figures->pass = sweep->speed > 0 ? sp_sweep_duration(sweep) : NAN;
 }
 
-static bool set_nozzles(sp_figures *figures, const sp_layout *layout, const sp_setup *setup)
+static bool set_nozzles(sp_figures *figures, const sp_design *design)
 {
+    const sp_layout *layout = design->layout;
+    const sp_contributions *does = design->contributions;
+    const sp_setup *setup = sp_evaluator_setup(design->evaluator);
     const sp_fluid *liquid = &setup->liquid;
     bool copied = true;
     for (size_t i = 0; i < figures->nozzle_count; ++i) {
@@ -64,7 +67,9 @@ static bool set_nozzles(sp_figures *figures, const sp_layout *layout, const sp_s
                                                   .angle = sp_nozzle_angle(nozzle),
                                                   .pressure = nozzle->pressure,
                                                   .flow = sp_nozzle_flow(nozzle, liquid),
-                                                  .speed = sp_nozzle_speed(nozzle, liquid)};
+                                                  .speed = sp_nozzle_speed(nozzle, liquid),
+                                                  .alone = does ? does->alone[i] : NAN,
+                                                  .lost = does ? does->lost[i] : NAN};
         copied &= figures->nozzles[i].name && figures->nozzles[i].type && figures->nozzles[i].order_code &&
                   figures->nozzles[i].url;
     }
@@ -79,20 +84,76 @@ static bool set_tracks(sp_figures *figures, const sp_design *design, sp_error *e
     return true;
 }
 
-static bool set_shadows(sp_figures *figures, const sp_shadow *shadows, const sp_setup *setup)
+/* Which nozzle brings most liquid to each shadow, its index; SP_UNKNOWN where none does. */
+static bool find_nearest(const sp_design *design, const sp_shadow *shadows, size_t count, size_t *nearest)
 {
-    bool copied = true;
+    const sp_contributions *does = design->contributions;
+    const sp_patches *patches = sp_evaluator_patches(design->evaluator);
+    uint32_t *numbers = malloc((patches->count + 1) * sizeof *numbers);
+    double *brought = malloc((count + 1) * sizeof *brought), *most = calloc(count + 1, sizeof *most);
+    bool done = numbers && brought && most &&
+                sp_shadow_numbers(design->evaluator, design->coverage, shadows, count, numbers, NULL);
+    for (size_t n = 0; done && n < does->count; ++n) {
+        memset(brought, 0, (count + 1) * sizeof *brought); /* the first: of all patches in no shadow */
+        for (size_t k = 0; k < patches->count; ++k)
+            brought[numbers[k]] += patches->area[k] * (double)does->flux[n * does->patches + k];
+        for (size_t i = 0; i < count; ++i)
+            if (brought[i + 1] > most[i]) {
+                most[i] = brought[i + 1];
+                nearest[i] = n;
+            }
+    }
+    free(numbers);
+    free(brought);
+    free(most);
+    return done;
+}
+
+static bool set_shadows(sp_figures *figures, const sp_design *design, const sp_shadow *shadows)
+{
+    const sp_setup *setup = sp_evaluator_setup(design->evaluator);
+    size_t nearest[SP_SHADOWS_KEPT];
+    for (size_t i = 0; i < SP_SHADOWS_KEPT; ++i)
+        nearest[i] = SP_UNKNOWN;
+    bool copied = !design->contributions || find_nearest(design, shadows, figures->shadow_count, nearest);
     for (size_t i = 0; i < figures->shadow_count; ++i) {
         const sp_shadow *shadow = &shadows[i];
+        const char *nozzle = nearest[i] == SP_UNKNOWN ? "" : design->layout->nozzles[nearest[i]].name;
         figures->shadows[i] = (sp_shadow_figures){
             .area = shadow->area,
             .centroid = sp_setup_outside(setup, shadow->centroid),
             .part = sp_text_utf8(setup->mesh->parts[shadow->part].name),
             .reachable = shadow->reachable_area < 0 ? -1 : shadow->reachable_area >= 0.5 * shadow->area,
-            .reason = shadow->reason};
-        copied &= figures->shadows[i].part != NULL;
+            .reason = shadow->reason,
+            .lack = shadow->lack,
+            .nozzle = sp_text_utf8(nozzle)};
+        copied &= figures->shadows[i].part && figures->shadows[i].nozzle;
     }
     return copied;
+}
+
+static bool set_parts(sp_figures *figures, const sp_design *design)
+{
+    const sp_mesh *mesh = sp_evaluator_setup(design->evaluator)->mesh;
+    const sp_patches *patches = sp_evaluator_patches(design->evaluator);
+    sp_part_figures *all = calloc(mesh->part_count + 1, sizeof *all);
+    size_t count = 0, row = 0;
+    for (uint32_t k = 0; all && k < patches->count; ++k) {
+        sp_part_figures *part = &all[mesh->part[patches->triangle[k]]];
+        double area = sp_evaluator_counted(design->evaluator, k);
+        count += part->area == 0 && area > 0;
+        part->area += area;
+        part->covered += area * design->coverage->deposits.share[k];
+    }
+    bool done = all && sp_figures_make_parts(figures, count);
+    for (size_t i = 0; done && row < count; ++i)
+        if (all[i].area > 0) {
+            sp_part_figures *part = &figures->parts[row++];
+            *part = all[i];
+            done = (part->part = sp_text_utf8(mesh->parts[i].name)) != NULL;
+        }
+    free(all);
+    return done;
 }
 
 /* Area by reason; the attainable area is that of no reason. */
@@ -145,7 +206,6 @@ static bool set_missing_parts(sp_figures *figures, const sp_evaluator *evaluator
 /* With `reasons` NULL attainable area is not known. */
 static bool describe(sp_figures *figures, const sp_design *design, const sp_reason *reasons, sp_error *error)
 {
-    const sp_setup *setup = sp_evaluator_setup(design->evaluator);
     sp_shadow *shadows = NULL;
     size_t shadow_count = 0;
     if (!sp_shadows(design->evaluator, design->coverage, reasons, &shadows, &shadow_count, error))
@@ -156,7 +216,7 @@ static bool describe(sp_figures *figures, const sp_design *design, const sp_reas
     bool done = set_missing_parts(figures, design->evaluator, reasons) &&
                 sp_figures_make_rows(figures, shadow_count < SP_SHADOWS_KEPT ? shadow_count : SP_SHADOWS_KEPT,
                                      design->layout->count) &&
-                set_nozzles(figures, design->layout, setup) && set_shadows(figures, shadows, setup);
+                set_nozzles(figures, design) && set_shadows(figures, design, shadows) && set_parts(figures, design);
     free(shadows);
     if (!done)
         return sp_fail_memory(error);

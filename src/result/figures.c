@@ -6,8 +6,10 @@
 
 static void figures_clear(sp_figures *figures)
 {
-    for (size_t i = 0; i < figures->shadow_count; ++i)
+    for (size_t i = 0; i < figures->shadow_count; ++i) {
         free(figures->shadows[i].part);
+        free(figures->shadows[i].nozzle);
+    }
     for (size_t i = 0; i < figures->nozzle_count; ++i) {
         free(figures->nozzles[i].name);
         free(figures->nozzles[i].type);
@@ -16,6 +18,9 @@ static void figures_clear(sp_figures *figures)
     }
     for (size_t i = 0; i < figures->missing_count; ++i)
         free(figures->missing[i].part);
+    for (size_t i = 0; i < figures->part_count; ++i)
+        free(figures->parts[i].part);
+    free(figures->parts);
     free(figures->shadows);
     free(figures->nozzles);
     free(figures->missing);
@@ -49,6 +54,13 @@ bool sp_figures_make_missing(sp_figures *figures, size_t count)
     return figures->missing != NULL;
 }
 
+bool sp_figures_make_parts(sp_figures *figures, size_t count)
+{
+    figures->parts = calloc(count + 1, sizeof *figures->parts);
+    figures->part_count = figures->parts ? count : 0;
+    return figures->parts != NULL;
+}
+
 /* A borrowed text becomes one's own; NULL where memory runs out. */
 static bool own(char **text)
 {
@@ -68,6 +80,18 @@ static bool copy_missing(sp_figures *to, const sp_figures *from)
     return copied;
 }
 
+static bool copy_parts(sp_figures *to, const sp_figures *from)
+{
+    if (!sp_figures_make_parts(to, from->part_count))
+        return false;
+    bool copied = true;
+    for (size_t i = 0; i < to->part_count; ++i) {
+        to->parts[i] = from->parts[i];
+        copied &= own(&to->parts[i].part);
+    }
+    return copied;
+}
+
 bool sp_figures_copy(sp_figures *to, const sp_figures *from)
 {
     *to = *from;
@@ -75,13 +99,16 @@ bool sp_figures_copy(sp_figures *to, const sp_figures *from)
     to->shadows = NULL;
     to->nozzles = NULL;
     to->missing = NULL;
-    to->shadow_count = to->nozzle_count = to->missing_count = 0;
-    if (!copy_missing(to, from) || !sp_figures_make_rows(to, from->shadow_count, from->nozzle_count))
+    to->parts = NULL;
+    to->shadow_count = to->nozzle_count = to->missing_count = to->part_count = 0;
+    if (!copy_missing(to, from) || !copy_parts(to, from) ||
+        !sp_figures_make_rows(to, from->shadow_count, from->nozzle_count))
         return false;
     bool copied = true;
     for (size_t i = 0; i < to->shadow_count; ++i) {
         to->shadows[i] = from->shadows[i];
         copied &= own(&to->shadows[i].part);
+        copied &= own(&to->shadows[i].nozzle);
     }
     for (size_t i = 0; i < to->nozzle_count; ++i) {
         to->nozzles[i] = from->nozzles[i];

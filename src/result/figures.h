@@ -8,6 +8,8 @@
 bool sp_figures_make_rows(sp_figures *figures, size_t shadows, size_t nozzles);
 /* The same for parts that are not wholly attainable. */
 bool sp_figures_make_missing(sp_figures *figures, size_t count);
+/* The same for parts that are to be cleaned. */
+bool sp_figures_make_parts(sp_figures *figures, size_t count);
 /* Everything but the name. False where memory ran out; what was copied is then still to be destroyed. */
 bool sp_figures_copy(sp_figures *to, const sp_figures *from);
 

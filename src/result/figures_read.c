@@ -307,13 +307,29 @@ static bool read_reason(const reader *in, const json_t *entry, sp_reason *reason
     return wrong(in, "reason", found, "no_line_of_reach, reflection_only, too_slow, too_slanted or too_little_flux");
 }
 
+static bool read_lack(const reader *in, const json_t *entry, sp_lack *lack)
+{
+    const json_t *found = json_object_get(entry, "lack");
+    *lack = SP_LACK_NOTHING;
+    if (!found)
+        return true;
+    for (sp_lack i = 0; json_is_string(found) && i < SP_LACKS; i++)
+        if (sp_lack_key(i) && !strcmp(json_string_value(found), sp_lack_key(i))) {
+            *lack = i;
+            return true;
+        }
+    return wrong(in, "lack", found, "no_nozzle_in_reach, too_slow, too_slanted or too_little_flux");
+}
+
 static bool read_shadow(const reader *in, const json_t *entry, sp_shadow_figures *shadow)
 {
     const json_t *reachable = json_object_get(entry, "reachable");
     if (reachable && !json_is_boolean(reachable))
         return wrong(in, "reachable", reachable, "true or false");
     shadow->reachable = reachable ? json_is_true(reachable) : -1;
-    return read_reason(in, entry, &shadow->reason) && get_real(in, entry, "area_m2", 0, LARGEST, 1, &shadow->area) &&
+    return read_reason(in, entry, &shadow->reason) && read_lack(in, entry, &shadow->lack) &&
+           get_text(in, entry, "nozzle", &shadow->nozzle) &&
+           get_real(in, entry, "area_m2", 0, LARGEST, 1, &shadow->area) &&
            get_vector(in, entry, "centroid_m", &shadow->centroid) && get_text(in, entry, "part", &shadow->part);
 }
 
@@ -352,13 +368,37 @@ static bool read_nozzle(const reader *in, const json_t *entry, sp_nozzle_figures
            get_real(in, entry, "angle_rad", 0, 7, 1, &nozzle->angle) &&
            get_real(in, entry, "pressure_pa", 0, LARGEST, 1, &nozzle->pressure) &&
            get_real(in, entry, "flow_l_min", 0, LARGEST, 1 / 6e4, &nozzle->flow) &&
-           get_real(in, entry, "speed_m_s", 0, LARGEST, 1, &nozzle->speed) && read_tracks(in, entry, &nozzle->tracks);
+           get_real(in, entry, "speed_m_s", 0, LARGEST, 1, &nozzle->speed) &&
+           get_real(in, entry, "alone_m2", 0, LARGEST, 1, &nozzle->alone) &&
+           get_real(in, entry, "lost_without_m2", -LARGEST, LARGEST, 1, &nozzle->lost) &&
+           read_tracks(in, entry, &nozzle->tracks);
+}
+
+static bool read_part(const reader *in, const json_t *entry, sp_part_figures *part)
+{
+    return get_text(in, entry, "part", &part->part) && get_real(in, entry, "area_m2", 0, LARGEST, 1, &part->area) &&
+           get_real(in, entry, "covered_area_m2", 0, LARGEST, 1, &part->covered);
+}
+
+static bool read_parts(const reader *in, const json_t *layout, sp_figures *figures)
+{
+    const json_t *parts;
+    if (!get_part(in, layout, "parts", JSON_ARRAY, false, &parts))
+        return false;
+    if (!sp_figures_make_parts(figures, json_array_size(parts)))
+        return sp_fail_memory(in->error);
+    reader inner;
+    for (size_t i = 0; i < figures->part_count; ++i)
+        if (!enter(in, "parts", i, json_array_get(parts, i), &inner) ||
+            !read_part(&inner, json_array_get(parts, i), &figures->parts[i]))
+            return false;
+    return true;
 }
 
 static bool read_rows(const reader *in, const json_t *layout, sp_figures *figures)
 {
     const json_t *shadows, *nozzles;
-    if (!get_part(in, layout, "shadows", JSON_ARRAY, false, &shadows) ||
+    if (!read_parts(in, layout, figures) || !get_part(in, layout, "shadows", JSON_ARRAY, false, &shadows) ||
         !get_part(in, layout, "nozzles", JSON_ARRAY, true, &nozzles))
         return false;
     size_t shadow_count = json_array_size(shadows), nozzle_count = json_array_size(nozzles);

@@ -195,7 +195,9 @@ static bool put_shadow(json_t *shadows, const sp_shadow_figures *figures)
                 put_text(shadow, "part", figures->part) &&
                 (figures->reachable < 0 || put(shadow, "reachable", json_boolean(figures->reachable))) &&
                 (figures->reachable || !sp_reason_key(figures->reason) ||
-                 put_text(shadow, "reason", sp_reason_key(figures->reason)));
+                 put_text(shadow, "reason", sp_reason_key(figures->reason))) &&
+                (!sp_lack_key(figures->lack) || put_text(shadow, "lack", sp_lack_key(figures->lack))) &&
+                put_text(shadow, "nozzle", figures->nozzle);
     return json_array_append_new(shadows, shadow) == 0 && done;
 }
 
@@ -220,14 +222,24 @@ static bool put_nozzle(json_t *nozzles, const sp_nozzle_figures *figures)
                 put_real(nozzle, "roll_rad", figures->roll) && put_real(nozzle, "angle_rad", figures->angle) &&
                 put_real(nozzle, "pressure_pa", figures->pressure) &&
                 put_real(nozzle, "flow_l_min", 6e4 * figures->flow) && put_real(nozzle, "speed_m_s", figures->speed) &&
+                put_real(nozzle, "alone_m2", figures->alone) && put_real(nozzle, "lost_without_m2", figures->lost) &&
                 put_tracks(nozzle, &figures->tracks);
     return json_array_append_new(nozzles, nozzle) == 0 && done;
+}
+
+static bool put_part(json_t *parts, const sp_part_figures *figures)
+{
+    json_t *part = json_object();
+    bool done = put_text(part, "part", figures->part) && put_real(part, "area_m2", figures->area) &&
+                put_real(part, "covered_area_m2", figures->covered) &&
+                put_real(part, "coverage", figures->covered / figures->area);
+    return json_array_append_new(parts, part) == 0 && done;
 }
 
 static bool put_layout(json_t *layouts, const sp_figures *figures, const sp_evaluator *evaluator, bool own_geometry,
                        bool own_fidelity)
 {
-    json_t *layout = json_object(), *shadows = json_array(), *nozzles = json_array();
+    json_t *layout = json_object(), *shadows = json_array(), *nozzles = json_array(), *parts = json_array();
     bool done =
         put_text(layout, "name", figures->name) && put_real(layout, "water_l_min", 6e4 * figures->flow) &&
         put_real(layout, "covered_area_m2", figures->covered_area) && put_real(layout, "coverage", figures->coverage) &&
@@ -241,6 +253,9 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, const sp_eval
         done = put_shadow(shadows, &figures->shadows[i]);
     for (size_t i = 0; done && i < figures->nozzle_count; ++i)
         done = put_nozzle(nozzles, &figures->nozzles[i]);
+    for (size_t i = 0; done && i < figures->part_count; ++i)
+        done = put_part(parts, &figures->parts[i]);
+    done = put(layout, "parts", parts) && done;
     done = put(layout, "shadows", shadows) && done;
     done = put(layout, "nozzles", nozzles) && done;
     done = done && (!own_geometry || put_geometry(layout, figures, evaluator)) &&
@@ -350,6 +365,22 @@ static bool put_stages(json_t *stages, const sp_stage *list, size_t count)
     return true;
 }
 
+static bool put_inputs(json_t *root, const sp_result *result)
+{
+    if (result->input_count == 0)
+        return true;
+    json_t *inputs = json_array();
+    bool done = true;
+    for (size_t i = 0; done && i < result->input_count; ++i) {
+        json_t *input = json_object();
+        char *path = sp_text_utf8(result->inputs[i].path);
+        done = path && put_text(input, "file", path) && put_text(input, "sha256", result->inputs[i].sha256);
+        free(path);
+        done = json_array_append_new(inputs, input) == 0 && done;
+    }
+    return put(root, "inputs", inputs) && done;
+}
+
 static bool fill(json_t *root, const sp_result *result, const sp_figures *figures)
 {
     bool one_geometry = true, one_fidelity = true;
@@ -360,7 +391,7 @@ static bool fill(json_t *root, const sp_result *result, const sp_figures *figure
     char *scene = sp_text_utf8(result->scene);
     bool done =
         scene && put_text(root, "sprayplan", SP_VERSION) && put_text(root, "command", result->command) &&
-        put_text(root, "scene", scene) &&
+        put_text(root, "scene", scene) && put_inputs(root, result) &&
         (!one_geometry || result->design_count == 0 || put_geometry(root, figures, result->designs[0].evaluator)) &&
         (!one_fidelity || result->design_count == 0 ||
          put_fidelity(root, figures, result->design_count, result->designs[0].evaluator));

@@ -1,4 +1,4 @@
-/* What reasons are called, and which parts they concern. */
+/* What reasons and lacks are called, and which parts reasons concern. */
 #include <sprayplan/result.h>
 
 static const struct {
@@ -19,6 +19,25 @@ const char *sp_reason_key(sp_reason reason)
 const char *sp_reason_text(sp_reason reason)
 {
     return names[reason].text;
+}
+
+static const struct {
+    const char *key, *text;
+} lacks[SP_LACKS] = {
+    [SP_LACK_REACH] = {"no_nozzle_in_reach", "no nozzle in reach"},
+    [SP_LACK_SPEED] = {"too_slow", "too slow"},
+    [SP_LACK_ANGLE] = {"too_slanted", "too slanted"},
+    [SP_LACK_FLUX] = {"too_little_flux", "too little"},
+};
+
+const char *sp_lack_key(sp_lack lack)
+{
+    return lacks[lack].key;
+}
+
+const char *sp_lack_text(sp_lack lack)
+{
+    return lacks[lack].text;
 }
 
 size_t sp_missing_next(const sp_figures *figures, sp_reason reason, size_t last)

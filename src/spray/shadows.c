@@ -3,8 +3,21 @@
 
 #include <stdlib.h>
 
+sp_lack sp_patch_lack(const sp_evaluator *evaluator, const sp_coverage *coverage, uint32_t patch)
+{
+    const sp_deposits *deposits = &coverage->deposits;
+    if (deposits->covered[patch])
+        return SP_LACK_NOTHING;
+    if (!(deposits->flux[patch] > 0))
+        return SP_LACK_REACH;
+    if (deposits->counted[patch] > 0)
+        return SP_LACK_FLUX;
+    return deposits->speed_max[patch] < evaluator->setup.criterion.impact_speed ? SP_LACK_SPEED : SP_LACK_ANGLE;
+}
+
 typedef struct {
     const sp_evaluator *evaluator;
+    const sp_coverage *coverage;
     const sp_reason *reasons;
     bool *visited;     /* [patches], covered ones too */
     uint32_t *queue;   /* [patches] */
@@ -45,23 +58,43 @@ static sp_reason main_reason(const shadow_search *search, size_t members)
     return best;
 }
 
+static sp_lack main_lack(const shadow_search *search, size_t members)
+{
+    double area[SP_LACKS] = {0};
+    for (size_t i = 0; i < members; i++)
+        area[sp_patch_lack(search->evaluator, search->coverage, search->queue[i])] +=
+            search->evaluator->patches.area[search->queue[i]];
+    sp_lack most = SP_LACK_REACH;
+    for (sp_lack lack = SP_LACK_SPEED; lack < SP_LACKS; lack++)
+        if (area[lack] > area[most])
+            most = lack;
+    return most;
+}
+
+/* Fills the queue with the patches of the region that holds `first`; returns how many. */
+static size_t flood(const sp_patches *patches, uint32_t first, bool *visited, uint32_t *queue)
+{
+    size_t members = 1;
+    queue[0] = first;
+    visited[first] = true;
+    for (size_t i = 0; i < members; i++) {
+        uint32_t patch = queue[i];
+        for (uint32_t k = patches->neighbour_start[patch]; k < patches->neighbour_start[patch + 1]; k++) {
+            uint32_t other = patches->neighbours[k];
+            if (!visited[other]) {
+                visited[other] = true;
+                queue[members++] = other;
+            }
+        }
+    }
+    return members;
+}
+
 /* The region that holds patch `first`. */
 static sp_shadow grow(const shadow_search *search, uint32_t first)
 {
     const sp_patches *patches = &search->evaluator->patches;
-    size_t members = 1;
-    search->queue[0] = first;
-    search->visited[first] = true;
-    for (size_t i = 0; i < members; i++) {
-        uint32_t patch = search->queue[i];
-        for (uint32_t k = patches->neighbour_start[patch]; k < patches->neighbour_start[patch + 1]; k++) {
-            uint32_t other = patches->neighbours[k];
-            if (!search->visited[other]) {
-                search->visited[other] = true;
-                search->queue[members++] = other;
-            }
-        }
-    }
+    size_t members = flood(patches, first, search->visited, search->queue);
     sp_shadow shadow = {.first = first, .reachable_area = search->reasons ? 0 : -1};
     for (size_t i = 0; i < members; i++) {
         uint32_t patch = search->queue[i];
@@ -73,6 +106,7 @@ static sp_shadow grow(const shadow_search *search, uint32_t first)
     shadow.centroid = sp_scale(shadow.centroid, 1 / shadow.area);
     shadow.part = main_part(search, members);
     shadow.reason = main_reason(search, members);
+    shadow.lack = main_lack(search, members);
     return shadow;
 }
 
@@ -118,6 +152,7 @@ bool sp_shadows(const sp_evaluator *evaluator, const sp_coverage *coverage, cons
     if (coverage->deposits.count != patches)
         return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "shadows: the coverage is of another evaluator");
     shadow_search search = {.evaluator = evaluator,
+                            .coverage = coverage,
                             .reasons = reasons,
                             .visited = malloc(patches ? patches * sizeof(bool) : 1),
                             .queue = malloc(patches ? patches * sizeof(uint32_t) : 1),
@@ -139,4 +174,25 @@ bool sp_shadows(const sp_evaluator *evaluator, const sp_coverage *coverage, cons
     }
     *shadows = regions;
     return true;
+}
+
+bool sp_shadow_numbers(const sp_evaluator *evaluator, const sp_coverage *coverage, const sp_shadow *shadows,
+                       size_t count, uint32_t *numbers, sp_error *error)
+{
+    size_t patches = evaluator->patches.count;
+    bool *visited = malloc(patches + 1);
+    uint32_t *queue = malloc((patches + 1) * sizeof *queue);
+    bool done = visited && queue;
+    for (size_t i = 0; done && i < patches; i++) {
+        visited[i] = coverage->deposits.covered[i];
+        numbers[i] = 0;
+    }
+    for (size_t i = 0; done && i < count; i++) {
+        size_t members = flood(&evaluator->patches, shadows[i].first, visited, queue);
+        for (size_t k = 0; k < members; k++)
+            numbers[queue[k]] = (uint32_t)i + 1;
+    }
+    free(visited);
+    free(queue);
+    return done || sp_fail_memory(error);
 }

@@ -2,6 +2,8 @@
  * number of threads. */
 #include "workplace.h"
 
+#include <sprayplan/sprayplan.h>
+
 #include <math.h>
 #include <signal.h>
 #include <time.h>
@@ -197,8 +199,38 @@ static void simulate_writes_its_files(void **state)
     char *names = list_folder("simulated");
     assert_string_equal(names,
                         "coverage.png\ndeposits.exr\nlayout.yaml\nmodel.glb\nnozzles.csv\nnozzles.stl\nreport.html\n"
-                        "result.json\nsurface.vtp\ntexels.vtp\n");
+                        "result.json\nsurface.vtp\nswabs.csv\ntexels.vtp\n");
     free(names);
+}
+
+/* When it was made stands in the page alone; what was read, in both. */
+static void what_was_read_is_told(void **state)
+{
+    (void)state;
+    assert_int_equal(setenv("SOURCE_DATE_EPOCH", "86400", 1), 0);
+    outcome result = run_program("simulate room.yaml -o 'made here' --quiet");
+    assert_int_equal(unsetenv("SOURCE_DATE_EPOCH"), 0);
+    assert_int_equal(result.status, 0);
+    forget(&result);
+    json_t *object = json_file("made here/result.json"), *inputs = json_object_get(object, "inputs");
+    assert_string_equal(json_string_value(json_object_get(json_array_get(inputs, 0), "file")), "room.yaml");
+    char *page = read_file("made here/report.html", NULL), digest[SP_SHA256], path[4096];
+    assert_non_null(strstr(page, ", 1970-01-02 00:00 UTC, by <code>sprayplan simulate "));
+    assert_non_null(strstr(page, "&#39;made here&#39;"));
+    size_t i;
+    json_t *input;
+    sp_error error = {0};
+    assert_true(json_array_size(inputs) >= 2);
+    json_array_foreach(inputs, i, input)
+    {
+        const char *told = json_string_value(json_object_get(input, "sha256"));
+        snprintf(path, sizeof path, "%s/%s", workplace, json_string_value(json_object_get(input, "file")));
+        assert_true(sp_file_sha256(path, digest, &error));
+        assert_string_equal(told, digest);
+        assert_non_null(strstr(page, digest));
+    }
+    json_decref(object);
+    free(page);
 }
 
 static void no_input_is_overwritten(void **state)
@@ -332,7 +364,7 @@ static void place_gives_the_same_bytes_for_any_number_of_threads(void **state)
     static const char *const files[] = {
         "layout.yaml",         "nozzles.csv",         "coverage.png",     "deposits.exr",        "model.glb",
         "coverage-manual.png", "deposits-manual.exr", "model-manual.glb", "coverage-greedy.png", "deposits-greedy.exr",
-        "model-greedy.glb",    "surface.vtp",         "texels.vtp",       "nozzles.stl",
+        "model-greedy.glb",    "surface.vtp",         "texels.vtp",       "nozzles.stl",         "swabs.csv",
     };
     for (size_t i = 0; i < sizeof files / sizeof *files; ++i)
         same_file("one", "three", files[i]);
@@ -351,7 +383,7 @@ static void the_written_layout_gives_the_same_figures(void **state)
     (void)state;
     ensure("one", "place room.yaml --threads 1");
     json_t *placed = json_file("one/result.json");
-    json_t *again = expect_json("simulate one/layout.yaml --json", 0);
+    json_t *again = expect_json("simulate one/layout.yaml -o again --json", 0);
     json_t *proposed = layout_named(placed, "proposed"), *manual = layout_named(again, "manual");
     static const char *const same[] = {"water_l_min",    "covered_area_m2", "coverage",     "area_per_water",
                                        "error_estimate", "misjudged",       "borderline_m2"};
@@ -488,7 +520,7 @@ static void a_layout_has_one_coverage_wherever_it_is_read(void **state)
     assert_int_equal(result.status, 0);
     forget(&result);
     char percent[64], row[512];
-    snprintf(percent, sizeof percent, "<td>%.1f</td>", 100 * coverage);
+    snprintf(percent, sizeof percent, "<td>%.1f&nbsp;\xc2\xb1", 100 * coverage);
     row_of("steep", "Coverage of the surface to be cleaned", row);
     assert_non_null(strstr(row, percent));
     row_of("both", "Coverage of the surface to be cleaned", row);
@@ -635,7 +667,7 @@ static void film_is_placed_for(void **state)
     (void)state;
     write_room_with("film.yaml", "{flux: 1 L/min/m2}", "{flux: 20 L/min/m2, film: 3 L/min/m}");
     json_t *one = expect_json("place film.yaml " COARSE " -o proposed --json --threads 1", 4);
-    json_t *three = expect_again(one, "place film.yaml " COARSE " --json --threads 3", 4);
+    json_t *three = expect_again(one, "place film.yaml " COARSE " -o counted --json --threads 3", 4);
     json_t *layout = layout_named(one, "proposed"), *certificate = json_object_get(one, "certificate");
     assert_true(number(json_object_get(layout, "film"), "covered_area_m2") > 0);
     assert_true(number(certificate, "coverage_bound_same_water") >= number(certificate, "coverage"));
@@ -664,7 +696,7 @@ static void drag_is_placed(void **state)
     (void)state;
     write_room_with("mist.yaml", "simulate: {", "simulate: {trajectory: drag, accuracy: 5%, ");
     json_t *one = expect_json("place mist.yaml --set simulate.texel=160mm -o mist --threads 1 --json", 0);
-    json_t *three = expect_again(one, "place mist.yaml --set simulate.texel=160mm --threads 3 --json", 0);
+    json_t *three = expect_again(one, "place mist.yaml --set simulate.texel=160mm -o mist3 --threads 3 --json", 0);
     json_t *again = expect_json("simulate mist/layout.yaml --json", 0);
     const char *same[] = {"layouts", "front", "certificate", "fidelity"};
     for (size_t i = 0; i < sizeof same / sizeof *same; i++)
@@ -687,7 +719,7 @@ static void drag_is_simulated(void **state)
     json_t *drops = expect_json("simulate drag.yaml -o drops --json", 0);
     assert_string_equal(json_string_value(json_object_get(json_object_get(drops, "fidelity"), "trajectory")), "drag");
     json_t *again = expect_json("simulate drops/layout.yaml --json", 0);
-    json_t *set = expect_json("simulate room.yaml " COARSE " --set simulate.trajectory=drag --json", 0);
+    json_t *set = expect_json("simulate room.yaml " COARSE " --set simulate.trajectory=drag -o set --json", 0);
     assert_true(json_equal(json_object_get(layout_named(drops, "manual"), "coverage"),
                            json_object_get(layout_named(again, "manual"), "coverage")));
     assert_true(json_equal(json_object_get(drops, "layouts"), json_object_get(set, "layouts")));
@@ -843,6 +875,7 @@ int main(void)
         cmocka_unit_test(lines_are_bounded),
         cmocka_unit_test(without_output_nothing_is_written),
         cmocka_unit_test(simulate_writes_its_files),
+        cmocka_unit_test(what_was_read_is_told),
         cmocka_unit_test(no_input_is_overwritten),
         cmocka_unit_test(nor_is_what_the_scene_names),
         cmocka_unit_test(where_nothing_can_be_written_is_said_first),

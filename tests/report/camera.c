@@ -1,4 +1,5 @@
 /* What the report's pictures show. */
+#include "report/labels.h"
 #include "report/overlay.h"
 
 #include "tank.h"
@@ -25,7 +26,7 @@ static void nozzles_around_a_machine_are_in_the_picture(void **state)
     nozzles[2].position = sp_v(0, 0, 2.2);
     nozzles[3].position = sp_v(300, 0, 0);
     sp_layout *layout = sp_layout_create(nozzles, 4, &error);
-    sp_design design = {"manual", evaluator, layout, NULL, NULL};
+    sp_design design = {.name = "manual", .evaluator = evaluator, .layout = layout};
     sp_result result = {.design_count = 1, .designs = &design};
     for (int view = 0; view < SP_VIEWS; view++) {
         double xy[2];
@@ -72,7 +73,8 @@ static void a_cluster_is_one_nozzle_that_sprays_several_ways(void **state)
     sp_layout layout = {1, &nozzle};
     sp_camera camera = sp_camera_create(evaluator, &(sp_result){0}, &sp_views[0], 900);
     sp_text text = {0};
-    sp_overlay_nozzles(&text, &camera, evaluator, &layout);
+    sp_overlay_sprays(&text, &camera, evaluator, &layout);
+    sp_labels_nozzles(&(sp_labels){0}, &text, &camera, &layout);
     char *markup = sp_text_finish(&text, &error), *csv = sp_nozzles_csv(&layout, &setup, &error);
     assert_int_equal(count(markup, "class=\"nozzle\""), 1);
     assert_int_equal(count(markup, "class=\"name\""), 1);

@@ -44,7 +44,8 @@ static void export_set_up(exported *e, bool cavity, sp_vec3 origin, sp_transform
     snprintf(e->layout->nozzles[2].name, SP_NAME, "%s", EXPORTED_NAME);
     e->coverage = sp_evaluate(e->evaluator, e->layout, &error);
     assert_non_null(e->coverage);
-    e->design = (sp_design){"proposed", e->evaluator, e->layout, e->coverage, NULL};
+    e->design =
+        (sp_design){.name = "proposed", .evaluator = e->evaluator, .layout = e->layout, .coverage = e->coverage};
 }
 
 static void export_tear_down(exported *e)

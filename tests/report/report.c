@@ -13,12 +13,15 @@ typedef struct {
     sp_evaluator *evaluator;
     sp_layout *layouts[3];
     sp_coverage *coverages[3];
+    sp_contributions *contributions[3];
     sp_design designs[3];
     sp_front_point front[3];
     sp_stage stages[2];
     sp_proposal proposal;
     sp_result result;
 } fixture;
+
+static const sp_input read_once = {"<i>.yaml", "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"};
 
 static int set_up(void **state)
 {
@@ -36,7 +39,12 @@ static int set_up(void **state)
         sp_evaluate_balance(f.evaluator, f.layouts[i], f.coverages[i], &error);
         sp_measure_error(f.evaluator, f.layouts[i], f.coverages[i], SP_TRAJECTORY_AUTO, 1, &f.coverages[i]->measured,
                          &error);
-        f.designs[i] = (sp_design){names[i], f.evaluator, f.layouts[i], f.coverages[i], NULL};
+        f.contributions[i] = sp_contributions_create(f.evaluator, f.layouts[i], f.coverages[i], &error);
+        f.designs[i] = (sp_design){.name = names[i],
+                                   .evaluator = f.evaluator,
+                                   .layout = f.layouts[i],
+                                   .coverage = f.coverages[i],
+                                   .contributions = f.contributions[i]};
     }
     if (error.kind != SP_OK) {
         fprintf(stderr, "%s\n", error.message);
@@ -74,8 +82,15 @@ static int set_up(void **state)
                                .by_number = f.front,
                                .stage_count = 2,
                                .stages = f.stages};
-    f.result =
-        (sp_result){"place", "vessel <script>alert(1)</script> & \"co\".yaml", 3, f.designs, &f.proposal, 0, NULL};
+    f.result = (sp_result){.command = "place",
+                           .scene = "vessel <script>alert(1)</script> & \"co\".yaml",
+                           .design_count = 3,
+                           .designs = f.designs,
+                           .proposal = &f.proposal,
+                           .input_count = 1,
+                           .inputs = &read_once,
+                           .command_line = "sprayplan place '<b>.yaml'",
+                           .date = "2026-11-24 12:00 UTC"};
     *state = &f;
     return 0;
 }
@@ -86,6 +101,7 @@ static int tear_down(void **state)
     for (int i = 0; i < 3; i++) {
         sp_layout_destroy(f->layouts[i]);
         sp_coverage_destroy(f->coverages[i]);
+        sp_contributions_destroy(f->contributions[i]);
     }
     free(f->proposal.attainable);
     free(f->proposal.reasons);
@@ -123,9 +139,10 @@ static void write_report(const fixture *f)
 }
 
 static const char *const files[] = {
-    "result.json",         "report.html",         "nozzles.csv",         "coverage.png",     "deposits.exr",
-    "model.glb",           "coverage-manual.png", "deposits-manual.exr", "model-manual.glb", "coverage-greedy.png",
-    "deposits-greedy.exr", "model-greedy.glb",    "surface.vtp",         "texels.vtp",       "nozzles.stl"};
+    "result.json",      "report.html",         "nozzles.csv",         "coverage.png",
+    "deposits.exr",     "model.glb",           "coverage-manual.png", "deposits-manual.exr",
+    "model-manual.glb", "coverage-greedy.png", "deposits-greedy.exr", "model-greedy.glb",
+    "surface.vtp",      "texels.vtp",          "nozzles.stl",         "swabs.csv"};
 #define FILES (sizeof files / sizeof *files)
 
 static void the_same_bytes_every_time(void **state)
@@ -198,6 +215,33 @@ static void coverage_is_told_by_number_of_nozzles(void **state)
     free(page);
 }
 
+/* The main figures beside their errors, parts from the least covered on, shadows by number, samples, and what all was
+ * made of. */
+static void the_page_says_what_paper_needs(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    sp_figures *figures = sp_result_figures(&f->result, &error);
+    size_t size, numbered;
+    char *page = read_whole("report.html", &size), text[200];
+    snprintf(text, sizeof text, "covers <strong>%.1f&nbsp;%%&nbsp;\xc2\xb1&nbsp;%.1f</strong>",
+             100 * figures[2].coverage, ceil(1e3 * figures[2].error_estimate) / 10);
+    assert_non_null(strstr(page, text));
+    const sp_part_figures *parts = figures[2].parts;
+    bool shell_first = parts[0].covered / parts[0].area < parts[1].covered / parts[1].area;
+    const char *table = strstr(page, "<section id=\"parts\">");
+    assert_non_null(table);
+    assert_true((strstr(table, ">shell</th>") < strstr(table, ">dip &lt;tube&gt;</th>")) == shell_first);
+    assert_non_null(strstr(page, "<section id=\"contributions\">"));
+    numbered = occurrences(page, "<text class=\"number\"");
+    assert_true(numbered >= 3 && numbered == occurrences(page, "<circle class=\"shadow\""));
+    assert_non_null(strstr(page, "<section id=\"swabs\">"));
+    assert_non_null(strstr(page, "&lt;i&gt;.yaml</th><td class=\"text digest\">ba7816bf8f01cfea"));
+    assert_non_null(strstr(page, ", 2026-11-24 12:00 UTC, by <code>sprayplan place &#39;&lt;b&gt;.yaml&#39;</code>."));
+    sp_figures_destroy(figures, 3);
+    free(page);
+}
+
 static void names_from_strangers_stay_text(void **state)
 {
     (void)state;
@@ -235,7 +279,7 @@ static void result_json_has_the_keys_of_the_contract(void **state)
     size_t size;
     char *text = read_whole("result.json", &size);
     json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
-    EXPECT_KEYS(all, "sprayplan", "command", "scene", "geometry", "fidelity", "layouts", "target", "front",
+    EXPECT_KEYS(all, "sprayplan", "command", "scene", "inputs", "geometry", "fidelity", "layouts", "target", "front",
                 "front_by_nozzles", "stages");
     EXPECT_KEYS(json_object_get(all, "geometry"), "triangles", "area_m2", "clean_area_m2", "attainable_area_m2",
                 "unattainable_m2", "unattainable_by_part", "account");
@@ -250,11 +294,15 @@ static void result_json_has_the_keys_of_the_contract(void **state)
     assert_int_equal(json_array_size(layouts), 3);
     json_t *manual = json_array_get(layouts, 0);
     EXPECT_KEYS(manual, "name", "water_l_min", "covered_area_m2", "coverage", "error_estimate", "misjudged",
-                "coverage_of_attainable", "area_per_water", "flux_l_min_m2", "liquid_l_min", "shadows", "nozzles");
+                "coverage_of_attainable", "area_per_water", "flux_l_min_m2", "liquid_l_min", "parts", "shadows",
+                "nozzles");
+    EXPECT_KEYS(json_array_get(json_object_get(manual, "parts"), 0), "part", "area_m2", "covered_area_m2", "coverage");
+    EXPECT_KEYS(json_array_get(json_object_get(all, "inputs"), 0), "file", "sha256");
     EXPECT_KEYS(json_object_get(manual, "flux_l_min_m2"), "min", "mean", "p05", "max");
-    EXPECT_KEYS(json_array_get(json_object_get(manual, "shadows"), 0), "area_m2", "centroid_m", "part", "reachable");
+    EXPECT_KEYS(json_array_get(json_object_get(manual, "shadows"), 0), "area_m2", "centroid_m", "part", "reachable",
+                "lack", "nozzle");
     EXPECT_KEYS(json_array_get(json_object_get(manual, "nozzles"), 0), "name", "type", "position_m", "axis", "roll_rad",
-                "angle_rad", "pressure_pa", "flow_l_min", "speed_m_s");
+                "angle_rad", "pressure_pa", "flow_l_min", "speed_m_s", "alone_m2", "lost_without_m2");
     EXPECT_KEYS(json_array_get(json_object_get(all, "front"), 0), "water_l_min", "coverage", "nozzles");
     assert_int_equal(json_array_size(json_object_get(all, "front_by_nozzles")), 3);
     EXPECT_KEYS(json_array_get(json_object_get(all, "front_by_nozzles"), 0), "nozzles", "water_l_min", "coverage");
@@ -342,7 +390,7 @@ static void flux_is_told_as_it_is(void **state)
     const double expected[] = {0.5, 1.25, 7.5, 80};
     sp_design design = f->designs[0];
     design.coverage = &coverage;
-    sp_result result = {"simulate", "vessel.yaml", 1, &design, NULL, 0, NULL};
+    sp_result result = {.command = "simulate", .scene = "vessel.yaml", .design_count = 1, .designs = &design};
     char *text = sp_result_json(&result, &error);
     json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
     const json_t *flux = json_object_get(json_array_get(json_object_get(all, "layouts"), 0), "flux_l_min_m2");
@@ -355,6 +403,26 @@ static void flux_is_told_as_it_is(void **state)
 static void same_real(double a, double b)
 {
     assert_true((isnan(a) && isnan(b)) || fabs(a - b) <= 1e-12 * fabs(a));
+}
+
+static void same_rows(const sp_figures *a, const sp_figures *b)
+{
+    assert_int_equal(a->part_count, 2);
+    assert_int_equal(b->part_count, 2);
+    for (size_t k = 0; k < 2; k++) {
+        assert_string_equal(a->parts[k].part, b->parts[k].part);
+        same_real(a->parts[k].area, b->parts[k].area);
+        same_real(a->parts[k].covered, b->parts[k].covered);
+    }
+    for (size_t k = 0; k < a->shadow_count; k++) {
+        assert_int_equal(a->shadows[k].lack, b->shadows[k].lack);
+        assert_string_equal(a->shadows[k].nozzle, b->shadows[k].nozzle);
+    }
+    for (size_t k = 0; k < a->nozzle_count; k++) {
+        assert_true(a->nozzles[k].alone > 0);
+        same_real(a->nozzles[k].alone, b->nozzles[k].alone);
+        same_real(a->nozzles[k].lost, b->nozzles[k].lost);
+    }
 }
 
 /* What is read back from result.json is what was written. */
@@ -386,6 +454,7 @@ static void figures_survive_the_file(void **state)
                                  b->landed_other, b->left,         b->unfollowed, b->attainable_area};
         for (size_t k = 0; k < sizeof first / sizeof *first; k++)
             same_real(first[k], second[k]);
+        same_rows(a, b);
     }
     sp_figures_destroy(written, 3);
     sp_figures_destroy(read, count);
@@ -525,6 +594,7 @@ int main(void)
         cmocka_unit_test(the_same_bytes_every_time),
         cmocka_unit_test(the_page_stands_alone),
         cmocka_unit_test(coverage_is_told_by_number_of_nozzles),
+        cmocka_unit_test(the_page_says_what_paper_needs),
         cmocka_unit_test(names_from_strangers_stay_text),
         cmocka_unit_test(result_json_has_the_keys_of_the_contract),
         cmocka_unit_test(reasons_add_up),

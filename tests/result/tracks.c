@@ -86,7 +86,7 @@ static void gaps_are_reported(void **state)
     sp_coverage *coverage = sp_evaluate(evaluator, layout, &error);
     assert_non_null(coverage);
     assert_true(coverage->fraction > 0.5);
-    sp_design design = {"manual", evaluator, layout, coverage, NULL};
+    sp_design design = {.name = "manual", .evaluator = evaluator, .layout = layout, .coverage = coverage};
     sp_result result = {.command = "simulate", .scene = "scene.yaml", .design_count = 1, .designs = &design};
     char *json = sp_result_json(&result, &error);
     assert_non_null(json);

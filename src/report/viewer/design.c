@@ -1,5 +1,6 @@
 #include "design.h"
 
+#include "report/listed_shadows.h"
 #include "report/overlay.h"
 
 #include <stdlib.h>
@@ -32,56 +33,43 @@ static void pack_covered(const sp_deposits *deposits, uint8_t *bytes, sp_packed 
     sp_packed_bytes(packed, bytes, deposits->count);
 }
 
-/* Numbers the uncovered patches that hang together with `first`, and finds the way that they face. */
-static sp_vec3 mark_shadow(const sp_patches *patches, const sp_deposits *deposits, uint32_t first, uint8_t number,
-                           uint8_t *bytes, uint32_t *queue, double *extent)
+/* The way that a shadow faces, and the box around its points. */
+typedef struct {
+    sp_vec3 facing, low, high;
+} outlook;
+
+static void look_at(outlook *shadow, const sp_patches *patches, uint32_t patch)
 {
-    size_t members = 1;
-    sp_vec3 facing = {0}, low = patches->point[first], high = low;
-    queue[0] = first;
-    bytes[first] = number;
-    for (size_t i = 0; i < members; ++i) {
-        uint32_t patch = queue[i];
-        sp_vec3 p = patches->point[patch];
-        facing = sp_along(facing, patches->area[patch], patches->normal[patch]);
-        low = sp_v(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
-        high = sp_v(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
-        for (uint32_t k = patches->neighbour_start[patch]; k < patches->neighbour_start[patch + 1]; ++k) {
-            uint32_t other = patches->neighbours[k];
-            if (deposits->covered[other] || bytes[other])
-                continue;
-            bytes[other] = number;
-            queue[members++] = other;
-        }
-    }
-    *extent = sp_distance(low, high);
-    return facing;
+    sp_vec3 p = patches->point[patch];
+    shadow->facing = sp_along(shadow->facing, patches->area[patch], patches->normal[patch]);
+    shadow->low = sp_v(fmin(shadow->low.x, p.x), fmin(shadow->low.y, p.y), fmin(shadow->low.z, p.z));
+    shadow->high = sp_v(fmax(shadow->high.x, p.x), fmax(shadow->high.y, p.y), fmax(shadow->high.z, p.z));
 }
 
 /* The shadows that the page's table lists. */
 static json_t *pack_shadows(const sp_design *design, uint8_t *bytes, sp_packed *packed, sp_error *error)
 {
     const sp_patches *patches = sp_evaluator_patches(design->evaluator);
-    sp_shadow *shadows = NULL;
-    size_t count = 0;
-    uint32_t *queue = malloc((patches->count + 1) * sizeof *queue);
-    if (!queue || !sp_shadows(design->evaluator, design->coverage, NULL, &shadows, &count, error)) {
-        free(queue);
-        return sp_fail_memory(error);
+    sp_listed_shadows listed = {0};
+    if (!sp_listed_shadows_find(&listed, design, error))
+        return NULL;
+    outlook seen[SP_PAGE_SHADOWS];
+    for (size_t i = 0; i < listed.count; ++i)
+        seen[i] = (outlook){{0}, sp_v(INFINITY, INFINITY, INFINITY), sp_v(-INFINITY, -INFINITY, -INFINITY)};
+    for (uint32_t k = 0; k < patches->count; ++k) {
+        bytes[k] = (uint8_t)listed.number[k];
+        if (bytes[k])
+            look_at(&seen[bytes[k] - 1], patches, k);
     }
     json_t *list = json_array();
-    memset(bytes, 0, patches->count);
-    for (size_t i = 0; i < count && i < SP_PAGE_SHADOWS; ++i) {
-        double extent;
-        sp_vec3 facing = mark_shadow(patches, &design->coverage->deposits, shadows[i].first, (uint8_t)(i + 1), bytes,
-                                     queue, &extent);
-        facing = sp_length(facing) > 0 ? sp_unit(facing) : sp_v(0, 0, 1);
-        json_array_append_new(list, json_pack("{s:o, s:o, s:f}", "at", vector_json(shadows[i].centroid), "towards",
-                                              vector_json(facing), "extent", extent));
+    for (size_t i = 0; i < listed.count; ++i) {
+        sp_vec3 facing = sp_length(seen[i].facing) > 0 ? sp_unit(seen[i].facing) : sp_v(0, 0, 1);
+        json_array_append_new(list,
+                              json_pack("{s:o, s:o, s:f}", "at", vector_json(listed.shadow[i].centroid), "towards",
+                                        vector_json(facing), "extent", sp_distance(seen[i].low, seen[i].high)));
     }
     sp_packed_bytes(packed, bytes, patches->count);
-    free(shadows);
-    free(queue);
+    sp_listed_shadows_free(&listed);
     return list;
 }
 
@@ -107,23 +95,24 @@ static json_t *sprays_json(const sp_evaluator *evaluator, const sp_nozzle *nozzl
     return list;
 }
 
-/* What one nozzle brings by itself. */
-static json_t *pack_nozzle(const sp_design *design, const sp_nozzle *nozzle, const sp_shown_quantity *flux,
-                           uint8_t *bytes, sp_packed *packed, sp_error *error)
+/* What one nozzle brings by itself, where that is known. */
+static json_t *pack_nozzle(const sp_design *design, size_t index, const sp_shown_quantity *flux, uint8_t *bytes,
+                           sp_packed *packed)
 {
-    sp_layout *alone = sp_layout_create(nozzle, 1, error);
-    sp_coverage *coverage = alone ? sp_evaluate(design->evaluator, alone, error) : NULL;
-    char *name = sp_text_utf8(nozzle->name);
-    json_t *object = NULL;
-    if (coverage && name) {
-        pack_quantity(&coverage->deposits, flux, coverage->deposits.flux, bytes, packed);
-        object = json_pack("{s:s, s:o, s:o}", "name", name, "at", vector_json(nozzle->position), "sprays",
-                           sprays_json(design->evaluator, nozzle));
+    const sp_nozzle *nozzle = &design->layout->nozzles[index];
+    const sp_contributions *does = design->contributions;
+    for (size_t i = 0; does && i < does->patches; ++i) {
+        double brought = (double)does->flux[index * does->patches + i];
+        bytes[i] = brought > 0 ? sp_shown_byte(flux, brought) : 0;
     }
+    if (does)
+        sp_packed_bytes(packed, bytes, does->patches);
+    char *name = sp_text_utf8(nozzle->name);
+    json_t *object = name ? json_pack("{s:s, s:b, s:o, s:o}", "name", name, "known", (int)(does != NULL), "at",
+                                      vector_json(nozzle->position), "sprays", sprays_json(design->evaluator, nozzle))
+                          : NULL;
     free(name);
-    sp_coverage_destroy(coverage);
-    sp_layout_destroy(alone);
-    return object ? object : sp_fail_memory(error);
+    return object;
 }
 
 static json_t *pack_nozzles(const sp_design *design, const sp_shown_quantity *flux, uint8_t *bytes, sp_packed *packed,
@@ -131,7 +120,7 @@ static json_t *pack_nozzles(const sp_design *design, const sp_shown_quantity *fl
 {
     json_t *list = json_array();
     for (size_t i = 0; list && i < design->layout->count; ++i) {
-        json_t *nozzle = pack_nozzle(design, &design->layout->nozzles[i], flux, bytes, packed, error);
+        json_t *nozzle = pack_nozzle(design, i, flux, bytes, packed);
         if (!nozzle || json_array_append_new(list, nozzle) != 0) {
             json_decref(list);
             return sp_fail_memory(error);

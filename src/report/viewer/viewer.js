@@ -63,7 +63,7 @@
         design.share = bytes();
         design.film = bytes();
         design.shadowOf = bytes();
-        design.nozzles.forEach((nozzle) => (nozzle.flux = bytes()));
+        design.nozzles.forEach((nozzle) => (nozzle.flux = nozzle.known ? bytes() : null));
         design.model = model;
     }
 
@@ -479,10 +479,12 @@
     function figuresAt(design, patch) {
         const rows = about.quantities.map((quantity) =>
             [quantity.name, figure(quantity, design.values[quantity.key][patch])]);
-        const bringing = design.nozzles.filter((nozzle) => nozzle.flux[patch] > 0)
+        const known = design.nozzles.filter((nozzle) => nozzle.known);
+        const bringing = known.filter((nozzle) => nozzle.flux[patch] > 0)
             .map((nozzle) => `${nozzle.name} ${figure(flux, nozzle.flux[patch])}`);
         rows.push(["Covered", `${Math.round(design.share[patch] / 2.55)} %${design.film[patch] ? ", by film" : ""}`]);
-        rows.push(["From", bringing.join(", ") || "no nozzle"]);
+        if (known.length === design.nozzles.length)
+            rows.push(["From", bringing.join(", ") || "no nozzle"]);
         return rows;
     }
 
@@ -559,6 +561,8 @@
     }
 
     function chooseNozzle(design, index) {
+        if (!design.nozzles[index].known)
+            return tell(`What ${design.nozzles[index].name} does alone was not worked out.`, null, -1);
         const same = state.nozzle && state.nozzle.design === design && state.nozzle.index === index;
         state.nozzle = same ? null : {design, index};
         show(design);
@@ -832,6 +836,7 @@
     bindPointer();
     bindKeys();
     bindRows("nozzles", chooseNozzle);
+    bindRows("contributions", chooseNozzle);
     bindRows("shadows", chooseShadow);
     section.append(controls, stage, bar, answer);
     section.hidden = false;

@@ -1,0 +1,128 @@
+/* What a result tells besides its designs: what each nozzle does, what was read, how and when it was made. */
+#include "cli.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+typedef struct {
+    sp_design *designs; /* [design_count], with contributions that are ours */
+    size_t design_count;
+    sp_input *inputs; /* their paths are ours */
+    size_t input_count;
+    char *command_line;
+    char date[32];
+} background;
+
+static void background_free(background *told)
+{
+    for (size_t i = 0; told->designs && i < told->design_count; i++)
+        sp_contributions_destroy((sp_contributions *)told->designs[i].contributions);
+    for (size_t i = 0; i < told->input_count; i++)
+        free((char *)told->inputs[i].path);
+    free(told->designs);
+    free(told->inputs);
+    free(told->command_line);
+}
+
+/* For files alone: it takes as long as the layouts' evaluation, times their nozzles. Left out of what is interrupted.
+ */
+static bool find_contributions(const cli_options *options, background *told, sp_error *error)
+{
+    for (size_t i = 0; options->output && !cli_interrupted() && i < told->design_count; i++) {
+        sp_design *design = &told->designs[i];
+        sp_error failure = {0};
+        if (!design->evaluator)
+            continue;
+        design->contributions = sp_contributions_create(design->evaluator, design->layout, design->coverage, &failure);
+        if (!design->contributions && failure.kind != SP_ERROR_INTERRUPTED) {
+            *error = failure;
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool add_input(background *told, char *path, sp_error *error)
+{
+    sp_input *grown = path ? realloc(told->inputs, (told->input_count + 1) * sizeof *grown) : NULL;
+    if (!grown) {
+        free(path);
+        return path ? sp_fail_memory(error) : false;
+    }
+    told->inputs = grown;
+    for (size_t i = 0; i < told->input_count; i++)
+        if (!strcmp(grown[i].path, path)) { /* a geometry may be there twice */
+            free(path);
+            return true;
+        }
+    grown[told->input_count].path = path;
+    return sp_file_sha256(path, grown[told->input_count++].sha256, error);
+}
+
+static bool find_inputs(const cli_options *options, const sp_scene *const *scenes, background *told, sp_error *error)
+{
+    bool good = true;
+    for (int i = 0; good && i < options->input_count; i++) {
+        if (!scenes[i])
+            good = add_input(told, strdup(options->inputs[i]), error) || sp_fail_memory(error);
+        for (size_t k = 0; good && k < sp_scene_file_count(scenes[i]); k++)
+            good = add_input(told, sp_scene_file_path(scenes[i], k, error), error);
+    }
+    return good;
+}
+
+/* As a shell reads it back. */
+static char *command_line(const cli_options *options)
+{
+    size_t size = sizeof "sprayplan";
+    for (int i = 0; i < options->argument_count; i++)
+        size += 4 * strlen(options->arguments[i]) + 3;
+    char *text = malloc(size), *at = text;
+    if (!text)
+        return NULL;
+    at += sprintf(at, "sprayplan");
+    for (int i = 0; i < options->argument_count; i++) {
+        const char *argument = options->arguments[i];
+        bool plain = *argument && strspn(argument, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                                   "-_./,:=+@%") == strlen(argument);
+        at += sprintf(at, plain ? " " : " '");
+        for (; *argument; argument++)
+            at += !plain && *argument == '\'' ? sprintf(at, "'\\''") : sprintf(at, "%c", *argument);
+        at += sprintf(at, plain ? "" : "'");
+    }
+    return text;
+}
+
+/* UTC. SOURCE_DATE_EPOCH, as reproducible builds have it, stands for now where it is set. */
+static void tell_date(char *text, size_t size)
+{
+    const char *fixed = getenv("SOURCE_DATE_EPOCH");
+    time_t now = fixed ? (time_t)strtoll(fixed, NULL, 10) : time(NULL);
+    struct tm parts;
+    text[0] = 0;
+    if (gmtime_r(&now, &parts))
+        strftime(text, size, "%Y-%m-%d %H:%M UTC", &parts);
+}
+
+bool cli_report(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
+                const sp_layout *layout, sp_error *error)
+{
+    background told = {.design_count = result->design_count,
+                       .designs = malloc((result->design_count + 1) * sizeof *told.designs),
+                       .command_line = command_line(options)};
+    bool good = (told.designs && told.command_line) || sp_fail_memory(error);
+    if (told.designs)
+        memcpy(told.designs, result->designs, result->design_count * sizeof *told.designs);
+    good = good && find_contributions(options, &told, error) && find_inputs(options, scenes, &told, error);
+    tell_date(told.date, sizeof told.date);
+    sp_result full = *result;
+    full.designs = told.designs;
+    full.inputs = told.inputs;
+    full.input_count = told.input_count;
+    full.command_line = told.command_line;
+    full.date = told.date;
+    good = good && cli_write(options, &full, scenes, layout, error) && cli_print(options, &full, error);
+    background_free(&told);
+    return good;
+}

@@ -1,0 +1,163 @@
+#include "labels.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Of the style's fonts, in pixels. */
+#define DOT 9
+#define LETTER_WIDTH 15.5
+#define LETTER_HEIGHT 21
+#define NUMBER_RADIUS 15
+
+static bool is_free(const sp_labels *labels, const double box[4])
+{
+    bool room = true;
+    for (size_t i = 0; room && i < labels->count; ++i) {
+        const double *other = labels->box[i];
+        room = box[0] >= other[2] || box[2] <= other[0] || box[1] >= other[3] || box[3] <= other[1];
+    }
+    return room;
+}
+
+static void take(sp_labels *labels, const double box[4])
+{
+    if (labels->count < SP_LABELS)
+        memcpy(labels->box[labels->count++], box, sizeof labels->box[0]);
+}
+
+static double text_width(const char *name)
+{
+    double letters = 0;
+    for (; *name; ++name)
+        letters += (*name & 0xc0) != 0x80; /* UTF-8 continues with 10xxxxxx */
+    return LETTER_WIDTH * letters;
+}
+
+/* Where a name begins beside its dot: on the first side that has room, else the first. */
+static void place_name(sp_labels *labels, const char *name, const double dot[2], double at[2])
+{
+    double width = text_width(name), box[4];
+    const double sides[][2] = {{12, -8}, {12, 26}, {-12 - width, -8}, {-12 - width, 26}, {-width / 2, -16}, {12, -8}};
+    size_t last = sizeof sides / sizeof *sides - 1;
+    for (size_t i = 0; i <= last; ++i) {
+        at[0] = dot[0] + sides[i][0];
+        at[1] = dot[1] + sides[i][1];
+        memcpy(box, (const double[4]){at[0], at[1] - LETTER_HEIGHT, at[0] + width, at[1] + 4}, sizeof box);
+        if (is_free(labels, box))
+            break;
+    }
+    take(labels, box);
+}
+
+static void add_name(sp_labels *labels, sp_text *text, const char *bytes, const double dot[2])
+{
+    char *name = sp_text_utf8(bytes);
+    double at[2] = {0, 0};
+    if (name)
+        place_name(labels, name, dot, at);
+    sp_text_add(text,
+                "<circle class=\"nozzle\" cx=\"%.1f\" cy=\"%.1f\" r=\"7\"/><text class=\"name\" x=\"%.1f\" "
+                "y=\"%.1f\">",
+                dot[0], dot[1], at[0], at[1]);
+    sp_markup_escape(text, name ? name : "");
+    sp_text_add(text, "</text>\n");
+    text->failed |= !name;
+    free(name);
+}
+
+void sp_labels_nozzles(sp_labels *labels, sp_text *text, const sp_camera *camera, const sp_layout *layout)
+{
+    double xy[2];
+    for (size_t i = 0; i < layout->count; ++i)
+        if (sp_camera_shows(camera, layout->nozzles[i].position, xy))
+            take(labels, (const double[4]){xy[0] - DOT, xy[1] - DOT, xy[0] + DOT, xy[1] + DOT});
+    for (size_t i = 0; i < layout->count; ++i)
+        if (sp_camera_shows(camera, layout->nozzles[i].position, xy))
+            add_name(labels, text, layout->nozzles[i].name, xy);
+}
+
+/* Which shadow a sample of a picture shows, from 1; 0 for none. */
+static size_t shadow_at(const sp_shot *shot, const sp_listed_shadows *shadows, size_t sample)
+{
+    uint32_t look = shot->samples[sample].look;
+    return look < shadows->patches ? shadows->number[look] : 0;
+}
+
+/* What a picture shows of a shadow. */
+typedef struct {
+    double x, y; /* its middle, pixels */
+    size_t samples;
+    size_t left, right, top, bottom; /* columns and rows of samples, the last ones included */
+} sight;
+
+static void add_to(sight *s, size_t column, size_t row)
+{
+    s->left = s->samples && s->left < column ? s->left : column;
+    s->top = s->samples && s->top < row ? s->top : row;
+    s->right = s->right > column ? s->right : column;
+    s->bottom = s->bottom > row ? s->bottom : row;
+    s->x += 0.5 * (double)column;
+    s->y += 0.5 * (double)row;
+    s->samples++;
+}
+
+static void find_sights(const sp_shot *shot, const sp_listed_shadows *shadows, sight sights[SP_PAGE_SHADOWS])
+{
+    size_t columns = 2 * (size_t)shot->width, samples = columns * 2 * (size_t)shot->height;
+    for (size_t k = 0; k < samples; ++k) {
+        size_t number = shadow_at(shot, shadows, k);
+        if (number)
+            add_to(&sights[number - 1], k % columns, k / columns);
+    }
+    for (size_t i = 0; i < shadows->count; ++i)
+        if (sights[i].samples) {
+            sights[i].x /= (double)sights[i].samples;
+            sights[i].y /= (double)sights[i].samples;
+        }
+}
+
+static void box_around(const double at[2], double box[4])
+{
+    box[0] = at[0] - NUMBER_RADIUS;
+    box[1] = at[1] - NUMBER_RADIUS;
+    box[2] = at[0] + NUMBER_RADIUS;
+    box[3] = at[1] + NUMBER_RADIUS;
+}
+
+/* The spot of a shadow that is nearest to its middle; where there is room, if there is any. */
+static void place_number(sp_labels *labels, const sp_shot *shot, const sp_listed_shadows *shadows, size_t number,
+                         const sight *seen, double at[2])
+{
+    double best[2] = {INFINITY, INFINITY}, box[4]; /* how far from the middle: without room, with room */
+    for (size_t row = seen->top; row <= seen->bottom; ++row)
+        for (size_t column = seen->left; column <= seen->right; ++column) {
+            const double spot[2] = {0.5 * (double)column, 0.5 * (double)row};
+            double far = hypot(spot[0] - seen->x, spot[1] - seen->y);
+            if (far >= best[1] || shadow_at(shot, shadows, row * 2 * (size_t)shot->width + column) != number)
+                continue;
+            box_around(spot, box);
+            bool room = is_free(labels, box);
+            if (!room && (isfinite(best[1]) || far >= best[0]))
+                continue;
+            best[room] = far;
+            memcpy(at, spot, sizeof spot);
+        }
+    box_around(at, box);
+    take(labels, box);
+}
+
+void sp_labels_shadows(sp_labels *labels, sp_text *text, const sp_shot *shot, const sp_listed_shadows *shadows)
+{
+    sight sights[SP_PAGE_SHADOWS] = {0};
+    double at[2] = {0, 0};
+    find_sights(shot, shadows, sights);
+    for (size_t i = 0; i < shadows->count; ++i) {
+        if (sights[i].samples == 0)
+            continue;
+        place_number(labels, shot, shadows, i + 1, &sights[i], at);
+        sp_text_add(text,
+                    "<circle class=\"shadow\" cx=\"%.1f\" cy=\"%.1f\" r=\"%d\"/><text class=\"number\" x=\"%.1f\" "
+                    "y=\"%.1f\">%zu</text>\n",
+                    at[0], at[1], NUMBER_RADIUS - 1, at[0], at[1] + 7, i + 1);
+    }
+}

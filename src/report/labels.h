@@ -1,0 +1,20 @@
+/* What is written over a picture, as SVG in the picture's pixels: each label beside what is there already, as far as
+ * there is room. */
+#ifndef REPORT_LABELS_H
+#define REPORT_LABELS_H
+
+#include "listed_shadows.h"
+#include "render.h"
+
+#define SP_LABELS 256 /* what comes after them is not kept clear of */
+typedef struct {
+    size_t count;
+    double box[SP_LABELS][4]; /* left, top, right, bottom */
+} sp_labels;
+
+/* A dot for every nozzle and its name. */
+void sp_labels_nozzles(sp_labels *labels, sp_text *text, const sp_camera *camera, const sp_layout *layout);
+/* The number of every shadow, on a spot of it that the picture shows; of what is hidden there is none. */
+void sp_labels_shadows(sp_labels *labels, sp_text *text, const sp_shot *shot, const sp_listed_shadows *shadows);
+
+#endif
