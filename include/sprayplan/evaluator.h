@@ -164,9 +164,9 @@ typedef struct {
     double *lost;          /* [count], m² that the layout covers less without it */
     float *flux;           /* [count][patches], m³/s per m² that arrive of it alone */
 } sp_contributions;
-/* Evaluates every nozzle alone and the layout without each, by the scene's own method; `coverage` is that of the
- * layout. Takes about as long as the layout's evaluation times the number of its nozzles, and one coverage's memory
- * besides what it returns. The caller destroys; NULL on error. */
+/* By the scene's own method; `coverage` is that of the layout. Evaluates every nozzle alone, of which what is lost
+ * follows: takes about as long as evaluating the layout, and besides what it returns 16 bytes (24 where the criterion
+ * asks for film) for each nozzle and patch meanwhile. The caller destroys; NULL on error. */
 sp_contributions *sp_contributions_create(const sp_evaluator *evaluator, const sp_layout *layout,
                                           const sp_coverage *coverage, sp_error *error);
 /* Accepts NULL. */

@@ -25,11 +25,12 @@ static void background_free(background *told)
     free(told->command_line);
 }
 
-/* For files alone: it takes as long as the layouts' evaluation, times their nozzles. Left out of what is interrupted.
- */
+/* For what tells of them: a table on standard output does not, and it takes as long as evaluating the layouts. Left out
+ * of what is interrupted. */
 static bool find_contributions(const cli_options *options, background *told, sp_error *error)
 {
-    for (size_t i = 0; options->output && !cli_interrupted() && i < told->design_count; i++) {
+    bool asked = options->output || options->json;
+    for (size_t i = 0; asked && !cli_interrupted() && i < told->design_count; i++) {
         sp_design *design = &told->designs[i];
         sp_error failure = {0};
         if (!design->evaluator)

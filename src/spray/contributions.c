@@ -1,42 +1,99 @@
-/* What each nozzle does by itself, and what is lost without it. */
-#include <sprayplan/evaluator.h>
+/* What each nozzle does by itself, and what is lost without it. Liquid of one does not depend on the others, whichever
+ * way it flies or runs down: what any of them do together follows from what each does alone. */
+#include "state.h"
 
 #include <stdlib.h>
-#include <string.h>
 
-static bool take_alone(const sp_evaluator *evaluator, const sp_nozzle *nozzle, double *area, float *flux,
-                       sp_error *error)
+/* What decides whether a patch is covered, of each nozzle alone: as sp_deposits, [nozzles][patches]. */
+typedef struct {
+    const sp_evaluator *evaluator;
+    size_t count, patches;
+    double *even, *dry;
+    double *film; /* NULL where the criterion does not ask for it */
+} shares;
+
+static bool shares_create(const sp_evaluator *evaluator, size_t count, shares *each, sp_error *error)
 {
-    sp_layout *alone = sp_layout_create(nozzle, 1, error);
-    sp_coverage *coverage = alone ? sp_evaluate(evaluator, alone, error) : NULL;
-    if (coverage) {
-        *area = coverage->covered_area;
-        for (size_t i = 0; i < coverage->deposits.count; i++)
-            flux[i] = (float)coverage->deposits.flux[i];
+    bool film = evaluator->setup.criterion.film > 0;
+    size_t patches = evaluator->patches.count, room = count * patches + 1;
+    *each = (shares){.evaluator = evaluator,
+                     .count = count,
+                     .patches = patches,
+                     .even = malloc(room * sizeof *each->even),
+                     .dry = malloc(room * sizeof *each->dry),
+                     .film = film ? malloc(room * sizeof *each->film) : NULL};
+    return (each->even && each->dry && (each->film || !film)) || sp_fail_memory(error);
+}
+
+static void shares_free(shares *each)
+{
+    free(each->even);
+    free(each->dry);
+    free(each->film);
+}
+
+static void keep(const sp_coverage *alone, size_t nozzle, shares *each, sp_contributions *made)
+{
+    const sp_deposits *deposits = &alone->deposits;
+    size_t first = nozzle * each->patches;
+    made->alone[nozzle] = alone->covered_area;
+    for (size_t i = 0; i < each->patches; i++) {
+        made->flux[first + i] = (float)deposits->flux[i];
+        each->even[first + i] = deposits->even[i];
+        each->dry[first + i] = deposits->dry[i];
+        if (each->film)
+            each->film[first + i] = deposits->film[i];
     }
-    bool done = coverage != NULL;
-    sp_coverage_destroy(coverage);
-    sp_layout_destroy(alone);
+}
+
+static bool evaluate_alone(const sp_layout *layout, const sp_coverage *coverage, shares *each, sp_contributions *made,
+                           sp_error *error)
+{
+    if (layout->count == 1) {
+        keep(coverage, 0, each, made);
+        return true;
+    }
+    bool done = true;
+    for (size_t i = 0; done && i < layout->count; i++) {
+        const sp_layout one = {.count = 1, .nozzles = &layout->nozzles[i]};
+        sp_coverage *alone = sp_evaluate(each->evaluator, &one, error);
+        done = alone != NULL;
+        if (alone)
+            keep(alone, i, each, made);
+        sp_coverage_destroy(alone);
+    }
     return done;
 }
 
-static bool take_away(const sp_evaluator *evaluator, const sp_layout *layout, size_t nozzle, double whole, double *lost,
-                      sp_error *error)
+/* The share of a patch that all but one nozzle cover together. */
+static double share_without(const shares *each, size_t nozzle, size_t patch)
 {
-    *lost = whole;
-    if (layout->count == 1)
-        return true;
-    sp_layout *others = sp_layout_create(layout->nozzles, layout->count, error);
-    if (!others)
-        return false;
-    others->count--;
-    memmove(&others->nozzles[nozzle], &others->nozzles[nozzle + 1], (others->count - nozzle) * sizeof *others->nozzles);
-    sp_coverage *coverage = sp_evaluate(evaluator, others, error);
-    bool done = coverage != NULL;
-    *lost -= done ? coverage->covered_area : 0;
-    sp_coverage_destroy(coverage);
-    sp_layout_destroy(others);
-    return done;
+    const sp_criterion *criterion = &each->evaluator->setup.criterion;
+    sp_wetting others = {0, 1, 0};
+    double film = 0;
+    for (size_t i = 0; i < each->count; i++) {
+        size_t at = i * each->patches + patch;
+        if (i == nozzle)
+            continue;
+        bool single = criterion->combine == SP_COMBINE_SINGLE;
+        others.even = single ? fmax(others.even, each->even[at]) : others.even + each->even[at];
+        others.dry *= each->dry[at];
+        film += each->film ? each->film[at] : 0;
+    }
+    return each->film && film >= criterion->film ? 1 : sp_wetting_share(&others, criterion->flux);
+}
+
+/* Nothing is lost where it brings nothing that counts. */
+static double lost_without(const shares *each, size_t nozzle, const sp_coverage *coverage)
+{
+    double lost = 0;
+    for (size_t i = 0; i < each->patches; i++) {
+        size_t at = nozzle * each->patches + i;
+        if (each->even[at] > 0 || each->dry[at] < 1 || (each->film && each->film[at] > 0))
+            lost += (coverage->deposits.share[i] - share_without(each, nozzle, i)) *
+                    sp_evaluator_counted(each->evaluator, (uint32_t)i);
+    }
+    return lost;
 }
 
 sp_contributions *sp_contributions_create(const sp_evaluator *evaluator, const sp_layout *layout,
@@ -46,14 +103,17 @@ sp_contributions *sp_contributions_create(const sp_evaluator *evaluator, const s
     if (!made)
         return sp_fail_memory(error);
     made->count = layout->count;
-    made->patches = sp_evaluator_patches(evaluator)->count;
+    made->patches = evaluator->patches.count;
     made->alone = calloc(made->count + 1, sizeof *made->alone);
     made->lost = calloc(made->count + 1, sizeof *made->lost);
-    made->flux = calloc(made->count * made->patches + 1, sizeof *made->flux);
-    bool done = (made->alone && made->lost && made->flux) || sp_fail_memory(error);
+    made->flux = malloc((made->count * made->patches + 1) * sizeof *made->flux);
+    shares each;
+    bool done = shares_create(evaluator, made->count, &each, error) &&
+                ((made->alone && made->lost && made->flux) || sp_fail_memory(error)) &&
+                evaluate_alone(layout, coverage, &each, made, error);
     for (size_t i = 0; done && i < made->count; i++)
-        done = take_alone(evaluator, &layout->nozzles[i], &made->alone[i], made->flux + i * made->patches, error) &&
-               take_away(evaluator, layout, i, coverage->covered_area, &made->lost[i], error);
+        made->lost[i] = lost_without(&each, i, coverage);
+    shares_free(&each);
     if (done)
         return made;
     sp_contributions_destroy(made);

@@ -80,7 +80,7 @@ static void goods_are_placed_for_whatever_the_threads(void **state)
     json_t *again = expect_json("simulate one/layout.yaml --json", 0);
     assert_true(number(layout_of(again, "manual"), "coverage") == number(proposed, "coverage"));
     json_decref(again);
-    json_t *more = expect_again(object, "place belt.yaml --threads 3 -o three --json", 0);
+    json_t *more = expect_again(object, "place belt.yaml --threads 3 --json", 0);
     assert_true(json_equal(layout_of(more, "proposed"), proposed));
     assert_true(json_equal(json_object_get(more, "certificate"), json_object_get(object, "certificate")));
     json_decref(more);

@@ -383,7 +383,7 @@ static void the_written_layout_gives_the_same_figures(void **state)
     (void)state;
     ensure("one", "place room.yaml --threads 1");
     json_t *placed = json_file("one/result.json");
-    json_t *again = expect_json("simulate one/layout.yaml -o again --json", 0);
+    json_t *again = expect_json("simulate one/layout.yaml --json", 0);
     json_t *proposed = layout_named(placed, "proposed"), *manual = layout_named(again, "manual");
     static const char *const same[] = {"water_l_min",    "covered_area_m2", "coverage",     "area_per_water",
                                        "error_estimate", "misjudged",       "borderline_m2"};
@@ -667,7 +667,7 @@ static void film_is_placed_for(void **state)
     (void)state;
     write_room_with("film.yaml", "{flux: 1 L/min/m2}", "{flux: 20 L/min/m2, film: 3 L/min/m}");
     json_t *one = expect_json("place film.yaml " COARSE " -o proposed --json --threads 1", 4);
-    json_t *three = expect_again(one, "place film.yaml " COARSE " -o counted --json --threads 3", 4);
+    json_t *three = expect_again(one, "place film.yaml " COARSE " --json --threads 3", 4);
     json_t *layout = layout_named(one, "proposed"), *certificate = json_object_get(one, "certificate");
     assert_true(number(json_object_get(layout, "film"), "covered_area_m2") > 0);
     assert_true(number(certificate, "coverage_bound_same_water") >= number(certificate, "coverage"));
@@ -696,7 +696,7 @@ static void drag_is_placed(void **state)
     (void)state;
     write_room_with("mist.yaml", "simulate: {", "simulate: {trajectory: drag, accuracy: 5%, ");
     json_t *one = expect_json("place mist.yaml --set simulate.texel=160mm -o mist --threads 1 --json", 0);
-    json_t *three = expect_again(one, "place mist.yaml --set simulate.texel=160mm -o mist3 --threads 3 --json", 0);
+    json_t *three = expect_again(one, "place mist.yaml --set simulate.texel=160mm --threads 3 --json", 0);
     json_t *again = expect_json("simulate mist/layout.yaml --json", 0);
     const char *same[] = {"layouts", "front", "certificate", "fidelity"};
     for (size_t i = 0; i < sizeof same / sizeof *same; i++)
@@ -719,7 +719,7 @@ static void drag_is_simulated(void **state)
     json_t *drops = expect_json("simulate drag.yaml -o drops --json", 0);
     assert_string_equal(json_string_value(json_object_get(json_object_get(drops, "fidelity"), "trajectory")), "drag");
     json_t *again = expect_json("simulate drops/layout.yaml --json", 0);
-    json_t *set = expect_json("simulate room.yaml " COARSE " --set simulate.trajectory=drag -o set --json", 0);
+    json_t *set = expect_json("simulate room.yaml " COARSE " --set simulate.trajectory=drag --json", 0);
     assert_true(json_equal(json_object_get(layout_named(drops, "manual"), "coverage"),
                            json_object_get(layout_named(again, "manual"), "coverage")));
     assert_true(json_equal(json_object_get(drops, "layouts"), json_object_get(set, "layouts")));
