@@ -233,6 +233,22 @@ static void what_was_read_is_told(void **state)
     free(page);
 }
 
+/* Standard output and the folder tell the same, and no less without a folder; times aside. */
+static void json_is_the_same_with_files_and_without(void **state)
+{
+    (void)state;
+    json_t *told[] = {expect_json("simulate room.yaml " COARSE " --json", 0),
+                      expect_json("simulate room.yaml " COARSE " -o told --json", 0), json_file("told/result.json")};
+    const json_t *nozzle = json_array_get(json_object_get(layout_named(told[0], "manual"), "nozzles"), 0);
+    assert_true(json_is_real(json_object_get(nozzle, "alone_m2")) &&
+                json_is_real(json_object_get(nozzle, "lost_without_m2")));
+    for (int i = 0; i < 3; i++)
+        json_object_del(told[i], "stages");
+    assert_true(json_equal(told[0], told[1]) && json_equal(told[1], told[2]));
+    for (int i = 0; i < 3; i++)
+        json_decref(told[i]);
+}
+
 static void no_input_is_overwritten(void **state)
 {
     (void)state;
@@ -876,6 +892,7 @@ int main(void)
         cmocka_unit_test(without_output_nothing_is_written),
         cmocka_unit_test(simulate_writes_its_files),
         cmocka_unit_test(what_was_read_is_told),
+        cmocka_unit_test(json_is_the_same_with_files_and_without),
         cmocka_unit_test(no_input_is_overwritten),
         cmocka_unit_test(nor_is_what_the_scene_names),
         cmocka_unit_test(where_nothing_can_be_written_is_said_first),
