@@ -29,7 +29,7 @@ static const char *const style[] = {
     "th,td{padding:6px 10px;border-bottom:1px solid var(--line);text-align:right;vertical-align:top}\n"
     "thead th{border-bottom:2px solid var(--ink);font-size:14px;vertical-align:bottom}\n"
     "th[scope=row],th:first-child,.text{text-align:left}\nth[scope=row]{font-weight:500}\n"
-    ".sub th:first-child{text-align:right}\nth,td{overflow-wrap:break-word;hyphens:manual}\n"
+    ".sub th:first-child{text-align:right}\nth,td{overflow-wrap:break-word;hyphens:manual}.lack{white-space:nowrap}\n"
     "td:last-child{font-weight:600}\n.small{font-size:13.5px}\n.small td:last-child{font-weight:400}\n"
     ".small th,.small td{padding:4px 7px}\n.narrow{width:auto;min-width:280px}\n",
     ".views{display:grid;gap:18px;align-items:end}\n.of1{grid-template-columns:minmax(0,640px)}\n"
@@ -62,7 +62,9 @@ static const char *const style[] = {
     "print{body{font-size:11pt;-webkit-print-color-adjust:exact;print-color-adjust:exact}main{max-width:none;padding:0}"
     "header{padding-top:10px}.wide{overflow:visible}.small{font-size:8.5pt}.small th,.small td{padding:2px 4px}"
     ".small thead th{font-size:8.5pt}.view{max-height:72mm}"
-    "figure,.card,tr,dl>div,.chart,.block{break-inside:avoid}thead{display:table-header-group}"
+    ".cards{grid-template-columns:repeat(auto-fit,minmax(40mm,1fr))}.card .value{font-size:16pt}.card "
+    ".unit{font-size:9pt}"
+    "figure,.card,.wide,tr,dl>div,.chart,.block{break-inside:avoid}thead{display:table-header-group}"
     "h2,h3,caption{break-after:avoid}a{color:inherit;text-decoration:none}}\n</style>\n",
 };
 

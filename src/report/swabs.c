@@ -12,7 +12,7 @@ static void add_swab(sp_text *text, size_t number, const sp_swab *swab)
                              6e4 * swab->flux,
                              swab->speed,
                              swab->incidence * 180 / M_PI};
-    const int decimals[] = {2, 2, 2, 0, 2, 1, 0};
+    const int decimals[] = {3, 3, 3, 0, 2, 1, 0};
     char *part = sp_text_utf8(swab->part);
     const char *lack = sp_lack_text(swab->lack);
     text->failed |= !part;
@@ -24,7 +24,7 @@ static void add_swab(sp_text *text, size_t number, const sp_swab *swab)
         sp_markup_decimals(text, values[i], decimals[i]);
         sp_text_add(text, "</td>");
     }
-    sp_text_add(text, "<td class=\"text\">%s</td></tr>\n", lack ? lack : "covered");
+    sp_text_add(text, "<td class=\"text lack\">%s</td></tr>\n", lack ? lack : "covered");
     free(part);
 }
 

@@ -48,11 +48,54 @@ static void the_page_is_not_blank(void **state)
     assert_true(picture_size("placed/report.html") > 10 * picture_size("blank.html"));
 }
 
+/* The PDF that the browser prints. */
+static char *print_page(const char *page, size_t *size)
+{
+    free(browse(page, "--virtual-time-budget=20000 --no-pdf-header-footer --print-to-pdf=page.pdf"));
+    char *pdf = read_file("page.pdf", size);
+    assert_non_null(pdf);
+    assert_memory_equal(pdf, "%PDF-", 5);
+    return pdf;
+}
+
+/* How often `part` stands in what may hold zeros. */
+static size_t found(const char *bytes, size_t size, const char *part)
+{
+    size_t count = 0, length = strlen(part);
+    for (size_t i = 0; i + length <= size; i++)
+        count += memcmp(bytes + i, part, length) == 0;
+    return count;
+}
+
+/* Pages of A4 with pictures, of which equal ones are stored once; the viewer, which needs a screen, leaves no trace. */
+static void it_prints_without_the_viewer(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    size_t size, plain_size;
+    char *page = read_file("placed/report.html", &size), *script = strstr(page, "<section id=\"viewer\"");
+    assert_non_null(script);
+    char *after = strstr(script, "</section>");
+    memset(script, ' ', (size_t)(after - script) + strlen("</section>"));
+    write_file("placed/plain.html", page);
+    char *pdf = print_page("placed/report.html", &size), *plain = print_page("placed/plain.html", &plain_size);
+    size_t pages = found(pdf, size, "/Type /Page\n");
+    assert_true(pages >= 4);
+    assert_int_equal(found(pdf, size, "/MediaBox [0 0 594.95996 841.91998]"), pages);
+    assert_int_equal(found(plain, plain_size, "/Type /Page\n"), pages);
+    assert_true(found(pdf, size, "/Subtype /Image") >= 3);
+    assert_int_equal(found(pdf, size, "/Subtype /Image"), found(plain, plain_size, "/Subtype /Image"));
+    free(plain);
+    free(pdf);
+    free(page);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_browser_finds_headings_tables_and_pictures),
         cmocka_unit_test(the_page_is_not_blank),
+        cmocka_unit_test(it_prints_without_the_viewer),
     };
     return cmocka_run_group_tests(tests, place_once, close_workplace);
 }

@@ -242,6 +242,44 @@ static void the_page_says_what_paper_needs(void **state)
     free(page);
 }
 
+/* Tables that paper needs, number by number: what each nozzle does, and why shadows are dry and who is nearest. */
+static void the_page_says_what_nozzles_do_and_shadows_lack(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    sp_figures *figures = sp_result_figures(&f->result, &error);
+    size_t size, lines = 0;
+    char *page = read_whole("report.html", &size), text[300];
+    const char *table = strstr(page, "<section id=\"contributions\">"), *end = strstr(table, "</section>");
+    for (size_t d = 0; d < 3; d++)
+        for (size_t i = 0; i < figures[d].nozzle_count; i++) {
+            const sp_nozzle_figures *nozzle = &figures[d].nozzles[i];
+            snprintf(text, sizeof text, "<td>%.1f</td><td>%.3f</td><td>%.1f</td><td>%.3f</td><td>%.2f</td></tr>",
+                     6e4 * nozzle->flow, nozzle->alone, 100 * nozzle->alone / figures[d].clean_area, nozzle->lost,
+                     100 * nozzle->lost / figures[d].clean_area);
+            table = strstr(table, text);
+            if (!table || table > end)
+                fail_msg("no row %s", text);
+        }
+    table = strstr(page, "<section id=\"shadows\">");
+    for (size_t i = 0; i < figures[0].shadow_count && i < 10; i++) {
+        snprintf(text, sizeof text, "<td class=\"text\">%s</td><td class=\"text\">%s</td>",
+                 sp_lack_text(figures[0].shadows[i].lack),
+                 *figures[0].shadows[i].nozzle ? figures[0].shadows[i].nozzle : "\xe2\x80\x93");
+        table = strstr(table, text);
+        if (!table)
+            fail_msg("no row %s", text);
+        table += strlen(text);
+    }
+    char *csv = read_whole("swabs.csv", &size);
+    lines = occurrences(csv, "\n");
+    table = strstr(page, "<section id=\"swabs\">");
+    assert_int_equal(occurrences(table, "<td class=\"text lack\">"), lines - 1);
+    free(csv);
+    free(page);
+    sp_figures_destroy(figures, 3);
+}
+
 static void names_from_strangers_stay_text(void **state)
 {
     (void)state;
@@ -595,6 +633,7 @@ int main(void)
         cmocka_unit_test(the_page_stands_alone),
         cmocka_unit_test(coverage_is_told_by_number_of_nozzles),
         cmocka_unit_test(the_page_says_what_paper_needs),
+        cmocka_unit_test(the_page_says_what_nozzles_do_and_shadows_lack),
         cmocka_unit_test(names_from_strangers_stay_text),
         cmocka_unit_test(result_json_has_the_keys_of_the_contract),
         cmocka_unit_test(reasons_add_up),
