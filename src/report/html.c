@@ -53,7 +53,7 @@ static const char *const style[] = {
     ".digest,code{overflow-wrap:anywhere;font-family:ui-monospace,\"DejaVu Sans Mono\",monospace;font-size:.92em}\n",
     "@media (max-width:640px){.of2,.of3{grid-template-columns:1fr}dl{grid-template-columns:1fr}}\n"
     /* The column that decides stays: the one before refinement goes, and what is measured stands still. */
-    "@media screen and (max-width:480px){main{padding:0 12px 30px}body{font-size:15px}.aside{display:none}"
+    "@media screen and (max-width:640px){main{padding:0 12px 30px}body{font-size:15px}.aside{display:none}"
     "th,td{padding:5px 6px}.numbers{font-size:14px}"
     ".wide :not(.sub)>th:first-child{position:sticky;left:0;background:#fff}}\n",
     "@page{size:A4;margin:16mm 14mm 18mm;@bottom-right{content:counter(page) \" / \" counter(pages);"
@@ -62,8 +62,8 @@ static const char *const style[] = {
     "print{body{font-size:11pt;-webkit-print-color-adjust:exact;print-color-adjust:exact}main{max-width:none;padding:0}"
     "header{padding-top:10px}.wide{overflow:visible}.small{font-size:8.5pt}.small th,.small td{padding:2px 4px}"
     ".small thead th{font-size:8.5pt}.view{max-height:72mm}"
-    ".cards{grid-template-columns:repeat(auto-fit,minmax(40mm,1fr))}.card .value{font-size:16pt}.card "
-    ".unit{font-size:9pt}"
+    ".cards{grid-template-columns:repeat(auto-fit,minmax(40mm,1fr))}.card{padding:8px 10px}.card "
+    ".value{font-size:14pt}.card .unit{font-size:8.5pt}"
     "figure,.card,.wide,tr,dl>div,.chart,.block{break-inside:avoid}thead{display:table-header-group}"
     "h2,h3,caption{break-after:avoid}a{color:inherit;text-decoration:none}}\n</style>\n",
 };
