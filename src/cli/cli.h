@@ -90,9 +90,22 @@ int cli_atlas(const cli_options *options);
 int cli_bench(const cli_options *options);
 int cli_study(const cli_options *options);
 
+/* inputs.c: files that were read. Their digests are taken as soon as they were, since they may be edited meanwhile;
+ * what came through a pipe is gone, and is left out. */
+typedef struct {
+    sp_input *list; /* [count], their paths are ours */
+    size_t count;
+} cli_inputs;
+/* Once each. False, with an error, where one cannot be read again. */
+bool cli_inputs_add(cli_inputs *inputs, const char *path, sp_error *error);
+bool cli_inputs_add_scene(cli_inputs *inputs, const sp_scene *scene, sp_error *error);
+bool cli_inputs_join(cli_inputs *inputs, const cli_inputs *more, sp_error *error);
+void cli_inputs_free(cli_inputs *inputs);
+
 /* scene.c: what simulate, place and check begin with. */
 typedef struct {
     sp_scene *scene;
+    cli_inputs inputs; /* of the scene, where files or JSON are asked for */
     sp_evaluator *evaluator;
 } cli_scene;
 /* `evaluates`: settings left to auto are chosen for the scene's own nozzles. */
@@ -134,7 +147,7 @@ char *cli_folder_of(const char *path);
  * [input_count], NULL for what is none. `layout`, which is written as a scene after the first one, NULL: no
  * layout.yaml. */
 bool cli_report(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
-                const sp_layout *layout, sp_error *error);
+                const cli_inputs *inputs, const sp_layout *layout, sp_error *error);
 
 /* output.c: the files, as cli_report. */
 bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,

@@ -7,7 +7,7 @@
 
 /* One input of the command line: a scene that is evaluated, or the figures of a result.json. */
 typedef struct {
-    cli_scene opened;
+    cli_scene opened; /* of a result, no more than that it was read */
     sp_coverage *coverage;
     sp_figures *figures;
     size_t figure_count;
@@ -16,6 +16,7 @@ typedef struct {
 typedef struct {
     compared *inputs;        /* [input_count] */
     const sp_scene **scenes; /* [input_count], NULL for a result */
+    cli_inputs read;
     sp_design *designs;
     char **names; /* of the designs, where a result holds several */
     size_t design_count;
@@ -32,7 +33,7 @@ static bool open_input(compared *input, const char *path, const cli_options *opt
 {
     if (is_result(path)) {
         input->figures = sp_figures_read(path, &input->figure_count, error);
-        return input->figures != NULL;
+        return input->figures && cli_inputs_add(&input->opened.inputs, path, error);
     }
     if (!cli_scene_open(&input->opened, path, options, true, clock, error))
         return false;
@@ -110,7 +111,8 @@ static bool compare(comparison *all, const cli_options *options, sp_error *error
     if (!cli_output_ready(options, NULL, files, error))
         return false;
     for (int i = 0; i < options->input_count; i++)
-        if (!open_input(&all->inputs[i], options->inputs[i], options, &all->clock, error))
+        if (!open_input(&all->inputs[i], options->inputs[i], options, &all->clock, error) ||
+            !cli_inputs_join(&all->read, &all->inputs[i].opened.inputs, error))
             return false;
     for (int i = 0; i < options->input_count; i++)
         all->scenes[i] = all->inputs[i].opened.scene;
@@ -122,7 +124,7 @@ static bool compare(comparison *all, const cli_options *options, sp_error *error
                         .designs = all->designs,
                         .stage_count = all->clock.count,
                         .stages = all->clock.stages};
-    return cli_report(options, &result, all->scenes, NULL, error);
+    return cli_report(options, &result, all->scenes, &all->read, NULL, error);
 }
 
 int cli_compare(const cli_options *options)
@@ -141,6 +143,7 @@ int cli_compare(const cli_options *options)
     free(all.names);
     free(all.designs);
     free(all.scenes);
+    cli_inputs_free(&all.read);
     free(all.inputs);
     return good ? EXIT_DONE : cli_fail(&error);
 }

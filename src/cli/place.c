@@ -63,7 +63,7 @@ static int report(const cli_options *options, const cli_scene *opened, const pla
                         .stage_count = clock->count,
                         .stages = clock->stages};
     const sp_scene *scene = opened->scene;
-    if (!cli_report(options, &result, &scene, found->proposal->layout, error))
+    if (!cli_report(options, &result, &scene, &opened->inputs, found->proposal->layout, error))
         return cli_fail_in(opened, error);
     if (cli_interrupted()) {
         fprintf(stderr, "sprayplan: interrupted; this is the best layout so far\n");

@@ -1,4 +1,4 @@
-/* What a result tells besides its designs: what each nozzle does, what was read, how and when it was made. */
+/* What a result tells besides its designs: what each nozzle does, how and when it was made. */
 #include "cli.h"
 
 #include <stdlib.h>
@@ -8,8 +8,6 @@
 typedef struct {
     sp_design *designs; /* [design_count], with contributions that are ours */
     size_t design_count;
-    sp_input *inputs; /* their paths are ours */
-    size_t input_count;
     char *command_line;
     char date[32];
 } background;
@@ -18,10 +16,7 @@ static void background_free(background *told)
 {
     for (size_t i = 0; told->designs && i < told->design_count; i++)
         sp_contributions_destroy((sp_contributions *)told->designs[i].contributions);
-    for (size_t i = 0; i < told->input_count; i++)
-        free((char *)told->inputs[i].path);
     free(told->designs);
-    free(told->inputs);
     free(told->command_line);
 }
 
@@ -42,35 +37,6 @@ static bool find_contributions(const cli_options *options, background *told, sp_
         }
     }
     return true;
-}
-
-static bool add_input(background *told, char *path, sp_error *error)
-{
-    sp_input *grown = path ? realloc(told->inputs, (told->input_count + 1) * sizeof *grown) : NULL;
-    if (!grown) {
-        free(path);
-        return path ? sp_fail_memory(error) : false;
-    }
-    told->inputs = grown;
-    for (size_t i = 0; i < told->input_count; i++)
-        if (!strcmp(grown[i].path, path)) { /* a geometry may be there twice */
-            free(path);
-            return true;
-        }
-    grown[told->input_count].path = path;
-    return sp_file_sha256(path, grown[told->input_count++].sha256, error);
-}
-
-static bool find_inputs(const cli_options *options, const sp_scene *const *scenes, background *told, sp_error *error)
-{
-    bool good = true;
-    for (int i = 0; good && i < options->input_count; i++) {
-        if (!scenes[i])
-            good = add_input(told, strdup(options->inputs[i]), error) || sp_fail_memory(error);
-        for (size_t k = 0; good && k < sp_scene_file_count(scenes[i]); k++)
-            good = add_input(told, sp_scene_file_path(scenes[i], k, error), error);
-    }
-    return good;
 }
 
 /* As a shell reads it back. */
@@ -107,7 +73,7 @@ static void tell_date(char *text, size_t size)
 }
 
 bool cli_report(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
-                const sp_layout *layout, sp_error *error)
+                const cli_inputs *inputs, const sp_layout *layout, sp_error *error)
 {
     background told = {.design_count = result->design_count,
                        .designs = malloc((result->design_count + 1) * sizeof *told.designs),
@@ -115,12 +81,12 @@ bool cli_report(const cli_options *options, const sp_result *result, const sp_sc
     bool good = (told.designs && told.command_line) || sp_fail_memory(error);
     if (told.designs)
         memcpy(told.designs, result->designs, result->design_count * sizeof *told.designs);
-    good = good && find_contributions(options, &told, error) && find_inputs(options, scenes, &told, error);
+    good = good && find_contributions(options, &told, error);
     tell_date(told.date, sizeof told.date);
     sp_result full = *result;
     full.designs = told.designs;
-    full.inputs = told.inputs;
-    full.input_count = told.input_count;
+    full.inputs = inputs->list;
+    full.input_count = inputs->count;
     full.command_line = told.command_line;
     full.date = told.date;
     good = good && cli_write(options, &full, scenes, layout, error) && cli_print(options, &full, error);

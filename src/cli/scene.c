@@ -9,6 +9,10 @@ bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *opti
     opened->scene = sp_scene_load_with(path, options->overrides, options->override_count, &run, error);
     if (!opened->scene)
         return false;
+    if ((options->output || options->json) && !cli_inputs_add_scene(&opened->inputs, opened->scene, error)) {
+        cli_scene_close(opened);
+        return false;
+    }
     cli_clock_stage(clock, "load");
     sp_setup setup = *sp_scene_setup(opened->scene);
     setup.run = run;
@@ -25,6 +29,7 @@ void cli_scene_close(cli_scene *opened)
 {
     sp_evaluator_destroy(opened->evaluator);
     sp_scene_destroy(opened->scene);
+    cli_inputs_free(&opened->inputs);
     *opened = (cli_scene){0};
 }
 

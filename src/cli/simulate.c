@@ -22,7 +22,7 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
                         .stage_count = clock->count,
                         .stages = clock->stages};
     const sp_scene *scene = opened->scene;
-    good = good && cli_report(options, &result, &scene, layout, error);
+    good = good && cli_report(options, &result, &scene, &opened->inputs, layout, error);
     sp_coverage_destroy(coverage);
     return good ? EXIT_DONE : cli_fail_in(opened, error);
 }

@@ -233,6 +233,20 @@ static void what_was_read_is_told(void **state)
     free(page);
 }
 
+/* It cannot be read twice: an empty file's digest would be told. */
+static void what_came_through_a_pipe_has_no_digest(void **state)
+{
+    (void)state;
+    char line[4096];
+    snprintf(line, sizeof line, "cd '%s' && mkfifo pipe.yaml && (timeout 60 cat room.yaml >pipe.yaml &)", workplace);
+    assert_int_equal(system(line), 0);
+    json_t *object = expect_json("simulate pipe.yaml " COARSE " --json", 0),
+           *inputs = json_object_get(object, "inputs");
+    assert_int_equal(json_array_size(inputs), 2);
+    assert_string_equal(json_string_value(json_object_get(json_array_get(inputs, 0), "file")), "room.obj");
+    json_decref(object);
+}
+
 /* Standard output and the folder tell the same, and no less without a folder; times aside. */
 static void json_is_the_same_with_files_and_without(void **state)
 {
@@ -892,6 +906,7 @@ int main(void)
         cmocka_unit_test(without_output_nothing_is_written),
         cmocka_unit_test(simulate_writes_its_files),
         cmocka_unit_test(what_was_read_is_told),
+        cmocka_unit_test(what_came_through_a_pipe_has_no_digest),
         cmocka_unit_test(json_is_the_same_with_files_and_without),
         cmocka_unit_test(no_input_is_overwritten),
         cmocka_unit_test(nor_is_what_the_scene_names),
