@@ -10,11 +10,20 @@
 #include <string.h>
 
 enum { MAX_DEPTH = 32, FIRST_BYTES = 16 << 10, MAX_BYTES = 16 << 20 };
+/* Of 150 bytes each, so that what is held stays within ten times the text and 64 MiB. */
+enum { MAX_VALUES = 400000 };
+/* libfyaml holds 370 bytes for each until a list or block that begins a file ends: it may yet turn out to be a key. */
+enum { MAX_MARKS = 100000 };
 
 typedef struct {
     struct fy_parser *parser;
     struct fy_diag *diag;
     const char *file;
+    const char *text;
+    size_t size, given; /* bytes, of them to the parser */
+    size_t marks;       /* brackets, commas and colons since the last event, about */
+    bool cut;           /* they were too many */
+    size_t values;
     int lines;
     sp_error *error;
 } source;
@@ -68,12 +77,35 @@ static bool fail_parse(const source *s)
                    "YAML: %s", found->msg);
 }
 
-static struct fy_event *next_event(const source *s)
+/* Where it is too much the text ends: libfyaml never comes back from a callback that fails. */
+static ssize_t give(void *user, void *buffer, size_t room)
+{
+    source *s = user;
+    size_t left = s->size - s->given, count = s->marks > MAX_MARKS ? 0 : left < room ? left : room;
+    s->cut |= count < left && count < room;
+    if (count)
+        memcpy(buffer, s->text + s->given, count);
+    for (size_t i = 0; i < count; i++)
+        s->marks += strchr("[{,:", s->text[s->given + i]) != NULL;
+    s->given += count;
+    return (ssize_t)count;
+}
+
+static struct fy_event *next_event(source *s)
 {
     struct fy_event *event = fy_parser_parse(s->parser);
-    if (!event)
+    if (event && !s->cut) {
+        s->marks = 0;
+        return event;
+    }
+    if (s->cut)
+        sp_fail(s->error, SP_ERROR_INPUT, s->file, 0, 0,
+                "YAML: found more than 100,000 brackets, commas and colons in one value, expected fewer");
+    else
         fail_parse(s);
-    return event;
+    if (event)
+        fy_parser_event_free(s->parser, event);
+    return NULL;
 }
 
 static bool check_event(const source *s, struct fy_event *event, int depth)
@@ -90,7 +122,7 @@ static bool check_event(const source *s, struct fy_event *event, int depth)
     return true;
 }
 
-static sp_yaml *read_node(const source *s, struct fy_event *event, int depth);
+static sp_yaml *read_node(source *s, struct fy_event *event, int depth);
 
 /* Where nothing is written there is nothing to mark: its key's or list's place stands in for it. */
 static void stand_in(sp_yaml *node, int line, int column)
@@ -101,7 +133,7 @@ static void stand_in(sp_yaml *node, int line, int column)
     node->column = column;
 }
 
-static bool read_list(const source *s, sp_yaml *node, int depth)
+static bool read_list(source *s, sp_yaml *node, int depth)
 {
     for (;;) {
         struct fy_event *event = next_event(s);
@@ -118,7 +150,7 @@ static bool read_list(const source *s, sp_yaml *node, int depth)
 }
 
 /* Moves a key's text and place to the value that follows it. */
-static bool read_value(const source *s, sp_yaml *node, sp_yaml *key, int depth)
+static bool read_value(source *s, sp_yaml *node, sp_yaml *key, int depth)
 {
     struct fy_event *event = next_event(s);
     sp_yaml *child = event ? read_node(s, event, depth + 1) : NULL;
@@ -135,7 +167,7 @@ static bool read_value(const source *s, sp_yaml *node, sp_yaml *key, int depth)
     return true;
 }
 
-static bool read_map(const source *s, sp_yaml *node, int depth)
+static bool read_map(source *s, sp_yaml *node, int depth)
 {
     for (;;) {
         struct fy_event *event = next_event(s);
@@ -157,7 +189,7 @@ static bool read_map(const source *s, sp_yaml *node, int depth)
     }
 }
 
-static bool fill_node(const source *s, struct fy_event *event, sp_yaml *node, int depth)
+static bool fill_node(source *s, struct fy_event *event, sp_yaml *node, int depth)
 {
     if (event->type == FYET_SEQUENCE_START) {
         node->kind = SP_YAML_LIST;
@@ -178,10 +210,14 @@ static bool fill_node(const source *s, struct fy_event *event, sp_yaml *node, in
     return true;
 }
 
-static sp_yaml *read_node(const source *s, struct fy_event *event, int depth)
+static sp_yaml *read_node(source *s, struct fy_event *event, int depth)
 {
     if (!check_event(s, event, depth))
         return NULL;
+    if (s->values++ == MAX_VALUES) {
+        fail_at(s, fy_event_start_mark(event), "YAML: found more than 400,000 values, expected fewer");
+        return NULL;
+    }
     sp_yaml *node = calloc(1, sizeof *node);
     if (!node)
         return sp_fail_memory(s->error);
@@ -196,7 +232,7 @@ static sp_yaml *read_node(const source *s, struct fy_event *event, int depth)
 }
 
 /* The stream's one document; an empty stream is an empty scalar. */
-static sp_yaml *read_document(const source *s)
+static sp_yaml *read_document(source *s)
 {
     sp_yaml *root = NULL;
     for (;;) {
@@ -223,7 +259,7 @@ static sp_yaml *read_document(const source *s)
     return NULL;
 }
 
-static sp_yaml *parse_with(source *s, const char *text, size_t size)
+static sp_yaml *parse_with(source *s)
 {
     struct fy_diag_cfg quiet = {.output_fn = swallow, .level = FYET_ERROR, .module_mask = ~0u};
     s->diag = fy_diag_create(&quiet);
@@ -234,7 +270,7 @@ static sp_yaml *parse_with(source *s, const char *text, size_t size)
     s->parser = fy_parser_create(&settings);
     if (!s->parser)
         return sp_fail_memory(s->error);
-    if (fy_parser_set_string(s->parser, text, size) != 0)
+    if (fy_parser_set_input_callback(s->parser, s, give) != 0)
         return sp_fail_memory(s->error);
     return read_document(s);
 }
@@ -262,8 +298,8 @@ sp_yaml *sp_yaml_parse(const char *file, const char *text, size_t size, sp_error
     char *name = strdup(file);
     if (!name)
         return sp_fail_memory(error);
-    source s = {.file = name, .lines = lines, .error = error};
-    sp_yaml *root = parse_with(&s, text, size);
+    source s = {.file = name, .text = text, .size = size, .lines = lines, .error = error};
+    sp_yaml *root = parse_with(&s);
     /* The collected errors hold tokens of the parser, and the diagnostics do not free them by themselves. */
     if (s.diag)
         fy_diag_reset_error(s.diag);
