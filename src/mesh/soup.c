@@ -92,19 +92,10 @@ bool sp_soup_add_triangle(sp_soup *soup, uint32_t a, uint32_t b, uint32_t c, uin
     return true;
 }
 
-/* FNV-1a, http://www.isthe.com/chongo/tech/comp/fnv/ */
-static uint64_t hash_name(const char *name)
-{
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (; *name; name++)
-        hash = (hash ^ (unsigned char)*name) * 0x100000001b3u;
-    return hash;
-}
-
 /* Where the name is, or where it would go. */
 static size_t find_slot(const sp_soup *soup, const char *name)
 {
-    size_t mask = soup->part_table_size - 1, slot = hash_name(name) & mask;
+    size_t mask = soup->part_table_size - 1, slot = sp_siphash(soup->part_key, name, strlen(name)) & mask;
     while (soup->part_table[slot] != SP_NONE && strcmp(soup->part_names[soup->part_table[slot]], name) != 0)
         slot = (slot + 1) & mask;
     return slot;
@@ -121,6 +112,8 @@ static bool widen_table(sp_soup *soup, sp_error *error)
         return false;
     }
     memset(table, 0xFF, size * sizeof *table);
+    if (!soup->part_table)
+        soup->part_key = sp_hash_key_draw();
     free(soup->part_table);
     soup->part_table = table;
     soup->part_table_size = size;

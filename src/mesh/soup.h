@@ -16,6 +16,7 @@ typedef struct {
     size_t name_length;   /* of all names together */
     uint32_t *part_table; /* [part_table_size] of part numbers by hash of their names, SP_NONE where free */
     size_t part_table_size;
+    sp_hash_key part_key; /* of the hashes */
 } sp_soup;
 
 /* Starts as {0}. */

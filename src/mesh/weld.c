@@ -3,14 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static uint64_t mix(uint64_t hash, double number)
-{
-    uint64_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    hash = (hash ^ bits) * 0x9E3779B97F4A7C15u; /* 2^64 over the golden ratio: Knuth's multiplicative hashing */
-    return hash ^ (hash >> 29);
-}
-
 static bool equal(sp_vec3 a, sp_vec3 b)
 {
     return a.x == b.x && a.y == b.y && a.z == b.z;
@@ -18,7 +10,7 @@ static bool equal(sp_vec3 a, sp_vec3 b)
 
 uint32_t *sp_weld_slot(const sp_weld_table *table, const sp_vec3 *vertices, sp_vec3 point)
 {
-    size_t mask = table->size - 1, slot = mix(mix(mix(0, point.x), point.y), point.z) & mask;
+    size_t mask = table->size - 1, slot = sp_siphash(table->key, &point, sizeof point) & mask;
     while (table->slots[slot] != SP_NONE && !equal(vertices[table->slots[slot]], point))
         slot = (slot + 1) & mask;
     return &table->slots[slot];
@@ -31,6 +23,8 @@ bool sp_weld_reserve(sp_weld_table *table, size_t capacity, const sp_vec3 *verti
         return true;
     while (size < 2 * capacity)
         size *= 2;
+    if (!table->size)
+        table->key = sp_hash_key_draw();
     free(table->slots);
     table->slots = malloc(size * sizeof *table->slots);
     table->size = table->slots ? size : 0;

@@ -2,11 +2,14 @@
 #ifndef SPRAYPLAN_MESH_WELD_H
 #define SPRAYPLAN_MESH_WELD_H
 
+#include "mesh/siphash.h"
+
 #include <sprayplan/mesh.h>
 
 typedef struct {
     uint32_t *slots; /* [size] of vertex numbers by hash of their coordinates, SP_NONE where free; the owner frees it */
     size_t size;     /* a power of two, or 0 */
+    sp_hash_key key; /* of the hashes */
 } sp_weld_table;
 
 /* Makes room for `capacity` vertices where there is none, and puts the `count` there are in anew. Starts as {0}. False

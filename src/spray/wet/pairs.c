@@ -1,7 +1,7 @@
 #include "spray/wet/pairs.h"
 
 #include "mesh/box_pairs.h"
-#include "nozzle/scramble.h"
+#include "mesh/siphash.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -100,12 +100,14 @@ static bool same_corners(const sp_mesh *mesh, uint32_t a, uint32_t b)
 typedef struct {
     size_t size; /* a power of two */
     uint32_t *slots;
+    sp_hash_key key;
 } corner_table;
 
 static bool table_create(corner_table *table, size_t triangles)
 {
     for (table->size = 16; table->size < 2 * triangles;)
         table->size *= 2;
+    table->key = sp_hash_key_draw();
     table->slots = malloc(table->size * sizeof *table->slots);
     if (table->slots)
         memset(table->slots, 0xff, table->size * sizeof *table->slots);
@@ -119,7 +121,9 @@ static bool is_copy(pair_search *search, corner_table *table, uint32_t triangle)
 {
     const sp_shells *shells = search->shells;
     const uint32_t *corner = search->mesh->triangles[triangle];
-    uint64_t hash = sp_scramble(corner[0]) + sp_scramble(corner[1]) + sp_scramble(corner[2]);
+    uint64_t hash = 0; /* in whatever order they stand */
+    for (int i = 0; i < 3; i++)
+        hash += sp_siphash(table->key, &corner[i], sizeof corner[i]);
     size_t slot = hash & (table->size - 1);
     while (table->slots[slot] != SP_NONE && !same_corners(search->mesh, table->slots[slot], triangle))
         slot = (slot + 1) & (table->size - 1);
