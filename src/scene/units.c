@@ -3,6 +3,7 @@
 #include <udunits2.h>
 
 #include <ctype.h>
+#include <float.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -166,26 +167,50 @@ static const char *skip_number(const char *text)
     return text;
 }
 
-bool sp_units_read(const sp_units *units, const char *text, const sp_dimension *dimension, double *value, char *why,
-                   size_t size)
+_Static_assert(LDBL_MANT_DIG > DBL_MANT_DIG, "every double needs a number in every unit");
+
+/* A decimal number of units. The product is rounded once, at its end: with a double's digits alone a third of all
+ * values would have no number in degrees. */
+static double number_of(const char *text, double factor)
+{
+    return factor == 1 ? strtod(text, NULL) : (double)(strtold(text, NULL) * factor);
+}
+
+void sp_units_number(double value, double factor, char number[SP_UNITS_NUMBER])
+{
+    for (int digits = DBL_DIG; digits <= LDBL_DECIMAL_DIG; digits++) {
+        snprintf(number, SP_UNITS_NUMBER, "%.*Lg", digits, (long double)value / factor);
+        if (number_of(number, factor) == value)
+            return;
+    }
+}
+
+bool sp_units_of(const sp_units *units, const char *text, const sp_dimension *dimension, double *factor, char *why,
+                 size_t size)
 {
     why[0] = '\0';
     const char *unit = skip_number(text);
     if (!unit)
         return false;
-    double number = strtod(text, NULL), factor = 1;
+    *factor = 1;
     while (*unit == ' ')
         unit++;
-    if (!*unit && !dimension->bare) {
+    if (!*unit && !dimension->bare)
         snprintf(why, size, "it has no unit");
+    return *unit ? sp_units_factor(units, unit, dimension, factor, why, size) : dimension->bare;
+}
+
+bool sp_units_read(const sp_units *units, const char *text, const sp_dimension *dimension, double *value, char *why,
+                   size_t size)
+{
+    double factor;
+    if (!sp_units_of(units, text, dimension, &factor, why, size))
         return false;
-    }
-    if (*unit && !sp_units_factor(units, unit, dimension, &factor, why, size))
-        return false;
-    if (!isfinite(number * factor)) {
+    double read = number_of(text, factor);
+    if (!isfinite(read)) {
         snprintf(why, size, "it is not finite");
         return false;
     }
-    *value = number * factor;
+    *value = read;
     return true;
 }

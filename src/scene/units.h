@@ -24,8 +24,15 @@ void sp_units_destroy(sp_units *units);
  * all. */
 bool sp_units_read(const sp_units *units, const char *text, const sp_dimension *dimension, double *value, char *why,
                    size_t size);
+/* How much the unit of such a text is in SI, 1 where a bare number is meant. */
+bool sp_units_of(const sp_units *units, const char *text, const sp_dimension *dimension, double *factor, char *why,
+                 size_t size);
 /* The same for a unit alone: "mm" to 0.001. */
 bool sp_units_factor(const sp_units *units, const char *unit, const sp_dimension *dimension, double *factor, char *why,
                      size_t size);
+
+#define SP_UNITS_NUMBER 40 /* bytes of a number, the terminating zero included */
+/* The shortest decimal number of units of `factor` that reads as just this value. */
+void sp_units_number(double value, double factor, char number[SP_UNITS_NUMBER]);
 
 #endif

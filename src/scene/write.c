@@ -2,13 +2,13 @@
 #include "scene/locale.h"
 #include "scene/state.h"
 
-#include <float.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct {
+    const sp_units *units;
     sp_error *error;
     bool failed;
 } writer;
@@ -22,17 +22,30 @@ static sp_yaml *put(writer *w, sp_yaml *parent, sp_yaml_kind kind, const char *k
     return node;
 }
 
-/* The shortest decimal number that reads back as the same double, and its unit. */
-static void put_number(writer *w, sp_yaml *parent, const char *key, double value, const char *unit)
+/* Units as people write them; what reads back exactly. */
+static void put_quantity(writer *w, sp_yaml *parent, const char *key, double value, const sp_dimension *dimension,
+                         const char *unit)
 {
-    char number[40], text[60];
-    for (int digits = DBL_DIG; digits <= DBL_DECIMAL_DIG; digits++) {
-        snprintf(number, sizeof number, "%.*g", digits, value);
-        if (strtod(number, NULL) == value)
-            break;
+    char number[SP_UNITS_NUMBER], text[SP_UNITS_NUMBER + 20], why[200];
+    double factor = 1;
+    if (*unit && !sp_units_factor(w->units, unit, dimension, &factor, why, sizeof why)) {
+        sp_fail(w->error, SP_ERROR_FILE, NULL, 0, 0, "the units database of udunits2 is not sound: %s", why);
+        w->failed = true;
+        return;
     }
+    sp_units_number(value, factor, number);
     snprintf(text, sizeof text, "%s%s%s", number, *unit ? " " : "", unit);
     put(w, parent, SP_YAML_SCALAR, key, text);
+}
+
+static void put_length(writer *w, sp_yaml *parent, const char *key, double value)
+{
+    put_quantity(w, parent, key, value, &sp_length_unit, "m");
+}
+
+static void put_angle(writer *w, sp_yaml *parent, const char *key, double value)
+{
+    put_quantity(w, parent, key, value, &sp_angle_unit, "deg");
 }
 
 static void put_count(writer *w, sp_yaml *parent, const char *key, uint64_t value)
@@ -42,12 +55,13 @@ static void put_count(writer *w, sp_yaml *parent, const char *key, uint64_t valu
     put(w, parent, SP_YAML_SCALAR, key, text);
 }
 
-static void put_vector(writer *w, sp_yaml *parent, const char *key, sp_vec3 v, const char *unit)
+static void put_vector(writer *w, sp_yaml *parent, const char *key, sp_vec3 v, const sp_dimension *dimension,
+                       const char *unit)
 {
     sp_yaml *list = put(w, parent, SP_YAML_LIST, key, NULL);
-    put_number(w, list, NULL, v.x, unit);
-    put_number(w, list, NULL, v.y, unit);
-    put_number(w, list, NULL, v.z, unit);
+    put_quantity(w, list, NULL, v.x, dimension, unit);
+    put_quantity(w, list, NULL, v.y, dimension, unit);
+    put_quantity(w, list, NULL, v.z, dimension, unit);
 }
 
 /* An override that says what the type says anyway is left out: a type that is not adjustable takes none. */
@@ -63,17 +77,17 @@ static void put_nozzle(writer *w, sp_yaml *list, const sp_nozzle *nozzle, const 
     sp_yaml *map = put(w, list, SP_YAML_MAP, NULL, NULL);
     put(w, map, SP_YAML_SCALAR, "name", nozzle->name);
     put(w, map, SP_YAML_SCALAR, "type", type->name);
-    put_vector(w, map, "position", sp_setup_outside(setup, nozzle->position), "m");
-    put_vector(w, map, "axis", nozzle->axis, "");
-    put_number(w, map, "roll", nozzle->roll, "rad");
-    put_number(w, map, "pressure", nozzle->pressure, "Pa");
+    put_vector(w, map, "position", sp_setup_outside(setup, nozzle->position), &sp_length_unit, "m");
+    put_vector(w, map, "axis", nozzle->axis, &sp_ratio_unit, "");
+    put_angle(w, map, "roll", nozzle->roll);
+    put_quantity(w, map, "pressure", nozzle->pressure, &sp_pressure_unit, "bar");
     if (says_more(nozzle->angle, type->angle, type->angle_min, type->angle_max))
-        put_number(w, map, "angle", nozzle->angle, "rad");
+        put_angle(w, map, "angle", nozzle->angle);
     if (says_more(nozzle->flow, sp_type_flow(type, type->flow, nozzle->pressure, liquid), type->flow_min,
                   type->flow_max))
-        put_number(w, map, "flow", nozzle->flow, "m3/s");
+        put_quantity(w, map, "flow", nozzle->flow, &sp_flow_unit, "L/min");
     if (nozzle->speed > 0)
-        put_number(w, map, "speed", nozzle->speed, "m/s");
+        put_quantity(w, map, "speed", nozzle->speed, &sp_speed_unit, "m/s");
     if (nozzle->jets > 0)
         put_count(w, map, "jets", nozzle->jets);
     if (nozzle->keep)
@@ -107,9 +121,9 @@ static sp_yaml *simulate_node(writer *w, const sp_fidelity *asked, const sp_fide
     put_count(w, map, "reflections", (uint64_t)fidelity->reflections);
     if (fidelity->jets > 0)
         put_count(w, map, "jets", fidelity->jets);
-    put_number(w, map, "texel", fidelity->texel, "m");
+    put_length(w, map, "texel", fidelity->texel);
     put(w, map, SP_YAML_SCALAR, "splat", fidelity->splat == SP_SPLAT_LINEAR ? "linear" : "nearest");
-    put_number(w, map, "accuracy", fidelity->accuracy, "");
+    put_quantity(w, map, "accuracy", fidelity->accuracy, &sp_share_unit, "");
     put_count(w, map, "seed", fidelity->seed);
     return map;
 }
@@ -145,29 +159,27 @@ static void keep_fineness(const sp_scene *scene, sp_yaml *tree, writer *w)
     for (sp_yaml *child = sp_yaml_get(tree, "geometry")->first; child; child = child->next, index++) {
         const sp_cad_account *cad = sp_scene_cad(scene, index);
         if (cad && !sp_yaml_get(child, "chord"))
-            put_number(w, child, "chord", cad->chord, "m");
+            put_length(w, child, "chord", cad->chord);
         if (cad && !sp_yaml_get(child, "angle"))
-            put_number(w, child, "angle", cad->angle, "rad");
+            put_angle(w, child, "angle", cad->angle);
     }
 }
 
 /* What is about to be written must load again: names twice, angles that a type cannot have, numbers that are not
  * finite. */
-static bool check_readable(const sp_scene *scene, sp_yaml *tree, sp_error *error)
+static bool check_readable(const sp_scene *scene, sp_yaml *tree, const writer *w)
 {
     sp_scene copy = {.tree = tree, .types = scene->types, .type_count = scene->type_count, .setup = scene->setup};
-    sp_units *units = sp_units_create(error);
-    sp_reader reader = {units, error};
-    bool good = units && sp_scene_read_nozzles(&copy, &reader) && sp_scene_read_simulate(&copy, &reader);
+    sp_reader reader = {w->units, w->error};
+    bool good = sp_scene_read_nozzles(&copy, &reader) && sp_scene_read_simulate(&copy, &reader);
     sp_layout_destroy(copy.layout);
-    sp_units_destroy(units);
     return good;
 }
 
 static char *write_tree(const sp_scene *scene, sp_yaml *tree, const sp_layout *layout, const sp_fidelity *fidelity,
-                        const char *directory, sp_error *error)
+                        const char *directory, const sp_units *units, sp_error *error)
 {
-    writer w = {.error = error};
+    writer w = {.units = units, .error = error};
     sp_yaml *nozzles = nozzles_node(&w, layout, &scene->setup);
     sp_yaml *simulate = simulate_node(&w, &scene->setup.fidelity, fidelity);
     if (nozzles)
@@ -175,7 +187,7 @@ static char *write_tree(const sp_scene *scene, sp_yaml *tree, const sp_layout *l
     if (simulate)
         sp_yaml_replace(tree, simulate);
     keep_fineness(scene, tree, &w);
-    if (w.failed || !move_files(scene, tree, directory, &w) || !check_readable(scene, tree, error))
+    if (w.failed || !move_files(scene, tree, directory, &w) || !check_readable(scene, tree, &w))
         return NULL;
     return sp_yaml_text(tree, "Written by sprayplan: a complete scene that holds this layout.", error);
 }
@@ -200,7 +212,9 @@ char *sp_scene_text(const sp_scene *scene, const sp_layout *layout, const sp_fid
     sp_yaml *tree = sp_yaml_clone(scene->tree, error);
     char *text = NULL;
     if (tree && sp_locale_enter(&locale, error)) {
-        text = write_tree(scene, tree, layout, fidelity, directory, error);
+        sp_units *units = sp_units_create(error);
+        text = units ? write_tree(scene, tree, layout, fidelity, directory, units, error) : NULL;
+        sp_units_destroy(units);
         sp_locale_leave(&locale);
     }
     sp_yaml_destroy(tree);

@@ -1,4 +1,6 @@
 /* Quantities: what udunits converts, what we add to it, and what it would take that is no quantity to us. */
+#include "scene/units.h"
+
 #include <sprayplan/scene.h>
 
 #include <locale.h>
@@ -7,6 +9,9 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <cmocka.h>
+
+#include <stdio.h>
+#include <string.h>
 
 static void is(const char *text, const char *unit, double expected)
 {
@@ -110,13 +115,76 @@ static void other_locale(void **state)
     setlocale(LC_ALL, "C");
 }
 
+static const struct {
+    const char *name, *si;
+} friendly[] = {{"bar", "Pa"}, {"deg", "rad"}, {"L/min", "m3/s"}, {"L/min/m2", "m/s"}, {"%", "1"}, {"m", "m"}};
+enum { FRIENDLY = sizeof friendly / sizeof *friendly };
+
+static double read_back(const sp_units *units, const char *number, int unit)
+{
+    const sp_dimension dimension = {"a quantity", friendly[unit].si, "", false};
+    char text[80], why[200];
+    double value = NAN;
+    snprintf(text, sizeof text, "%s %s", number, friendly[unit].name);
+    if (!sp_units_read(units, text, &dimension, &value, why, sizeof why))
+        fail_msg("%s: %s", text, why);
+    return value;
+}
+
+static double factor_of(const sp_units *units, int unit)
+{
+    const sp_dimension dimension = {"a quantity", friendly[unit].si, "", false};
+    double factor = NAN;
+    char why[200];
+    assert_true(sp_units_factor(units, friendly[unit].name, &dimension, &factor, why, sizeof why));
+    return factor;
+}
+
+/* What a person wrote is written again: no 199999.99999999997. */
+static void short_numbers_stay(void **state)
+{
+    (void)state;
+    static const char *const numbers[] = {"2",    "120",   "0.3",   "16.4",  "-30", "0",
+                                          "2.05", "359.9", "1e-05", "1e+15", "0.1"};
+    sp_units *units = sp_units_create(NULL);
+    for (int unit = 0; unit < FRIENDLY; unit++)
+        for (int i = 0; i < 1000; i++) {
+            char number[SP_UNITS_NUMBER], drawn[SP_UNITS_NUMBER];
+            const char *given = numbers[i % (int)(sizeof numbers / sizeof *numbers)];
+            snprintf(drawn, sizeof drawn, "%.9g", i * 0.037 + 1e-4 * i * i);
+            given = i < 11 ? given : drawn;
+            sp_units_number(read_back(units, given, unit), factor_of(units, unit), number);
+            assert_string_equal(number, given);
+        }
+    sp_units_destroy(units);
+}
+
+/* Every value has a number in every unit, tiny and huge ones too. */
+static void every_value_reads_back(void **state)
+{
+    (void)state;
+    sp_units *units = sp_units_create(NULL);
+    uint64_t random = 1;
+    for (int unit = 0; unit < FRIENDLY; unit++) {
+        double factor = factor_of(units, unit);
+        for (int i = 0; i < 500; i++) {
+            char number[SP_UNITS_NUMBER];
+            random = random * 6364136223846793005u + 1442695040888963407u;
+            double value = ldexp((double)(random >> 11), i % 4 ? -50 : (int)(random % 1900) - 1000);
+            sp_units_number(value, factor, number);
+            if (isfinite(value) && read_back(units, number, unit) != value)
+                fail_msg("%.17g as %s %s reads as %.17g", value, number, friendly[unit].name,
+                         read_back(units, number, unit));
+        }
+    }
+    sp_units_destroy(units);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(conversions),
-        cmocka_unit_test(refusals),
-        cmocka_unit_test(no_quantities),
-        cmocka_unit_test(other_locale),
+        cmocka_unit_test(conversions),  cmocka_unit_test(refusals),           cmocka_unit_test(no_quantities),
+        cmocka_unit_test(other_locale), cmocka_unit_test(short_numbers_stay), cmocka_unit_test(every_value_reads_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
