@@ -5,6 +5,7 @@
 #include "search/find.h"
 #include "refine/least_squares.h"
 #include "refine/refine.h"
+#include "refine/settings.h"
 
 #include <sprayplan/points.h>
 
@@ -70,7 +71,9 @@ static bool check(const sp_evaluator *evaluator, const sp_place_options *options
     if (!are_whole(options->types, options->type_count, error))
         return false;
     for (size_t i = 0; options->kept && i < options->kept->count; i++)
-        if (options->kept->nozzles[i].keep && !sp_evaluator_admits(evaluator, &options->kept->nozzles[i], error))
+        if (options->kept->nozzles[i].keep &&
+            (!sp_evaluator_admits(evaluator, &options->kept->nozzles[i], error) ||
+             !sp_mounts_admit(setup, options->mounts, options->mount_count, &options->kept->nozzles[i], error)))
             return false;
     /* said now, not after the minutes that a search may take */
     return !sp_refine_asked(&options->refine) || sp_least_squares_ready(error);
@@ -268,6 +271,7 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
                 write_down(&placement, &proposal->greedy, &proposal->greedy_coverage, error) &&
                 is_sound(&placement, error) &&
                 sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
+                sp_set_front(&placement.search, &placement.watch, &placement.front, error) &&
                 is_sound(&placement, error) && write_down(&placement, &proposal->layout, &proposal->coverage, error) &&
                 sp_watch_stage(&placement.watch, "refine", error) && confirm(&placement, proposal, error) &&
                 check_forward(&placement, proposal, error) && certify(&placement, proposal, error) &&

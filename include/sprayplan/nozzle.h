@@ -71,6 +71,17 @@ typedef struct {
 size_t sp_patternation_layers(const float *values, const float *speeds, size_t columns, size_t rows, double angle,
                               sp_speed_layer layers[SP_SPEEDS], sp_error *error);
 
+/* How far apart what can be set lies, as it was given: `count` of a unit of `unit` in SI, so that every setting is a
+ * short number of these. Count 0: anything can be set. */
+typedef struct {
+    double count, unit;
+} sp_step;
+/* SI; 0 where anything can be set. */
+static inline double sp_step_size(sp_step step)
+{
+    return step.count * step.unit;
+}
+
 /* A catalogue entry. Plain data; angles are full opening angles. */
 typedef struct {
     char name[SP_NAME];
@@ -88,8 +99,13 @@ typedef struct {
     double flow_min, flow_max;   /* m³/s of water at `at`; equal to flow where not adjustable */
     char order_code[SP_NAME];    /* by which its maker sells it; "" where it has none */
     char url[SP_URL];            /* of its page; "" where it has none, else as sp_is_url */
-    size_t member_count;         /* clusters only, 1 to SP_MEMBERS */
-    struct sp_member *members;   /* [member_count], owned by whoever made the type: of a scene's, the scene */
+    char thread[SP_NAME];        /* by which it is screwed in; "": not known */
+    char insert[SP_NAME];        /* what is put into its body; "": nothing, or not known */
+    double body;                 /* m, diameter of the hole that it passes; 0: not known */
+    /* What can be set: angles from its own, rated flows from its own, pressures from 0. */
+    sp_step angle_step, flow_step, pressure_step;
+    size_t member_count;       /* clusters only, 1 to SP_MEMBERS */
+    struct sp_member *members; /* [member_count], owned by whoever made the type: of a scene's, the scene */
     /* Measured types only, whose angle is their image's: borrowed, of a scene's types from the scene; and the file that
      * it was read from, as the catalogue names it, "" for none. */
     const sp_patternation *patternation;
@@ -160,9 +176,10 @@ sp_frame sp_nozzle_frame(sp_vec3 axis, double roll, sp_vec3 up);
 /* How many patterns a nozzle has: its cluster's members, else 1. */
 size_t sp_nozzle_pattern_count(const sp_nozzle *nozzle);
 /* Nozzles of one pattern each that together spray what this one does: its members, in their order, or itself. They have
- * the body's name and exit speed, or their part of it, their shares of its flow, and of its jets, where it sets their number, at least one
- * each. patterns: [sp_nozzle_pattern_count], the caller's; their types are borrowed from the nozzle's. A member along
- * the body's axis, without offset, that has all the flow is to the bit the plain nozzle. `up` as for sp_nozzle_frame.
+ * the body's name and exit speed, or their part of it, their shares of its flow, and of its jets, where it sets their
+ * number, at least one each. patterns: [sp_nozzle_pattern_count], the caller's; their types are borrowed from the
+ * nozzle's. A member along the body's axis, without offset, that has all the flow is to the bit the plain nozzle. `up`
+ * as for sp_nozzle_frame.
  */
 void sp_nozzle_patterns(const sp_nozzle *nozzle, const sp_fluid *liquid, sp_vec3 up, sp_nozzle *patterns);
 /* False, with an error that names the type, of a measured type without patternation, and of a cluster without members,

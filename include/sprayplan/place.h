@@ -20,12 +20,30 @@ typedef struct {
     double depth_from, depth_to, depth_spacing; /* port, m along its axis; all 0 without a lance */
     size_t type_count;                          /* port: types that fit; 0: all of the options' */
     const sp_nozzle_type *const *types;         /* borrowed */
-    uint32_t geometry;                          /* surface */
-    uint32_t part;    /* surface: index of the mesh's part, SP_NONE: every part of that geometry */
-    double standoff;  /* surface, m along the normal towards the liquid */
-    double spacing;   /* surface, line, box, m */
-    sp_vec3 from, to; /* line: ends; box: minimum and maximum, m */
+    double bore;                                /* port, m: types with a wider body do not fit; 0: not known */
+    sp_step depth_step, tilt_step; /* port: depths that can be set count from depth_from, tilts from the axis */
+    uint32_t geometry;             /* surface */
+    uint32_t part;                 /* surface: index of the mesh's part, SP_NONE: every part of that geometry */
+    double standoff;               /* surface, m along the normal towards the liquid */
+    double spacing;                /* surface, line, box, m */
+    sp_vec3 from, to;              /* line: ends; box: minimum and maximum, m */
 } sp_mount;
+
+/* Of the settings `from` + k steps (k a whole number) within [low, high] the one nearest to `value`, in SI: the value
+ * of a number of at most 12 digits, times step.unit in long double. `value` itself, held within [low, high], where
+ * anything can be set; `from` where no setting is within. */
+double sp_step_nearest(sp_step step, double from, double value, double low, double high);
+
+/* True where the type may be mounted there: a port's own list has it, and its body passes the bore. */
+bool sp_mount_takes(const sp_mount *mount, const sp_nozzle_type *type);
+/* Index of the mount that a point of the setup lies on, as far as 4e-4 of the geometry's diagonal tells: in a port's
+ * depth, no farther from a surface than its standoff, on a line, in a box; ports first, then in this order, of one kind
+ * the first. SIZE_MAX: none. */
+size_t sp_mount_at(const sp_setup *setup, const sp_mount *mounts, size_t count, sp_vec3 position);
+/* False, with an error "nozzles: NAME, of type '..", where the nozzle sits in a port whose bore its body does not pass.
+ */
+bool sp_mounts_admit(const sp_setup *setup, const sp_mount *mounts, size_t count, const sp_nozzle *nozzle,
+                     sp_error *error);
 
 typedef enum {
     SP_OBJECTIVE_AREA_PER_WATER, /* highest ratio among layouts that reach the coverage asked for */
@@ -150,8 +168,10 @@ typedef struct {
 } sp_proposal;
 
 /* Greedy next-best-view placement by the inverse evaluator, then refinement with Ceres accepted only where the
- * re-traced objective improves. The error of the proposal's coverage is measured; where it is above the accuracy, and
- * auto chose the settings, everything found is counted again by dearer ones. Deterministic. Returns NULL on error,
+ * re-traced objective improves, then brought to what ports and types can be set to: all that is reported, but for the
+ * greedy layout, whose candidates are such settings, is of that. The error of the proposal's coverage is measured;
+ * where it is above the accuracy, and auto chose the settings, everything found is counted again by dearer ones.
+ * Deterministic. Returns NULL on error,
  * never for a target that cannot be reached. Fails with SP_ERROR_INPUT where no mount, type or pressure is given, no
  * mounting point is inside and clear, or a kept nozzle is in a wall or outside. Clusters, and types that do not spray
  * as densely all over, stay at the poses of candidates: refinement moves the others about them. */

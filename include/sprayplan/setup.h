@@ -80,6 +80,14 @@ typedef struct {
     uint64_t seed;
 } sp_fidelity;
 
+/* What fitters measure from: heights along `axis` above `origin`, azimuths about the axis from `zero` towards
+ * axis x zero, which is anticlockwise seen against the axis. */
+typedef struct {
+    char name[SP_NAME]; /* what it is for readers; "": the geometry's own axes */
+    sp_vec3 origin;     /* m, in the coordinates that are read and written */
+    sp_vec3 axis, zero; /* unit, square to each other */
+} sp_datum;
+
 typedef struct {
     const sp_mesh *mesh;        /* borrowed: all geometry, in the setup's coordinates, as every point of a layout too */
     const sp_surface *surfaces; /* borrowed: [mesh->part_count] */
@@ -92,6 +100,7 @@ typedef struct {
     sp_vec3 origin;
     sp_transform file;  /* from the coordinates of the first geometry file, in its own unit, to those; the identity but
                          * for a scene: what is to be loaded beside that file is written in its coordinates */
+    sp_datum datum;     /* default the origin, z and x; of a scene its up in place of z */
     const sp_cap *caps; /* borrowed: [cap_count]; NULL for none */
     size_t cap_count;
     sp_sweep sweep;  /* speed 0: nothing moves */

@@ -21,8 +21,14 @@
 void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high)
 {
     double change = sp_type_is_uniform(type) ? options->refine.angle : 0;
-    *low = fmax(type->angle_min, type->angle - change);
-    *high = fmin(type->angle_max, type->angle + change);
+    double least = fmax(type->angle_min, type->angle - change), most = fmin(type->angle_max, type->angle + change);
+    *low = sp_step_nearest(type->angle_step, type->angle, least, least, most);
+    *high = sp_step_nearest(type->angle_step, type->angle, most, least, most);
+}
+
+double sp_fed_pressure(const sp_nozzle_type *type, double pressure)
+{
+    return sp_step_nearest(type->pressure_step, 0, pressure, sp_step_size(type->pressure_step), INFINITY);
 }
 
 void sp_flow_range(const sp_place_options *options, const sp_setup *setup, const sp_nozzle_type *type, double pressure,
@@ -32,8 +38,10 @@ void sp_flow_range(const sp_place_options *options, const sp_setup *setup, const
     double change = sp_type_is_uniform(type) && !breaks_up ? options->refine.flow : 0;
     double least = fmax(type->flow_min, type->flow * (1 - change));
     double most = fmin(type->flow_max, type->flow * (1 + change));
-    *low = sp_type_flow(type, least, pressure, &setup->liquid);
-    *high = sp_type_flow(type, most, pressure, &setup->liquid);
+    *low =
+        sp_type_flow(type, sp_step_nearest(type->flow_step, type->flow, least, least, most), pressure, &setup->liquid);
+    *high =
+        sp_type_flow(type, sp_step_nearest(type->flow_step, type->flow, most, least, most), pressure, &setup->liquid);
 }
 
 static size_t rolls_of(const sp_nozzle_type *type)
@@ -97,18 +105,24 @@ static bool makes_create(const sp_setup *setup, const sp_place_options *options,
         return sp_fail_memory(error);
     for (size_t t = 0; t < options->type_count; t++)
         for (size_t p = 0; p < options->pressure_count; p++)
-            if (!type_makes(setup, options, options->types[t], options->pressures[p], candidates, error))
+            if (!type_makes(setup, options, options->types[t],
+                            sp_fed_pressure(options->types[t], options->pressures[p]), candidates, error))
                 return false;
     return true;
 }
 
-/* Rings about +z, the outermost at the tilt itself, each ring's axes no further apart than the rings. With `axes` NULL
- * it only counts. */
-static size_t rings(double tilt, double step, sp_vec3 *axes)
+/* Rings about +z, the outermost at the tilt itself, each ring's axes no further apart than the rings; where tilts are
+ * set in steps, at settings alone. With `axes` NULL it only counts. */
+static size_t rings(double tilt, double step, sp_step setting, sp_vec3 *axes)
 {
+    double apart = sp_step_size(setting) * fmax(1, floor(step / sp_step_size(setting)));
     size_t ring_count = tilt > 0 ? (size_t)ceil(tilt / step * (1 - 1e-9)) : 0, count = 0;
+    if (setting.count > 0)
+        ring_count = (size_t)floor(tilt / apart * (1 + 1e-9));
     for (size_t ring = 0; ring <= ring_count; ring++) {
         double polar = ring_count ? tilt * (double)ring / (double)ring_count : 0;
+        if (setting.count > 0)
+            polar = sp_step_nearest(setting, 0, apart * (double)ring, 0, tilt);
         size_t around = (size_t)fmax(1, ceil(2 * M_PI * sin(polar) / step * (1 - 1e-9)));
         for (size_t i = 0; i < around; i++, count++) {
             /* every other ring is turned by half a step */
@@ -118,16 +132,6 @@ static size_t rings(double tilt, double step, sp_vec3 *axes)
         }
     }
     return count;
-}
-
-static bool fits(const sp_mount *mount, const sp_nozzle_type *type)
-{
-    if (mount->kind != SP_MOUNT_PORT || !mount->type_count)
-        return true;
-    for (size_t i = 0; i < mount->type_count; i++)
-        if (mount->types[i] == type)
-            return true;
-    return false;
 }
 
 /* How close axes lie: of poses of uniform types, and of those that have to be traced one by one. */
@@ -167,10 +171,10 @@ static census take_census(const sp_place_options *options, const sp_sites *sites
         per_site = (census){0, 0};
         for (size_t k = 0; k < candidates->make_count; k++) {
             const sp_make *make = &candidates->makes[k];
-            if (!fits(mount, make->type))
+            if (!sp_mount_takes(mount, make->type))
                 continue;
-            double poses =
-                (double)make->roll_count * (double)rings(axis_tilt(make, mount), axis_step(make, spacing), NULL);
+            double poses = (double)make->roll_count *
+                           (double)rings(axis_tilt(make, mount), axis_step(make, spacing), mount->tilt_step, NULL);
             per_site.poses += poses;
             if (!sp_type_is_uniform(make->type))
                 per_site.traced += poses * (double)sp_nozzle_pattern_count(&(sp_nozzle){.type = make->type});
@@ -201,14 +205,15 @@ static bool axes_create(const sp_place_options *options, const sp_sites *sites, 
     for (size_t m = 0; m < options->mount_count; m++)
         for (size_t k = 0; k < candidates->make_count; k++) {
             const sp_make *make = &candidates->makes[k];
-            if (!fits(&options->mounts[m], make->type))
+            if (!sp_mount_takes(&options->mounts[m], make->type))
                 continue;
             double step = axis_step(make, &spacing), tilt = axis_tilt(make, &options->mounts[m]);
             sp_axes *axes = &candidates->axes[m * candidates->make_count + k];
-            axes->axes = malloc(rings(tilt, step, NULL) * sizeof *axes->axes);
+            sp_step setting = options->mounts[m].tilt_step;
+            axes->axes = malloc(rings(tilt, step, setting, NULL) * sizeof *axes->axes);
             if (!axes->axes)
                 return sp_fail_memory(error);
-            axes->count = rings(tilt, step, axes->axes);
+            axes->count = rings(tilt, step, setting, axes->axes);
         }
     return true;
 }

@@ -61,8 +61,11 @@ static inline const sp_axes *sp_candidates_axes(const sp_candidates *candidates,
 size_t sp_candidates_number(const sp_candidates *candidates, const sp_sites *sites, sp_pose pose);
 /* Turns an axis about +z to lie about the z of a frame: for a site sp_nozzle_frame(site->axis, 0, up). */
 sp_vec3 sp_frame_axis(const sp_frame *frame, sp_vec3 axis);
-/* What refinement may set: angle (rad), and flow (m³/s) of a type at a pressure. With drag the flow of a stream stays:
- * how far it flies before it breaks up depends on it, and with that all flights. */
+/* The pressure at which a type is fed that is offered one: the nearest that can be set. */
+double sp_fed_pressure(const sp_nozzle_type *type, double pressure);
+/* What refinement may set, between settings where there are steps: angle (rad), and flow (m³/s) of a type at a
+ * pressure. With drag the flow of a stream stays: how far it flies before it breaks up depends on it, and with that all
+ * flights. */
 void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high);
 void sp_flow_range(const sp_place_options *options, const sp_setup *setup, const sp_nozzle_type *type, double pressure,
                    double *low, double *high);

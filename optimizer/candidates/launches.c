@@ -1,5 +1,7 @@
 #include "candidates/launches.h"
 
+#include "candidates/candidates.h"
+
 #include <stdio.h>
 
 typedef struct {
@@ -62,7 +64,8 @@ static bool add_all(sp_launch_table *table, const sp_place_options *options, sp_
     for (size_t t = 0; t < options->type_count; t++)
         for (size_t p = 0; p < options->pressure_count; p++) {
             const sp_nozzle_type *type = options->types[t];
-            sp_nozzle nozzle = {.type = type, .axis = sp_v(0, 0, 1), .pressure = options->pressures[p]};
+            sp_nozzle nozzle = {
+                .type = type, .axis = sp_v(0, 0, 1), .pressure = sp_fed_pressure(type, options->pressures[p])};
             snprintf(nozzle.name, sizeof nozzle.name, "of type %.55s", type->name);
             if (!sp_launch_table_add(table, &nozzle, error))
                 return false;

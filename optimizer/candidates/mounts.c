@@ -9,6 +9,7 @@
 
 #define SITES_MOST 100000   /* beyond that a spacing is taken for a mistake */
 #define SAMPLES_PER_SITE 16 /* points to choose from, per square of the spacing */
+#define NM 1e9              /* a metre's */
 #define STANDOFF_LEAST 1e-3 /* of the spacing: on the surface itself every line of sight would start in it */
 
 static bool append(sp_sites *sites, const sp_site *site, sp_error *error)
@@ -40,20 +41,34 @@ static double step_at(double from, double to, size_t i, size_t count)
     return count > 1 ? from + (to - from) * (double)i / (double)(count - 1) : from;
 }
 
-static bool port_sites(const sp_mesh *mesh, const sp_mount *mount, uint32_t index, sp_sites *sites, sp_error *error)
+sp_vec3 sp_port_place(const sp_setup *setup, const sp_mount *mount, double depth)
+{
+    sp_vec3 place = sp_along(mount->position, depth, mount->axis);
+    if (!(mount->depth_step.count > 0))
+        return place;
+    place = sp_setup_outside(setup, place);
+    place = sp_v(nearbyint(place.x * NM) / NM, nearbyint(place.y * NM) / NM, nearbyint(place.z * NM) / NM);
+    return sp_sub(place, setup->origin);
+}
+
+static bool port_sites(const sp_setup *setup, const sp_mount *mount, uint32_t index, sp_sites *sites, sp_error *error)
 {
     size_t count;
     if (!steps(mount->depth_to - mount->depth_from, mount->depth_spacing, &count, error))
         return false;
-    uint32_t nearest = sp_nearest_triangle(mesh, SP_NONE, mount->position);
+    uint32_t nearest = sp_nearest_triangle(setup->mesh, SP_NONE, mount->position);
+    double last = -1;
     for (size_t i = 0; i < count; i++) {
-        double depth = step_at(mount->depth_from, mount->depth_to, i, count);
-        sp_site site = {.position = sp_along(mount->position, depth, mount->axis),
+        double depth =
+            sp_step_nearest(mount->depth_step, mount->depth_from, step_at(mount->depth_from, mount->depth_to, i, count),
+                            mount->depth_from, mount->depth_to);
+        sp_site site = {.position = sp_port_place(setup, mount, depth),
                         .axis = mount->axis,
                         .mount = index,
-                        .own = nearest == SP_NONE ? SP_NONE : mesh->part[nearest]};
-        if (!append(sites, &site, error))
+                        .own = nearest == SP_NONE ? SP_NONE : setup->mesh->part[nearest]};
+        if (depth > last && !append(sites, &site, error))
             return false;
+        last = depth;
     }
     return true;
 }
@@ -250,7 +265,7 @@ static bool mount_sites(const sp_evaluator *evaluator, const sp_mount *mount, ui
 {
     switch (mount->kind) {
     case SP_MOUNT_PORT:
-        return port_sites(sp_evaluator_setup(evaluator)->mesh, mount, index, sites, error);
+        return port_sites(sp_evaluator_setup(evaluator), mount, index, sites, error);
     case SP_MOUNT_SURFACE:
         return surface_sites(evaluator, mount, index, sites, error);
     case SP_MOUNT_LINE:

@@ -21,6 +21,17 @@ typedef struct {
 bool sp_sites_create(const sp_evaluator *evaluator, const sp_place_options *options, sp_sites *sites, sp_error *error);
 void sp_sites_free(sp_sites *sites);
 
+/* holds.c: m, by which a nozzle may lie off a mount that it is taken to sit on. */
+double sp_mount_tolerance(const sp_setup *setup);
+/* A port's lance reaches the point, or all but the tolerance. */
+bool sp_port_holds(const sp_mount *mount, sp_vec3 point, double tolerance);
+
+/* Of a surface mount's triangles the one nearest to the point; SP_NONE where there is none. */
+uint32_t sp_mount_triangle(const sp_mesh *mesh, const sp_mount *mount, sp_vec3 point);
+
+/* Where a port's lance ends at this depth; with steps of depth to the nanometre, so that the place reads as a short
+ * number. */
+sp_vec3 sp_port_place(const sp_setup *setup, const sp_mount *mount, double depth);
 /* True where a nozzle of the mount may be at site->position: inside, clear, and with a port no part but the port's own
  * in the lance's way. */
 bool sp_site_allowed(const sp_evaluator *evaluator, const sp_place_options *options, const sp_site *site);

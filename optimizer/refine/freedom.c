@@ -70,15 +70,19 @@ static sp_vec3 leaned(sp_vec3 axis, sp_vec3 centre, double limit)
     return sp_unit(turned(centre, about, limit));
 }
 
-/* The roll at which a nozzle with this axis keeps the origin's own x as far as turning the axis alone allows: the
- * frame's roll jumps where the axis passes the vertical, this one does not. */
-static double carried_roll(const sp_freedom *freedom, sp_vec3 axis)
+/* The frame's roll jumps where the axis passes the vertical, this one does not. */
+double sp_carried_roll(const sp_nozzle *nozzle, sp_vec3 axis, sp_vec3 up)
 {
-    sp_frame from = sp_nozzle_frame(freedom->origin.axis, freedom->origin.roll, freedom->up);
-    sp_frame to = sp_nozzle_frame(axis, 0, freedom->up);
+    sp_frame from = sp_nozzle_frame(nozzle->axis, nozzle->roll, up);
+    sp_frame to = sp_nozzle_frame(axis, 0, up);
     sp_vec3 about = sp_unit(sp_cross(from.z, axis));
     sp_vec3 x = turned(from.x, about, angle_between(from.z, axis));
     return atan2(sp_dot(x, to.y), sp_dot(x, to.x));
+}
+
+static double carried_roll(const sp_freedom *freedom, sp_vec3 axis)
+{
+    return sp_carried_roll(&freedom->origin, axis, freedom->up);
 }
 
 /* The roll with which a nozzle turned to this axis is listed, `roll` past the one carried along. A cone is the same at

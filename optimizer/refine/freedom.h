@@ -28,5 +28,7 @@ sp_freedom sp_freedom_create(const sp_search *search, const sp_placed *placed);
 sp_nozzle sp_freedom_nozzle(const sp_freedom *freedom, const double *values);
 /* The same put where the mounting point has come to lie, its axis within the tilt from that point's. */
 sp_nozzle sp_freedom_nozzle_at(const sp_freedom *freedom, const double *values, const sp_site *site);
+/* The roll at which a nozzle with this axis keeps the x of the one given as far as turning the axis alone allows. */
+double sp_carried_roll(const sp_nozzle *nozzle, sp_vec3 axis, sp_vec3 up);
 
 #endif

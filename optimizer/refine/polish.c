@@ -248,11 +248,11 @@ static bool keeps_up(const sp_trial *trials, size_t count, size_t i)
     return trials[i].better;
 }
 
-typedef bool (*sp_step)(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error);
+typedef bool (*trial_step)(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error);
 
 /* Takes the step for every trial, or for those that are better; the last, which have most nozzles, first, so that no
  * thread is left alone with one of these. */
-static bool for_each(const sp_polishing *polishing, sp_trial *trials, size_t count, bool better, sp_step step,
+static bool for_each(const sp_polishing *polishing, sp_trial *trials, size_t count, bool better, trial_step step,
                      sp_error *error)
 {
     sp_error failure = {0};

@@ -9,8 +9,6 @@
 #include <string.h>
 
 #define CREDIT 0.2f /* of a patch that has almost the flux it needs: a saturating surrogate misleads the search */
-/* Of the geometry's diagonal: a kept nozzle this near to a port's lance sits in the port. */
-#define PORT_TOLERANCE 4e-4
 
 static bool kept_create(sp_search *search, sp_error *error)
 {
@@ -59,13 +57,6 @@ static bool set_patches(sp_search *search, sp_error *error)
     return true;
 }
 
-static bool sits_in(const sp_nozzle *nozzle, const sp_mount *mount, double tolerance)
-{
-    double depth = sp_dot(sp_sub(nozzle->position, mount->position), mount->axis);
-    depth = fmin(fmax(depth, mount->depth_from), mount->depth_to);
-    return sp_distance(nozzle->position, sp_along(mount->position, depth, mount->axis)) <= tolerance;
-}
-
 bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
                       const sp_candidates *candidates, const sp_visibility *visibility, sp_search *search,
                       sp_error *error)
@@ -92,11 +83,10 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
         sp_search_free(search);
         return false;
     }
-    sp_vec3 low, high;
-    double tolerance = PORT_TOLERANCE * sp_mesh_box(sp_evaluator_setup(coarse)->mesh, &low, &high);
+    double tolerance = sp_mount_tolerance(sp_evaluator_setup(coarse));
     for (size_t m = 0; m < options->mount_count; m++)
         for (size_t i = 0; options->mounts[m].kind == SP_MOUNT_PORT && i < search->kept_count; i++)
-            search->port_taken[m] |= sits_in(&search->kept[i], &options->mounts[m], tolerance);
+            search->port_taken[m] |= sp_port_holds(&options->mounts[m], search->kept[i].position, tolerance);
     return true;
 }
 

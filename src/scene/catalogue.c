@@ -157,6 +157,35 @@ static bool read_flow(const sp_reader *reader, const sp_yaml *node, sp_nozzle_ty
     return true;
 }
 
+/* What can be set of it; of what cannot be changed there are no steps. */
+static bool read_steps(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+{
+    static const sp_key keys[] = {{"angle", false}, {"flow", false}, {"pressure", false}, {NULL, false}};
+    static const char *const ranges[] = {"angle_range", "flow_range"};
+    const sp_yaml *step = sp_yaml_get(node, "step");
+    if (!step)
+        return true;
+    if (!sp_read_keys(reader, step, "step", "a step", keys) ||
+        !sp_read_step(reader, step, "angle", &sp_angle_unit, 1e-6, &type->angle_step) ||
+        !sp_read_step(reader, step, "flow", &sp_flow_unit, 1e-9, &type->flow_step) ||
+        !sp_read_step(reader, step, "pressure", &sp_pressure_unit, 1, &type->pressure_step))
+        return false;
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+        const sp_yaml *child = sp_yaml_get(step, keys[i].name);
+        if (child && !sp_yaml_get(node, ranges[i]))
+            return sp_read_message(reader, child, keys[i].name, "found in a type without %s, expected beside it only",
+                                   ranges[i]);
+    }
+    return true;
+}
+
+/* How it is mounted, and what is ordered with it. */
+static bool read_body(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+{
+    return sp_read_name(reader, node, "thread", type->thread) && sp_read_name(reader, node, "insert", type->insert) &&
+           sp_read_quantity(reader, node, "body", &sp_length_unit, sp_above(0), &type->body);
+}
+
 /* Where to buy it. */
 static bool read_source(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
@@ -179,14 +208,16 @@ static bool read_type(sp_scene *scene, const sp_reader *reader, const sp_yaml *n
         {"name", true},         {"pattern", true},     {"angle", false},      {"hollow", false}, {"thickness", false},
         {"flow", true},         {"at", true},          {"exponent", false},   {"cv", false},     {"drop", false},
         {"angle_range", false}, {"flow_range", false}, {"order_code", false}, {"url", false},    {"image", false},
-        {"members", false},     {"rotation", false},   {NULL, false}};
+        {"members", false},     {"rotation", false},   {"thread", false},     {"insert", false}, {"body", false},
+        {"step", false},        {NULL, false}};
     *type = (sp_nozzle_type){0};
     /* Which keys belong to it depends on its pattern. */
     return (node->kind != SP_YAML_MAP || sp_scene_read_pattern(reader, node, type)) &&
            sp_read_keys(reader, node, "nozzles", "a catalogue type", keys) &&
            sp_read_name(reader, node, "name", type->name) && sp_scene_read_shape(reader, node, type) &&
-           read_flow(reader, node, type) && read_source(reader, node, type) &&
-           sp_scene_read_members(scene, reader, node, type) && sp_scene_read_image(scene, reader, node, type);
+           read_flow(reader, node, type) && read_source(reader, node, type) && read_body(reader, node, type) &&
+           read_steps(reader, node, type) && sp_scene_read_members(scene, reader, node, type) &&
+           sp_scene_read_image(scene, reader, node, type);
 }
 
 static bool read_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *list)

@@ -49,10 +49,36 @@ static bool read_depth(const sp_reader *reader, const sp_yaml *node, sp_mount *m
     return check_spacing(reader, depth, mount->depth_spacing, sp_v(mount->depth_to - mount->depth_from, 0, 0));
 }
 
+/* The bore, and that what was named to fit passes it. */
+static bool read_bore(const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+{
+    const sp_yaml *types = sp_yaml_get(node, "types");
+    if (!sp_read_quantity(reader, node, "bore", &sp_length_unit, sp_above(0), &mount->bore))
+        return false;
+    const sp_yaml *child = types ? types->first : NULL;
+    for (size_t i = 0; i < mount->type_count && child; i++, child = child->next)
+        if (!sp_mount_takes(mount, mount->types[i]))
+            return sp_read_message(reader, child, "types",
+                                   "found '%s', which is %g mm wide, expected types that pass the bore, %g mm",
+                                   mount->types[i]->name, 1e3 * mount->types[i]->body, 1e3 * mount->bore);
+    return true;
+}
+
+/* What of a lance can be set. */
+static bool read_lance_steps(const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+{
+    static const sp_key keys[] = {{"depth", false}, {"tilt", false}, {NULL, false}};
+    const sp_yaml *step = sp_yaml_get(node, "step");
+    return !step || (sp_read_keys(reader, step, "step", "a step", keys) &&
+                     sp_read_step(reader, step, "depth", &sp_length_unit, 1e-6, &mount->depth_step) &&
+                     sp_read_step(reader, step, "tilt", &sp_angle_unit, 1e-6, &mount->tilt_step));
+}
+
 static bool read_port(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"name", true},   {"position", true}, {"axis", false}, {"tilt", false},
-                                  {"depth", false}, {"types", false},   {NULL, false}};
+    static const sp_key keys[] = {{"name", true},  {"position", true}, {"axis", false},
+                                  {"tilt", false}, {"depth", false},   {"types", false},
+                                  {"bore", false}, {"step", false},    {NULL, false}};
     const sp_nozzle_type ***types = &scene->mount_types[scene->mount_count];
     if (!sp_read_keys(reader, node, "port", "a port", keys) || !sp_read_name(reader, node, "name", mount->name) ||
         !sp_read_vector(reader, node, "position", &sp_length_unit, &mount->position) ||
@@ -61,6 +87,8 @@ static bool read_port(sp_scene *scene, const sp_reader *reader, const sp_yaml *n
         !sp_scene_read_types(scene, reader, node, "types", types, &mount->type_count))
         return false;
     mount->types = *types;
+    if (!read_bore(reader, node, mount) || !read_lance_steps(reader, node, mount))
+        return false;
     for (size_t i = 0; i < scene->mount_count; i++)
         if (scene->mounts[i].kind == SP_MOUNT_PORT && strcmp(scene->mounts[i].name, mount->name) == 0)
             return sp_read_fail(reader, sp_yaml_get(node, "name"), "name", "a name that no other port has");

@@ -188,6 +188,20 @@ bool sp_read_quantity(const sp_reader *reader, const sp_yaml *map, const char *k
     return !node || sp_read_quantity_at(reader, node, key, dimension, range, value);
 }
 
+bool sp_read_step(const sp_reader *reader, const sp_yaml *map, const char *key, const sp_dimension *dimension,
+                  double least, sp_step *step)
+{
+    const sp_yaml *node = sp_yaml_get(map, key);
+    double size;
+    char why[TEXT];
+    if (!node)
+        return true;
+    if (!sp_read_quantity_at(reader, node, key, dimension, sp_from(least), &size))
+        return false;
+    step->count = strtod(node->text, NULL);
+    return sp_units_of(reader->units, node->text, dimension, &step->unit, why, sizeof why);
+}
+
 bool sp_read_vector(const sp_reader *reader, const sp_yaml *map, const char *key, const sp_dimension *dimension,
                     sp_vec3 *value)
 {

@@ -71,6 +71,9 @@ bool sp_read_quantity(const sp_reader *reader, const sp_yaml *map, const char *k
                       sp_range range, double *value);
 bool sp_read_quantity_at(const sp_reader *reader, const sp_yaml *node, const char *key, const sp_dimension *dimension,
                          sp_range range, double *value);
+/* How far apart settings lie, at least `least` in SI. */
+bool sp_read_step(const sp_reader *reader, const sp_yaml *map, const char *key, const sp_dimension *dimension,
+                  double least, sp_step *step);
 bool sp_read_vector(const sp_reader *reader, const sp_yaml *map, const char *key, const sp_dimension *dimension,
                     sp_vec3 *value);
 /* Any length but 0; made a unit vector. One that is a unit vector already to the last digits stays as it is. */

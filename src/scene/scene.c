@@ -10,11 +10,11 @@ bool sp_scene_read(sp_scene *scene, const sp_reader *reader)
     static const sp_key keys[] = {{"up", false},        {"geometry", true}, {"cavity", false},   {"caps", false},
                                   {"liquid", false},    {"air", false},     {"gravity", false},  {"criterion", false},
                                   {"catalogue", false}, {"nozzles", false}, {"simulate", false}, {"place", false},
-                                  {NULL, false}};
+                                  {"datum", false},     {NULL, false}};
     bool good = sp_read_keys(reader, scene->tree, "scene", "a scene", keys) && sp_scene_read_physics(scene, reader) &&
-                sp_scene_read_catalogue(scene, reader) && sp_scene_read_nozzles(scene, reader) &&
-                sp_scene_read_simulate(scene, reader) && sp_scene_read_geometry(scene, reader) &&
-                sp_scene_read_place(scene, reader);
+                sp_scene_read_datum(scene, reader) && sp_scene_read_catalogue(scene, reader) &&
+                sp_scene_read_nozzles(scene, reader) && sp_scene_read_simulate(scene, reader) &&
+                sp_scene_read_geometry(scene, reader) && sp_scene_read_place(scene, reader);
     scene->setup.mesh = scene->mesh;
     scene->setup.surfaces = scene->surfaces;
     scene->setup.caps = scene->caps;

@@ -50,6 +50,7 @@ bool sp_scene_read(sp_scene *scene, const sp_reader *reader);
 /* Each reads its block into the scene; an absent block leaves the defaults. In this order. */
 bool sp_scene_read_geometry(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_physics(sp_scene *scene, const sp_reader *reader);
+bool sp_scene_read_datum(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_catalogue(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_nozzles(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_simulate(sp_scene *scene, const sp_reader *reader);

@@ -5,6 +5,7 @@ sp_setup sp_setup_default(void)
     return (sp_setup){
         .file = {.scale = 1, .rotate = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
         .cavity = SP_CAVITY_NONE,
+        .datum = {.axis = {0, 0, 1}, .zero = {1, 0, 0}},
         .liquid = {.density = 1000, .viscosity = 1e-3, .surface_tension = 72e-3},
         .air = {.density = 1.2, .viscosity = 18e-6},
         .up = {0, 0, 1},

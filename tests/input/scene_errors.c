@@ -137,7 +137,7 @@ static const slip keys[] = {
     {"gravity:", "color:",
      "scene.yaml:15:1: color: found a key that a scene does not have, expected one of up, geometry, cavity, caps, "
      "liquid, "
-     "air, gravity, criterion, catalogue, nozzles, simulate, place"},
+     "air, gravity, criterion, catalogue, nozzles, simulate, place, datum"},
     {"unit: mm", "units: mm", "scene.yaml:4:5: units: found a key that a geometry file does not have, expected 'unit'"},
     {"density: 1.1", "densty: 1.1",
      "scene.yaml:13:10: densty: found a key that the liquid does not have, expected 'density'"},
@@ -312,8 +312,7 @@ static const slip files[] = {
      "scene.yaml:4:12: angle: found beside a file of triangles, expected beside STEP, IGES and BREP only"},
     {"file: tank.obj", "file: tank.brep\n    chord: 0 mm",
      "scene.yaml:4:12: chord: found '0 mm', expected a length above 0 such as 250 mm"},
-    {"file: tank.obj", "file: tank.brep\n    angle: 91 deg",
-     "scene.yaml:4:12: angle: found '91 deg', expected ..."},
+    {"file: tank.obj", "file: tank.brep\n    angle: 91 deg", "scene.yaml:4:12: angle: found '91 deg', expected ..."},
     {"file: tank.obj", "file: [tank.obj]", "scene.yaml:3:11: file: found a list of 1, expected the path of a file"},
     {"file: tank.obj", "file: \"\"", "scene.yaml:3:11: file: found '', expected the path of a file"},
     {"catalogue: catalogue.yaml\n", "",
@@ -358,7 +357,7 @@ static const slip syntax[] = {
     {"up: y", "up: y\n<<: {up: z}",
      "scene.yaml:2:1: <<: found a key that a scene does not have, expected one of up, geometry, cavity, caps, liquid, "
      "air, "
-     "gravity, criterion, catalogue, nozzles, simulate, place"},
+     "gravity, criterion, catalogue, nozzles, simulate, place, datum"},
     {"up: y\ngeometry:", "geometry", "scene.yaml:1:1: YAML: ..."},
     {"up: y", "- up: y", "scene.yaml:2:1: YAML: ..."},
 };
@@ -404,8 +403,7 @@ static const slip catalogue_slips[] = {
     {"drop: 2 mm", "drop: 2 mm, colour: red",
      "catalogue.yaml:4:115: colour: found a key that a catalogue type does not have, expected one of name, pattern, "
      "angle, hollow, thickness, flow, at, exponent, cv, drop, angle_range, flow_range, order_code, url, image, "
-     "members, "
-     "rotation"},
+     "members, rotation, thread, insert, body, step"},
     {"https://example.com/r", "javascript:alert(1)//",
      "catalogue.yaml:3:133: url: found 'javascript:alert(1)//?a=x&b=y', expected an address such as "
      "https://example.com/nozzle"},
@@ -609,6 +607,59 @@ static const slip sweeps[] = {
      "moves together"},
 };
 
+/* What a fitter sets, and what he measures from. */
+static const slip settings[] = {
+    {"bore: 80 mm", "bore: 0 mm", "scene.yaml:41:84: bore: found '0 mm', expected a length above 0 such as 250 mm"},
+    {"bore: 80 mm", "bore: 2 bar",
+     "scene.yaml:41:84: bore: found '2 bar', expected a length above 0 such as 250 mm ('bar' measures something else)"},
+    {"bore: 80 mm", "bore: 21 mm",
+     "scene.yaml:41:72: types: found 'jet', which is 22 mm wide, expected types that pass the bore, 21 mm"},
+    {"step: {depth: 10 mm, tilt", "step: {depth: 10 mm, roll",
+     "scene.yaml:41:112: roll: found a key that a step does not have, expected one of depth, tilt"},
+    {"step: {depth: 10 mm", "step: {depth: 0 mm",
+     "scene.yaml:41:105: depth: found '0 mm', expected a length of at least 1e-06 such as 250 mm"},
+    {"step: {depth: 10 mm", "step: {depth: [10 mm]",
+     "scene.yaml:41:105: depth: found a list of 1, expected a length of at least 1e-06 such as 250 mm"},
+    {"tilt: 15 deg}}", "tilt: 15}}",
+     "scene.yaml:41:118: tilt: found '15', expected an angle of at least 5.72958e-05 deg such as 30 deg (it has no "
+     "unit)"},
+    {"step: {depth: 10 mm, tilt: 15 deg}", "step: 5 deg",
+     "scene.yaml:41:97: step: found '5 deg', expected the keys of a step"},
+    {"datum: {name: flange F1", "datum: {nam: flange F1",
+     "scene.yaml:46:9: nam: found a key that a datum does not have, expected 'name'"},
+    {"datum: {name: flange F1", "datum: {name: []", "scene.yaml:46:15: name: found an empty list, expected a name"},
+    {"origin: [0, 1 m, 20 mm]", "origin: [0, 1 m]",
+     "scene.yaml:46:34: origin: found a list of 2, expected a list of three values such as [0, 0, 1]"},
+    {"axis: [0, 3, 4]", "axis: [0, 0, 0]",
+     "scene.yaml:46:57: axis: found a vector of length 0, expected a direction such as [0, 0, -1]"},
+    {"zero: [2, 0, 0]", "zero: [0, -6, -8]",
+     "scene.yaml:46:74: zero: found a list of 3, expected a direction across the datum's axis"},
+    {"axis: [0, 3, 4], zero: [2, 0, 0]", "axis: [-1, 0, 0]",
+     "scene.yaml:46:8: zero: found nothing, expected this key beside an axis along x: the direction of azimuth 0"},
+    {"datum: {name: flange F1, origin: [0, 1 m, 20 mm], axis: [0, 3, 4], zero: [2, 0, 0]}", "datum: here",
+     "scene.yaml:46:8: datum: found 'here', expected the keys of a datum"},
+};
+
+/* The same of the catalogue. */
+static const slip type_settings[] = {
+    {"body: 22 mm", "body: 0 m", "catalogue.yaml:5:100: body: found '0 m', expected a length above 0 such as 250 mm"},
+    {"thread: G 1/4", "thread: [G]", "catalogue.yaml:5:74: thread: found a list of 1, expected a name"},
+    {"insert: '7'", "insert: ''", "catalogue.yaml:5:89: insert: found '', expected a name"},
+    {"step: {angle: 5 deg", "step: {angle: -5 deg",
+     "catalogue.yaml:7:86: angle: found '-5 deg', expected an angle of at least 5.72958e-05 deg such as 30 deg"},
+    {"step: {angle: 5 deg, flow: 2 L/min", "step: {angle: 5 deg, flow: 2 bar",
+     "catalogue.yaml:7:99: flow: found '2 bar', expected a flow of at least 1e-09 such as 12 L/min ('bar' measures "
+     "something else)"},
+    {"pressure: 0.5 bar", "pressure: .5",
+     "catalogue.yaml:7:118: pressure: found '.5', expected a pressure of at least 1 such as 2 bar (it has no unit)"},
+    {"pressure: 0.5 bar", "hollow: 1",
+     "catalogue.yaml:7:108: hollow: found a key that a step does not have, expected one of angle, flow, pressure"},
+    {"angle_range: [60 deg, 120 deg], ", "",
+     "catalogue.yaml:7:54: angle: found in a type without angle_range, expected beside it only"},
+    {"flow_range: [10 L/min, 30 L/min], ", "",
+     "catalogue.yaml:7:65: flow: found in a type without flow_range, expected beside it only"},
+};
+
 static int failures;
 
 static void compare(const char *slip_text, const char *found, const char *expected)
@@ -664,6 +715,12 @@ static void scene_quantities(void **state)
     try_scenes(quantities, COUNT(quantities), SP_ERROR_INPUT);
 }
 
+static void scene_settings(void **state)
+{
+    (void)state;
+    try_scenes(settings, COUNT(settings), SP_ERROR_INPUT);
+}
+
 static void scene_sweeps(void **state)
 {
     (void)state;
@@ -700,6 +757,7 @@ static void catalogues(void **state)
     (void)state;
     try_catalogues(catalogue_slips, COUNT(catalogue_slips), SP_ERROR_INPUT);
     try_catalogues(clusters, COUNT(clusters), SP_ERROR_INPUT);
+    try_catalogues(type_settings, COUNT(type_settings), SP_ERROR_INPUT);
 }
 
 static void expect(const char *path, const char *expected)
@@ -787,7 +845,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scene_quantities), cmocka_unit_test(scene_keys),  cmocka_unit_test(scene_kinds),
-        cmocka_unit_test(scene_sweeps),     cmocka_unit_test(scene_files),
+        cmocka_unit_test(scene_sweeps),     cmocka_unit_test(scene_files), cmocka_unit_test(scene_settings),
         cmocka_unit_test(scene_syntax),     cmocka_unit_test(catalogues),  cmocka_unit_test(whole_files),
         cmocka_unit_test(wrong_overrides),
     };

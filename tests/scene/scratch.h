@@ -34,9 +34,10 @@ static const char catalogue[] =
     "order_code: R-80, url: 'https://example.com/r?a=x&b=y'}\n"
     "  - {name: fan, pattern: flat_fan, angle: 60 deg, thickness: 8 deg, flow: 2 gpm, at: 40 psi, cv: 0.9, drop: 2 "
     "mm}\n"
-    "  - {name: jet, pattern: solid_stream, flow: 5 L/min, at: 2 bar}\n"
+    "  - {name: jet, pattern: solid_stream, flow: 5 L/min, at: 2 bar, thread: G 1/4, insert: '7', body: 22 mm}\n"
     "  - {name: set, pattern: full_cone, angle: 90 deg, flow: 20 L/min, at: 2 bar,\n"
-    "     angle_range: [60 deg, 120 deg], flow_range: [10 L/min, 30 L/min]}\n"
+    "     angle_range: [60 deg, 120 deg], flow_range: [10 L/min, 30 L/min], "
+    "step: {angle: 5 deg, flow: 2 L/min, pressure: 0.5 bar}}\n"
     "  - name: ball\n"
     "    pattern: cluster\n"
     "    flow: 40 L/min\n"
@@ -124,10 +125,12 @@ static const char full_scene[] =
     "  clearance: 50 mm\n"
     "  mounts:\n"
     "    - port: {name: P1, position: [0, 0, 1], axis: [0, 0, -2], tilt: 180 deg,\n"
-    "             depth: {from: 50 mm, to: 400 mm, spacing: 50 mm}, types: [jet]}\n"
+    "             depth: {from: 50 mm, to: 400 mm, spacing: 50 mm}, types: [jet], bore: 80 mm, "
+    "step: {depth: 10 mm, tilt: 15 deg}}\n"
     "    - surface: {geometry: 1, part: lid, spacing: 100 mm, standoff: 50 mm, tilt: 45 deg}\n"
     "    - line: {from: [0, 0, 0], to: [1, 0, 0], spacing: 100 mm, tilt: 10 deg}\n"
     "    - box: {min: [0, 0, 0], max: [1, 1, 0], spacing: 150 mm, axis: [1, 0, 0]}\n"
-    "  refine: {position: 20 mm, axis: 5 deg, roll: false, angle: 20 deg, flow: 25 %}\n";
+    "  refine: {position: 20 mm, axis: 5 deg, roll: false, angle: 20 deg, flow: 25 %}\n"
+    "datum: {name: flange F1, origin: [0, 1 m, 20 mm], axis: [0, 3, 4], zero: [2, 0, 0]}\n";
 
 #endif

@@ -46,6 +46,7 @@ static void same_setup(const sp_setup *a, const sp_setup *b)
     same(a->liquid, b->liquid);
     same(a->air, b->air);
     same(a->up, b->up);
+    same(a->datum, b->datum);
     same(a->gravity, b->gravity);
     same(a->criterion.flux, b->criterion.flux);
     same(a->criterion.impact_speed, b->criterion.impact_speed);
@@ -103,6 +104,9 @@ static void same_mount(const sp_mount *a, const sp_mount *b)
     assert_int_equal(a->type_count, b->type_count);
     for (size_t i = 0; i < a->type_count; i++)
         same_type(a->types[i], b->types[i]);
+    same(a->bore, b->bore);
+    same(a->depth_step, b->depth_step);
+    same(a->tilt_step, b->tilt_step);
     assert_int_equal(a->geometry, b->geometry);
     assert_int_equal(a->part, b->part);
     same(a->standoff, b->standoff);
@@ -282,18 +286,40 @@ static void refusals(void **state)
     layout->nozzles[1].position.y = NAN;
     refused(scene, layout, &decided, "position: found 'nan m', expected a length such as 250 mm");
     layout->nozzles[1].position.y = 0;
-    layout->nozzles[1].angle = 3;
+    layout->nozzles[1].angle = 170 * (M_PI / 180);
     refused(scene, layout, &decided,
-            "angle: found '3 rad', expected an angle within the range of 'set', 60 deg to 120 deg");
+            "angle: found '170 deg', expected an angle within the range of 'set', 60 deg to 120 deg");
     layout->nozzles[1].angle = 0;
-    layout->nozzles[0].angle = 1;
+    layout->nozzles[0].angle = 10 * (M_PI / 180);
     refused(scene, layout, &decided,
-            "angle: found '1 rad', expected this key only with an adjustable type, and 'cone' has no angle_range");
+            "angle: found '10 deg', expected this key only with an adjustable type, and 'cone' has no angle_range");
     /* What the type says anyway may be said by the nozzle too. */
     layout->nozzles[0].angle = layout->nozzles[0].type->angle;
     char *text = text_of(scene, layout, &decided, ".");
     free(text);
     sp_layout_destroy(layout);
+    sp_scene_destroy(scene);
+}
+
+/* Units as people write them, and no digits that nobody wrote. */
+static void as_people_write(void **state)
+{
+    (void)state;
+    scratch_write("scene.yaml", full_scene);
+    sp_scene *scene = load("scene.yaml");
+    char *text = text_of(scene, sp_scene_layout(scene), &decided, ".");
+    static const char *const lines[] = {"position: [0 m, 0.01 m, 0.2 m]",
+                                        "roll: 0 deg",
+                                        "pressure: 2 bar",
+                                        "roll: -30 deg",
+                                        "pressure: 3 bar",
+                                        "angle: 100 deg",
+                                        "flow: 22 L/min",
+                                        "speed: 12 m/s"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        if (!strstr(text, lines[i]))
+            fail_msg("no '%s' in %s", lines[i], text);
+    free(text);
     sp_scene_destroy(scene);
 }
 
@@ -315,8 +341,9 @@ static void no_text(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(elsewhere), cmocka_unit_test(paths),   cmocka_unit_test(overridden),
-        cmocka_unit_test(refusals),  cmocka_unit_test(no_text), cmocka_unit_test(clusters),
+        cmocka_unit_test(elsewhere),       cmocka_unit_test(paths),   cmocka_unit_test(overridden),
+        cmocka_unit_test(refusals),        cmocka_unit_test(no_text), cmocka_unit_test(clusters),
+        cmocka_unit_test(as_people_write),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }
