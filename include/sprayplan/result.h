@@ -4,6 +4,7 @@
 
 #include <sprayplan/place.h>
 #include <sprayplan/scene.h>
+#include <sprayplan/sheet.h>
 #include <sprayplan/tracks.h>
 
 #ifdef __cplusplus
@@ -108,6 +109,8 @@ typedef struct {
     const sp_coverage *coverage;
     const sp_figures *figures;             /* NULL where there is an evaluator */
     const sp_contributions *contributions; /* of its nozzles; NULL where they were not worked out */
+    const sp_mount *mounts;                /* [mount_count], that its nozzles may sit on; NULL for none */
+    size_t mount_count;
 } sp_design;
 
 /* A file that was read. */
@@ -152,11 +155,19 @@ size_t sp_geometry_clauses(const sp_evaluator *evaluator, sp_geometry_clause cla
 /* result.json as DESIGN §6; `geometry` and `fidelity` stand in each layout where the designs differ in them. Malloc'd
  * text, newline at the end, the caller frees. */
 char *sp_result_json(const sp_result *result, sp_error *error);
-/* nozzles.csv: one row a nozzle of `layout`, a layout of the setup:
- * name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s,order_code,url.
+/* nozzles.csv: one row a nozzle of a sheet:
+ * name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s,order_code,url,
+ * in numbers that read as just these values where a scene has them with these units, then what the sheet says, empty
+ * where that is nothing:
+ * thread,insert,mounting,fitting,depth_mm,standoff_mm,fitting_x_mm,fitting_y_mm,fitting_height_mm,fitting_radius_mm,
+ * fitting_azimuth_deg,tip_x_mm,tip_y_mm,tip_height_mm,tip_radius_mm,tip_azimuth_deg,tilt_deg,towards_deg,turn_deg,
+ * circuit,circuit_l_min
+ * with port, weld, line or box for the mounting, nothing for a nozzle on no mount, and circuits counted from 1.
  * A text that begins with =, +, -, @, a tab or a line's end has an apostrophe in front, so that no spreadsheet takes it
  * for a formula. Malloc'd. */
-char *sp_nozzles_csv(const sp_layout *layout, const sp_setup *setup, sp_error *error);
+char *sp_nozzles_csv(const sp_sheet *sheet, sp_error *error);
+/* How a nozzle is mounted: port, weld, line, box or nothing. */
+const char *sp_mounting_key(const sp_mount *mount);
 
 /* A place to look at first. */
 typedef struct {

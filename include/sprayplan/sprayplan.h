@@ -26,6 +26,7 @@
 #include <sprayplan/run.h>
 #include <sprayplan/scene.h>
 #include <sprayplan/setup.h>
+#include <sprayplan/sheet.h>
 #include <sprayplan/study.h>
 #include <sprayplan/trace.h>
 #include <sprayplan/tracks.h>

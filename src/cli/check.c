@@ -213,7 +213,7 @@ static bool warn_of_nozzles(findings *found, sp_error *failure)
     const sp_layout *layout = sp_scene_layout(found->opened->scene);
     for (size_t i = 0; i < layout->count; i++) {
         sp_error error = {0};
-        if (!sp_evaluator_admits(found->opened->evaluator, &layout->nozzles[i], &error))
+        if (!cli_admits(found->opened, &layout->nozzles[i], &error))
             warn(found, "%s", error.message);
         if (error.kind == SP_ERROR_MEMORY)
             return sp_fail_memory(failure);

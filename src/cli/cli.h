@@ -116,6 +116,11 @@ void cli_scene_close(cli_scene *opened);
 typedef int cli_work(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error);
 int cli_with_scene(const cli_options *options, bool evaluates, cli_work *work);
 
+/* False, with an error, of a nozzle that is in a wall or outside, or in a port that it does not pass. */
+bool cli_admits(const cli_scene *opened, const sp_nozzle *nozzle, sp_error *error);
+/* A layout with its coverage, and the scene's mounts. */
+sp_design cli_design(const cli_scene *opened, const char *name, const sp_evaluator *evaluator, const sp_layout *layout,
+                     const sp_coverage *coverage);
 /* What the layout does and where its liquid goes; NULL with an error, for instance where a nozzle is in a wall. */
 sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_error *error);
 /* How much of it round-off could turn, into coverage->borderline, where the inverse evaluator counted it. */

@@ -12,20 +12,15 @@ static const sp_evaluator *counted_on(const cli_scene *opened, const placement *
     return found->proposal->again ? found->proposal->again : opened->evaluator;
 }
 
-static sp_design design(const sp_evaluator *evaluator, const char *name, const sp_layout *layout,
-                        const sp_coverage *coverage)
-{
-    return (sp_design){.name = name, .evaluator = evaluator, .layout = layout, .coverage = coverage};
-}
-
 static size_t list_designs(const cli_scene *opened, const placement *found, sp_design designs[3])
 {
     const sp_evaluator *evaluator = counted_on(opened, found);
     size_t count = 0;
     if (found->manual)
-        designs[count++] = design(evaluator, "manual", sp_scene_layout(opened->scene), found->manual);
-    designs[count++] = design(evaluator, "greedy", found->proposal->greedy, found->proposal->greedy_coverage);
-    designs[count++] = design(evaluator, "proposed", found->proposal->layout, found->proposal->coverage);
+        designs[count++] = cli_design(opened, "manual", evaluator, sp_scene_layout(opened->scene), found->manual);
+    designs[count++] =
+        cli_design(opened, "greedy", evaluator, found->proposal->greedy, found->proposal->greedy_coverage);
+    designs[count++] = cli_design(opened, "proposed", evaluator, found->proposal->layout, found->proposal->coverage);
     return count;
 }
 
@@ -120,7 +115,7 @@ static bool warn_of_own(const cli_scene *opened, const sp_layout *own, sp_error 
 {
     for (size_t i = 0; i < own->count; i++) {
         sp_error error = {0};
-        if (own->nozzles[i].keep || sp_evaluator_admits(opened->evaluator, &own->nozzles[i], &error))
+        if (own->nozzles[i].keep || cli_admits(opened, &own->nozzles[i], &error))
             continue;
         if (error.kind == SP_ERROR_MEMORY)
             return sp_fail_memory(failure);

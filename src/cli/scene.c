@@ -33,10 +33,29 @@ void cli_scene_close(cli_scene *opened)
     *opened = (cli_scene){0};
 }
 
+bool cli_admits(const cli_scene *opened, const sp_nozzle *nozzle, sp_error *error)
+{
+    const sp_place_options place = sp_scene_place_options(opened->scene);
+    return sp_evaluator_admits(opened->evaluator, nozzle, error) &&
+           sp_mounts_admit(sp_scene_setup(opened->scene), place.mounts, place.mount_count, nozzle, error);
+}
+
+sp_design cli_design(const cli_scene *opened, const char *name, const sp_evaluator *evaluator, const sp_layout *layout,
+                     const sp_coverage *coverage)
+{
+    const sp_place_options place = sp_scene_place_options(opened->scene);
+    return (sp_design){.name = name,
+                       .evaluator = evaluator,
+                       .layout = layout,
+                       .coverage = coverage,
+                       .mounts = place.mounts,
+                       .mount_count = place.mount_count};
+}
+
 sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_error *error)
 {
     for (size_t i = 0; i < layout->count; i++)
-        if (!sp_evaluator_admits(opened->evaluator, &layout->nozzles[i], error))
+        if (!cli_admits(opened, &layout->nozzles[i], error))
             return NULL;
     sp_coverage *coverage = sp_evaluate(opened->evaluator, layout, error);
     if (coverage && sp_evaluate_balance(opened->evaluator, layout, coverage, error))

@@ -14,7 +14,7 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
     cli_clock_stage(clock, "simulate");
     bool good = cli_measure(opened->evaluator, layout, coverage, error);
     cli_clock_stage(clock, "measured error");
-    sp_design design = {.name = "manual", .evaluator = opened->evaluator, .layout = layout, .coverage = coverage};
+    sp_design design = cli_design(opened, "manual", opened->evaluator, layout, coverage);
     sp_result result = {.command = "simulate",
                         .scene = options->inputs[0],
                         .design_count = 1,

@@ -65,7 +65,9 @@ static const char *const style[] = {
     ".cards{grid-template-columns:repeat(auto-fit,minmax(40mm,1fr))}.card{padding:8px 10px}.card "
     ".value{font-size:14pt}.card .unit{font-size:8.5pt}"
     "figure,.card,.wide,tr,dl>div,.chart,.block{break-inside:avoid}thead{display:table-header-group}"
-    "h2,h3,caption{break-after:avoid}a{color:inherit;text-decoration:none}}\n</style>\n",
+    "h2,h3,caption{break-after:avoid}a{color:inherit;text-decoration:none}"
+    /* The sheet goes to the workshop by itself. */
+    "#sheet{break-before:page;break-after:page}main:has(#sheet:target)>:not(#sheet){display:none}}\n</style>\n",
 };
 
 void sp_page_plain_name(const sp_page *page, sp_text *text, size_t design)
@@ -199,6 +201,8 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
     if (!sp_page_viewer(page, text, error) || !sp_page_pictures(page, text, error))
         return false;
     sp_page_nozzles(page, text);
+    if (!sp_page_sheet(page, text, error))
+        return false;
     sp_page_contributions(page, text);
     sp_page_shadows(page, text);
     if (!sp_page_swabs(page, text, error))

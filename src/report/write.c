@@ -71,6 +71,15 @@ static const sp_design *main_design(const sp_result *result)
     return NULL;
 }
 
+static char *nozzles_csv(const sp_design *design, sp_error *error)
+{
+    sp_sheet *sheet = sp_sheet_create(design->layout, sp_evaluator_setup(design->evaluator), design->mounts,
+                                      design->mount_count, error);
+    char *text = sheet ? sp_nozzles_csv(sheet, error) : NULL;
+    sp_sheet_destroy(sheet);
+    return text;
+}
+
 static bool write_designs(const sp_result *result, const sp_design *main, sp_output *output, sp_error *error)
 {
     sp_flux_scale scale = sp_flux_scale_of(result->designs, result->design_count);
@@ -85,8 +94,7 @@ static bool write_designs(const sp_result *result, const sp_design *main, sp_out
     }
     if (!main || !main->evaluator)
         return true;
-    const sp_setup *setup = sp_evaluator_setup(main->evaluator);
-    return write_text(output, "nozzles.csv", sp_nozzles_csv(main->layout, setup, error), error) &&
+    return write_text(output, "nozzles.csv", nozzles_csv(main, error), error) &&
            write_text(output, "swabs.csv", sp_swabs_csv(main, error), error) && write_main(main, output, error);
 }
 

@@ -1,0 +1,246 @@
+/* What to weld, set and order. */
+#include "page.h"
+
+#include <stdlib.h>
+
+static void add_head(sp_text *text, const char *name)
+{
+    sp_text_add(text, "<th scope=\"col\">%s</th>", name);
+}
+
+static void add_text_head(sp_text *text, const char *name)
+{
+    sp_text_add(text, "<th scope=\"col\" class=\"text\">%s</th>", name);
+}
+
+/* Of strangers' bytes; a dash for none. */
+static void add_text(sp_text *text, const char *tag, const char *before, const char *value)
+{
+    char *clean = sp_text_utf8(value);
+    text->failed |= !clean;
+    sp_text_add(text, "<%s>%s", tag, before);
+    sp_markup_escape(text, clean ? clean : "");
+    sp_text_add(text, "%s</%.2s>", *value || *before ? "" : "\xe2\x80\x93", tag);
+    free(clean);
+}
+
+static void add_number(sp_text *text, double value, int decimals)
+{
+    sp_text_add(text, "<td>");
+    sp_markup_decimals(text, value, decimals);
+    sp_text_add(text, "</td>");
+}
+
+/* As many decimals, one at least, as the value was rounded to. */
+static void add_azimuth(sp_text *text, double degrees)
+{
+    int decimals = 1;
+    for (double parts = 10; isfinite(degrees) && fabs(degrees * parts - nearbyint(degrees * parts)) > 1e-6; parts *= 10)
+        decimals++;
+    add_number(text, degrees, decimals);
+}
+
+static void add_place(sp_text *text, const sp_sheet *sheet, const sp_sheet_place *place)
+{
+    if (!sheet->round) {
+        add_number(text, place->x_mm, 0);
+        add_number(text, place->y_mm, 0);
+    }
+    add_number(text, place->height_mm, 0);
+    if (sheet->round) {
+        add_number(text, place->radius_mm, 0);
+        add_azimuth(text, place->azimuth_deg);
+    }
+}
+
+static void add_fitting(sp_text *text, const sp_sheet_row *row)
+{
+    static const char *const words[] = {[SP_MOUNT_PORT] = "port ",
+                                        [SP_MOUNT_SURFACE] = "new weld on ",
+                                        [SP_MOUNT_LINE] = "new, on a line",
+                                        [SP_MOUNT_BOX] = "new, in a box"};
+    add_text(text, "td class=\"text\"", row->mount ? words[row->mount->kind] : "as drawn", row->fitting);
+}
+
+static bool any_turns(const sp_sheet *sheet)
+{
+    bool any = false;
+    for (size_t i = 0; i < sheet->count; ++i)
+        any |= isfinite(sheet->rows[i].turn_deg);
+    return any;
+}
+
+static void add_places(const sp_page *page, sp_text *text, const sp_sheet *sheet)
+{
+    bool turns = any_turns(sheet);
+    sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\"><caption>");
+    sp_page_name(page, text, page->main);
+    sp_text_add(text, ": where to drill, weld and point</caption>\n<thead><tr><th scope=\"col\" rowspan=\"2\">Nozzle"
+                      "</th><th scope=\"col\" rowspan=\"2\" class=\"text\">Fitting</th><th scope=\"colgroup\" "
+                      "colspan=\"3\">Fitting at</th><th scope=\"col\" rowspan=\"2\">Reaches in mm</th><th "
+                      "scope=\"colgroup\" colspan=\"3\">Tip at</th>");
+    sp_text_add(text, "<th scope=\"colgroup\" colspan=\"%d\">Points</th></tr><tr class=\"sub\">", turns ? 3 : 2);
+    for (int i = 0; i < 2; ++i)
+        sp_text_add(text, "%s",
+                    sheet->round ? "<th scope=\"col\">height mm</th><th scope=\"col\">radius mm</th><th "
+                                   "scope=\"col\">azimuth&nbsp;&deg;</th>"
+                                 : "<th scope=\"col\">x&nbsp;mm</th><th scope=\"col\">y&nbsp;mm</th><th "
+                                   "scope=\"col\">height mm</th>");
+    add_head(text, "tilt&nbsp;&deg;");
+    add_head(text, "towards&nbsp;&deg;");
+    if (turns)
+        add_head(text, "turn&nbsp;&deg;");
+    sp_text_add(text, "</tr></thead>\n<tbody>\n");
+    for (size_t i = 0; i < sheet->count; ++i) {
+        const sp_sheet_row *row = &sheet->rows[i];
+        sp_text_add(text, "<tr>");
+        add_text(text, "th scope=\"row\"", "", row->nozzle->name);
+        add_fitting(text, row);
+        add_place(text, sheet, &row->at);
+        add_number(text, isfinite(row->depth_mm) ? row->depth_mm : row->standoff_mm, 0);
+        add_place(text, sheet, &row->tip);
+        add_number(text, row->tilt_deg, 1);
+        add_number(text, row->towards_deg, 1);
+        if (turns)
+            add_number(text, row->turn_deg, 1);
+        sp_text_add(text, "</tr>\n");
+    }
+    sp_text_add(text, "</tbody></table></div>\n");
+}
+
+/* What the catalogue may say of a type. */
+typedef const char *told(const sp_nozzle_type *type);
+
+static const char *order_code(const sp_nozzle_type *type)
+{
+    return type->order_code;
+}
+static const char *thread(const sp_nozzle_type *type)
+{
+    return type->thread;
+}
+static const char *insert(const sp_nozzle_type *type)
+{
+    return type->insert;
+}
+
+static const struct {
+    const char *title;
+    told *of;
+} sources[] = {{"Order code", order_code}, {"Thread", thread}, {"Insert", insert}};
+enum { SOURCES = sizeof sources / sizeof *sources };
+
+static bool is_told(const sp_sheet *sheet, size_t source)
+{
+    bool any = false;
+    for (size_t i = 0; i < sheet->count; ++i)
+        any |= sources[source].of(sheet->rows[i].nozzle->type)[0] != 0;
+    return any;
+}
+
+static void add_order(sp_text *text, const sp_sheet *sheet, const sp_sheet_row *row)
+{
+    const sp_nozzle *nozzle = row->nozzle;
+    sp_text_add(text, "<tr>");
+    add_text(text, "th scope=\"row\"", "", nozzle->name);
+    add_text(text, "td class=\"text\"", "", nozzle->type->name);
+    for (size_t i = 0; i < SOURCES; ++i)
+        if (is_told(sheet, i))
+            add_text(text, "td class=\"text\"", "", sources[i].of(nozzle->type));
+    add_number(text, sp_nozzle_angle(nozzle) * 180 / M_PI, 1);
+    add_number(text, nozzle->pressure / 1e5, 2);
+    add_number(text, sp_nozzle_flow(nozzle, &sheet->setup->liquid) * 6e4, 2);
+    sp_text_add(text, "<td>%zu</td></tr>\n", row->circuit + 1);
+}
+
+static void add_orders(sp_text *text, const sp_sheet *sheet)
+{
+    sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\"><caption>What to order and set</caption>\n"
+                      "<thead><tr>");
+    add_head(text, "Nozzle");
+    add_text_head(text, "Type");
+    for (size_t i = 0; i < SOURCES; ++i)
+        if (is_told(sheet, i))
+            add_text_head(text, sources[i].title);
+    add_head(text, "angle&nbsp;&deg;");
+    add_head(text, "bar");
+    add_head(text, "L/min");
+    add_head(text, "Circuit");
+    sp_text_add(text, "</tr></thead>\n<tbody>\n");
+    for (size_t i = 0; i < sheet->count; ++i)
+        add_order(text, sheet, &sheet->rows[i]);
+    sp_text_add(text, "</tbody></table></div>\n");
+}
+
+static void add_circuits(sp_text *text, const sp_sheet *sheet)
+{
+    sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small narrow\"><caption>What each circuit has to "
+                      "supply</caption>\n<thead><tr>");
+    add_head(text, "Circuit");
+    add_head(text, "Nozzles");
+    add_head(text, "bar");
+    add_head(text, "L/min");
+    sp_text_add(text, "</tr></thead>\n<tbody>\n");
+    for (size_t i = 0; i < sheet->circuit_count; ++i) {
+        const sp_circuit *circuit = &sheet->circuits[i];
+        sp_text_add(text, "<tr><th scope=\"row\">%zu</th><td>%zu</td>", i + 1, circuit->nozzles);
+        add_number(text, circuit->pressure / 1e5, 2);
+        add_number(text, circuit->flow * 6e4, 2);
+        sp_text_add(text, "</tr>\n");
+    }
+    sp_text_add(text, "</tbody></table></div>\n");
+}
+
+static void add_vector(sp_text *text, sp_vec3 v)
+{
+    const double values[] = {v.x, v.y, v.z};
+    for (int i = 0; i < 3; ++i) {
+        sp_text_add(text, i ? ", " : "(");
+        sp_markup_decimals(text, values[i] + 0.0, 3);
+    }
+    sp_text_add(text, ")");
+}
+
+static void add_datum(sp_text *text, const sp_datum *datum, bool round)
+{
+    char *name = sp_text_utf8(datum->name[0] ? datum->name : "the geometry's own axes");
+    text->failed |= !name;
+    sp_text_add(text, "<p>Measured from ");
+    sp_markup_escape(text, name ? name : "");
+    free(name);
+    sp_text_add(text, ": heights along ");
+    add_vector(text, datum->axis);
+    sp_text_add(text, " above ");
+    add_vector(text, datum->origin);
+    sp_text_add(text, "&nbsp;m of the geometry&#39;s coordinates, azimuth 0 along ");
+    add_vector(text, datum->zero);
+    sp_text_add(text, " and rising anticlockwise, seen against that axis%s.</p>\n",
+                round ? "" : "; x lies along azimuth 0 and y along azimuth 90");
+}
+
+bool sp_page_sheet(const sp_page *page, sp_text *text, sp_error *error)
+{
+    const sp_design *design = page->main == SP_UNKNOWN ? NULL : &page->result->designs[page->main];
+    if (!design || !design->evaluator)
+        return true;
+    sp_sheet *sheet = sp_sheet_create(design->layout, sp_evaluator_setup(design->evaluator), design->mounts,
+                                      design->mount_count, error);
+    if (!sheet)
+        return false;
+    sp_text_add(text, "<section id=\"sheet\"><h2>Sheet</h2>\n");
+    add_datum(text, &sheet->setup->datum, sheet->round);
+    add_places(page, text, sheet);
+    add_orders(text, sheet);
+    add_circuits(text, sheet);
+    sp_text_add(text,
+                "<p class=\"note\">A fitting&#39;s place is the port&#39;s mouth, or the point of the wall where to "
+                "weld; the nozzle reaches in from there, along the port or square to the wall, to its tip, where the "
+                "liquid leaves. It points tilted from straight down, against the datum&#39;s axis, towards that "
+                "azimuth. %sA circuit feeds the nozzles of one pressure. The same is in nozzles.csv. <a "
+                "href=\"#sheet\">Printed from here</a> the sheet comes alone.</p></section>\n",
+                any_turns(sheet) ? "Turned from the level line that points 90&deg; on from there, clockwise seen along "
+                                   "the spray, lies the width of a fan, or a body&#39;s own x. "
+                                 : "");
+    sp_sheet_destroy(sheet);
+    return true;
+}
