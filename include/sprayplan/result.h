@@ -2,9 +2,9 @@
 #ifndef SPRAYPLAN_RESULT_H
 #define SPRAYPLAN_RESULT_H
 
+#include <sprayplan/fitting.h>
 #include <sprayplan/place.h>
 #include <sprayplan/scene.h>
-#include <sprayplan/sheet.h>
 #include <sprayplan/tracks.h>
 
 #ifdef __cplusplus
@@ -165,7 +165,7 @@ char *sp_result_json(const sp_result *result, sp_error *error);
  * with port, weld, line or box for the mounting, nothing for a nozzle on no mount, and circuits counted from 1.
  * A text that begins with =, +, -, @, a tab or a line's end has an apostrophe in front, so that no spreadsheet takes it
  * for a formula. Malloc'd. */
-char *sp_nozzles_csv(const sp_sheet *sheet, sp_error *error);
+char *sp_nozzles_csv(const sp_fitting_sheet *sheet, sp_error *error);
 /* How a nozzle is mounted: port, weld, line, box or nothing. */
 const char *sp_mounting_key(const sp_mount *mount);
 

@@ -14,6 +14,7 @@
 #include <sprayplan/deviation.h>
 #include <sprayplan/error.h>
 #include <sprayplan/evaluator.h>
+#include <sprayplan/fitting.h>
 #include <sprayplan/flight.h>
 #include <sprayplan/image.h>
 #include <sprayplan/launch.h>
@@ -26,7 +27,6 @@
 #include <sprayplan/run.h>
 #include <sprayplan/scene.h>
 #include <sprayplan/setup.h>
-#include <sprayplan/sheet.h>
 #include <sprayplan/study.h>
 #include <sprayplan/trace.h>
 #include <sprayplan/tracks.h>

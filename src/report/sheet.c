@@ -40,7 +40,7 @@ static void add_azimuth(sp_text *text, double degrees)
     add_number(text, degrees, decimals);
 }
 
-static void add_place(sp_text *text, const sp_sheet *sheet, const sp_sheet_place *place)
+static void add_place(sp_text *text, const sp_fitting_sheet *sheet, const sp_fitting_place *place)
 {
     if (!sheet->round) {
         add_number(text, place->x_mm, 0);
@@ -53,7 +53,7 @@ static void add_place(sp_text *text, const sp_sheet *sheet, const sp_sheet_place
     }
 }
 
-static void add_fitting(sp_text *text, const sp_sheet_row *row)
+static void add_fitting(sp_text *text, const sp_fitting_row *row)
 {
     static const char *const words[] = {[SP_MOUNT_PORT] = "port ",
                                         [SP_MOUNT_SURFACE] = "new weld on ",
@@ -62,7 +62,7 @@ static void add_fitting(sp_text *text, const sp_sheet_row *row)
     add_text(text, "td class=\"text\"", row->mount ? words[row->mount->kind] : "as drawn", row->fitting);
 }
 
-static bool any_turns(const sp_sheet *sheet)
+static bool any_turns(const sp_fitting_sheet *sheet)
 {
     bool any = false;
     for (size_t i = 0; i < sheet->count; ++i)
@@ -70,7 +70,7 @@ static bool any_turns(const sp_sheet *sheet)
     return any;
 }
 
-static void add_places(const sp_page *page, sp_text *text, const sp_sheet *sheet)
+static void add_places(const sp_page *page, sp_text *text, const sp_fitting_sheet *sheet)
 {
     bool turns = any_turns(sheet);
     sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\"><caption>");
@@ -92,7 +92,7 @@ static void add_places(const sp_page *page, sp_text *text, const sp_sheet *sheet
         add_head(text, "turn&nbsp;&deg;");
     sp_text_add(text, "</tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < sheet->count; ++i) {
-        const sp_sheet_row *row = &sheet->rows[i];
+        const sp_fitting_row *row = &sheet->rows[i];
         sp_text_add(text, "<tr>");
         add_text(text, "th scope=\"row\"", "", row->nozzle->name);
         add_fitting(text, row);
@@ -130,7 +130,7 @@ static const struct {
 } sources[] = {{"Order code", order_code}, {"Thread", thread}, {"Insert", insert}};
 enum { SOURCES = sizeof sources / sizeof *sources };
 
-static bool is_told(const sp_sheet *sheet, size_t source)
+static bool is_told(const sp_fitting_sheet *sheet, size_t source)
 {
     bool any = false;
     for (size_t i = 0; i < sheet->count; ++i)
@@ -138,7 +138,7 @@ static bool is_told(const sp_sheet *sheet, size_t source)
     return any;
 }
 
-static void add_order(sp_text *text, const sp_sheet *sheet, const sp_sheet_row *row)
+static void add_order(sp_text *text, const sp_fitting_sheet *sheet, const sp_fitting_row *row)
 {
     const sp_nozzle *nozzle = row->nozzle;
     sp_text_add(text, "<tr>");
@@ -153,7 +153,7 @@ static void add_order(sp_text *text, const sp_sheet *sheet, const sp_sheet_row *
     sp_text_add(text, "<td>%zu</td></tr>\n", row->circuit + 1);
 }
 
-static void add_orders(sp_text *text, const sp_sheet *sheet)
+static void add_orders(sp_text *text, const sp_fitting_sheet *sheet)
 {
     sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\"><caption>What to order and set</caption>\n"
                       "<thead><tr>");
@@ -172,7 +172,7 @@ static void add_orders(sp_text *text, const sp_sheet *sheet)
     sp_text_add(text, "</tbody></table></div>\n");
 }
 
-static void add_circuits(sp_text *text, const sp_sheet *sheet)
+static void add_circuits(sp_text *text, const sp_fitting_sheet *sheet)
 {
     sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small narrow\"><caption>What each circuit has to "
                       "supply</caption>\n<thead><tr>");
@@ -196,9 +196,21 @@ static void add_vector(sp_text *text, sp_vec3 v)
     const double values[] = {v.x, v.y, v.z};
     for (int i = 0; i < 3; ++i) {
         sp_text_add(text, i ? ", " : "(");
-        sp_markup_decimals(text, values[i] + 0.0, 3);
+        sp_text_number(text, nearbyint(values[i] * 1e4) / 1e4 + 0.0);
     }
     sp_text_add(text, ")");
+}
+
+/* "x", "-z", or its components. */
+static void add_direction(sp_text *text, sp_vec3 v)
+{
+    const double values[] = {v.x, v.y, v.z};
+    for (int i = 0; i < 3; ++i)
+        if (fabs(values[i]) == 1) {
+            sp_text_add(text, "%s%c", values[i] < 0 ? "&minus;" : "", 'x' + i);
+            return;
+        }
+    add_vector(text, v);
 }
 
 static void add_datum(sp_text *text, const sp_datum *datum, bool round)
@@ -209,12 +221,12 @@ static void add_datum(sp_text *text, const sp_datum *datum, bool round)
     sp_markup_escape(text, name ? name : "");
     free(name);
     sp_text_add(text, ": heights along ");
-    add_vector(text, datum->axis);
-    sp_text_add(text, " above ");
+    add_direction(text, datum->axis);
+    sp_text_add(text, " from ");
     add_vector(text, datum->origin);
-    sp_text_add(text, "&nbsp;m of the geometry&#39;s coordinates, azimuth 0 along ");
-    add_vector(text, datum->zero);
-    sp_text_add(text, " and rising anticlockwise, seen against that axis%s.</p>\n",
+    sp_text_add(text, "&nbsp;m, azimuths anticlockwise, seen against that axis, from ");
+    add_direction(text, datum->zero);
+    sp_text_add(text, ", in the geometry&#39;s coordinates%s.</p>\n",
                 round ? "" : "; x lies along azimuth 0 and y along azimuth 90");
 }
 
@@ -223,8 +235,8 @@ bool sp_page_sheet(const sp_page *page, sp_text *text, sp_error *error)
     const sp_design *design = page->main == SP_UNKNOWN ? NULL : &page->result->designs[page->main];
     if (!design || !design->evaluator)
         return true;
-    sp_sheet *sheet = sp_sheet_create(design->layout, sp_evaluator_setup(design->evaluator), design->mounts,
-                                      design->mount_count, error);
+    sp_fitting_sheet *sheet = sp_fitting_sheet_create(design->layout, sp_evaluator_setup(design->evaluator),
+                                                      design->mounts, design->mount_count, error);
     if (!sheet)
         return false;
     sp_text_add(text, "<section id=\"sheet\"><h2>Sheet</h2>\n");
@@ -241,6 +253,6 @@ bool sp_page_sheet(const sp_page *page, sp_text *text, sp_error *error)
                 any_turns(sheet) ? "Turned from the level line that points 90&deg; on from there, clockwise seen along "
                                    "the spray, lies the width of a fan, or a body&#39;s own x. "
                                  : "");
-    sp_sheet_destroy(sheet);
+    sp_fitting_sheet_destroy(sheet);
     return true;
 }

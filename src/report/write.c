@@ -73,10 +73,10 @@ static const sp_design *main_design(const sp_result *result)
 
 static char *nozzles_csv(const sp_design *design, sp_error *error)
 {
-    sp_sheet *sheet = sp_sheet_create(design->layout, sp_evaluator_setup(design->evaluator), design->mounts,
-                                      design->mount_count, error);
+    sp_fitting_sheet *sheet = sp_fitting_sheet_create(design->layout, sp_evaluator_setup(design->evaluator),
+                                                      design->mounts, design->mount_count, error);
     char *text = sheet ? sp_nozzles_csv(sheet, error) : NULL;
-    sp_sheet_destroy(sheet);
+    sp_fitting_sheet_destroy(sheet);
     return text;
 }
 

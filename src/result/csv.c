@@ -60,7 +60,7 @@ const char *sp_mounting_key(const sp_mount *mount)
     return mount ? keys[mount->kind] : "";
 }
 
-static void add_place(sp_text *text, const sp_sheet_place *place)
+static void add_place(sp_text *text, const sp_fitting_place *place)
 {
     const double values[] = {place->x_mm, place->y_mm, place->height_mm, place->radius_mm, place->azimuth_deg};
     for (size_t i = 0; i < sizeof values / sizeof *values; ++i)
@@ -96,7 +96,8 @@ static void add_texts(sp_text *text, const char *const *texts, size_t count)
     }
 }
 
-static void add_sheet_row(sp_text *text, const sp_sheet *sheet, const sp_sheet_row *row, const column_units *units)
+static void add_sheet_row(sp_text *text, const sp_fitting_sheet *sheet, const sp_fitting_row *row,
+                          const column_units *units)
 {
     const sp_nozzle_type *type = row->nozzle->type;
     const char *const texts[] = {type->order_code, type->url, type->thread, type->insert, sp_mounting_key(row->mount),
@@ -118,7 +119,7 @@ static void add_sheet_row(sp_text *text, const sp_sheet *sheet, const sp_sheet_r
     sp_text_append(text, "\n", 1);
 }
 
-char *sp_nozzles_csv(const sp_sheet *sheet, sp_error *error)
+char *sp_nozzles_csv(const sp_fitting_sheet *sheet, sp_error *error)
 {
     column_units units;
     sp_locale locale;

@@ -75,7 +75,7 @@ static void a_cluster_is_one_nozzle_that_sprays_several_ways(void **state)
     sp_text text = {0};
     sp_overlay_sprays(&text, &camera, evaluator, &layout);
     sp_labels_nozzles(&(sp_labels){0}, &text, &camera, &layout);
-    sp_sheet *sheet = sp_sheet_create(&layout, &setup, NULL, 0, &error);
+    sp_fitting_sheet *sheet = sp_fitting_sheet_create(&layout, &setup, NULL, 0, &error);
     char *markup = sp_text_finish(&text, &error), *csv = sp_nozzles_csv(sheet, &error);
     assert_int_equal(count(markup, "class=\"nozzle\""), 1);
     assert_int_equal(count(markup, "class=\"name\""), 1);
@@ -83,7 +83,7 @@ static void a_cluster_is_one_nozzle_that_sprays_several_ways(void **state)
     assert_int_equal(count(csv, "\n"), 2);
     free(markup);
     free(csv);
-    sp_sheet_destroy(sheet);
+    sp_fitting_sheet_destroy(sheet);
     sp_evaluator_destroy(evaluator);
     sp_mesh_destroy(mesh);
 }

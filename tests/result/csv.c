@@ -39,7 +39,7 @@ static void rows_read_back(void **state)
     sp_error error = {0};
     assert_true(sp_quantity_parse("12 L/min", "m3/s", &type.flow, &error));
     sp_layout *layout = sp_layout_create(&nozzle, 1, &error);
-    sp_sheet *sheet = sp_sheet_create(layout, &setup, NULL, 0, &error);
+    sp_fitting_sheet *sheet = sp_fitting_sheet_create(layout, &setup, NULL, 0, &error);
     char *csv = sp_nozzles_csv(sheet, &error);
     assert_non_null(csv);
     const char *start =
@@ -53,7 +53,7 @@ static void rows_read_back(void **state)
                                              "https://example.com/a,G 1/2,'=7,,,,,,,,,,100,-333,1800,348,286.7,0,0,,1,"
                                              "12\n");
     free(csv);
-    sp_sheet_destroy(sheet);
+    sp_fitting_sheet_destroy(sheet);
     sp_layout_destroy(layout);
 }
 
@@ -78,7 +78,7 @@ static void no_text_is_a_formula(void **state)
         snprintf(type.insert, sizeof type.insert, "%s", texts[i].name);
         sp_error error = {0};
         sp_layout *layout = sp_layout_create(&nozzle, 1, &error);
-        sp_sheet *sheet = sp_sheet_create(layout, &setup, NULL, 0, &error);
+        sp_fitting_sheet *sheet = sp_fitting_sheet_create(layout, &setup, NULL, 0, &error);
         char *csv = sp_nozzles_csv(sheet, &error), expected[256];
         assert_non_null(csv);
         const char *row = strchr(csv, '\n') + 1, *field = texts[i].field;
@@ -87,7 +87,7 @@ static void no_text_is_a_formula(void **state)
         snprintf(expected, sizeof expected, ",%s,%s,%s,%s,,,", field, field, field, field);
         assert_non_null(strstr(row, expected));
         free(csv);
-        sp_sheet_destroy(sheet);
+        sp_fitting_sheet_destroy(sheet);
         sp_layout_destroy(layout);
     }
 }

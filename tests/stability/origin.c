@@ -86,7 +86,7 @@ static void check_written(const opened *o, const sp_layout *layout, double fract
     sp_design design = {.name = "manual", .layout = layout, .coverage = coverage, .evaluator = o->evaluator};
     sp_result result = {.command = "simulate", .design_count = 1, .designs = &design};
     sp_figures *figures = sp_result_figures(&result, &error);
-    sp_sheet *sheet = sp_sheet_create(layout, setup, NULL, 0, &error);
+    sp_fitting_sheet *sheet = sp_fitting_sheet_create(layout, setup, NULL, 0, &error);
     char *csv = sp_nozzles_csv(sheet, &error), *row = strchr(csv, '\n') + 1;
     for (size_t i = 0; i < layout->count; i++, row = strchr(row, '\n') + 1) {
         sp_vec3 own = sp_setup_outside(setup, layout->nozzles[i].position), given = figures->nozzles[i].position;
@@ -100,7 +100,7 @@ static void check_written(const opened *o, const sp_layout *layout, double fract
     for (size_t i = 0; i < figures->shadow_count; i++)
         assert_true(sp_distance(figures->shadows[i].centroid, o->at) < 2);
     free(csv);
-    sp_sheet_destroy(sheet);
+    sp_fitting_sheet_destroy(sheet);
     sp_figures_destroy(figures, 1);
     sp_coverage_destroy(coverage);
     close_scene(&again);

@@ -1,5 +1,5 @@
 /* A layout as a fitter measures it. */
-#include <sprayplan/sheet.h>
+#include <sprayplan/fitting.h>
 
 #include "candidates/mounts.h"
 #include "mesh/distance.h"
@@ -31,22 +31,22 @@ static sp_vec3 across(const sp_datum *datum)
     return sp_cross(datum->axis, datum->zero);
 }
 
-static sp_sheet_place place_at(const sp_setup *setup, sp_vec3 point)
+static sp_fitting_place place_at(const sp_setup *setup, sp_vec3 point)
 {
     const sp_datum *datum = &setup->datum;
     sp_vec3 from = sp_sub(sp_setup_outside(setup, point), datum->origin);
     double x = sp_dot(from, datum->zero), y = sp_dot(from, across(datum)), radius = hypot(x, y), parts = TENTHS;
     while (radius / (2 * parts * DEG) > OFF_MOST)
         parts *= 10;
-    sp_sheet_place place = {.x_mm = rounded(x * MM, 1),
-                            .y_mm = rounded(y * MM, 1),
-                            .height_mm = rounded(sp_dot(from, datum->axis) * MM, 1),
-                            .radius_mm = rounded(radius * MM, 1)};
+    sp_fitting_place place = {.x_mm = rounded(x * MM, 1),
+                              .y_mm = rounded(y * MM, 1),
+                              .height_mm = rounded(sp_dot(from, datum->axis) * MM, 1),
+                              .radius_mm = rounded(radius * MM, 1)};
     place.azimuth_deg = place.radius_mm > 0 ? rounded_turn(atan2(y, x), parts, 360) : 0;
     return place;
 }
 
-static void add_fitting(sp_sheet_row *row, const sp_setup *setup)
+static void add_fitting(sp_fitting_row *row, const sp_setup *setup)
 {
     const sp_mount *mount = row->mount;
     sp_vec3 tip = row->nozzle->position;
@@ -76,7 +76,7 @@ static double turn_of(const sp_setup *setup, const sp_nozzle *nozzle, double tow
     return rounded_turn(turn, TENTHS, pattern == SP_PATTERN_FLAT_FAN ? 180 : 360);
 }
 
-static void add_axis(sp_sheet_row *row, const sp_setup *setup)
+static void add_axis(sp_fitting_row *row, const sp_setup *setup)
 {
     const sp_datum *datum = &setup->datum;
     sp_vec3 axis = row->nozzle->axis;
@@ -88,7 +88,7 @@ static void add_axis(sp_sheet_row *row, const sp_setup *setup)
 }
 
 /* Where it belongs among the circuits, by rising pressure; one more where there is none yet. */
-static void join_circuit(sp_sheet *sheet, const sp_nozzle *nozzle)
+static void join_circuit(sp_fitting_sheet *sheet, const sp_nozzle *nozzle)
 {
     size_t at = 0;
     while (at < sheet->circuit_count && sheet->circuits[at].pressure < nozzle->pressure * (1 - SAME_PRESSURE))
@@ -102,7 +102,7 @@ static void join_circuit(sp_sheet *sheet, const sp_nozzle *nozzle)
     sheet->circuits[at].nozzles++;
 }
 
-static void number_circuits(sp_sheet *sheet)
+static void number_circuits(sp_fitting_sheet *sheet)
 {
     for (size_t i = 0; i < sheet->count; i++)
         while (sheet->circuits[sheet->rows[i].circuit].pressure < sheet->rows[i].nozzle->pressure * (1 - SAME_PRESSURE))
@@ -126,31 +126,31 @@ static bool is_round(const sp_setup *setup)
     return all > 0 && turning >= ROUND_SHARE * all;
 }
 
-sp_sheet *sp_sheet_create(const sp_layout *layout, const sp_setup *setup, const sp_mount *mounts, size_t mount_count,
-                          sp_error *error)
+sp_fitting_sheet *sp_fitting_sheet_create(const sp_layout *layout, const sp_setup *setup, const sp_mount *mounts,
+                                          size_t mount_count, sp_error *error)
 {
-    static const sp_sheet_place nowhere = {NAN, NAN, NAN, NAN, NAN};
-    sp_sheet *sheet = calloc(1, sizeof *sheet);
+    static const sp_fitting_place nowhere = {NAN, NAN, NAN, NAN, NAN};
+    sp_fitting_sheet *sheet = calloc(1, sizeof *sheet);
     if (!sheet)
         return sp_fail_memory(error);
-    *sheet = (sp_sheet){.setup = setup,
-                        .count = layout->count,
-                        .rows = calloc(layout->count + 1, sizeof *sheet->rows),
-                        .circuits = calloc(layout->count + 1, sizeof *sheet->circuits)};
+    *sheet = (sp_fitting_sheet){.setup = setup,
+                                .count = layout->count,
+                                .rows = calloc(layout->count + 1, sizeof *sheet->rows),
+                                .circuits = calloc(layout->count + 1, sizeof *sheet->circuits)};
     if (!sheet->rows || !sheet->circuits) {
-        sp_sheet_destroy(sheet);
+        sp_fitting_sheet_destroy(sheet);
         return sp_fail_memory(error);
     }
     for (size_t i = 0; i < layout->count; i++) {
         const sp_nozzle *nozzle = &layout->nozzles[i];
         size_t mount = mount_count ? sp_mount_at(setup, mounts, mount_count, nozzle->position) : SIZE_MAX;
-        sheet->rows[i] = (sp_sheet_row){.nozzle = nozzle,
-                                        .mount = mount == SIZE_MAX ? NULL : &mounts[mount],
-                                        .fitting = "",
-                                        .depth_mm = NAN,
-                                        .standoff_mm = NAN,
-                                        .at = nowhere,
-                                        .tip = place_at(setup, nozzle->position)};
+        sheet->rows[i] = (sp_fitting_row){.nozzle = nozzle,
+                                          .mount = mount == SIZE_MAX ? NULL : &mounts[mount],
+                                          .fitting = "",
+                                          .depth_mm = NAN,
+                                          .standoff_mm = NAN,
+                                          .at = nowhere,
+                                          .tip = place_at(setup, nozzle->position)};
         add_fitting(&sheet->rows[i], setup);
         add_axis(&sheet->rows[i], setup);
         join_circuit(sheet, nozzle);
@@ -160,7 +160,7 @@ sp_sheet *sp_sheet_create(const sp_layout *layout, const sp_setup *setup, const 
     return sheet;
 }
 
-void sp_sheet_destroy(sp_sheet *sheet)
+void sp_fitting_sheet_destroy(sp_fitting_sheet *sheet)
 {
     if (!sheet)
         return;

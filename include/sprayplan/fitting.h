@@ -1,6 +1,6 @@
 /* The sheet that a fitter welds, sets and orders from: a layout measured from the setup's datum. */
-#ifndef SPRAYPLAN_SHEET_H
-#define SPRAYPLAN_SHEET_H
+#ifndef SPRAYPLAN_FITTING_H
+#define SPRAYPLAN_FITTING_H
 
 #include <sprayplan/place.h>
 
@@ -15,7 +15,7 @@ typedef struct {
     double height_mm;   /* along its axis */
     double radius_mm;   /* from its axis */
     double azimuth_deg; /* from zero towards axis x zero, [0, 360); 0 on the axis */
-} sp_sheet_place;
+} sp_fitting_place;
 
 /* One nozzle. What it does not have is NAN. */
 typedef struct {
@@ -24,8 +24,8 @@ typedef struct {
     const char *fitting;     /* borrowed: the port's name, or that of the part that it is welded to; "" elsewhere */
     double depth_mm;         /* in a port: from its position along its axis to the nozzle's */
     double standoff_mm;      /* on a surface: from the wall to the nozzle's position */
-    sp_sheet_place at;       /* the port's position, or the weld: the wall's point nearest to the nozzle's position */
-    sp_sheet_place tip;      /* the nozzle's position */
+    sp_fitting_place at;     /* the port's position, or the weld: the wall's point nearest to the nozzle's position */
+    sp_fitting_place tip;    /* the nozzle's position */
     /* Its axis, deg to .1: tilted by so much from straight down, which is against the datum's axis, towards this
      * azimuth, which is 0 where the tilt is 0 or 180. */
     double tilt_deg, towards_deg;
@@ -34,7 +34,7 @@ typedef struct {
      * the same at every turn. */
     double turn_deg;
     size_t circuit; /* index */
-} sp_sheet_row;
+} sp_fitting_row;
 
 /* Nozzles that are fed at one pressure. */
 typedef struct {
@@ -49,16 +49,16 @@ typedef struct {
      * 10 deg of their normals: height, radius and azimuth say where things are, else x, y and height. */
     bool round;
     size_t count;
-    sp_sheet_row *rows; /* [count], in the layout's order; owned */
+    sp_fitting_row *rows; /* [count], in the layout's order; owned */
     size_t circuit_count;
     sp_circuit *circuits; /* by rising pressure; owned */
-} sp_sheet;
+} sp_fitting_sheet;
 
 /* Of a layout of the setup, whose mounts (see sp_mount_at) may be NULL for none. All that is given is borrowed. */
-sp_sheet *sp_sheet_create(const sp_layout *layout, const sp_setup *setup, const sp_mount *mounts, size_t mount_count,
-                          sp_error *error);
+sp_fitting_sheet *sp_fitting_sheet_create(const sp_layout *layout, const sp_setup *setup, const sp_mount *mounts,
+                                          size_t mount_count, sp_error *error);
 /* Accepts NULL. */
-void sp_sheet_destroy(sp_sheet *sheet);
+void sp_fitting_sheet_destroy(sp_fitting_sheet *sheet);
 
 #ifdef __cplusplus
 }

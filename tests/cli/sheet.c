@@ -1,0 +1,140 @@
+/* What a fitter takes to the workshop, through the program: settings in short numbers, the same sheet of the layout
+ * that was written, and nozzles that do not pass their port. */
+#include "workplace.h"
+
+static const char set_catalogue[] =
+    "nozzles:\n"
+    "  - {name: cone, pattern: full_cone, angle: 90 deg, flow: 12 L/min, at: 2 bar, angle_range: [60 deg, 130 deg],\n"
+    "     flow_range: [8 L/min, 16 L/min], step: {angle: 5 deg, flow: 0.2 L/min, pressure: 0.3 bar}, body: 48 mm,\n"
+    "     order_code: C-12, thread: G 1/2, insert: no. 7}\n"
+    "  - {name: ball, pattern: full_cone, angle: 360 deg, flow: 20 L/min, at: 2 bar, body: 60 mm}\n";
+
+static const char set_room[] =
+    "geometry:\n"
+    "  - file: room.obj\n"
+    "cavity: [0.5 m, 0.5 m, 0.5 m]\n"
+    "criterion: {flux: 1 L/min/m2}\n"
+    "datum: {name: <the lid>, origin: [0.5 m, 0.5 m, 1 m]}\n"
+    "catalogue: set.yaml\n"
+    "nozzles:\n"
+    "  - {name: N1, type: cone, position: [0.3 m, 0.3 m, 0.9 m], axis: [0, 0, -1], pressure: 2 bar}\n"
+    "simulate: {texel: 100 mm}\n"
+    "place:\n"
+    "  coverage: 80 %\n"
+    "  max_nozzles: 2\n"
+    "  pressure: 2 bar\n"
+    "  mounts:\n"
+    "    - port: {name: P1, position: [0.3 m, 0.3 m, 1 m], tilt: 30 deg, depth: {from: 100 mm, to: 500 mm, spacing: "
+    "200 "
+    "mm}, bore: 50 mm, step: {depth: 15 mm, tilt: 10 deg}}\n"
+    "    - port: {name: P2, position: [0.7 m, 0.7 m, 1 m], tilt: 30 deg, depth: {from: 100 mm, to: 500 mm, spacing: "
+    "200 "
+    "mm}, bore: 50 mm, step: {depth: 15 mm, tilt: 10 deg}}\n";
+
+static int open_with_settings(void **state)
+{
+    if (open_workplace(state))
+        return -1;
+    write_file("set.yaml", set_catalogue);
+    write_file("set-room.yaml", set_room);
+    return 0;
+}
+
+/* Digits of what follows each `key` of the text; all that is written there is as short. */
+static size_t longest_after(const char *text, const char *key)
+{
+    size_t longest = 0;
+    for (const char *at = strstr(text, key); at; at = strstr(at, key)) {
+        at += strlen(key);
+        size_t size = strspn(at, "-.0123456789e");
+        longest = size > longest ? size : longest;
+    }
+    return longest;
+}
+
+static void what_is_placed_is_what_can_be_set(void **state)
+{
+    (void)state;
+    outcome placed = run_program("place set-room.yaml -o placed");
+    assert_true(placed.status == 0 || placed.status == 4);
+    forget(&placed);
+    char *layout = read_file("placed/layout.yaml", NULL), *nozzles = strstr(layout, "\nnozzles:");
+    *strstr(nozzles, "\nplace:") = 0;
+    /* the setting nearest to 2 bar */
+    assert_non_null(strstr(nozzles, "pressure: 2.1 bar"));
+    assert_true(longest_after(nozzles, "pressure: ") <= 3);
+    assert_true(longest_after(nozzles, "angle: ") <= 3 && longest_after(nozzles, "angle: ") > 0);
+    assert_true(longest_after(nozzles, "position: [") <= 3);
+    free(layout);
+    char *result = read_file("placed/result.json", NULL);
+    json_t *before = json_loads(result, 0, NULL);
+    free(result);
+    json_t *again = expect_json("simulate placed/layout.yaml -o again --json", 0);
+    json_t *proposed = NULL, *one = json_array_get(json_object_get(again, "layouts"), 0), *each;
+    size_t i;
+    json_array_foreach(json_object_get(before, "layouts"), i, each)
+    {
+        if (strcmp(json_string_value(json_object_get(each, "name")), "proposed") == 0)
+            proposed = each;
+    }
+    static const char *const same[] = {"water_l_min", "covered_area_m2", "coverage", "nozzles", "flux_l_min_m2"};
+    for (i = 0; i < sizeof same / sizeof *same; i++)
+        assert_true(json_equal(json_object_get(proposed, same[i]), json_object_get(one, same[i])));
+    json_decref(before);
+    json_decref(again);
+    char *first = read_file("placed/nozzles.csv", NULL), *second = read_file("again/nozzles.csv", NULL);
+    assert_string_equal(first, second);
+    assert_non_null(strstr(first, ",C-12,,G 1/2,no. 7,port,P"));
+    free(first);
+    free(second);
+}
+
+/* The page has the sheet, names its datum, and says where things are from there. */
+static void the_page_has_the_sheet(void **state)
+{
+    (void)state;
+    json_decref(expect_json("simulate set-room.yaml -o own --json", 0));
+    char *page = read_file("own/report.html", NULL), *section = strstr(page, "<section id=\"sheet\">");
+    assert_non_null(section);
+    *strstr(section, "</section>") = 0;
+    static const char *const told[] = {"Measured from &lt;the lid&gt;: heights along z from (0.5, 0.5, 1)&nbsp;m",
+                                       "<th scope=\"row\">N1</th><td class=\"text\">port P1</td>",
+                                       ">C-12</td>",
+                                       ">no. 7</td>",
+                                       ">G 1/2</td>",
+                                       "What each circuit has to supply"};
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        if (!strstr(section, told[i]))
+            fail_msg("no %s in %s", told[i], section);
+    free(page);
+}
+
+/* In a wall or in a bore that is too narrow: an error where it is simulated or kept, a doubt where it is compared. */
+static void what_does_not_pass_is_refused(void **state)
+{
+    (void)state;
+    static const char wide[] = "nozzles: N1, of type 'ball', is 60 mm wide, expected no more than the bore of port P1, "
+                               "50 mm\n";
+    char scene[sizeof set_room + 20], expected[400];
+    const char *at = strstr(set_room, "type: cone");
+    snprintf(scene, sizeof scene, "%.*stype: ball%s", (int)(at - set_room), set_room, at + strlen("type: cone"));
+    write_file("wide.yaml", scene);
+    snprintf(expected, sizeof expected, "wide.yaml:8:5: %s", wide);
+    expect("simulate wide.yaml", 3, "", expected);
+    outcome result = run_program("place wide.yaml --set place.refine=none");
+    assert_non_null(strstr(result.err, "the layout compared with is in doubt: nozzles: N1, of type 'ball', is 60 mm"));
+    forget(&result);
+    result = run_program("check wide.yaml");
+    assert_non_null(strstr(result.out, "is 60 mm wide"));
+    forget(&result);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_placed_is_what_can_be_set),
+        cmocka_unit_test(the_page_has_the_sheet),
+        cmocka_unit_test(what_does_not_pass_is_refused),
+    };
+    return cmocka_run_group_tests(tests, open_with_settings, close_workplace);
+}
