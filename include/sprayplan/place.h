@@ -168,13 +168,13 @@ typedef struct {
 } sp_proposal;
 
 /* Greedy next-best-view placement by the inverse evaluator, then refinement with Ceres accepted only where the
- * re-traced objective improves, then brought to what ports and types can be set to: all that is reported, but for the
- * greedy layout, whose candidates are such settings, is of that. The error of the proposal's coverage is measured;
- * where it is above the accuracy, and auto chose the settings, everything found is counted again by dearer ones.
- * Deterministic. Returns NULL on error,
- * never for a target that cannot be reached. Fails with SP_ERROR_INPUT where no mount, type or pressure is given, no
- * mounting point is inside and clear, or a kept nozzle is in a wall or outside. Clusters, and types that do not spray
- * as densely all over, stay at the poses of candidates: refinement moves the others about them. */
+ * re-traced objective improves, then brought to what ports and types can be set to: all that is reported is of such
+ * settings, as the candidates are. The error of the proposal's coverage is measured; where it is above the accuracy,
+ * and auto chose the settings of the simulation, everything found is counted again by dearer ones. Deterministic.
+ * Returns NULL on error, never for a target that cannot be reached. Fails with SP_ERROR_INPUT where no mount, type or
+ * pressure is given, no mounting point is inside and clear, or a kept nozzle is in a wall, outside, or in a port that
+ * it does not pass. Clusters, and types that do not spray as densely all over, stay at the poses of candidates:
+ * refinement moves the others about them. */
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error);
 void sp_proposal_destroy(sp_proposal *proposal);
 

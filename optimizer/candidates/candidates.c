@@ -115,13 +115,14 @@ static bool makes_create(const sp_setup *setup, const sp_place_options *options,
  * set in steps, at settings alone. With `axes` NULL it only counts. */
 static size_t rings(double tilt, double step, sp_step setting, sp_vec3 *axes)
 {
-    double apart = sp_step_size(setting) * fmax(1, floor(step / sp_step_size(setting)));
+    bool settings = setting.count > 0;
+    double size = sp_step_size(setting), apart = settings ? size * fmax(1, floor(step / size)) : step;
     size_t ring_count = tilt > 0 ? (size_t)ceil(tilt / step * (1 - 1e-9)) : 0, count = 0;
-    if (setting.count > 0)
+    if (settings)
         ring_count = (size_t)floor(tilt / apart * (1 + 1e-9));
     for (size_t ring = 0; ring <= ring_count; ring++) {
         double polar = ring_count ? tilt * (double)ring / (double)ring_count : 0;
-        if (setting.count > 0)
+        if (settings)
             polar = sp_step_nearest(setting, 0, apart * (double)ring, 0, tilt);
         size_t around = (size_t)fmax(1, ceil(2 * M_PI * sin(polar) / step * (1 - 1e-9)));
         for (size_t i = 0; i < around; i++, count++) {

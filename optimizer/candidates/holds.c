@@ -46,7 +46,7 @@ static bool surface_holds(const sp_mesh *mesh, const sp_mount *mount, sp_vec3 po
 {
     uint32_t triangle = sp_mount_triangle(mesh, mount, point);
     return triangle != SP_NONE &&
-           sp_distance(point, sp_triangle_nearest(mesh, triangle, point)) <= mount->standoff + tolerance;
+           sp_distance(point, sp_triangle_nearest(mesh, triangle, point)) <= sp_mount_standoff(mount) + tolerance;
 }
 
 static bool box_holds(const sp_mount *mount, sp_vec3 p, double tolerance)
@@ -74,15 +74,12 @@ uint32_t sp_mount_triangle(const sp_mesh *mesh, const sp_mount *mount, sp_vec3 p
 {
     uint32_t nearest = SP_NONE;
     double least = INFINITY;
-    if (mount->part != SP_NONE)
-        return sp_nearest_triangle(mesh, mount->part, point);
-    for (uint32_t part = 0; part < mesh->part_count; part++) {
-        uint32_t triangle =
-            mesh->parts[part].geometry == mount->geometry ? sp_nearest_triangle(mesh, part, point) : SP_NONE;
-        double distance =
-            triangle == SP_NONE ? INFINITY : sp_distance(point, sp_triangle_nearest(mesh, triangle, point));
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        if (!sp_mount_has(mesh, mount, t))
+            continue;
+        double distance = sp_distance(point, sp_triangle_nearest(mesh, t, point));
         if (distance < least) {
-            nearest = triangle;
+            nearest = t;
             least = distance;
         }
     }

@@ -9,7 +9,7 @@
 
 #define SITES_MOST 100000   /* beyond that a spacing is taken for a mistake */
 #define SAMPLES_PER_SITE 16 /* points to choose from, per square of the spacing */
-#define NM 1e9              /* a metre's */
+#define NM 1e9              /* to a metre */
 #define STANDOFF_LEAST 1e-3 /* of the spacing: on the surface itself every line of sight would start in it */
 
 static bool append(sp_sites *sites, const sp_site *site, sp_error *error)
@@ -116,10 +116,15 @@ static bool line_sites(const sp_mount *mount, uint32_t index, sp_sites *sites, s
     return true;
 }
 
-static bool on_mount(const sp_mesh *mesh, const sp_mount *mount, uint32_t triangle)
+bool sp_mount_has(const sp_mesh *mesh, const sp_mount *mount, uint32_t triangle)
 {
     uint32_t part = mesh->part[triangle];
     return mesh->parts[part].geometry == mount->geometry && (mount->part == SP_NONE || mount->part == part);
+}
+
+double sp_mount_standoff(const sp_mount *mount)
+{
+    return fmax(mount->standoff, STANDOFF_LEAST * mount->spacing);
 }
 
 static sp_site stood_off(const sp_setup *setup, const sp_mount *mount, uint32_t index, uint32_t triangle, sp_vec3 point,
@@ -128,8 +133,7 @@ static sp_site stood_off(const sp_setup *setup, const sp_mount *mount, uint32_t 
     sp_vec3 normal = sp_triangle_normal(setup->mesh, triangle);
     if (back)
         normal = sp_scale(normal, -1);
-    double standoff = fmax(mount->standoff, STANDOFF_LEAST * mount->spacing);
-    return (sp_site){.position = sp_setup_told(setup, sp_along(point, standoff, normal)),
+    return (sp_site){.position = sp_setup_told(setup, sp_along(point, sp_mount_standoff(mount), normal)),
                      .axis = normal,
                      .mount = index,
                      .own = setup->mesh->part[triangle]};
@@ -152,7 +156,7 @@ static bool surface_samples(const sp_evaluator *evaluator, const sp_mount *mount
     const sp_mesh *mesh = setup->mesh;
     double total = 0;
     for (uint32_t t = 0; t < mesh->triangle_count; t++)
-        if (on_mount(mesh, mount, t))
+        if (sp_mount_has(mesh, mount, t))
             total += sp_triangle_area(mesh, t);
     if (!(total > 0))
         return true;
@@ -165,7 +169,7 @@ static bool surface_samples(const sp_evaluator *evaluator, const sp_mount *mount
     double passed = 0.5; /* the first sample lies half a sample's area in */
     size_t number = 0;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        if (!on_mount(mesh, mount, t))
+        if (!sp_mount_has(mesh, mount, t))
             continue;
         passed += sp_triangle_area(mesh, t) * per_area;
         for (; (double)number + 1 <= passed; number++) {

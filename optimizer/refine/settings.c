@@ -243,7 +243,7 @@ bool sp_set_front(const sp_search *search, sp_watch *watch, sp_front *front, sp_
     const sp_front_list *lists[] = {&before.by_water, &before.by_number};
     bool done = set_drafts(search, &before.best, front, error);
     for (int k = 0; k < 2; k++)
-        for (size_t i = 0; done && i < lists[k]->count; i++)
+        for (size_t i = 0; done && !watch->cancelled && i < lists[k]->count; i++)
             done = set_drafts(search, &lists[k]->entries[i].draft, front, error);
     sp_front_free(&before);
     return done && look_beside(search, watch, front, error);
