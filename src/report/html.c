@@ -67,7 +67,9 @@ static const char *const style[] = {
     "figure,.card,.wide,tr,dl>div,.chart,.block{break-inside:avoid}thead{display:table-header-group}"
     "h2,h3,caption{break-after:avoid}a{color:inherit;text-decoration:none}"
     /* The sheet goes to the workshop by itself. */
-    "#sheet{break-before:page;break-after:page}main:has(#sheet:target)>:not(#sheet){display:none}}\n</style>\n",
+    "#sheet{break-before:page;break-after:page}.alone{display:none}"
+    "main:has(#sheet:target)>:not(header,#sheet,footer){display:none}#sheet:target{break-before:auto;break-after:auto}"
+    "}\n</style>\n",
 };
 
 void sp_page_plain_name(const sp_page *page, sp_text *text, size_t design)

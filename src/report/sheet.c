@@ -248,7 +248,8 @@ bool sp_page_sheet(const sp_page *page, sp_text *text, sp_error *error)
                 "<p class=\"note\">A fitting&#39;s place is the port&#39;s mouth, or the point of the wall where to "
                 "weld; the nozzle reaches in from there, along the port or square to the wall, to its tip, where the "
                 "liquid leaves. It points tilted from straight down, against the datum&#39;s axis, towards that "
-                "azimuth. %sA circuit feeds the nozzles of one pressure. The same is in nozzles.csv. <a "
+                "azimuth. %sA circuit feeds the nozzles of one pressure. The same is in nozzles.csv.</p><p "
+                "class=\"note alone\"><a "
                 "href=\"#sheet\">Printed from here</a> the sheet comes alone.</p></section>\n",
                 any_turns(sheet) ? "Turned from the level line that points 90&deg; on from there, clockwise seen along "
                                    "the spray, lies the width of a fan, or a body&#39;s own x. "

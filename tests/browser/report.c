@@ -18,7 +18,7 @@ static void the_browser_finds_headings_tables_and_pictures(void **state)
     char *page = browse("placed/report.html", "--dump-dom");
     assert_non_null(page);
     static const char *const headings[] = {"Figures", "Coverage against water", "Coverage in pictures", "Nozzles",
-                                           "Spray shadows"};
+                                           "Sheet",   "Spray shadows"};
     for (size_t i = 0; i < sizeof headings / sizeof *headings; i++)
         if (!strstr(page, headings[i]))
             fail_msg("no heading %s", headings[i]);
@@ -90,12 +90,25 @@ static void it_prints_without_the_viewer(void **state)
     free(page);
 }
 
+/* One page, without pictures, where the rest takes several. */
+static void the_sheet_prints_alone(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    size_t size;
+    char *pdf = print_page("placed/report.html#sheet", &size);
+    assert_int_equal(found(pdf, size, "/Type /Page\n"), 1);
+    assert_int_equal(found(pdf, size, "/Subtype /Image"), 0);
+    free(pdf);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_browser_finds_headings_tables_and_pictures),
         cmocka_unit_test(the_page_is_not_blank),
         cmocka_unit_test(it_prints_without_the_viewer),
+        cmocka_unit_test(the_sheet_prints_alone),
     };
     return cmocka_run_group_tests(tests, place_once, close_workplace);
 }
