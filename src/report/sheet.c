@@ -70,27 +70,35 @@ static bool any_turns(const sp_fitting_sheet *sheet)
     return any;
 }
 
+static void add_places_head(sp_text *text, bool round, bool turns)
+{
+    sp_text_add(text,
+                "<thead><tr><th scope=\"col\" rowspan=\"2\">Nozzle</th><th scope=\"col\" rowspan=\"2\" "
+                "class=\"text\">Fitting</th><th scope=\"colgroup\" colspan=\"3\">Fitting at</th><th scope=\"col\" "
+                "rowspan=\"2\">Reaches in mm</th><th scope=\"colgroup\" colspan=\"3\">Tip at</th><th "
+                "scope=\"colgroup\" colspan=\"%d\">Points</th></tr><tr class=\"sub\">",
+                turns ? 3 : 2);
+    for (int i = 0; i < 2; ++i)
+        sp_text_add(text, "%s",
+                    round ? "<th scope=\"col\">height mm</th><th scope=\"col\">radius mm</th><th "
+                            "scope=\"col\">azimuth&nbsp;&deg;</th>"
+                          : "<th scope=\"col\">x&nbsp;mm</th><th scope=\"col\">y&nbsp;mm</th><th "
+                            "scope=\"col\">height mm</th>");
+    add_head(text, "tilt&nbsp;&deg;");
+    add_head(text, "towards&nbsp;&deg;");
+    if (turns)
+        add_head(text, "turn&nbsp;&deg;");
+    sp_text_add(text, "</tr></thead>\n");
+}
+
 static void add_places(const sp_page *page, sp_text *text, const sp_fitting_sheet *sheet)
 {
     bool turns = any_turns(sheet);
     sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\"><caption>");
     sp_page_name(page, text, page->main);
-    sp_text_add(text, ": where to drill, weld and point</caption>\n<thead><tr><th scope=\"col\" rowspan=\"2\">Nozzle"
-                      "</th><th scope=\"col\" rowspan=\"2\" class=\"text\">Fitting</th><th scope=\"colgroup\" "
-                      "colspan=\"3\">Fitting at</th><th scope=\"col\" rowspan=\"2\">Reaches in mm</th><th "
-                      "scope=\"colgroup\" colspan=\"3\">Tip at</th>");
-    sp_text_add(text, "<th scope=\"colgroup\" colspan=\"%d\">Points</th></tr><tr class=\"sub\">", turns ? 3 : 2);
-    for (int i = 0; i < 2; ++i)
-        sp_text_add(text, "%s",
-                    sheet->round ? "<th scope=\"col\">height mm</th><th scope=\"col\">radius mm</th><th "
-                                   "scope=\"col\">azimuth&nbsp;&deg;</th>"
-                                 : "<th scope=\"col\">x&nbsp;mm</th><th scope=\"col\">y&nbsp;mm</th><th "
-                                   "scope=\"col\">height mm</th>");
-    add_head(text, "tilt&nbsp;&deg;");
-    add_head(text, "towards&nbsp;&deg;");
-    if (turns)
-        add_head(text, "turn&nbsp;&deg;");
-    sp_text_add(text, "</tr></thead>\n<tbody>\n");
+    sp_text_add(text, ": where to drill, weld and point</caption>\n");
+    add_places_head(text, sheet->round, turns);
+    sp_text_add(text, "<tbody>\n");
     for (size_t i = 0; i < sheet->count; ++i) {
         const sp_fitting_row *row = &sheet->rows[i];
         sp_text_add(text, "<tr>");
