@@ -141,6 +141,20 @@ static bool write_down(const sp_placement *placement, sp_layout **layout, sp_cov
     return *coverage != NULL;
 }
 
+/* The same as the proposal, with which of its nozzles want a fitting. */
+static bool propose(const sp_placement *placement, sp_proposal *proposal, sp_error *error)
+{
+    const sp_search *search = &placement->search;
+    if (!write_down(placement, &proposal->layout, &proposal->coverage, error))
+        return false;
+    proposal->fittings = calloc(proposal->layout->count + 1, sizeof *proposal->fittings);
+    for (size_t i = 0; proposal->fittings && i < placement->front.best.count; i++) {
+        uint32_t mount = placement->front.best.items[i].site.mount;
+        proposal->fittings[search->kept_count + i] = search->options->mounts[mount].kind != SP_MOUNT_PORT;
+    }
+    return proposal->fittings || sp_fail_memory(error);
+}
+
 static bool measure(const sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
     return sp_measure_error(placement->fine, proposal->layout, proposal->coverage, SP_TRAJECTORY_AUTO,
@@ -170,14 +184,15 @@ static bool count_again(sp_placement *placement, sp_proposal *proposal, sp_evalu
     sp_coverage_destroy(proposal->greedy_coverage);
     sp_coverage_destroy(proposal->coverage);
     sp_layout_destroy(proposal->layout);
+    free(proposal->fittings);
+    proposal->fittings = NULL;
     proposal->attainable = NULL;
     proposal->reasons = NULL;
     proposal->coverage = NULL;
     proposal->layout = NULL;
     proposal->greedy_coverage = sp_evaluate(again, proposal->greedy, error);
     bool done = proposal->greedy_coverage && set_target(placement, proposal, error) &&
-                count_front_again(placement, &before, error) &&
-                write_down(placement, &proposal->layout, &proposal->coverage, error);
+                count_front_again(placement, &before, error) && propose(placement, proposal, error);
     sp_front_free(&before);
     sp_evaluator_destroy(outdated);
     return done;
@@ -239,6 +254,7 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
     proposal->reached = proposal->asked_area > 0 && proposal->coverage->covered_area >= proposal->asked_area &&
                         proposal->coverage->flow <= options->max_water * (1 + SP_ROUNDING) &&
                         (!options->max_nozzles || proposal->layout->count <= options->max_nozzles);
+    proposal->objective = options->objective;
     proposal->interrupted = placement->watch.interrupted;
     proposal->positions = placement->sites.count;
     proposal->candidates = placement->candidates.pose_start[placement->sites.count];
@@ -266,17 +282,16 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
         return sp_fail_memory(error);
     sp_placement placement = {.fine = evaluator, .options = options, .watch = sp_watch_start(&options->run)};
     sp_watch_allow(&placement.watch, options->prove ? SEARCH_PROVING : SEARCH);
-    bool done = look_around(&placement, error) && set_target(&placement, proposal, error) &&
-                sp_find(&placement.search, &placement.watch, &placement.front, &placement.pool, error) &&
-                write_down(&placement, &proposal->greedy, &proposal->greedy_coverage, error) &&
-                is_sound(&placement, error) &&
-                sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
-                sp_set_front(&placement.search, &placement.watch, &placement.front, error) &&
-                is_sound(&placement, error) && write_down(&placement, &proposal->layout, &proposal->coverage, error) &&
-                sp_watch_stage(&placement.watch, "refine", error) && confirm(&placement, proposal, error) &&
-                check_forward(&placement, proposal, error) && certify(&placement, proposal, error) &&
-                is_sound(&placement, error) && sp_watch_stage(&placement.watch, "certificate", error) &&
-                conclude(&placement, proposal, error);
+    bool done =
+        look_around(&placement, error) && set_target(&placement, proposal, error) &&
+        sp_find(&placement.search, &placement.watch, &placement.front, &placement.pool, error) &&
+        write_down(&placement, &proposal->greedy, &proposal->greedy_coverage, error) && is_sound(&placement, error) &&
+        sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
+        sp_set_front(&placement.search, &placement.watch, &placement.front, error) && is_sound(&placement, error) &&
+        propose(&placement, proposal, error) && sp_watch_stage(&placement.watch, "refine", error) &&
+        confirm(&placement, proposal, error) && check_forward(&placement, proposal, error) &&
+        certify(&placement, proposal, error) && is_sound(&placement, error) &&
+        sp_watch_stage(&placement.watch, "certificate", error) && conclude(&placement, proposal, error);
     placement_free(&placement);
     if (done)
         return proposal;
@@ -289,6 +304,7 @@ void sp_proposal_destroy(sp_proposal *proposal)
     if (!proposal)
         return;
     sp_layout_destroy(proposal->layout);
+    free(proposal->fittings);
     sp_coverage_destroy(proposal->coverage);
     sp_layout_destroy(proposal->greedy);
     sp_coverage_destroy(proposal->greedy_coverage);

@@ -13,7 +13,8 @@ typedef enum { SP_MOUNT_PORT, SP_MOUNT_SURFACE, SP_MOUNT_LINE, SP_MOUNT_BOX } sp
 /* Where nozzles may be. Fields that a kind does not name are zero. */
 typedef struct {
     sp_mount_kind kind;
-    char name[SP_NAME]; /* port */
+    char name[SP_NAME]; /* a port has one; others may, "" where not */
+    size_t most;        /* nozzles that it takes besides kept ones; 0: any number. A port takes one whatever it says */
     sp_vec3 position;   /* port, m */
     sp_vec3 axis;       /* port, line, box: unit reference axis */
     double tilt;        /* rad that a nozzle's axis may lean from the reference axis; π is any direction */
@@ -79,6 +80,8 @@ typedef struct {
                  * is none, until all are within 0.1 % of what was found or much was tried */
     size_t mount_count;
     const sp_mount *mounts; /* borrowed */
+    size_t other_count;
+    const sp_mount *others; /* borrowed: of ports among them that are not to be used no nozzle gets the name */
     sp_refine refine;
     const sp_layout *kept; /* borrowed, may be NULL: its nozzles marked keep are in every proposal */
     sp_run run;
@@ -94,6 +97,7 @@ typedef struct {
     double counted; /* m² that it covers on the certificate's patches; NAN: no certificate */
     double bound;   /* m² of the same patches that no layout of as much water covers (see sp_certificate); NAN */
     double every_aim_bound; /* the same of nozzles aimed in any way (see sp_certificate); NAN */
+    size_t fittings;        /* of the nozzles, those that are neither kept nor in ports */
 } sp_front_point;
 
 /* How far from the best the proposal can be: no layout of the candidate poses and of the poses of the layouts found
@@ -142,11 +146,13 @@ typedef struct {
 
 /* Owned by the caller. */
 typedef struct {
-    sp_layout *layout;     /* the proposal, refined */
-    sp_coverage *coverage; /* of it, by the scene's own settings, its error measured */
-    sp_evaluator *again;   /* NULL; or owned, and all here is counted on it: what auto had chosen for the search did not
-                            * keep the accuracy on the proposal (sp_evaluator_again) */
-    sp_layout *greedy;     /* the best found on the candidates, before refinement */
+    sp_objective objective; /* the options' */
+    sp_layout *layout;      /* the proposal, refined */
+    bool *fittings;         /* [layout->count]: neither kept nor in a port, so that it wants a fitting made for it */
+    sp_coverage *coverage;  /* of it, by the scene's own settings, its error measured */
+    sp_evaluator *again; /* NULL; or owned, and all here is counted on it: what auto had chosen for the search did not
+                          * keep the accuracy on the proposal (sp_evaluator_again) */
+    sp_layout *greedy;   /* the best found on the candidates, before refinement */
     sp_coverage *greedy_coverage;
     bool *attainable;   /* [patches], of `again` where there is one, by the allowed nozzles or either layout above */
     sp_reason *reasons; /* [patches]: why not */
@@ -177,6 +183,11 @@ typedef struct {
  * refinement moves the others about them. */
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error);
 void sp_proposal_destroy(sp_proposal *proposal);
+
+/* Which of proposals [count >= 1] with one objective, for the same surface and coverage, is best by it: of those that
+ * cover what was asked for the one of most area per water, of least water or of most coverage; where none does, the one
+ * that covers most. Of equal ones that of less water, of these that of more coverage, then the first. */
+size_t sp_place_best(const sp_proposal *const *proposals, size_t count);
 
 #ifdef __cplusplus
 }

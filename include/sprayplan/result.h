@@ -45,6 +45,7 @@ typedef struct {
     sp_vec3 axis;                              /* unit */
     double roll, angle, pressure, flow, speed; /* rad, rad, Pa, m³/s, m/s */
     double alone, lost;                        /* m², as sp_contributions */
+    bool fitting;                              /* of an alternative: wants a fitting made for it, as sp_proposal */
     sp_track_gaps tracks;                      /* of a two-axis head */
 } sp_nozzle_figures;
 
@@ -74,6 +75,7 @@ typedef struct {
     sp_shadow_figures *shadows;                          /* owned */
     size_t nozzle_count;
     sp_nozzle_figures *nozzles; /* owned */
+    size_t fittings;            /* nozzles that want one; unknown but of alternatives */
     size_t part_count;
     sp_part_figures *parts; /* owned; those that are to be cleaned, in the mesh's order */
 } sp_figures;
@@ -107,10 +109,12 @@ typedef struct {
     const sp_evaluator *evaluator;
     const sp_layout *layout;
     const sp_coverage *coverage;
-    const sp_figures *figures;             /* NULL where there is an evaluator */
+    const sp_figures *figures;             /* NULL where there is an evaluator; what several designs show that are the
+                                            * same nozzles is one list of nozzles */
     const sp_contributions *contributions; /* of its nozzles; NULL where they were not worked out */
     const sp_mount *mounts;                /* [mount_count], that its nozzles may sit on; NULL for none */
     size_t mount_count;
+    const sp_proposal *alternative; /* that it is, where a scene asks for alternatives; NULL elsewhere */
 } sp_design;
 
 /* A file that was read. */
@@ -123,13 +127,13 @@ typedef struct {
 bool sp_file_sha256(const char *path, char sha256[SP_SHA256], sp_error *error);
 
 /* What a command found. Everything is borrowed. designs[0] is not special; pictures and layout.yaml are for the design
- * named "proposed", or the only one. */
+ * named "proposed", or of alternatives that of `proposal`, or the only one. */
 typedef struct {
     const char *command; /* "simulate", "place", "compare" */
     const char *scene;   /* the scene's path as given; for compare the first */
     size_t design_count;
     const sp_design *designs;
-    const sp_proposal *proposal; /* NULL unless the command is place */
+    const sp_proposal *proposal; /* NULL unless the command is place; of alternatives the best */
     size_t stage_count;          /* stages besides the proposal's own, in order: "load", "atlas", ... */
     const sp_stage *stages;
     size_t input_count; /* files that were read, 0 where that is not told */
@@ -139,8 +143,18 @@ typedef struct {
     const char *command_line, *date;
 } sp_result;
 
+/* The proposal that speaks of design `index`: the alternative that it is, or the result's. NULL where there is none. */
+const sp_proposal *sp_result_proposal(const sp_result *result, size_t index);
+/* True where the result is of alternatives. */
+bool sp_result_has_alternatives(const sp_result *result);
+/* The design whose layout the result's proposal is; SP_UNKNOWN where there is none. */
+size_t sp_result_proposed(const sp_result *result);
+/* Why that is proposed and not another alternative, as a clause of plain text; "" without alternatives. */
+#define SP_CHOICE_TEXT 120
+void sp_result_choice(const sp_result *result, char text[SP_CHOICE_TEXT]);
+
 /* The figures of every design, in order [design_count]. With a proposal, attainable is what it calls attainable and
- * what any design on the same evaluator covers. The caller destroys. */
+ * what any design on the same evaluator that it speaks of covers. The caller destroys. */
 sp_figures *sp_result_figures(const sp_result *result, sp_error *error);
 
 /* What was made of the geometry that an evaluator is on, in clauses of plain text (UTF-8) for readers. */

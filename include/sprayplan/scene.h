@@ -31,6 +31,12 @@ const sp_layout *sp_scene_layout(const sp_scene *scene);        /* the engineer'
 sp_place_options sp_scene_place_options(const sp_scene *scene); /* defaults for NULL */
 bool sp_scene_has_place(const sp_scene *scene);                 /* the file has a `place:` block with mounts */
 
+/* The alternatives of `place:`, each by itself a placement: place's settings but for its own mounts (in place's order),
+ * types, pressures and limits. `index` below the count. */
+size_t sp_scene_alternative_count(const sp_scene *scene); /* 0 for NULL */
+const char *sp_scene_alternative_name(const sp_scene *scene, size_t index);
+sp_place_options sp_scene_alternative_options(const sp_scene *scene, size_t index);
+
 /* How the CAD file of geometry entry `geometry` was cut into triangles; NULL for entries that are none. */
 const sp_cad_account *sp_scene_cad(const sp_scene *scene, size_t geometry);
 

@@ -45,7 +45,7 @@ static bool offer(const sp_reckoning *reckoning, const sp_site *site, size_t lau
     const sp_search *search = reckoning->search;
     const sp_mount *mount = &search->options->mounts[site->mount];
     double away = acos(fmin(1, fmax(-1, sp_dot(direction, site->axis))));
-    size_t place = mount->kind == SP_MOUNT_PORT ? site->mount : search->options->mount_count;
+    size_t place = sp_mount_room(mount) == 1 ? site->mount : search->options->mount_count;
     bool better = false;
     for (size_t k = 0; k < search->candidates->make_count; k++) {
         const sp_make *make = &search->candidates->makes[k];

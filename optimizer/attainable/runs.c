@@ -68,7 +68,7 @@ static void look_at_make(const running *r, int thread, uint32_t site, uint32_t m
     const sp_scope *scope = &r->scopes[make];
     sp_sweeper *sweeper = &r->sweepers[thread];
     uint32_t mount = search->sites->items[site].mount;
-    size_t place = search->options->mounts[mount].kind == SP_MOUNT_PORT ? mount : search->options->mount_count;
+    size_t place = sp_mount_room(&search->options->mounts[mount]) == 1 ? mount : search->options->mount_count;
     size_t axes = sp_candidates_axes(search->candidates, mount, make)->count;
     if (scope->flow_low > r->water_left || search->port_taken[mount])
         return;

@@ -76,7 +76,7 @@ static bool set_tiers(sp_problem *p, sp_error *error)
     for (size_t i = 0; i < p->own; i++)
         tier_for(p, p->flows[makes + i]);
     for (size_t m = 0; m < mounts; m++)
-        p->ports[m] = search->options->mounts[m].kind == SP_MOUNT_PORT ? p->cover.port_count++ : SP_NO_PORT;
+        p->ports[m] = sp_mount_room(&search->options->mounts[m]) == 1 ? p->cover.port_count++ : SP_NO_PORT;
     return true;
 }
 

@@ -262,14 +262,10 @@ bool sp_draft_has_place(const sp_search *search, const sp_draft *draft, uint32_t
 {
     if (search->options->max_nozzles && search->kept_count + draft->count >= search->options->max_nozzles)
         return false;
-    if (search->options->mounts[mount].kind != SP_MOUNT_PORT)
-        return true;
-    if (search->port_taken[mount])
-        return false;
-    for (size_t i = 0; i < draft->count; i++)
-        if (draft->items[i].site.mount == mount)
-            return false;
-    return true;
+    size_t room = search->port_taken[mount] ? 0 : sp_mount_room(&search->options->mounts[mount]);
+    for (size_t i = 0; room > 0 && room <= draft->count && i < draft->count; i++)
+        room -= draft->items[i].site.mount == mount;
+    return room > 0;
 }
 
 static bool name_taken(const sp_layout *layout, size_t but, const char *name)
@@ -283,9 +279,12 @@ static bool name_taken(const sp_layout *layout, size_t but, const char *name)
 /* A nozzle that sits elsewhere and is called like a port, even one left empty, would be fitted there. */
 static bool is_port(const sp_place_options *options, const char *name)
 {
-    for (size_t i = 0; i < options->mount_count; i++)
-        if (options->mounts[i].kind == SP_MOUNT_PORT && !strcmp(options->mounts[i].name, name))
+    for (size_t i = 0; i < options->mount_count + options->other_count; i++) {
+        bool other = i >= options->mount_count;
+        const sp_mount *mount = other ? &options->others[i - options->mount_count] : &options->mounts[i];
+        if (mount->kind == SP_MOUNT_PORT && !strcmp(mount->name, name))
             return true;
+    }
     return false;
 }
 

@@ -68,6 +68,15 @@ static bool note(sp_front_list *list, double (*key)(const sp_front_point *), dou
     return true;
 }
 
+/* Nozzles that want a fitting made for them. */
+static size_t fittings_of(const sp_search *search, const sp_draft *draft)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < draft->count; i++)
+        count += search->options->mounts[draft->items[i].site.mount].kind != SP_MOUNT_PORT;
+    return count;
+}
+
 bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
                       sp_error *error)
 {
@@ -75,7 +84,8 @@ bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *
     sp_coverage *coverage = layout ? sp_evaluate(front->fine, layout, error) : NULL;
     sp_front_point measured = {0};
     if (coverage)
-        measured = (sp_front_point){coverage->flow, coverage->covered_area, layout->count, NAN, NAN, NAN};
+        measured = (sp_front_point){
+            coverage->flow, coverage->covered_area, layout->count, NAN, NAN, NAN, fittings_of(search, draft)};
     bool done = coverage != NULL;
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);

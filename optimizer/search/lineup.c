@@ -95,14 +95,10 @@ static bool has_place(const sp_lineup *lineup, size_t row)
     const sp_table *table = lineup->table;
     const sp_place_options *options = table->search->options;
     uint32_t mount = sp_table_mount(table, row);
-    if (options->mounts[mount].kind != SP_MOUNT_PORT)
-        return true;
-    if (table->search->port_taken[mount])
-        return false;
-    for (size_t i = 0; i < lineup->count; i++)
-        if (sp_table_mount(table, lineup->row[i]) == mount)
-            return false;
-    return true;
+    size_t room = table->search->port_taken[mount] ? 0 : sp_mount_room(&options->mounts[mount]);
+    for (size_t i = 0; room > 0 && room <= lineup->count && i < lineup->count; i++)
+        room -= sp_table_mount(table, lineup->row[i]) == mount;
+    return room > 0;
 }
 
 static bool has_number(const sp_lineup *lineup)

@@ -137,6 +137,9 @@ int cli_fail_in(const cli_scene *opened, sp_error *error);
  * they are to hold. `scene`, whose files they must not replace, may be NULL. True without -o. */
 bool cli_output_ready(const cli_options *options, const sp_scene *scene, const char *const *names, sp_error *error);
 extern const char *const cli_result_files[]; /* of simulate and place */
+/* The file that an alternative of place's is written to as a scene, where it is not the proposed one. */
+enum { CLI_LAYOUT_NAME = 40 };
+void cli_layout_name(size_t alternative, char name[CLI_LAYOUT_NAME]);
 
 /* A folder in which no file that was read can be replaced, of the command line or of the scenes [count], which may be
  * NULL. */
@@ -150,7 +153,7 @@ char *cli_folder_of(const char *path);
 
 /* report.c: what simulate, place and compare end with: files where -o says, and the result on standard output. `scenes`
  * [input_count], NULL for what is none. `layout`, which is written as a scene after the first one, NULL: no
- * layout.yaml. */
+ * layout.yaml; with alternatives so are those of the others. */
 bool cli_report(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
                 const cli_inputs *inputs, const sp_layout *layout, sp_error *error);
 

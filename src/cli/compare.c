@@ -20,6 +20,8 @@ typedef struct {
     sp_design *designs;
     char **names; /* of the designs, where a result holds several */
     size_t design_count;
+    const sp_figures **read_figures; /* [design_count], as they were read; NULL of scenes */
+    sp_figures *shared;              /* [design_count], of those that show what another run found; they borrow all */
     cli_clock clock;
 } comparison;
 
@@ -67,6 +69,7 @@ static bool add_design(comparison *all, sp_design design, const char *path, cons
     if (!name)
         return sp_fail_memory(error);
     design.name = all->names[all->design_count] = name;
+    all->read_figures[all->design_count] = design.figures;
     all->designs[all->design_count++] = design;
     return true;
 }
@@ -93,11 +96,73 @@ static bool list_designs(comparison *all, const cli_options *options, sp_error *
         most += 1 + all->inputs[i].figure_count;
     all->designs = calloc(most, sizeof *all->designs);
     all->names = calloc(most, sizeof *all->names);
-    if (!all->designs || !all->names)
+    all->read_figures = calloc(most, sizeof *all->read_figures);
+    if (!all->designs || !all->names || !all->read_figures)
         return sp_fail_memory(error);
     for (int i = 0; i < options->input_count; i++)
         if (!add_input(all, &all->inputs[i], options->inputs[i], error))
             return false;
+    return true;
+}
+
+static bool same_nozzle(const sp_nozzle_figures *a, const sp_nozzle_figures *b)
+{
+    const double *x = &a->position.x, *y = &b->position.x, *u = &a->axis.x, *v = &b->axis.x;
+    bool same = !strcmp(a->type, b->type) && a->roll == b->roll && a->angle == b->angle && a->pressure == b->pressure &&
+                a->flow == b->flow && a->speed == b->speed;
+    for (int k = 0; k < 3; k++)
+        same = same && x[k] == y[k] && u[k] == v[k];
+    return same;
+}
+
+/* The same nozzles in the same geometry, counted the same way but on texels of their own, and told apart by no more
+ * than their errors: what else may differ, such as the criterion, would show. */
+static bool same_layout(const sp_figures *a, const sp_figures *b)
+{
+    bool same = a->nozzle_count == b->nozzle_count && a->nozzle_count > 0 && a->triangles == b->triangles &&
+                a->area == b->area && !strcmp(a->trajectory, b->trajectory) && !strcmp(a->evaluator, b->evaluator) &&
+                a->reflections == b->reflections &&
+                fabs(a->coverage - b->coverage) <= a->error_estimate + b->error_estimate;
+    for (size_t i = 0; same && i < a->nozzle_count; i++)
+        same = same_nozzle(&a->nozzles[i], &b->nozzles[i]);
+    return same;
+}
+
+/* What one run found of a layout, as far as that is of the layout alone: what is out of reach follows from the places
+ * that a run allows. */
+static sp_figures found_by(const sp_figures *other, const sp_figures *own)
+{
+    sp_figures figures = *other;
+    figures.name = own->name;
+    figures.attainable_area = own->attainable_area;
+    memcpy(figures.missing_area, own->missing_area, sizeof figures.missing_area);
+    figures.missing_count = own->missing_count;
+    figures.missing = own->missing;
+    figures.shadow_count = own->shadow_count;
+    figures.shadows = own->shadows;
+    figures.of_attainable = own->attainable_area > 0 ? fmin(other->covered_area / own->attainable_area, 1) : NAN;
+    return figures;
+}
+
+/* One layout has one figure, whichever run it is read from: that of the run with the least error. */
+static bool share_figures(comparison *all, sp_error *error)
+{
+    all->shared = calloc(all->design_count + 1, sizeof *all->shared);
+    if (!all->shared)
+        return sp_fail_memory(error);
+    for (size_t i = 0; i < all->design_count; i++) {
+        const sp_figures *own = all->designs[i].figures, *best = own;
+        for (size_t k = 0; own && k < all->design_count; k++) {
+            const sp_figures *other = all->read_figures[k];
+            if (other && other->coverage != own->coverage && same_layout(own, other) &&
+                other->error_estimate < best->error_estimate)
+                best = other;
+        }
+        if (best == own)
+            continue;
+        all->shared[i] = found_by(best, own);
+        all->designs[i].figures = &all->shared[i];
+    }
     return true;
 }
 
@@ -117,6 +182,8 @@ static bool compare(comparison *all, const cli_options *options, sp_error *error
     for (int i = 0; i < options->input_count; i++)
         all->scenes[i] = all->inputs[i].opened.scene;
     if (!list_designs(all, options, error))
+        return false;
+    if (!share_figures(all, error))
         return false;
     sp_result result = {.command = "compare",
                         .scene = options->inputs[0],
@@ -141,6 +208,8 @@ int cli_compare(const cli_options *options)
     for (size_t i = 0; i < all.design_count; i++)
         free(all.names[i]);
     free(all.names);
+    free(all.read_figures);
+    free(all.shared);
     free(all.designs);
     free(all.scenes);
     cli_inputs_free(&all.read);

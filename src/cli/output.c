@@ -10,6 +10,11 @@ const char *const cli_result_files[] = {"result.json", "report.html", "layout.ya
                                         "nozzles.stl", "swabs.csv",   "coverage.png", "deposits.exr",
                                         "model.glb",   "surface.vtp", "texels.vtp",   NULL};
 
+void cli_layout_name(size_t alternative, char name[CLI_LAYOUT_NAME])
+{
+    snprintf(name, CLI_LAYOUT_NAME, "layout-%zu.yaml", alternative + 1);
+}
+
 static bool protect_scene(const sp_scene *scene, sp_output *output, sp_error *error)
 {
     bool good = true;
@@ -61,6 +66,34 @@ bool cli_output_ready(const cli_options *options, const sp_scene *scene, const c
     return good;
 }
 
+static bool write_layout(const cli_options *options, const sp_scene *scene, const sp_design *design, const char *name,
+                         sp_output *output, sp_error *error)
+{
+    const sp_fidelity *fidelity = sp_evaluator_fidelity(design->evaluator);
+    char *text = sp_scene_text(scene, design->layout, fidelity, options->output, error);
+    bool good = text && sp_output_text(output, name, text, error);
+    free(text);
+    return good;
+}
+
+/* The main layout, and those of the alternatives that it was chosen from. */
+static bool write_layouts(const cli_options *options, const sp_result *result, const sp_scene *scene,
+                          const sp_layout *layout, sp_output *output, sp_error *error)
+{
+    bool good = true;
+    for (size_t i = 0, alternative = 0; good && i < result->design_count; i++) {
+        const sp_design *design = &result->designs[i];
+        char name[CLI_LAYOUT_NAME];
+        if (design->alternative)
+            cli_layout_name(alternative++, name);
+        if (design->layout == layout)
+            good = write_layout(options, scene, design, "layout.yaml", output, error);
+        else if (design->alternative)
+            good = write_layout(options, scene, design, name, output, error);
+    }
+    return good;
+}
+
 bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
                const sp_layout *layout, sp_error *error)
 {
@@ -68,12 +101,7 @@ bool cli_write(const cli_options *options, const sp_result *result, const sp_sce
         return true;
     sp_output *output = cli_output_open(options, options->output, scenes, options->input_count, error);
     bool good = output && sp_output_supersede(output, error) && sp_report_write(result, output, error);
-    if (good && layout) {
-        const sp_fidelity *fidelity = sp_evaluator_fidelity(result->designs[0].evaluator);
-        char *text = sp_scene_text(scenes[0], layout, fidelity, options->output, error);
-        good = text && sp_output_text(output, "layout.yaml", text, error);
-        free(text);
-    }
+    good = good && (!layout || write_layouts(options, result, scenes[0], layout, output, error));
     if (good)
         return sp_output_commit(output, error);
     sp_output_discard(output);
@@ -104,16 +132,23 @@ bool cli_print_object(json_t *object, int digits)
     return text != NULL;
 }
 
+/* No design before it is counted on the same. */
+static bool is_first_on(const sp_result *result, size_t design)
+{
+    size_t first = 0;
+    while (result->designs[first].evaluator != result->designs[design].evaluator)
+        first++;
+    return first == design;
+}
+
 /* What of the geometry is not sound, and what was done about it, once for every evaluator. */
 static void print_geometry(const sp_result *result)
 {
-    const sp_evaluator *before = NULL;
     size_t told = 0;
     for (size_t i = 0; i < result->design_count; i++) {
         const sp_evaluator *evaluator = result->designs[i].evaluator;
-        if (!evaluator || evaluator == before)
+        if (!evaluator || !is_first_on(result, i))
             continue;
-        before = evaluator;
         sp_geometry_clause clauses[SP_GEOMETRY_CLAUSES];
         size_t count = sp_geometry_clauses(evaluator, clauses);
         for (size_t k = 0; k < count; k++)
@@ -179,21 +214,20 @@ static void print_setting(int setting, const sp_evaluator *evaluator, const char
 /* What auto took and why, once for every evaluator, and what does not keep the accuracy. */
 static void print_choice(const sp_result *result, const sp_figures *figures)
 {
-    const sp_evaluator *before = NULL;
     for (size_t i = 0; i < result->design_count; i++) {
         const sp_evaluator *evaluator = result->designs[i].evaluator;
         if (!evaluator)
             continue;
+        bool first = is_first_on(result, i);
         const sp_choice *choice = sp_evaluator_choice(evaluator);
         double accuracy = sp_evaluator_fidelity(evaluator)->accuracy, error = figures[i].error_estimate;
         const char *why[] = {choice->texel, choice->jets, choice->trajectory, choice->method, choice->reflections};
-        for (int k = 0; k < 5 && evaluator != before; k++)
+        for (int k = 0; k < 5 && first; k++)
             if (why[k][0])
                 print_setting(k, evaluator, why[k]);
-        if (error > accuracy || (!isfinite(error) && evaluator != before && choice->missed))
+        if (error > accuracy || (!isfinite(error) && first && choice->missed))
             printf("warning: the coverage of %s does not keep the accuracy of %.3g %% that was asked for\n",
                    result->designs[i].name, 100 * accuracy);
-        before = evaluator;
     }
 }
 
@@ -308,16 +342,16 @@ static void print_parts(const sp_figures *figures, sp_reason reason)
         printf(", other parts %.4f", left);
 }
 
-/* What no layout can cover, by reason and part. */
-static void print_missing(const sp_figures *figures)
+/* What no layout can cover, by reason and part; `name` of the alternative, "" for none. */
+static void print_missing(const sp_figures *figures, const char *name)
 {
     double missing = figures->clean_area - figures->attainable_area;
     if (!(missing > 1e-6 * figures->clean_area))
         return;
     double percent = 100 * missing / figures->clean_area;
-    printf("out of reach of every allowed nozzle%s: %.*f %% of the surface to be cleaned, %.4f m2\n",
-           figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or not looked into" : "", percent < 1 ? 3 : 1, percent,
-           missing);
+    printf("%s%sout of reach of every allowed nozzle%s: %.*f %% of the surface to be cleaned, %.4f m2\n", name,
+           name[0] ? ": " : "", figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or not looked into" : "",
+           percent < 1 ? 3 : 1, percent, missing);
     for (sp_reason reason = 0; reason < SP_REASONS; reason++) {
         const char *text = reason == SP_REASON_UNKNOWN ? "not looked into" : sp_reason_text(reason);
         if (!text || !(figures->missing_area[reason] > 0))
@@ -329,14 +363,48 @@ static void print_missing(const sp_figures *figures)
     printf("\n");
 }
 
+/* What no layout can cover, of each alternative. */
+static void print_all_missing(const sp_result *result, const sp_figures *figures)
+{
+    size_t proposed = sp_result_proposed(result);
+    for (size_t i = 0; i < result->design_count; i++)
+        if (result->designs[i].alternative || i == proposed)
+            print_missing(&figures[i], result->designs[i].alternative ? result->designs[i].name : "");
+}
+
+/* Which alternative is proposed, and why. */
+static void print_proposed(const sp_result *result)
+{
+    char why[SP_CHOICE_TEXT];
+    sp_result_choice(result, why);
+    if (why[0])
+        printf("\nproposed: %s (%s)\n", result->designs[sp_result_proposed(result)].name, why);
+}
+
+/* What is checked and proved of the proposal, or of each alternative. */
+static void print_proofs(const sp_result *result)
+{
+    if (result->proposal && !sp_result_has_alternatives(result)) {
+        print_forward_check(&result->proposal->forward_check);
+        print_certificate(result->proposal);
+    }
+    for (size_t i = 0; i < result->design_count; i++) {
+        const sp_proposal *alternative = result->designs[i].alternative;
+        if (!alternative)
+            continue;
+        printf("\n%s:", result->designs[i].name);
+        print_forward_check(&alternative->forward_check);
+        print_certificate(alternative);
+    }
+}
+
 static bool print_summary(const sp_result *result, sp_error *error)
 {
     sp_figures *figures = sp_result_figures(result, error);
     if (!figures)
         return false;
     print_geometry(result);
-    if (result->proposal && result->design_count)
-        print_missing(&figures[result->design_count - 1]);
+    print_all_missing(result, figures);
     int width = 0;
     for (size_t i = 0; i < result->design_count; i++)
         width = (int)strlen(result->designs[i].name) > width ? (int)strlen(result->designs[i].name) : width;
@@ -344,16 +412,14 @@ static bool print_summary(const sp_result *result, sp_error *error)
            "of attainable %", "m2 per L/min");
     for (size_t i = 0; i < result->design_count; i++)
         print_figures(&figures[i], result->designs[i].name, width);
+    print_proposed(result);
     print_dose(result, figures, width);
     print_errors(result, figures, width);
     print_choice(result, figures);
     print_noise(result);
     print_liquid(result, figures, width);
     print_film(result, figures, width);
-    if (result->proposal) {
-        print_forward_check(&result->proposal->forward_check);
-        print_certificate(result->proposal);
-    }
+    print_proofs(result);
     sp_figures_destroy(figures, result->design_count);
     return true;
 }

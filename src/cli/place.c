@@ -1,26 +1,44 @@
-/* sprayplan place: a proposed layout, compared with the scene's own nozzles. */
+/* sprayplan place: a proposed layout, or one for each alternative, compared with the scene's own nozzles. */
 #include "cli.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 typedef struct {
-    sp_coverage *manual; /* NULL where the scene has no nozzles */
-    sp_proposal *proposal;
+    sp_coverage *manual;     /* NULL where the scene has no nozzles */
+    sp_proposal **proposals; /* [count], one for each alternative, or the only one */
+    size_t count, best;
 } placement;
 
-/* What all designs are counted on. */
-static const sp_evaluator *counted_on(const cli_scene *opened, const placement *found)
+/* What a proposal is counted on. */
+static const sp_evaluator *evaluator_of(const cli_scene *opened, const sp_proposal *proposal)
 {
-    return found->proposal->again ? found->proposal->again : opened->evaluator;
+    return proposal->again ? proposal->again : opened->evaluator;
 }
 
-static size_t list_designs(const cli_scene *opened, const placement *found, sp_design designs[3])
+/* What the scene's own nozzles are counted on. */
+static const sp_evaluator *own_evaluator(const cli_scene *opened, const placement *found)
 {
-    const sp_evaluator *evaluator = counted_on(opened, found);
+    return evaluator_of(opened, found->proposals[found->best]);
+}
+
+/* `designs` has room for two more than there are proposals. */
+static size_t list_designs(const cli_scene *opened, const placement *found, sp_design *designs)
+{
     size_t count = 0;
+    bool alternatives = sp_scene_alternative_count(opened->scene) > 0;
     if (found->manual)
-        designs[count++] = cli_design(opened, "manual", evaluator, sp_scene_layout(opened->scene), found->manual);
-    designs[count++] =
-        cli_design(opened, "greedy", evaluator, found->proposal->greedy, found->proposal->greedy_coverage);
-    designs[count++] = cli_design(opened, "proposed", evaluator, found->proposal->layout, found->proposal->coverage);
+        designs[count++] =
+            cli_design(opened, "manual", own_evaluator(opened, found), sp_scene_layout(opened->scene), found->manual);
+    for (size_t i = 0; i < found->count; i++) {
+        const sp_proposal *proposal = found->proposals[i];
+        const sp_evaluator *evaluator = evaluator_of(opened, proposal);
+        const char *name = alternatives ? sp_scene_alternative_name(opened->scene, i) : "proposed";
+        if (!alternatives)
+            designs[count++] = cli_design(opened, "greedy", evaluator, proposal->greedy, proposal->greedy_coverage);
+        designs[count] = cli_design(opened, name, evaluator, proposal->layout, proposal->coverage);
+        designs[count++].alternative = alternatives ? proposal : NULL;
+    }
     return count;
 }
 
@@ -46,67 +64,130 @@ static void say_what_is_missing(const sp_proposal *proposal)
                 100 * coverage->fraction, coverage->covered_area, percent * proposal->asked_area);
 }
 
+static void say_interrupted(const cli_scene *opened, const placement *found)
+{
+    size_t asked = sp_scene_alternative_count(opened->scene);
+    fprintf(stderr, "sprayplan: interrupted; this is the best layout so far");
+    if (found->count < asked)
+        fprintf(stderr, ", without %zu of the %zu alternatives", asked - found->count, asked);
+    fprintf(stderr, "\n");
+}
+
 static int report(const cli_options *options, const cli_scene *opened, const placement *found, const cli_clock *clock,
                   sp_error *error)
 {
-    sp_design designs[3];
+    sp_design *designs = calloc(found->count + 2, sizeof *designs);
+    const sp_proposal *best = found->proposals[found->best];
+    const sp_scene *scene = opened->scene;
     sp_result result = {.command = "place",
                         .scene = options->inputs[0],
-                        .design_count = list_designs(opened, found, designs),
                         .designs = designs,
-                        .proposal = found->proposal,
+                        .proposal = best,
                         .stage_count = clock->count,
                         .stages = clock->stages};
-    const sp_scene *scene = opened->scene;
-    if (!cli_report(options, &result, &scene, &opened->inputs, found->proposal->layout, error))
+    result.design_count = designs ? list_designs(opened, found, designs) : 0;
+    bool good = (designs || sp_fail_memory(error)) &&
+                cli_report(options, &result, &scene, &opened->inputs, best->layout, error);
+    free(designs);
+    if (!good)
         return cli_fail_in(opened, error);
     if (cli_interrupted()) {
-        fprintf(stderr, "sprayplan: interrupted; this is the best layout so far\n");
+        say_interrupted(opened, found);
         return EXIT_INTERRUPTED;
     }
-    if (found->proposal->reached)
+    if (best->reached)
         return EXIT_DONE;
-    say_what_is_missing(found->proposal);
+    say_what_is_missing(best);
     return EXIT_SHORT;
 }
 
-/* Of the time limit, after what was done before; 0 where there is none. */
-static double time_left(const cli_options *options, const cli_clock *clock)
+/* Of the time limit, after what was done before, for one of those that are still to come; 0 where there is none. */
+static double time_left(const cli_options *options, const cli_clock *clock, const placement *found, size_t to_come)
 {
     double left = options->time_limit;
     for (size_t i = 0; i < clock->count; i++)
         left -= clock->stages[i].seconds;
+    for (size_t i = 0; i < found->count; i++)
+        for (size_t k = 0; k < found->proposals[i]->stage_count; k++)
+            left -= found->proposals[i]->stages[k].seconds;
+    left /= (double)to_come;
     return options->time_limit > 0 && left < 1e-3 ? 1e-3 : options->time_limit > 0 ? left : 0;
+}
+
+/* Which alternative an error is about. */
+static void tell_alternative(const cli_scene *opened, size_t index, sp_error *error)
+{
+    size_t used = strlen(error->message);
+    if (sp_scene_alternative_count(opened->scene) > 0 && error->kind == SP_ERROR_INPUT)
+        snprintf(error->message + used, sizeof error->message - used, " (alternative '%s')",
+                 sp_scene_alternative_name(opened->scene, index));
+}
+
+/* One proposal for each alternative, as many as there is time for before an interruption; or the only one. */
+static bool propose(const cli_options *options, const cli_scene *opened, const cli_clock *clock, placement *found,
+                    sp_error *error)
+{
+    size_t alternatives = sp_scene_alternative_count(opened->scene), count = alternatives ? alternatives : 1;
+    sp_place_options all = sp_scene_place_options(opened->scene);
+    found->proposals = calloc(count, sizeof(sp_proposal *));
+    if (!found->proposals)
+        return sp_fail_memory(error);
+    for (size_t i = 0; i < count && (i == 0 || !cli_interrupted()); i++) {
+        sp_place_options how = alternatives ? sp_scene_alternative_options(opened->scene, i) : all;
+        how.run = cli_run(options);
+        how.run.time_limit = time_left(options, clock, found, count - i);
+        how.memory = options->memory;
+        how.prove = options->prove;
+        found->proposals[i] = sp_place(opened->evaluator, &how, error);
+        if (!found->proposals[i]) {
+            tell_alternative(opened, i, error);
+            return false;
+        }
+        found->count++;
+    }
+    found->best = sp_place_best((const sp_proposal *const *)found->proposals, found->count);
+    return true;
 }
 
 /* The scene's own nozzles, where everything else was counted again. */
 static bool count_manual_again(const cli_scene *opened, placement *found, sp_error *error)
 {
-    if (!found->manual || !found->proposal->again)
+    const sp_evaluator *evaluator = own_evaluator(opened, found);
+    if (!found->manual || evaluator == opened->evaluator)
         return true;
     sp_coverage_destroy(found->manual);
-    found->manual = sp_evaluate(found->proposal->again, sp_scene_layout(opened->scene), error);
+    found->manual = sp_evaluate(evaluator, sp_scene_layout(opened->scene), error);
     return found->manual != NULL;
 }
 
 /* Where the liquid of every layout goes. */
 static bool follow_liquid(const cli_scene *opened, const placement *found, sp_error *error)
 {
-    const sp_evaluator *evaluator = counted_on(opened, found);
-    const sp_proposal *proposal = found->proposal;
-    return (!found->manual || sp_evaluate_balance(evaluator, sp_scene_layout(opened->scene), found->manual, error)) &&
-           sp_evaluate_balance(evaluator, proposal->greedy, proposal->greedy_coverage, error) &&
-           sp_evaluate_balance(evaluator, proposal->layout, proposal->coverage, error);
+    const sp_layout *own = sp_scene_layout(opened->scene);
+    bool alternatives = sp_scene_alternative_count(opened->scene) > 0;
+    bool good = !found->manual || sp_evaluate_balance(own_evaluator(opened, found), own, found->manual, error);
+    for (size_t i = 0; good && i < found->count; i++) {
+        const sp_proposal *proposal = found->proposals[i];
+        const sp_evaluator *evaluator = evaluator_of(opened, proposal);
+        good = (alternatives || sp_evaluate_balance(evaluator, proposal->greedy, proposal->greedy_coverage, error)) &&
+               sp_evaluate_balance(evaluator, proposal->layout, proposal->coverage, error);
+    }
+    return good;
 }
 
-/* How far the coverage of the other layouts is off: the proposal's is measured. */
+/* How far the coverage of the other layouts is off: the proposals' is measured. */
 static bool measure_errors(const cli_scene *opened, const placement *found, sp_error *error)
 {
-    const sp_proposal *proposal = found->proposal;
-    const sp_evaluator *evaluator = counted_on(opened, found);
-    return (!found->manual || cli_measure(evaluator, sp_scene_layout(opened->scene), found->manual, error)) &&
-           cli_measure(evaluator, proposal->greedy, proposal->greedy_coverage, error) &&
-           cli_find_borderline(evaluator, proposal->layout, proposal->coverage, error);
+    const sp_layout *own = sp_scene_layout(opened->scene);
+    bool alternatives = sp_scene_alternative_count(opened->scene) > 0;
+    bool good = !found->manual || cli_measure(own_evaluator(opened, found), own, found->manual, error);
+    for (size_t i = 0; good && i < found->count; i++) {
+        const sp_proposal *proposal = found->proposals[i];
+        const sp_evaluator *evaluator = evaluator_of(opened, proposal);
+        good = (alternatives || cli_measure(evaluator, proposal->greedy, proposal->greedy_coverage, error)) &&
+               cli_find_borderline(evaluator, proposal->layout, proposal->coverage, error);
+    }
+    return good;
 }
 
 /* A nozzle of the scene's own that could not stand where it is drawn: what the proposal is compared with is in doubt.
@@ -125,28 +206,40 @@ static bool warn_of_own(const cli_scene *opened, const sp_layout *own, sp_error 
     return true;
 }
 
+/* Asked before the minutes that a search may take. */
+static bool can_write(const cli_options *options, const cli_scene *opened, sp_error *error)
+{
+    size_t alternatives = sp_scene_alternative_count(opened->scene);
+    bool good = cli_output_ready(options, opened->scene, cli_result_files, error);
+    for (size_t i = 0; good && i < alternatives; i++) {
+        char name[CLI_LAYOUT_NAME];
+        cli_layout_name(i, name);
+        const char *const names[] = {name, NULL};
+        good = cli_output_ready(options, opened->scene, names, error);
+    }
+    return good;
+}
+
 static int place(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error)
 {
     placement found = {0};
-    if (!cli_output_ready(options, opened->scene, cli_result_files, error))
+    bool good = false;
+    if (!can_write(options, opened, error))
         return cli_fail(error);
     const sp_layout *own = sp_scene_layout(opened->scene);
     if (!sp_scene_has_place(opened->scene))
         sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: found no mounts, expected where nozzles may be mounted");
     else if (own->count == 0 || (found.manual = sp_evaluate(opened->evaluator, own, error))) {
         cli_clock_stage(clock, "simulate");
-        sp_place_options how = sp_scene_place_options(opened->scene);
-        how.run = cli_run(options);
-        how.run.time_limit = time_left(options, clock);
-        how.memory = options->memory;
-        how.prove = options->prove;
-        found.proposal = sp_place(opened->evaluator, &how, error);
+        good = propose(options, opened, clock, &found, error);
     }
-    bool good = found.proposal && count_manual_again(opened, &found, error) && follow_liquid(opened, &found, error) &&
-                measure_errors(opened, &found, error);
+    good = good && count_manual_again(opened, &found, error) && follow_liquid(opened, &found, error) &&
+           measure_errors(opened, &found, error);
     good = good && (options->quiet || warn_of_own(opened, own, error));
     int status = good ? report(options, opened, &found, clock, error) : cli_fail_in(opened, error);
-    sp_proposal_destroy(found.proposal);
+    for (size_t i = 0; i < found.count; i++)
+        sp_proposal_destroy(found.proposals[i]);
+    free(found.proposals);
     sp_coverage_destroy(found.manual);
     return status;
 }

@@ -215,9 +215,17 @@ static void add_check(sp_text *text, const sp_forward_check *check)
     sp_text_add(text, "&nbsp;%%</dd>\n");
 }
 
-static void add_search(sp_text *text, const sp_evaluator *evaluator, const sp_proposal *proposal)
+/* `name` of the alternative that it was for; NULL for none. */
+static void add_search(sp_text *text, const sp_evaluator *evaluator, const sp_proposal *proposal, const char *name)
 {
-    add_item(text, "Search");
+    if (name)
+        sp_text_add(text, "<dt>Search, ");
+    if (name)
+        sp_markup_escape(text, name);
+    if (name)
+        sp_text_add(text, "</dt><dd>");
+    else
+        add_item(text, "Search");
     sp_text_add(
         text,
         "%zu poses at %zu mounting points; greedy choice by gain per water, then refinement, accepted only where "
@@ -234,20 +242,35 @@ static void add_search(sp_text *text, const sp_evaluator *evaluator, const sp_pr
                           : "this report holds no bound on what the best possible layout could do</dd>\n");
 }
 
+/* The first design that is counted on it. */
+static size_t first_on(const sp_page *page, const sp_evaluator *evaluator)
+{
+    size_t first = 0;
+    while (page->result->designs[first].evaluator != evaluator)
+        first++;
+    return first;
+}
+
+static bool share_evaluator(const sp_page *page)
+{
+    bool shared = true;
+    for (size_t i = 1; i < page->result->design_count; ++i)
+        shared = shared && page->result->designs[i].evaluator == page->result->designs[0].evaluator;
+    return shared;
+}
+
 void sp_page_assumptions(const sp_page *page, sp_text *text)
 {
-    const sp_evaluator *before = NULL;
     sp_text_add(text, "<section id=\"assumptions\"><h2>Assumptions</h2>\n");
     for (size_t i = 0; i < page->result->design_count; ++i) {
         const sp_evaluator *evaluator = page->result->designs[i].evaluator;
-        if (!evaluator || evaluator == before)
+        if (!evaluator || first_on(page, evaluator) < i)
             continue;
-        if (page->main == SP_UNKNOWN) {
+        if (page->main == SP_UNKNOWN || (page->alternatives && !share_evaluator(page))) {
             sp_text_add(text, "<h3>");
             sp_page_name(page, text, i);
             sp_text_add(text, "</h3>\n");
         }
-        before = evaluator;
         sp_text_add(text, "<dl>\n");
         add_criterion(text, sp_evaluator_setup(evaluator));
         add_sweep(text, evaluator);
@@ -256,8 +279,11 @@ void sp_page_assumptions(const sp_page *page, sp_text *text)
         add_errors(page, text, evaluator);
         add_scene(page, text, evaluator);
         add_geometry(text, evaluator);
-        if (page->result->proposal)
-            add_search(text, evaluator, page->result->proposal);
+        if (page->result->proposal && !page->alternatives)
+            add_search(text, evaluator, page->result->proposal, NULL);
+        for (size_t k = i; k < page->result->design_count; ++k)
+            if (page->result->designs[k].alternative && page->result->designs[k].evaluator == evaluator)
+                add_search(text, evaluator, page->result->designs[k].alternative, page->figures[k].name);
         sp_text_add(text, "</dl>\n");
     }
     sp_text_add(

@@ -79,6 +79,16 @@ static void add_reason(sp_text *text, const sp_figures *figures, const area_unit
     sp_text_add(text, figures->missing_count ? ")" : "");
 }
 
+/* Nozzles that the proposal was chosen from. */
+static void add_allowed(const sp_page *page, sp_text *text)
+{
+    sp_text_add(text, "allowed nozzle");
+    if (!page->alternatives)
+        return;
+    sp_text_add(text, " of the alternative ");
+    sp_markup_escape(text, page->figures[page->main].name);
+}
+
 void sp_page_out_of_reach(const sp_page *page, sp_text *text)
 {
     const sp_figures *figures = known(page);
@@ -93,8 +103,9 @@ void sp_page_out_of_reach(const sp_page *page, sp_text *text)
                 proposal && figures->attainable_area < proposal->asked_area ? "warning" : "note");
     double percent = 100 * missing / figures->clean_area;
     sp_markup_decimals(text, percent, percent < 1 ? 3 : 1);
-    sp_text_add(text, "&nbsp;%% of the surface to be cleaned is out of reach</strong> of every allowed nozzle%s: ",
-                figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or was not looked into" : "");
+    sp_text_add(text, "&nbsp;%% of the surface to be cleaned is out of reach</strong> of every ");
+    add_allowed(page, text);
+    sp_text_add(text, "%s: ", figures->missing_area[SP_REASON_UNKNOWN] > 0 ? ", or was not looked into" : "");
     for (size_t i = 0; i < count; i++) {
         sp_text_add(text, i ? "; " : "");
         add_reason(text, figures, &unit, ranked[i]);
@@ -174,9 +185,10 @@ void sp_page_attainable(const sp_page *page, sp_text *text)
     sp_markup_significant(text, figures->attainable_area, 4);
     sp_text_add(text, "&nbsp;m\xc2\xb2 (");
     sp_markup_decimals(text, 100 * figures->attainable_area / figures->clean_area, 1);
-    sp_text_add(
-        text, "&nbsp;%%) are attainable: some allowed nozzle, at some allowed place and direction, reaches them as the "
-              "criterion asks, or a layout of this report covers them.");
+    sp_text_add(text, "&nbsp;%%) are attainable: some ");
+    add_allowed(page, text);
+    sp_text_add(text, ", at some allowed place and direction, reaches them as the criterion asks, or %s covers them.",
+                page->alternatives ? "its layout or the engineer&#39;s own" : "a layout of this report");
     if (missing > NEGLIGIBLE * figures->clean_area)
         sp_text_add(text,
                     " What is out of reach of every allowed nozzle is a fault of the vessel or of the mounts allowed, "

@@ -9,29 +9,28 @@ static void add_percent(sp_text *text, double fraction, bool up)
     sp_text_add(text, "&nbsp;%%");
 }
 
-static void add_every_aim(const sp_certificate *found, sp_text *text)
+/* `only`: there is no other on the page. */
+static void add_every_aim(const sp_certificate *found, sp_text *text, bool only)
 {
     if (!found->every_aim.computed)
         return;
     sp_text_add(text,
-                "<p id=\"every-aim\">Not only the candidates: of all nozzles at the %zu mounting points, whichever way "
+                "<p%s>Not only the candidates: of all nozzles at the %zu mounting points, whichever way "
                 "they point within the mounts&#39; tilt, at any roll and at any angle and flow that refinement may "
                 "set, and of the proposal&#39;s own poses, no layout reaches that with less than ",
-                found->every_aim.places);
+                only ? " id=\"every-aim\"" : "", found->every_aim.places);
     sp_markup_decimals(text, floor(6e5 * found->every_aim.water_bound + 1e-6) / 10, 1);
     sp_text_add(text, "&nbsp;L/min, and with the proposal&#39;s water none reaches more than ");
     add_percent(text, found->every_aim.area_bound / found->whole, true);
     sp_text_add(text, ". Places between the mounting points are not covered.</p>\n");
 }
 
-void sp_page_certificate(const sp_page *page, sp_text *text)
+/* What is proved of one proposal. */
+static void add_proof(const sp_proposal *proposal, sp_text *text, bool only)
 {
-    const sp_proposal *proposal = page->result->proposal;
-    if (!proposal || !proposal->certificate.computed)
-        return;
     const sp_certificate *found = &proposal->certificate;
     sp_text_add(text,
-                "<section id=\"certificate\"><h2>How good any layout could be</h2>\n<p>Among these %zu candidate poses "
+                "<p>Among these %zu candidate poses "
                 "and the proposal&#39;s own, on %zu texels, no layout reaches ",
                 found->candidates, found->texels);
     add_percent(text, found->counted / found->whole, true);
@@ -46,7 +45,46 @@ void sp_page_certificate(const sp_page *page, sp_text *text)
     sp_text_add(text, ": at most ");
     add_percent(text, found->gap, true);
     sp_text_add(text, " of what is possible is left.</p>\n");
-    add_every_aim(found, text);
+    add_every_aim(found, text, only);
+}
+
+/* The same of each alternative. */
+static void add_proofs(const sp_page *page, sp_text *text)
+{
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        const sp_proposal *alternative = page->result->designs[i].alternative;
+        if (!alternative)
+            continue;
+        sp_text_add(text, "<div class=\"block\"><h3>");
+        sp_page_name(page, text, i);
+        sp_text_add(text, "</h3>\n");
+        if (alternative->certificate.computed)
+            add_proof(alternative, text, false);
+        else
+            sp_text_add(text, "<p>Nothing is proved of how much better its layout could be.</p>\n");
+        sp_text_add(text, "</div>\n");
+    }
+}
+
+static bool proves(const sp_page *page)
+{
+    bool any = false;
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        const sp_proposal *proposal = sp_result_proposal(page->result, i);
+        any |= proposal && proposal->certificate.computed;
+    }
+    return any;
+}
+
+void sp_page_certificate(const sp_page *page, sp_text *text)
+{
+    if (!proves(page))
+        return;
+    sp_text_add(text, "<section id=\"certificate\"><h2>How good any layout could be</h2>\n");
+    if (page->alternatives)
+        add_proofs(page, text);
+    else
+        add_proof(page->result->proposal, text, true);
     sp_text_add(text, "<p class=\"note\">Proved by Lagrangian duality for every choice "
                       "of these poses that keeps the limits on nozzles, water and ports, rounded outwards. The texels "
                       "are those of the search and may be coarser than those that the other figures are counted on; "

@@ -1,39 +1,34 @@
 /* The engineer's layout against the best found with no more water, and against the least water for no less coverage. */
 #include "page.h"
 
-typedef struct {
-    double flow, area;
-    size_t nozzles;
-} point;
-
 /* The front's points, then what was reported: the refined proposal may lie beyond the front. */
-static bool point_at(const sp_page *page, size_t i, point *p)
+static bool point_at(const sp_page *page, size_t design, size_t i, sp_page_point *p)
 {
-    const sp_proposal *proposal = page->result->proposal;
+    const sp_proposal *proposal = sp_result_proposal(page->result, design);
     if (i < proposal->front_count) {
-        *p = (point){proposal->front[i].flow, proposal->front[i].area, proposal->front[i].nozzles};
+        const sp_front_point *found = &proposal->front[i];
+        *p = (sp_page_point){found->flow, found->area, found->nozzles, found->fittings};
         return true;
     }
-    size_t reported[2] = {page->greedy, page->main};
+    size_t reported[2] = {page->greedy, design};
     i -= proposal->front_count;
     if (i >= 2)
         return false;
-    size_t design = reported[i] == SP_UNKNOWN ? page->main : reported[i];
-    const sp_figures *figures = &page->figures[design];
-    *p = (point){figures->flow, figures->covered_area, figures->nozzle_count};
+    const sp_figures *figures = &page->figures[reported[i] == SP_UNKNOWN ? design : reported[i]];
+    *p = (sp_page_point){figures->flow, figures->covered_area, figures->nozzle_count, figures->fittings};
     return true;
 }
 
-/* Most area with no more water; least water with no less area. Nothing found: flow 0. */
-static void best_points(const sp_page *page, const sp_figures *manual, point *same_water, point *same_area)
+void sp_page_best_points(const sp_page *page, size_t design, double flow, double area, sp_page_point *same_water,
+                         sp_page_point *same_area)
 {
-    point p;
-    *same_water = (point){0, -1, 0};
-    *same_area = (point){INFINITY, 0, 0};
-    for (size_t i = 0; point_at(page, i, &p); ++i) {
-        if (p.flow <= manual->flow * (1 + 1e-9) && p.area > same_water->area)
+    sp_page_point p;
+    *same_water = (sp_page_point){0, -1, 0, 0};
+    *same_area = (sp_page_point){INFINITY, 0, 0, 0};
+    for (size_t i = 0; point_at(page, design, i, &p); ++i) {
+        if (p.flow <= flow * (1 + 1e-9) && p.area > same_water->area)
             *same_water = p;
-        if (p.area >= manual->covered_area * (1 - 1e-9) && p.flow < same_area->flow)
+        if (p.area >= area * (1 - 1e-9) && p.flow < same_area->flow)
             *same_area = p;
     }
 }
@@ -52,9 +47,20 @@ static void add_flow(sp_text *text, double flow)
     sp_text_add(text, "&nbsp;L/min</td>");
 }
 
-static void add_same_water(sp_text *text, double fraction, const point *best, double whole)
+/* What a row is about; `design` whose front it is, where there are several. */
+static void add_head(const sp_page *page, sp_text *text, size_t design, const char *compared)
 {
-    sp_text_add(text, "<tr><th scope=\"row\">At the engineer&#39;s water, coverage</th>");
+    sp_text_add(text, "<tr><th scope=\"row\">%s", compared);
+    if (page->alternatives) {
+        sp_text_add(text, "<br><span class=\"unit\">");
+        sp_markup_escape(text, page->figures[design].name);
+        sp_text_add(text, "</span>");
+    }
+    sp_text_add(text, "</th>");
+}
+
+static void add_same_water(sp_text *text, double fraction, const sp_page_point *best, double whole)
+{
     add_percent(text, fraction);
     if (best->area < 0) {
         sp_text_add(text, "<td colspan=\"3\" class=\"text\">nothing found with so little water</td></tr>\n");
@@ -69,9 +75,8 @@ static void add_same_water(sp_text *text, double fraction, const point *best, do
     sp_text_add(text, "&nbsp;L/min</td></tr>\n");
 }
 
-static void add_same_area(sp_text *text, double flow, const point *best, double whole)
+static void add_same_area(sp_text *text, double flow, const sp_page_point *best, double whole)
 {
-    sp_text_add(text, "<tr><th scope=\"row\">At the engineer&#39;s coverage, water</th>");
     add_flow(text, flow);
     if (!isfinite(best->flow)) {
         sp_text_add(text, "<td colspan=\"3\" class=\"text\">nothing found that covers as much</td></tr>\n");
@@ -92,16 +97,17 @@ static bool is_compared(const sp_page *page)
 
 void sp_page_gain(const sp_page *page, sp_text *text)
 {
-    point same_water, same_area;
+    sp_page_point same_water, same_area;
     if (!is_compared(page))
         return;
     const sp_figures *manual = &page->figures[page->manual];
-    best_points(page, manual, &same_water, &same_area);
+    sp_page_best_points(page, page->main, manual->flow, manual->covered_area, &same_water, &same_area);
     if (same_water.area < 0 || !isfinite(same_area.flow))
         return;
     sp_text_add(
         text,
-        "<p class=\"headline\">With no more water than the engineer&#39;s, the best layout found covers <strong>");
+        "<p class=\"headline\">With no more water than the engineer&#39;s, the best layout found%s covers <strong>",
+        page->alternatives ? " for it" : "");
     sp_markup_decimals(text, 100 * same_water.area / manual->clean_area, 1);
     sp_text_add(text, "&nbsp;%%</strong>; to cover no less than the engineer&#39;s, it needs <strong>");
     sp_markup_decimals(text, 6e4 * same_area.flow, 1);
@@ -115,15 +121,23 @@ void sp_page_comparison(const sp_page *page, sp_text *text)
     if (!is_compared(page))
         return;
     const sp_figures *manual = &page->figures[page->manual];
-    double whole = manual->clean_area;
-    point same_water, same_area;
-    best_points(page, manual, &same_water, &same_area);
     sp_text_add(text,
                 "<section id=\"comparison\"><h2>At equal water, at equal coverage</h2>\n<div class=\"wide\"><table "
                 "class=\"numbers\"><thead><tr><th scope=\"col\">Compared</th><th scope=\"col\">Manual</th><th "
                 "scope=\"col\">Best found</th><th scope=\"col\">Gain</th><th scope=\"col\" class=\"text\">With"
                 "</th></tr></thead>\n<tbody>\n");
-    add_same_water(text, manual->coverage, &same_water, whole);
-    add_same_area(text, manual->flow, &same_area, whole);
+    for (int k = 0; k < 2; ++k)
+        for (size_t i = 0; i < page->result->design_count; ++i) {
+            sp_page_point same_water, same_area;
+            if (page->alternatives ? !page->result->designs[i].alternative : i != page->main)
+                continue;
+            sp_page_best_points(page, i, manual->flow, manual->covered_area, &same_water, &same_area);
+            add_head(page, text, i,
+                     k ? "At the engineer&#39;s coverage, water" : "At the engineer&#39;s water, coverage");
+            if (k)
+                add_same_area(text, manual->flow, &same_area, page->figures[i].clean_area);
+            else
+                add_same_water(text, manual->coverage, &same_water, page->figures[i].clean_area);
+        }
     sp_text_add(text, "</tbody></table></div></section>\n");
 }

@@ -24,11 +24,16 @@ static double per_girth(const sp_figures *f)
     return 6e4 * f->film.per_girth;
 }
 
-static void add_row(const sp_page *page, sp_text *text, const char *title, const char *unit, int decimals,
-                    film_figure *value)
+/* Columns of a table. */
+typedef struct {
+    size_t first, end; /* designs */
+} columns;
+
+static void add_row(const sp_page *page, sp_text *text, columns shown, const char *title, const char *unit,
+                    int decimals, film_figure *value)
 {
     sp_text_add(text, "<tr><th scope=\"row\">%s <span class=\"unit\">(%s)</span></th>", title, unit);
-    for (size_t i = 0; i < page->result->design_count; ++i) {
+    for (size_t i = shown.first; i < shown.end; ++i) {
         sp_text_add(text, "<td%s>", sp_page_aside(page, i));
         if (page->figures[i].film.known)
             sp_markup_decimals(text, value(&page->figures[i]), decimals);
@@ -59,6 +64,20 @@ static void add_hollows(const sp_page *page, sp_text *text, size_t design)
     sp_text_add(text, "</tbody></table></div>\n");
 }
 
+static void add_table(const sp_page *page, sp_text *text, columns shown)
+{
+    sp_text_add(text, "<div class=\"wide\"><table "
+                      "class=\"numbers\"><thead><tr><th scope=\"col\">Film</th>");
+    sp_page_columns(page, text, shown.first, shown.end);
+    sp_text_add(text, "</tr></thead>\n<tbody>\n");
+    add_row(page, text, shown, "Covered by film alone", "m\xc2\xb2", 3, covered);
+    add_row(page, text, shown, "Drains from the geometry", "L/min", 1, drained);
+    add_row(page, text, shown, "Stands where it cannot drain", "L/min", 1, held);
+    add_row(page, text, shown, "Drips on dry surface", "L/min", 1, astray);
+    add_row(page, text, shown, "Supply per metre around all walls, seen from above", "L/min per m", 1, per_girth);
+    sp_text_add(text, "</tbody></table></div>\n");
+}
+
 void sp_page_film(const sp_page *page, sp_text *text)
 {
     bool known = false;
@@ -66,16 +85,10 @@ void sp_page_film(const sp_page *page, sp_text *text)
         known |= page->figures[i].film.known;
     if (!known)
         return;
-    sp_text_add(text, "<section id=\"film\"><h2>What runs down the walls</h2>\n<div class=\"wide\"><table "
-                      "class=\"numbers\"><thead><tr><th scope=\"col\">Film</th>");
-    sp_page_columns(page, text);
-    sp_text_add(text, "</tr></thead>\n<tbody>\n");
-    add_row(page, text, "Covered by film alone", "m\xc2\xb2", 3, covered);
-    add_row(page, text, "Drains from the geometry", "L/min", 1, drained);
-    add_row(page, text, "Stands where it cannot drain", "L/min", 1, held);
-    add_row(page, text, "Drips on dry surface", "L/min", 1, astray);
-    add_row(page, text, "Supply per metre around all walls, seen from above", "L/min per m", 1, per_girth);
-    sp_text_add(text, "</tbody></table></div>\n<p>The last row is the measure of rules of thumb, a mean around the "
+    sp_text_add(text, "<section id=\"film\"><h2>What runs down the walls</h2>\n");
+    for (size_t first = 0; first < page->result->design_count; first = sp_page_fold(page, first))
+        add_table(page, text, (columns){first, sp_page_fold(page, first)});
+    sp_text_add(text, "<p>The last row is the measure of rules of thumb, a mean around the "
                       "walls; what the criterion asks for is what runs down at each place.</p>\n");
     const sp_evaluator *before = NULL;
     for (size_t i = 0; i < page->result->design_count; ++i) {

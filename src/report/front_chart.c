@@ -7,6 +7,8 @@
 #define RIGHT 20
 #define TOP 16
 #define BOTTOM 56
+#define FEW 4   /* designs in a chart that has room for their legend */
+#define MANY 24 /* designs: more have none */
 
 typedef struct {
     double x_max, x_step, y_min, y_max, y_step; /* L/min, % */
@@ -29,23 +31,32 @@ static double nice_step(double range)
     return power * (share < 1.5 ? 1 : share < 3.5 ? 2 : share < 7.5 ? 5 : 10);
 }
 
-static double whole_area(const sp_page *page)
+/* The proposal whose front is drawn with a design; NULL where it has none of its own. */
+static const sp_proposal *front_of(const sp_page *page, size_t design)
 {
-    const sp_figures *figures = &page->figures[page->main == SP_UNKNOWN ? 0 : page->main];
-    return figures->clean_area;
+    return page->alternatives     ? page->result->designs[design].alternative
+           : design == page->main ? page->result->proposal
+                                  : NULL;
+}
+
+/* Fronts of several alternatives have their designs' colours, the only one its own. */
+static void add_stroke(const sp_page *page, sp_text *text, size_t design)
+{
+    if (page->alternatives)
+        sp_text_add(text, " style=\"stroke:%s\"", sp_page_colour(page, design));
 }
 
 static axes choose_axes(const sp_page *page)
 {
-    const sp_proposal *proposal = page->result->proposal;
-    double most = 1e-3, least = 100, whole = whole_area(page);
+    double most = 1e-3, least = 100;
     for (size_t i = 0; i < page->result->design_count; ++i) {
+        const sp_proposal *proposal = front_of(page, i);
         most = fmax(most, 6e4 * page->figures[i].flow);
         least = fmin(least, 100 * page->figures[i].coverage);
-    }
-    for (size_t i = 0; proposal && i < proposal->front_count; ++i) {
-        most = fmax(most, 6e4 * proposal->front[i].flow);
-        least = fmin(least, 100 * proposal->front[i].area / whole);
+        for (size_t k = 0; proposal && k < proposal->front_count; ++k) {
+            most = fmax(most, 6e4 * proposal->front[k].flow);
+            least = fmin(least, 100 * proposal->front[k].area / page->figures[i].clean_area);
+        }
     }
     axes a = {.x_step = nice_step(1.05 * most), .y_max = 100};
     a.x_max = a.x_step * ceil(1.05 * most / a.x_step);
@@ -76,13 +87,15 @@ static void add_grid(sp_text *text, const axes *a)
 }
 
 /* Steps: with water between two points one has the left one's layout. */
-static void add_front(const sp_page *page, sp_text *text, const axes *a)
+static void add_front(const sp_page *page, sp_text *text, const axes *a, size_t design)
 {
-    const sp_proposal *proposal = page->result->proposal;
-    double whole = whole_area(page);
+    const sp_proposal *proposal = front_of(page, design);
+    double whole = page->figures[design].clean_area;
     if (!proposal || proposal->front_count == 0)
         return;
-    sp_text_add(text, "<path class=\"front\" d=\"");
+    sp_text_add(text, "<path class=\"front\"");
+    add_stroke(page, text, design);
+    sp_text_add(text, " d=\"");
     for (size_t i = 0; i < proposal->front_count; ++i) {
         double x = x_of(a, 6e4 * proposal->front[i].flow), y = y_of(a, 100 * proposal->front[i].area / whole);
         if (i == 0)
@@ -91,18 +104,24 @@ static void add_front(const sp_page *page, sp_text *text, const axes *a)
             sp_text_add(text, "H%.1fV%.1f", x, y);
     }
     sp_text_add(text, "H%d\"/>\n", WIDTH - RIGHT);
-    for (size_t i = 0; i < proposal->front_count; ++i)
-        sp_text_add(text, "<circle class=\"point\" cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"/>\n",
+    for (size_t i = 0; i < proposal->front_count; ++i) {
+        sp_text_add(text, "<circle class=\"point\" cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"",
                     x_of(a, 6e4 * proposal->front[i].flow), y_of(a, 100 * proposal->front[i].area / whole));
+        if (page->alternatives)
+            sp_text_add(text, " style=\"fill:%s\"", sp_page_colour(page, design));
+        sp_text_add(text, "/>\n");
+    }
 }
 
 /* What is proved that no layout exceeds, at the waters of the front. */
-static void add_bound(const sp_page *page, sp_text *text, const axes *a)
+static void add_bound(const sp_page *page, sp_text *text, const axes *a, size_t design)
 {
-    const sp_proposal *proposal = page->result->proposal;
+    const sp_proposal *proposal = front_of(page, design);
     if (!proposal || !proposal->certificate.computed || proposal->front_count == 0)
         return;
-    sp_text_add(text, "<path class=\"bound\" d=\"");
+    sp_text_add(text, "<path class=\"bound\"");
+    add_stroke(page, text, design);
+    sp_text_add(text, " d=\"");
     for (size_t i = 0; i < proposal->front_count; ++i) {
         double y = y_of(a, fmin(100, 100 * proposal->front[i].bound / proposal->certificate.whole));
         sp_text_add(text, i == 0 ? "M%.1f %.1f" : "H%.1fV%.1f", x_of(a, 6e4 * proposal->front[i].flow), y);
@@ -113,42 +132,77 @@ static void add_bound(const sp_page *page, sp_text *text, const axes *a)
 /* Shapes differ as well as colours. */
 static void add_marker(sp_text *text, double x, double y, size_t shape, const char *colour)
 {
-    if (shape % 3 == 0)
+    shape = (shape + shape / 6) % 3; /* colours come again after six */
+    if (shape == 0)
         sp_text_add(text, "<path d=\"M%.1f %.1fl8 8l-8 8l-8 -8z\"", x, y - 8);
-    else if (shape % 3 == 1)
+    else if (shape == 1)
         sp_text_add(text, "<rect x=\"%.1f\" y=\"%.1f\" width=\"12\" height=\"12\"", x - 6, y - 6);
     else
         sp_text_add(text, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"7.5\"", x, y);
     sp_text_add(text, " fill=\"%s\" stroke=\"#fff\" stroke-width=\"1.5\"/>\n", colour);
 }
 
+/* Few designs are explained within the chart, where fronts leave room; more, or several fronts, below it. */
+static bool is_below(const sp_page *page)
+{
+    return page->alternatives || page->result->design_count > FEW;
+}
+
+/* Lines of a legend; 0: none. */
+static size_t legend_lines(const sp_page *page)
+{
+    const sp_proposal *proposal = page->result->proposal;
+    size_t count = page->result->design_count;
+    return count > MANY ? 0 : count + (proposal ? 1 + proposal->certificate.computed : 0);
+}
+
+/* The place of a line's text, the designs' lines first. */
+static void legend_place(const sp_page *page, size_t line, double *x, double *y)
+{
+    size_t count = page->result->design_count;
+    bool below = is_below(page);
+    *x = below ? LEFT + 26 : WIDTH - RIGHT - 234;
+    *y = below          ? HEIGHT + 14 + 22 * (double)line
+         : line < count ? HEIGHT - BOTTOM - 20 - 22 * (double)(count - 1 - line)
+                        : HEIGHT - BOTTOM - 20 - 22 * (double)line;
+}
+
+/* What lines are. */
+static void add_lines_legend(const sp_page *page, sp_text *text)
+{
+    double x, y;
+    size_t count = page->result->design_count;
+    legend_place(page, count, &x, &y);
+    sp_text_add(text,
+                "<path class=\"front\" d=\"M%g %.1fh20\"/><circle class=\"point\" cx=\"%g\" cy=\"%.1f\" "
+                "r=\"3.5\"/><text class=\"legend\" x=\"%g\" y=\"%.1f\">Best found for rising water</text>\n",
+                x - 26, y - 4, x - 16, y - 4, x, y);
+    if (!page->result->proposal->certificate.computed)
+        return;
+    legend_place(page, count + 1, &x, &y);
+    sp_text_add(text,
+                "<path class=\"bound\" d=\"M%g %.1fh20\"/><text class=\"legend\" x=\"%g\" y=\"%.1f\">Proved: none "
+                "covers more</text>\n",
+                x - 26, y - 4, x, y);
+}
+
 static void add_designs(const sp_page *page, sp_text *text, const axes *a)
 {
     size_t count = page->result->design_count;
     for (size_t i = 0; i < count; ++i) {
-        double legend = HEIGHT - BOTTOM - 20 - 22 * (double)(count - 1 - i);
+        double x, y;
+        legend_place(page, i, &x, &y);
         add_marker(text, x_of(a, 6e4 * page->figures[i].flow), y_of(a, 100 * page->figures[i].coverage), i,
                    sp_page_colour(page, i));
-        if (count > 12)
+        if (legend_lines(page) == 0)
             continue;
-        add_marker(text, WIDTH - RIGHT - 250, legend - 4, i, sp_page_colour(page, i));
-        sp_text_add(text, "<text class=\"legend\" x=\"%d\" y=\"%.1f\">", WIDTH - RIGHT - 234, legend);
+        add_marker(text, x - 16, y - 4, i, sp_page_colour(page, i));
+        sp_text_add(text, "<text class=\"legend\" x=\"%g\" y=\"%.1f\">", x, y);
         sp_page_name(page, text, i);
         sp_text_add(text, "</text>\n");
     }
-    if (!page->result->proposal || count > 12)
-        return;
-    double legend = HEIGHT - BOTTOM - 20 - 22 * (double)count;
-    sp_text_add(
-        text,
-        "<path class=\"front\" d=\"M%d %.1fh20\"/><circle class=\"point\" cx=\"%d\" cy=\"%.1f\" r=\"3.5\"/><text "
-        "class=\"legend\" x=\"%d\" y=\"%.1f\">Best found for rising water</text>\n",
-        WIDTH - RIGHT - 260, legend - 4, WIDTH - RIGHT - 250, legend - 4, WIDTH - RIGHT - 234, legend);
-    if (page->result->proposal->certificate.computed)
-        sp_text_add(text,
-                    "<path class=\"bound\" d=\"M%d %.1fh20\"/><text class=\"legend\" x=\"%d\" y=\"%.1f\">Proved: none "
-                    "covers more</text>\n",
-                    WIDTH - RIGHT - 260, legend - 26, WIDTH - RIGHT - 234, legend - 22);
+    if (page->result->proposal && legend_lines(page) > 0)
+        add_lines_legend(page, text);
 }
 
 void sp_page_front_chart(const sp_page *page, sp_text *text)
@@ -160,19 +214,22 @@ void sp_page_front_chart(const sp_page *page, sp_text *text)
     sp_text_add(text,
                 "<section id=\"front\"><h2>Coverage against water</h2>\n<svg class=\"chart\" viewBox=\"0 0 %d %d\" "
                 "role=\"img\" aria-label=\"Chart: coverage in per cent against water in litres a minute\">\n",
-                WIDTH, HEIGHT);
+                WIDTH, HEIGHT + (is_below(page) ? 22 * (int)legend_lines(page) + 8 : 0));
     add_grid(text, &a);
-    add_bound(page, text, &a);
-    add_front(page, text, &a);
+    for (size_t i = 0; i < page->result->design_count; ++i)
+        add_bound(page, text, &a, i);
+    for (size_t i = 0; i < page->result->design_count; ++i)
+        add_front(page, text, &a, i);
     add_designs(page, text, &a);
     sp_text_add(text, "</svg>\n");
     if (front)
         sp_text_add(text,
                     "<p class=\"note\">Each dot is a layout that the search found; none that it found covers more with "
-                    "as little water. %s</p>\n",
+                    "as little water. %s%s</p>\n",
                     page->result->proposal->certificate.computed
                         ? "The dashed line is what no layout of the candidates exceeds, counted on the texels of the "
                           "certificate below."
-                        : "How far the best possible may lie above is not known.");
+                        : "How far the best possible may lie above is not known.",
+                    page->alternatives ? " Each alternative has its own, in its colour." : "");
     sp_text_add(text, "</section>\n");
 }

@@ -91,6 +91,26 @@ static void add_error(const sp_figures *proposed, double accuracy, sp_text *text
     sp_text_add(text, "&nbsp;%% that were asked for.</p>\n");
 }
 
+/* What must not be overlooked of the alternatives that are not proposed. */
+static void add_doubtful_alternatives(const sp_page *page, sp_text *text)
+{
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        const sp_proposal *alternative = page->result->designs[i].alternative;
+        if (!alternative || i == page->main)
+            continue;
+        bool doubt = alternative->forward_check.computed && !alternative->forward_check.agrees,
+             error =
+                 page->figures[i].error_estimate > sp_evaluator_fidelity(page->result->designs[i].evaluator)->accuracy;
+        if (!doubt && !error)
+            continue;
+        sp_text_add(text, "<p class=\"warning\"><strong>The coverage of the alternative ");
+        sp_page_name(page, text, i);
+        sp_text_add(text, " is in doubt.</strong> %s</p>\n",
+                    doubt ? "Counted again by jets flown from its nozzles it is more apart than the accuracy."
+                          : "It may be off by more than the accuracy that was asked for.");
+    }
+}
+
 static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal, double accuracy, sp_text *text)
 {
     if (proposal->interrupted)
@@ -122,7 +142,10 @@ void sp_page_headline(const sp_page *page, sp_text *text)
         sp_text_add(text, "%zu designs side by side.</p>\n", page->result->design_count);
         return;
     }
-    sp_text_add(text, page->result->proposal ? "The proposed layout " : "The layout ");
+    if (page->alternatives)
+        sp_page_choice(page, text);
+    else
+        sp_text_add(text, page->result->proposal ? "The proposed layout " : "The layout ");
     add_statement(page, text, page->main);
     if (page->manual != SP_UNKNOWN && page->manual != page->main) {
         sp_text_add(text, "; the engineer&#39;s own ");
@@ -133,5 +156,6 @@ void sp_page_headline(const sp_page *page, sp_text *text)
     if (page->result->proposal)
         add_warnings(&page->figures[page->main], page->result->proposal,
                      sp_evaluator_fidelity(page->result->designs[page->main].evaluator)->accuracy, text);
+    add_doubtful_alternatives(page, text);
     add_cards(page, text);
 }

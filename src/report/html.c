@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define MOST_COLUMNS 6 /* of designs, in a table that is as wide as the page */
+
 static const char *const style[] = {
     "<style>\n:root{--ink:#1b2730;--soft:#55636f;--line:#d6dde3;--pale:#f3f6f8;--accent:#0b6670}\n"
     "*{box-sizing:border-box}\nbody{margin:0;background:#fff;color:var(--ink);"
@@ -81,6 +83,8 @@ void sp_page_plain_name(const sp_page *page, sp_text *text, size_t design)
         sp_text_add(text, "Greedy, before refinement");
     else if (design == page->main && strcmp(name, "proposed") == 0)
         sp_text_add(text, "Proposed");
+    else if (design == page->main && page->alternatives)
+        sp_text_add(text, "%s (proposed)", name);
     else
         sp_text_add(text, "%s", name);
 }
@@ -100,11 +104,28 @@ const char *sp_page_aside(const sp_page *page, size_t design)
     return design == page->greedy ? " class=\"aside\"" : "";
 }
 
-void sp_page_columns(const sp_page *page, sp_text *text)
+void sp_page_narrow_name(const sp_page *page, sp_text *text, size_t design)
 {
-    for (size_t i = 0; i < page->result->design_count; ++i) {
+    sp_text name = {0};
+    sp_page_name(page, &name, design);
+    text->failed |= name.failed;
+    for (const char *at = name.text; !name.failed && *at; ++at)
+        sp_text_add(text, *at == '/' ? "%c<wbr>" : "%c", *at);
+    free(name.text);
+}
+
+size_t sp_page_fold(const sp_page *page, size_t first)
+{
+    size_t count = page->result->design_count, tables = count <= MOST_COLUMNS ? 1 : (count + 4) / 5;
+    size_t end = first + (count + tables - 1) / tables;
+    return end < count ? end : count;
+}
+
+void sp_page_columns(const sp_page *page, sp_text *text, size_t first, size_t end)
+{
+    for (size_t i = first; i < end; ++i) {
         sp_text_add(text, "<th scope=\"col\"%s>", sp_page_aside(page, i));
-        sp_page_name(page, text, i);
+        sp_page_narrow_name(page, text, i);
         sp_text_add(text, "</th>");
     }
 }
@@ -127,12 +148,16 @@ void sp_page_coverage(sp_text *text, const sp_figures *figures)
 const char *sp_page_colour(const sp_page *page, size_t design)
 {
     static const char *const others[] = {"#3b5b92", "#b5542e", "#0b6670", "#7a4b8f", "#6b7a87", "#8a6d1d"};
+    /* told from one another, from the manual layout's and the proposed one's */
+    static const char *const of_alternatives[] = {"#7a4b8f", "#1f6fb5", "#3f7d3a", "#a3336b", "#8a6d1d", "#0b7d86"};
     if (design == page->manual)
         return "#b5542e";
     if (design == page->greedy)
         return "#6b7a87";
     if (design == page->main)
         return "#10202a";
+    if (page->alternatives)
+        return of_alternatives[design % (sizeof of_alternatives / sizeof *of_alternatives)];
     return others[design % (sizeof others / sizeof *others)];
 }
 
@@ -144,6 +169,9 @@ static void find_roles(sp_page *page)
     page->manual = page->greedy = SP_UNKNOWN;
     if (strcmp(result->command, "compare") == 0)
         return;
+    page->alternatives = sp_result_has_alternatives(result);
+    if (page->alternatives)
+        page->main = sp_result_proposed(result);
     for (size_t i = 0; i < result->design_count; ++i) {
         if (strcmp(result->designs[i].name, "proposed") == 0)
             page->main = i;
@@ -172,7 +200,8 @@ void sp_page_head(sp_text *text, const char *title, const char *scene)
 static void add_title(const sp_page *page, sp_text *text, const char *scene)
 {
     sp_text_add(text, "<header><h1>%s</h1>\n<p class=\"about\">",
-                page->result->proposal            ? "Proposed spray nozzle layout"
+                page->alternatives                ? "Alternatives of spray nozzle layouts"
+                : page->result->proposal          ? "Proposed spray nozzle layout"
                 : page->result->design_count == 1 ? "Spray nozzle layout"
                                                   : "Spray nozzle layouts compared");
     sp_markup_escape(text, scene);
@@ -192,6 +221,7 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
     sp_page_headline(page, text);
     sp_page_attainable(page, text);
     sp_page_figures(page, text);
+    sp_page_alternatives(page, text);
     sp_page_parts(page, text);
     sp_page_comparison(page, text);
     sp_page_liquid(page, text);

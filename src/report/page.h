@@ -12,6 +12,7 @@ typedef struct {
     const sp_result *result;
     const sp_figures *figures; /* [result->design_count] */
     size_t main;               /* what is proposed, or the only design */
+    bool alternatives;         /* designs with an `alternative` are what it was chosen from */
     size_t manual, greedy;
     sp_flux_scale scale;
 } sp_page;
@@ -24,8 +25,13 @@ void sp_page_plain_name(const sp_page *page, sp_text *text, size_t design);
 void sp_page_name(const sp_page *page, sp_text *text, size_t design);
 /* html.c: what its cells have of attributes: narrow screens leave a layout before refinement out. */
 const char *sp_page_aside(const sp_page *page, size_t design);
-/* html.c: a heading of a column for each design. */
-void sp_page_columns(const sp_page *page, sp_text *text);
+/* The same for a narrow column: paths may break after each folder. */
+void sp_page_narrow_name(const sp_page *page, sp_text *text, size_t design);
+/* html.c: the end of the designs that, from `first` on, have columns in one table: all of few, else some, so that the
+ * next table goes on with it. */
+size_t sp_page_fold(const sp_page *page, size_t first);
+/* html.c: a heading of a column for each of these designs. */
+void sp_page_columns(const sp_page *page, sp_text *text, size_t first, size_t end);
 /* html.c: the coverage of the surface to be cleaned and by how much it may be off, "98.3 % ± 0.2", rounded upwards. */
 void sp_page_coverage(sp_text *text, const sp_figures *figures);
 /* The last of that; nothing where it was not measured. */
@@ -39,6 +45,18 @@ void sp_page_out_of_reach(const sp_page *page, sp_text *text);
 void sp_page_attainable(const sp_page *page, sp_text *text);
 /* headline.c: the statement, the key figures and what must not be overlooked. */
 void sp_page_headline(const sp_page *page, sp_text *text);
+/* alternatives.c: which is proposed, and why, as the beginning of a sentence; what each gives against the first of
+ * them, and what each nozzle that wants a fitting buys. Nothing without alternatives. */
+void sp_page_choice(const sp_page *page, sp_text *text);
+void sp_page_alternatives(const sp_page *page, sp_text *text);
+/* Most area with no more water than `flow` (m³/s), least water that covers no less than `area` (m²), of what was
+ * reported and of the front of the proposal that speaks of a design. Nothing found: area -1, flow INFINITY. */
+typedef struct {
+    double flow, area;
+    size_t nozzles, fittings;
+} sp_page_point;
+void sp_page_best_points(const sp_page *page, size_t design, double flow, double area, sp_page_point *same_water,
+                         sp_page_point *same_area);
 /* comparison.c: at equal water and at equal coverage, as a sentence and as a table; nothing where there is nothing to
  * compare. */
 void sp_page_gain(const sp_page *page, sp_text *text);
@@ -65,6 +83,8 @@ bool sp_page_pictures(const sp_page *page, sp_text *text, sp_error *error);
 bool sp_page_viewer(const sp_page *page, sp_text *text, sp_error *error);
 void sp_page_viewer_script(sp_text *text);
 #define SP_PAGE_SHADOWS 10 /* largest ones that are listed */
+/* same_layouts.c: which designs are the same nozzles, counted by several runs; nothing where none are. */
+void sp_page_same_layouts(const sp_page *page, sp_text *text);
 /* tables.c */
 void sp_page_figures(const sp_page *page, sp_text *text);
 void sp_page_nozzles(const sp_page *page, sp_text *text);

@@ -86,7 +86,7 @@ static void add_head(const sp_page *page, sp_text *text, size_t first, size_t en
                       "rowspan=\"2\">Part</th><th scope=\"col\" rowspan=\"2\">m\xc2\xb2</th>");
     for (size_t i = first; i < end; ++i) {
         sp_text_add(text, "<th scope=\"colgroup\" colspan=\"2\"%s>", sp_page_aside(page, i));
-        sp_page_name(page, text, i);
+        sp_page_narrow_name(page, text, i);
         sp_text_add(text, "</th>");
     }
     sp_text_add(text, "</tr><tr class=\"sub\">");
@@ -128,6 +128,7 @@ void sp_page_parts(const sp_page *page, sp_text *text)
     for (size_t first = 0, end; first < designs; first = end) {
         for (end = first + 1; end < designs && same_parts(&page->figures[first], &page->figures[end]); ++end)
             continue;
+        end = end < sp_page_fold(page, first) ? end : sp_page_fold(page, first);
         if (page->figures[first].part_count > 0)
             add_table(page, text, first, end);
     }

@@ -211,9 +211,10 @@ static bool add_views(const sp_page *page, sp_text *text, size_t drawn, sp_error
 {
     sp_listed_shadows *shadows = list_shadows(page->result, error);
     bool done = shadows != NULL;
+    /* three alternatives and the manual layout make a square */
+    size_t row = drawn < 3 ? drawn : drawn == 4 && page->alternatives ? 2 : 3;
     for (int i = 0; done && i < SP_VIEWS; ++i) {
-        sp_text_add(text, "<div class=\"block\"><h3>%s</h3>\n<div class=\"views of%zu\">\n", sp_views[i].caption,
-                    drawn < 3 ? drawn : 3);
+        sp_text_add(text, "<div class=\"block\"><h3>%s</h3>\n<div class=\"views of%zu\">\n", sp_views[i].caption, row);
         done = add_view(page, text, &sp_views[i], drawn > 4 ? PIXELS_OF_MANY : PIXELS, shadows, error);
         sp_text_add(text, "</div></div>\n");
     }

@@ -37,6 +37,10 @@ static double nozzles(const sp_figures *f)
 {
     return (double)f->nozzle_count;
 }
+static double fittings(const sp_figures *f)
+{
+    return f->fittings == SP_UNKNOWN ? NAN : (double)f->fittings;
+}
 static double flux_mean(const sp_figures *f)
 {
     return L_MIN * f->flux_mean;
@@ -83,6 +87,7 @@ static const row rows[] = {
     {"Water", "L/min", water, 1, true, false},
     {"Covered area per water", "m\xc2\xb2 per L/min", ratio, 3, false, false},
     {"Nozzles", "", nozzles, 0, true, false},
+    {"New fittings", "", fittings, 0, true, false},
     {"Liquid flux, mean", "L/min per m\xc2\xb2", flux_mean, 3, false, false},
     {"Liquid flux, 5th percentile", "L/min per m\xc2\xb2", flux_p05, 3, false, false},
     {"Liquid flux, highest", "L/min per m\xc2\xb2", flux_max, 3, false, false},
@@ -119,35 +124,48 @@ static void add_difference(sp_text *text, const row *r, double from, double to)
     sp_text_add(text, "</td>");
 }
 
-static void add_row(const sp_page *page, sp_text *text, const row *r)
+/* The proposal is told against the manual layout in a column of its own. */
+static bool tells_difference(const sp_page *page)
 {
-    bool known = false,
-         difference = page->main != SP_UNKNOWN && page->manual != SP_UNKNOWN && page->main != page->manual;
-    for (size_t i = 0; i < page->result->design_count; ++i)
+    return page->main != SP_UNKNOWN && page->manual != SP_UNKNOWN && page->main != page->manual;
+}
+
+/* Of the designs from `first` to `end`. */
+static void add_row(const sp_page *page, sp_text *text, size_t first, size_t end, const row *r)
+{
+    bool known = false;
+    for (size_t i = first; i < end; ++i)
         known |= isfinite(r->value(&page->figures[i]));
     if (!known)
         return;
     sp_text_add(text, "<tr><th scope=\"row\">%s%s%s%s</th>", r->title, r->unit[0] ? " <span class=\"unit\">" : "",
                 r->unit, r->unit[0] ? "</span>" : "");
-    for (size_t i = 0; i < page->result->design_count; ++i)
+    for (size_t i = first; i < end; ++i)
         add_value(page, text, r, i);
-    if (difference)
+    if (tells_difference(page) && end == page->result->design_count)
         add_difference(text, r, r->value(&page->figures[page->manual]), r->value(&page->figures[page->main]));
     sp_text_add(text, "</tr>\n");
 }
 
-void sp_page_figures(const sp_page *page, sp_text *text)
+static void add_figures(const sp_page *page, sp_text *text, size_t first, size_t end)
 {
-    sp_text_add(text,
-                "<section id=\"figures\"><h2>Figures</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead><tr>"
-                "<th scope=\"col\">Measure</th>");
-    sp_page_columns(page, text);
-    if (page->main != SP_UNKNOWN && page->manual != SP_UNKNOWN && page->main != page->manual)
+    sp_text_add(text, "<div class=\"wide\"><table class=\"numbers\">\n<thead><tr><th scope=\"col\">Measure</th>");
+    sp_page_columns(page, text, first, end);
+    if (tells_difference(page) && end == page->result->design_count)
         sp_text_add(text, "<th scope=\"col\">Proposed against manual</th>");
     sp_text_add(text, "</tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
-        add_row(page, text, &rows[i]);
-    sp_text_add(text, "</tbody></table></div></section>\n");
+        add_row(page, text, first, end, &rows[i]);
+    sp_text_add(text, "</tbody></table></div>");
+}
+
+void sp_page_figures(const sp_page *page, sp_text *text)
+{
+    sp_text_add(text, "<section id=\"figures\"><h2>Figures</h2>\n");
+    for (size_t first = 0; first < page->result->design_count; first = sp_page_fold(page, first))
+        add_figures(page, text, first, sp_page_fold(page, first));
+    sp_page_same_layouts(page, text);
+    sp_text_add(text, "</section>\n");
 }
 
 static void add_numbers(sp_text *text, const double *values, const int *decimals, size_t count)
@@ -298,6 +316,22 @@ static void add_stage(sp_text *text, const sp_stage *stage)
     sp_text_add(text, "<td>%.1f</td></tr>\n", stage->seconds);
 }
 
+/* All stages of each alternative together. */
+static void add_searches(const sp_page *page, sp_text *text)
+{
+    for (size_t i = 0; i < page->result->design_count; ++i) {
+        const sp_proposal *alternative = page->result->designs[i].alternative;
+        double seconds = 0;
+        for (size_t k = 0; alternative && k < alternative->stage_count; ++k)
+            seconds += alternative->stages[k].seconds;
+        if (!alternative)
+            continue;
+        sp_text_add(text, "<tr><th scope=\"row\">search, ");
+        sp_markup_escape(text, page->figures[i].name);
+        sp_text_add(text, "</th><td>%.1f</td></tr>\n", seconds);
+    }
+}
+
 void sp_page_stages(const sp_page *page, sp_text *text)
 {
     const sp_result *result = page->result;
@@ -308,7 +342,9 @@ void sp_page_stages(const sp_page *page, sp_text *text)
                 "scope=\"col\">Stage</th><th scope=\"col\">Seconds</th></tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < result->stage_count; ++i)
         add_stage(text, &result->stages[i]);
-    for (size_t i = 0; result->proposal && i < result->proposal->stage_count; ++i)
+    if (page->alternatives)
+        add_searches(page, text);
+    for (size_t i = 0; !page->alternatives && result->proposal && i < result->proposal->stage_count; ++i)
         add_stage(text, &result->proposal->stages[i]);
     sp_text_add(text, "</tbody></table></section>\n");
 }

@@ -60,11 +60,13 @@ static bool write_text(sp_output *output, const char *name, char *text, sp_error
     return written;
 }
 
-/* The proposed design, or the only one; NULL where several are compared. */
+/* The proposed design, or the only one; NULL where several are compared. Of the other alternatives there are scenes. */
 static const sp_design *main_design(const sp_result *result)
 {
     if (result->design_count == 1)
         return result->designs;
+    if (sp_result_has_alternatives(result))
+        return &result->designs[sp_result_proposed(result)];
     for (size_t i = 0; i < result->design_count; ++i)
         if (strcmp(result->designs[i].name, "proposed") == 0)
             return &result->designs[i];

@@ -55,6 +55,7 @@ static bool set_nozzles(sp_figures *figures, const sp_design *design)
     const sp_setup *setup = sp_evaluator_setup(design->evaluator);
     const sp_fluid *liquid = &setup->liquid;
     bool copied = true;
+    figures->fittings = 0;
     for (size_t i = 0; i < figures->nozzle_count; ++i) {
         const sp_nozzle *nozzle = &layout->nozzles[i];
         figures->nozzles[i] = (sp_nozzle_figures){.name = sp_text_utf8(nozzle->name),
@@ -69,10 +70,13 @@ static bool set_nozzles(sp_figures *figures, const sp_design *design)
                                                   .flow = sp_nozzle_flow(nozzle, liquid),
                                                   .speed = sp_nozzle_speed(nozzle, liquid),
                                                   .alone = does ? does->alone[i] : NAN,
-                                                  .lost = does ? does->lost[i] : NAN};
+                                                  .lost = does ? does->lost[i] : NAN,
+                                                  .fitting = design->alternative && design->alternative->fittings[i]};
+        figures->fittings += figures->nozzles[i].fitting;
         copied &= figures->nozzles[i].name && figures->nozzles[i].type && figures->nozzles[i].order_code &&
                   figures->nozzles[i].url;
     }
+    figures->fittings = design->alternative ? figures->fittings : SP_UNKNOWN;
     return copied;
 }
 
@@ -203,8 +207,9 @@ static bool set_missing_parts(sp_figures *figures, const sp_evaluator *evaluator
     return done;
 }
 
-/* With `reasons` NULL attainable area is not known. */
-static bool describe(sp_figures *figures, const sp_design *design, const sp_reason *reasons, sp_error *error)
+/* With `reasons` NULL attainable area is not known; else it is `attained` at least, m²: parts of patches count, too. */
+static bool describe(sp_figures *figures, const sp_design *design, const sp_reason *reasons, double attained,
+                     sp_error *error)
 {
     sp_shadow *shadows = NULL;
     size_t shadow_count = 0;
@@ -212,6 +217,8 @@ static bool describe(sp_figures *figures, const sp_design *design, const sp_reas
         return false;
     set_geometry_and_fidelity(figures, design->evaluator);
     set_attainable(figures, sp_evaluator_patches(design->evaluator), reasons);
+    if (reasons)
+        figures->attainable_area = fmax(figures->attainable_area, attained);
     set_coverage(figures, design->coverage, &sp_evaluator_setup(design->evaluator)->sweep);
     bool done = set_missing_parts(figures, design->evaluator, reasons) &&
                 sp_figures_make_rows(figures, shadow_count < SP_SHADOWS_KEPT ? shadow_count : SP_SHADOWS_KEPT,
@@ -223,30 +230,38 @@ static bool describe(sp_figures *figures, const sp_design *design, const sp_reas
     return set_tracks(figures, design, error);
 }
 
-/* Why patches are not attainable: what the proposal says, but for what any design covers. Without a proposal NULL and
- * no error. */
-static sp_reason *reported_reasons(const sp_result *result, const sp_evaluator **evaluator, sp_error *error)
+/* Why patches are not attainable to what speaks of a design: what that proposal says, but for what the designs that it
+ * speaks of cover. Without one NULL and no error. */
+static sp_reason *reported_reasons(const sp_result *result, size_t design, sp_error *error)
 {
-    *evaluator = NULL;
-    for (size_t i = 0; result->proposal && i < result->design_count; ++i)
-        if (result->designs[i].coverage == result->proposal->coverage)
-            *evaluator = result->designs[i].evaluator;
-    if (!*evaluator)
+    const sp_proposal *proposal = sp_result_proposal(result, design);
+    const sp_evaluator *evaluator = result->designs[design].evaluator;
+    if (!proposal)
         return NULL;
-    const sp_patches *patches = sp_evaluator_patches(*evaluator);
+    const sp_patches *patches = sp_evaluator_patches(evaluator);
     sp_reason *reasons = malloc((patches->count + 1) * sizeof *reasons);
     if (!reasons)
         return sp_fail_memory(error);
-    const sp_proposal *proposal = result->proposal;
     for (size_t k = 0; k < patches->count; ++k)
         reasons[k] = proposal->attainable[k] ? SP_REASON_ATTAINABLE
                      : proposal->reasons     ? proposal->reasons[k]
                                              : SP_REASON_UNKNOWN;
     for (size_t i = 0; i < result->design_count; ++i)
-        for (size_t k = 0; result->designs[i].evaluator == *evaluator && k < patches->count; ++k)
+        for (size_t k = 0; sp_result_proposal(result, i) == proposal && k < patches->count; ++k)
             if (result->designs[i].coverage->deposits.covered[k])
                 reasons[k] = SP_REASON_ATTAINABLE;
     return reasons;
+}
+
+/* The most that a design covers of those that the same proposal speaks of, m². */
+static double most_attained(const sp_result *result, size_t design)
+{
+    const sp_proposal *proposal = sp_result_proposal(result, design);
+    double most = 0;
+    for (size_t i = 0; proposal && i < result->design_count; ++i)
+        if (sp_result_proposal(result, i) == proposal)
+            most = fmax(most, result->designs[i].coverage->covered_area);
+    return most;
 }
 
 sp_figures *sp_result_figures(const sp_result *result, sp_error *error)
@@ -255,18 +270,17 @@ sp_figures *sp_result_figures(const sp_result *result, sp_error *error)
     if (!figures)
         return sp_fail_memory(error);
     sp_error failure = {0};
-    const sp_evaluator *home;
-    sp_reason *reasons = reported_reasons(result, &home, &failure);
     for (size_t i = 0; failure.kind == SP_OK && i < result->design_count; ++i) {
         const sp_design *design = &result->designs[i];
-        if (design->evaluator)
-            describe(&figures[i], design, design->evaluator == home ? reasons : NULL, &failure);
-        else if (!sp_figures_copy(&figures[i], design->figures))
+        sp_reason *reasons = design->evaluator ? reported_reasons(result, i, &failure) : NULL;
+        if (!design->evaluator && !sp_figures_copy(&figures[i], design->figures))
             sp_fail_memory(&failure);
+        if (design->evaluator && failure.kind == SP_OK)
+            describe(&figures[i], design, reasons, most_attained(result, i), &failure);
+        free(reasons);
         if (failure.kind == SP_OK && !(figures[i].name = sp_text_utf8(design->name)))
             sp_fail_memory(&failure);
     }
-    free(reasons);
     if (failure.kind == SP_OK)
         return figures;
     if (error && error->kind == SP_OK)

@@ -82,6 +82,14 @@ static bool get_count(const reader *in, const json_t *object, const char *key, s
     return true;
 }
 
+/* False where absent. */
+static bool get_flag(const reader *in, const json_t *object, const char *key, bool *value)
+{
+    const json_t *found = json_object_get(object, key);
+    *value = found && json_is_true(found);
+    return !found || json_is_boolean(found) || wrong(in, key, found, "true or false");
+}
+
 /* Malloc'd; "" where absent. */
 static bool get_text(const reader *in, const json_t *object, const char *key, char **value)
 {
@@ -371,7 +379,7 @@ static bool read_nozzle(const reader *in, const json_t *entry, sp_nozzle_figures
            get_real(in, entry, "speed_m_s", 0, LARGEST, 1, &nozzle->speed) &&
            get_real(in, entry, "alone_m2", 0, LARGEST, 1, &nozzle->alone) &&
            get_real(in, entry, "lost_without_m2", -LARGEST, LARGEST, 1, &nozzle->lost) &&
-           read_tracks(in, entry, &nozzle->tracks);
+           get_flag(in, entry, "new_fitting", &nozzle->fitting) && read_tracks(in, entry, &nozzle->tracks);
 }
 
 static bool read_part(const reader *in, const json_t *entry, sp_part_figures *part)
@@ -439,7 +447,8 @@ static bool read_layout(const reader *in, const json_t *root, const json_t *layo
     if (!figures->name[0])
         return wrong(in, "name", json_object_get(layout, "name"), "a text that is not empty");
     return read_errors(in, layout, figures) && read_coverage(in, layout, figures) && read_liquid(in, layout, figures) &&
-           read_film(in, layout, &figures->film) && read_rows(in, layout, figures);
+           read_film(in, layout, &figures->film) && get_count(in, layout, "new_fittings", &figures->fittings) &&
+           read_rows(in, layout, figures);
 }
 
 /* At most so much is made of the text, in bytes: two copies of it, and what jansson and sp_figures need for the least

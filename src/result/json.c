@@ -223,7 +223,7 @@ static bool put_nozzle(json_t *nozzles, const sp_nozzle_figures *figures)
                 put_real(nozzle, "pressure_pa", figures->pressure) &&
                 put_real(nozzle, "flow_l_min", 6e4 * figures->flow) && put_real(nozzle, "speed_m_s", figures->speed) &&
                 put_real(nozzle, "alone_m2", figures->alone) && put_real(nozzle, "lost_without_m2", figures->lost) &&
-                put_tracks(nozzle, &figures->tracks);
+                (!figures->fitting || put(nozzle, "new_fitting", json_true())) && put_tracks(nozzle, &figures->tracks);
     return json_array_append_new(nozzles, nozzle) == 0 && done;
 }
 
@@ -248,7 +248,8 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, const sp_eval
         put_real(layout, "borderline_m2", figures->borderline) &&
         put_real(layout, "coverage_of_attainable", figures->of_attainable) &&
         put_real(layout, "area_per_water", figures->area_per_water / 6e4) && put_flux(layout, figures) &&
-        put_dose(layout, figures) && put_liquid(layout, figures) && put_film(layout, &figures->film);
+        put_count(layout, "new_fittings", figures->fittings) && put_dose(layout, figures) &&
+        put_liquid(layout, figures) && put_film(layout, &figures->film);
     for (size_t i = 0; done && i < figures->shadow_count; ++i)
         done = put_shadow(shadows, &figures->shadows[i]);
     for (size_t i = 0; done && i < figures->nozzle_count; ++i)
@@ -290,7 +291,8 @@ static bool put_target(json_t *root, const sp_proposal *proposal, double clean_a
     return put(root, "target", target) && done;
 }
 
-static bool put_front(json_t *root, const sp_proposal *proposal, double clean_area)
+/* `fittings`: with how many nozzles of each point want one. */
+static bool put_front(json_t *root, const sp_proposal *proposal, double clean_area, bool fittings)
 {
     double whole = proposal->certificate.whole;
     json_t *front = json_array();
@@ -300,6 +302,7 @@ static bool put_front(json_t *root, const sp_proposal *proposal, double clean_ar
         json_t *entry = json_object();
         done = put_real(entry, "water_l_min", 6e4 * point->flow) &&
                put_real(entry, "coverage", point->area / clean_area) && put_count(entry, "nozzles", point->nozzles) &&
+               (!fittings || put_count(entry, "new_fittings", point->fittings)) &&
                (!proposal->certificate.computed || (put_real(entry, "coverage_on_texels", point->counted / whole) &&
                                                     put_real(entry, "coverage_bound", point->bound / whole))) &&
                (!proposal->certificate.every_aim.computed ||
@@ -309,7 +312,7 @@ static bool put_front(json_t *root, const sp_proposal *proposal, double clean_ar
     return put(root, "front", front) && done;
 }
 
-static bool put_front_by_nozzles(json_t *root, const sp_proposal *proposal, double clean_area)
+static bool put_front_by_nozzles(json_t *root, const sp_proposal *proposal, double clean_area, bool fittings)
 {
     json_t *front = json_array();
     bool done = true;
@@ -317,7 +320,8 @@ static bool put_front_by_nozzles(json_t *root, const sp_proposal *proposal, doub
         const sp_front_point *point = &proposal->by_number[i];
         json_t *entry = json_object();
         done = put_count(entry, "nozzles", point->nozzles) && put_real(entry, "water_l_min", 6e4 * point->flow) &&
-               put_real(entry, "coverage", point->area / clean_area);
+               put_real(entry, "coverage", point->area / clean_area) &&
+               (!fittings || put_count(entry, "new_fittings", point->fittings));
         done = json_array_append_new(front, entry) == 0 && done;
     }
     return put(root, "front_by_nozzles", front) && done;
@@ -381,6 +385,37 @@ static bool put_inputs(json_t *root, const sp_result *result)
     return put(root, "inputs", inputs) && done;
 }
 
+/* What was found and proved, besides the layout. */
+static bool put_proposal(json_t *object, const sp_proposal *proposal, double clean_area, bool fittings)
+{
+    return put_target(object, proposal, clean_area) && put_front(object, proposal, clean_area, fittings) &&
+           put_front_by_nozzles(object, proposal, clean_area, fittings) &&
+           (!proposal->forward_check.computed || put_forward_check(object, &proposal->forward_check)) &&
+           (!proposal->certificate.computed || put_certificate(object, &proposal->certificate));
+}
+
+/* Which alternative is proposed, and the same of each. */
+static bool put_alternatives(json_t *root, const sp_result *result, const sp_figures *figures)
+{
+    char why[SP_CHOICE_TEXT];
+    json_t *alternatives = json_array();
+    sp_result_choice(result, why);
+    bool done =
+        put_text(root, "proposed", figures[sp_result_proposed(result)].name) && put_text(root, "proposed_for", why);
+    for (size_t i = 0; done && i < result->design_count; ++i) {
+        const sp_proposal *alternative = result->designs[i].alternative;
+        if (!alternative)
+            continue;
+        json_t *entry = json_object(), *stages = json_array();
+        done = put_text(entry, "name", figures[i].name) &&
+               put_proposal(entry, alternative, figures[i].clean_area, true) &&
+               put_stages(stages, alternative->stages, alternative->stage_count);
+        done = put(entry, "stages", stages) && done;
+        done = json_array_append_new(alternatives, entry) == 0 && done;
+    }
+    return put(root, "alternatives", alternatives) && done;
+}
+
 static bool fill(json_t *root, const sp_result *result, const sp_figures *figures)
 {
     bool one_geometry = true, one_fidelity = true;
@@ -400,15 +435,14 @@ static bool fill(json_t *root, const sp_result *result, const sp_figures *figure
     for (size_t i = 0; done && i < result->design_count; ++i)
         done = put_layout(layouts, &figures[i], result->designs[i].evaluator, !one_geometry, !one_fidelity);
     done = put(root, "layouts", layouts) && done;
+    bool alternatives = sp_result_has_alternatives(result);
     if (result->proposal)
         done =
-            done && put_target(root, result->proposal, figures[0].clean_area) &&
-            put_front(root, result->proposal, figures[0].clean_area) &&
-            put_front_by_nozzles(root, result->proposal, figures[0].clean_area) &&
-            (!result->proposal->forward_check.computed || put_forward_check(root, &result->proposal->forward_check)) &&
-            (!result->proposal->certificate.computed || put_certificate(root, &result->proposal->certificate));
+            done && put_proposal(root, result->proposal, figures[sp_result_proposed(result)].clean_area, alternatives);
+    done = done && (!alternatives || put_alternatives(root, result, figures));
     done = done && put_stages(stages, result->stages, result->stage_count) &&
-           (!result->proposal || put_stages(stages, result->proposal->stages, result->proposal->stage_count));
+           (!result->proposal || alternatives ||
+            put_stages(stages, result->proposal->stages, result->proposal->stage_count));
     return put(root, "stages", stages) && done;
 }
 

@@ -80,7 +80,7 @@ static bool read_port(sp_scene *scene, const sp_reader *reader, const sp_yaml *n
                                   {"tilt", false}, {"depth", false},   {"types", false},
                                   {"bore", false}, {"step", false},    {NULL, false}};
     const sp_nozzle_type ***types = &scene->mount_types[scene->mount_count];
-    if (!sp_read_keys(reader, node, "port", "a port", keys) || !sp_read_name(reader, node, "name", mount->name) ||
+    if (!sp_read_keys(reader, node, "port", "a port", keys) ||
         !sp_read_vector(reader, node, "position", &sp_length_unit, &mount->position) ||
         !sp_read_axis(reader, node, "axis", &mount->axis) || !read_tilt(reader, node, mount) ||
         !read_depth(reader, node, mount) ||
@@ -89,9 +89,6 @@ static bool read_port(sp_scene *scene, const sp_reader *reader, const sp_yaml *n
     mount->types = *types;
     if (!read_bore(reader, node, mount) || !read_lance_steps(reader, node, mount))
         return false;
-    for (size_t i = 0; i < scene->mount_count; i++)
-        if (scene->mounts[i].kind == SP_MOUNT_PORT && strcmp(scene->mounts[i].name, mount->name) == 0)
-            return sp_read_fail(reader, sp_yaml_get(node, "name"), "name", "a name that no other port has");
     return true;
 }
 
@@ -117,8 +114,8 @@ static bool find_part(const sp_scene *scene, const sp_reader *reader, const sp_y
 
 static bool read_surface(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"geometry", true},  {"part", false}, {"spacing", true},
-                                  {"standoff", false}, {"tilt", false}, {NULL, false}};
+    static const sp_key keys[] = {{"geometry", true}, {"part", false}, {"spacing", true},      {"standoff", false},
+                                  {"tilt", false},    {"name", false}, {"max_nozzles", false}, {NULL, false}};
     uint64_t geometry = 0;
     mount->axis = sp_v(0, 0, 0);
     mount->part = SP_NONE;
@@ -135,8 +132,8 @@ static bool read_surface(sp_scene *scene, const sp_reader *reader, const sp_yaml
 
 static bool read_line(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"from", true},  {"to", true},    {"spacing", false},
-                                  {"axis", false}, {"tilt", false}, {NULL, false}};
+    static const sp_key keys[] = {{"from", true},  {"to", true},    {"spacing", false},     {"axis", false},
+                                  {"tilt", false}, {"name", false}, {"max_nozzles", false}, {NULL, false}};
     (void)scene;
     return sp_read_keys(reader, node, "line", "a line", keys) &&
            sp_read_vector(reader, node, "from", &sp_length_unit, &mount->from) &&
@@ -148,8 +145,8 @@ static bool read_line(sp_scene *scene, const sp_reader *reader, const sp_yaml *n
 
 static bool read_box(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"min", true},   {"max", true},   {"spacing", false},
-                                  {"axis", false}, {"tilt", false}, {NULL, false}};
+    static const sp_key keys[] = {{"min", true},   {"max", true},   {"spacing", false},     {"axis", false},
+                                  {"tilt", false}, {"name", false}, {"max_nozzles", false}, {NULL, false}};
     (void)scene;
     if (!sp_read_keys(reader, node, "box", "a box", keys) ||
         !sp_read_vector(reader, node, "min", &sp_length_unit, &mount->from) ||
@@ -161,6 +158,23 @@ static bool read_box(sp_scene *scene, const sp_reader *reader, const sp_yaml *no
     if (extent.x < 0 || extent.y < 0 || extent.z < 0)
         return sp_read_fail(reader, sp_yaml_get(node, "max"), "max", "no coordinate below that of `min`");
     return check_spacing(reader, node, mount->spacing, extent);
+}
+
+/* What mounts of any kind have. */
+static bool read_common(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+{
+    uint64_t most = 0;
+    if (!sp_read_name(reader, node, "name", mount->name) ||
+        !sp_read_count(reader, node, "max_nozzles", 1, SP_MAX_ITEMS, &most))
+        return false;
+    mount->most = most;
+    for (size_t i = 0; mount->name[0] && i < scene->mount_count; i++)
+        if (strcmp(scene->mounts[i].name, mount->name) == 0) {
+            bool ports = mount->kind == SP_MOUNT_PORT && scene->mounts[i].kind == SP_MOUNT_PORT;
+            return sp_read_fail(reader, sp_yaml_get(node, "name"), "name", "a name that no other %s has",
+                                ports ? "port" : "mount");
+        }
+    return true;
 }
 
 static bool read_mount(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
@@ -177,7 +191,7 @@ static bool read_mount(sp_scene *scene, const sp_reader *reader, const sp_yaml *
     while (strcmp(keys[kind].name, node->first->key) != 0)
         kind++;
     *mount = (sp_mount){.kind = (sp_mount_kind)kind, .axis = sp_scale(scene->setup.up, -1)};
-    bool good = readers[kind](scene, reader, node->first, mount);
+    bool good = readers[kind](scene, reader, node->first, mount) && read_common(scene, reader, node->first, mount);
     mount->position = sp_sub(mount->position, scene->setup.origin);
     mount->from = sp_sub(mount->from, scene->setup.origin);
     mount->to = sp_sub(mount->to, scene->setup.origin);
@@ -207,7 +221,7 @@ static bool read_mounts(sp_scene *scene, const sp_reader *reader, const sp_yaml 
     return true;
 }
 
-static bool read_pressures(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, size_t *count)
+bool sp_scene_read_pressures(const sp_reader *reader, const sp_yaml *node, double **pressures, size_t *count)
 {
     if (!node)
         return true;
@@ -217,12 +231,11 @@ static bool read_pressures(sp_scene *scene, const sp_reader *reader, const sp_ya
     if (list && node->count > SP_MAX_ITEMS)
         return sp_read_message(reader, node, "pressure", "found %zu pressures, expected at most %d", node->count,
                                SP_MAX_ITEMS);
-    scene->pressures = calloc(list ? node->count : 1, sizeof *scene->pressures);
-    if (!scene->pressures)
+    *pressures = calloc(list ? node->count : 1, sizeof **pressures);
+    if (!*pressures)
         return sp_fail_memory(reader->error);
     for (const sp_yaml *child = list ? node->first : node; child; child = list ? child->next : NULL)
-        if (!sp_read_quantity_at(reader, child, "pressure", &sp_pressure_unit, sp_above(0),
-                                 &scene->pressures[(*count)++]))
+        if (!sp_read_quantity_at(reader, child, "pressure", &sp_pressure_unit, sp_above(0), &(*pressures)[(*count)++]))
             return false;
     return true;
 }
@@ -280,15 +293,17 @@ static bool read_place_types(sp_scene *scene, const sp_reader *reader, const sp_
 
 bool sp_scene_read_place(sp_scene *scene, const sp_reader *reader)
 {
-    static const sp_key keys[] = {
-        {"objective", false}, {"coverage", false},  {"max_nozzles", false}, {"max_water", false}, {"types", false},
-        {"pressure", false},  {"clearance", false}, {"mounts", false},      {"refine", false},    {NULL, false}};
+    static const sp_key keys[] = {{"objective", false},    {"coverage", false}, {"max_nozzles", false},
+                                  {"max_water", false},    {"types", false},    {"pressure", false},
+                                  {"clearance", false},    {"mounts", false},   {"refine", false},
+                                  {"alternatives", false}, {NULL, false}};
     const sp_yaml *node = sp_yaml_get(scene->tree, "place");
     sp_place_options *place = &scene->place;
-    if (node && (!sp_read_keys(reader, node, "place", "the placement", keys) || !read_aims(reader, node, place) ||
-                 !read_pressures(scene, reader, sp_yaml_get(node, "pressure"), &place->pressure_count) ||
-                 !read_mounts(scene, reader, sp_yaml_get(node, "mounts")) ||
-                 !read_refine(reader, sp_yaml_get(node, "refine"), &place->refine)))
+    if (node &&
+        (!sp_read_keys(reader, node, "place", "the placement", keys) || !read_aims(reader, node, place) ||
+         !sp_scene_read_pressures(reader, sp_yaml_get(node, "pressure"), &scene->pressures, &place->pressure_count) ||
+         !read_mounts(scene, reader, sp_yaml_get(node, "mounts")) ||
+         !read_refine(reader, sp_yaml_get(node, "refine"), &place->refine)))
         return false;
     if (!read_place_types(scene, reader, node))
         return false;
@@ -302,5 +317,5 @@ bool sp_scene_read_place(sp_scene *scene, const sp_reader *reader)
     place->mounts = scene->mounts;
     place->mount_count = scene->mount_count;
     place->kept = scene->layout;
-    return true;
+    return sp_scene_read_alternatives(scene, reader, sp_yaml_get(node, "alternatives"));
 }

@@ -62,12 +62,15 @@ static const sp_yaml *find_type(const sp_yaml *list, const char *message)
     return NULL;
 }
 
-/* The same, of the types that may be placed, or of a port. */
+/* The same, of the types that may be placed, here or in an alternative, or of a port. */
 static const sp_yaml *find_placed_type(const sp_yaml *place, const char *message)
 {
     const sp_yaml *mounts = sp_yaml_get(place, "mounts"), *found = find_type(sp_yaml_get(place, "types"), message);
     for (const sp_yaml *mount = mounts ? mounts->first : NULL; mount && !found; mount = mount->next)
         found = find_type(sp_yaml_get(mount->first, "types"), message);
+    const sp_yaml *alternatives = sp_yaml_get(place, "alternatives");
+    for (const sp_yaml *other = alternatives ? alternatives->first : NULL; other && !found; other = other->next)
+        found = find_type(sp_yaml_get(other, "types"), message);
     return found;
 }
 

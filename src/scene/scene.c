@@ -77,6 +77,7 @@ void sp_scene_destroy(sp_scene *scene)
 {
     if (!scene)
         return;
+    sp_scene_free_alternatives(scene);
     for (size_t i = 0; scene->mount_types && i < scene->mount_count; i++)
         free(scene->mount_types[i]);
     free(scene->mount_types);

@@ -18,6 +18,15 @@ typedef struct {
     sp_speed_layer layers[SP_SPEEDS]; /* [layer_count], which types borrow */
 } sp_scene_image;
 
+/* One of place's alternatives. */
+typedef struct {
+    char name[SP_NAME];
+    sp_place_options options; /* borrows of what follows, and of the scene what is not its own */
+    sp_mount *mounts;         /* owned, as the following; NULL: the scene's */
+    double *pressures;
+    const sp_nozzle_type **types;
+} sp_scene_alternative;
+
 struct sp_scene {
     char *path;
     char *directory; /* that holds the scene, "." where the path names none */
@@ -42,6 +51,8 @@ struct sp_scene {
     const sp_nozzle_type ***mount_types; /* [mount_count], what a port's `types` points to */
     double *pressures;
     const sp_nozzle_type **place_types;
+    size_t alternative_count;
+    sp_scene_alternative *alternatives;
 };
 
 /* scene.c: what scene->tree says, a map, into a scene with a path, a directory and what is there by default. */
@@ -55,6 +66,12 @@ bool sp_scene_read_catalogue(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_nozzles(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_simulate(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_place(sp_scene *scene, const sp_reader *reader);
+
+/* A pressure or a list of them, malloc'd; no node: none. */
+bool sp_scene_read_pressures(const sp_reader *reader, const sp_yaml *node, double **pressures, size_t *count);
+/* alternatives.c: the list in `place:`, all else of which has been read; no node: none. */
+bool sp_scene_read_alternatives(sp_scene *scene, const sp_reader *reader, const sp_yaml *list);
+void sp_scene_free_alternatives(sp_scene *scene);
 
 /* sweep.c: the sweep of one piece of geometry; absent: *moves is false. All of a scene are the same. */
 bool sp_scene_read_sweep(sp_scene *scene, const sp_reader *reader, const sp_yaml *piece, bool *moves);

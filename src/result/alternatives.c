@@ -1,0 +1,46 @@
+/* Which proposal speaks of a design, and which of several is proposed. */
+#include <sprayplan/result.h>
+
+#include <stdio.h>
+
+size_t sp_result_proposed(const sp_result *result)
+{
+    for (size_t i = 0; result->proposal && i < result->design_count; ++i)
+        if (result->designs[i].coverage == result->proposal->coverage)
+            return i;
+    return SP_UNKNOWN;
+}
+
+const sp_proposal *sp_result_proposal(const sp_result *result, size_t index)
+{
+    const sp_design *design = &result->designs[index];
+    size_t proposed = sp_result_proposed(result);
+    if (design->alternative || proposed == SP_UNKNOWN)
+        return design->alternative;
+    return design->evaluator == result->designs[proposed].evaluator ? result->proposal : NULL;
+}
+
+bool sp_result_has_alternatives(const sp_result *result)
+{
+    for (size_t i = 0; i < result->design_count; ++i)
+        if (result->designs[i].alternative)
+            return true;
+    return false;
+}
+
+void sp_result_choice(const sp_result *result, char text[SP_CHOICE_TEXT])
+{
+    static const char *const best[] = {[SP_OBJECTIVE_AREA_PER_WATER] = "cleans most area per water",
+                                       [SP_OBJECTIVE_MIN_WATER] = "needs least water",
+                                       [SP_OBJECTIVE_MAX_COVERAGE] = "covers most"};
+    const sp_proposal *proposal = result->proposal;
+    text[0] = 0;
+    if (!proposal || !sp_result_has_alternatives(result))
+        return;
+    double asked = 100 * proposal->asked_area / proposal->coverage->area;
+    if (proposal->coverage->covered_area >= proposal->asked_area)
+        snprintf(text, SP_CHOICE_TEXT, "of those that cover the %.4g %% asked for, it %s", asked,
+                 best[proposal->objective]);
+    else
+        snprintf(text, SP_CHOICE_TEXT, "none covers the %.4g %% asked for, and of all it covers most", asked);
+}
