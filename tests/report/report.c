@@ -62,7 +62,8 @@ static int set_up(void **state)
                                       (size_t)i + 1,
                                       NAN,
                                       NAN,
-                                      NAN};
+                                      NAN,
+                                      0};
     f.stages[0] = (sp_stage){"visibility", 1.25};
     f.stages[1] = (sp_stage){"refine", 2.5};
     f.proposal = (sp_proposal){.layout = f.layouts[2],

@@ -1,0 +1,127 @@
+/* compare of results that different runs left: one figure for one layout, and a page that fits however many there are.
+ */
+#include "workplace.h"
+
+static double coverage_of(json_t *object, const char *name, double *error)
+{
+    size_t i;
+    json_t *layout;
+    json_array_foreach(json_object_get(object, "layouts"), i, layout)
+    {
+        if (strcmp(json_string_value(json_object_get(layout, "name")), name) != 0)
+            continue;
+        if (error)
+            *error = json_number_value(json_object_get(layout, "error_estimate"));
+        return json_number_value(json_object_get(layout, "coverage"));
+    }
+    fail_msg("no layout %s", name);
+    return 0;
+}
+
+static void run_quietly(const char *arguments)
+{
+    outcome done = run_program(arguments);
+    assert_string_equal(done.err, "");
+    assert_int_equal(done.status, 0);
+    forget(&done);
+}
+
+static double figure_in(const char *file, double *error)
+{
+    char *text = read_file(file, NULL);
+    assert_non_null(text);
+    json_t *object = json_loads(text, 0, NULL);
+    double coverage = coverage_of(object, "manual", error);
+    json_decref(object);
+    free(text);
+    return coverage;
+}
+
+/* The same nozzles on texels of two lengths: that of the lesser error, for both. */
+static void one_layout_has_one_figure(void **state)
+{
+    (void)state;
+    double errors[2], coverages[2];
+    coverages[0] = figure_in("long/result.json", &errors[0]);
+    coverages[1] = figure_in("short/result.json", &errors[1]);
+    assert_true(coverages[0] != coverages[1] && errors[0] != errors[1]);
+    json_t *both = expect_json("compare long/result.json short/result.json -o both --json", 0);
+    double better = coverages[errors[1] < errors[0]];
+    assert_true(coverage_of(both, "long/result.json", NULL) == better);
+    assert_true(coverage_of(both, "short/result.json", NULL) == better);
+    json_decref(both);
+    char *page = read_file("both/report.html", NULL);
+    assert_non_null(strstr(page, "The same nozzles: long/<wbr>result.json, short/<wbr>result.json."));
+    free(page);
+}
+
+/* More liquid is asked for: what these nozzles cover then is another figure. */
+static void what_differs_otherwise_keeps_its_own(void **state)
+{
+    (void)state;
+    double coverage = figure_in("strict/result.json", NULL);
+    json_t *both = expect_json("compare long/result.json strict/result.json -o apart --json", 0);
+    assert_true(coverage_of(both, "strict/result.json", NULL) == coverage);
+    assert_true(coverage_of(both, "long/result.json", NULL) == figure_in("long/result.json", NULL));
+    json_decref(both);
+    char *page = read_file("apart/report.html", NULL);
+    assert_null(strstr(page, "The same nozzles"));
+    free(page);
+}
+
+static size_t count_of(const char *text, const char *part)
+{
+    size_t count = 0;
+    for (; (text = strstr(text, part)); text++)
+        count++;
+    return count;
+}
+
+/* Tables of many designs follow one another, none wider than the page; the chart's legend stands below it. */
+static void many_fold(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *command;
+        size_t tables;
+        bool below;
+    } cases[] = {
+        {"compare long/result.json short/result.json -o many --quiet", 1, false},
+        {"compare long/result.json short/result.json strict/result.json long/result.json short/result.json "
+         "strict/result.json long/result.json -o many --quiet",
+         2, true},
+    };
+    for (size_t i = 0; i < 2; i++) {
+        run_quietly(cases[i].command);
+        char *page = read_file("many/report.html", NULL);
+        assert_int_equal(count_of(page, "<th scope=\"col\">Measure</th>"), cases[i].tables);
+        assert_int_equal(count_of(page, "rowspan=\"2\">Part</th>"), cases[i].tables);
+        assert_int_equal(count_of(page, "viewBox=\"0 0 760 380\""), !cases[i].below);
+        free(page);
+    }
+}
+
+static int make_results(void **state)
+{
+    if (open_workplace(state) != 0)
+        return -1;
+    run_quietly("simulate room.yaml -o long --quiet --set simulate.texel=90mm");
+    run_quietly("simulate room.yaml -o short --quiet --set simulate.texel=60mm");
+    char *room = read_file("room.yaml", NULL), strict[4096];
+    char *flux = strstr(room, "flux: 1 ");
+    snprintf(strict, sizeof strict, "%.*sflux: 4 %s", (int)(flux - room), room, flux + strlen("flux: 1 "));
+    write_file("strict.yaml", strict);
+    free(room);
+    run_quietly("simulate strict.yaml -o strict --quiet --set simulate.texel=60mm");
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_layout_has_one_figure),
+        cmocka_unit_test(what_differs_otherwise_keeps_its_own),
+        cmocka_unit_test(many_fold),
+    };
+    return cmocka_run_group_tests_name("compare", tests, make_results, close_workplace);
+}
