@@ -87,9 +87,7 @@ static bool read_port(sp_scene *scene, const sp_reader *reader, const sp_yaml *n
         !sp_scene_read_types(scene, reader, node, "types", types, &mount->type_count))
         return false;
     mount->types = *types;
-    if (!read_bore(reader, node, mount) || !read_lance_steps(reader, node, mount))
-        return false;
-    return true;
+    return read_bore(reader, node, mount) && read_lance_steps(reader, node, mount);
 }
 
 static bool find_part(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
