@@ -126,6 +126,12 @@ typedef struct {
 /* The SHA-256 of a file's bytes (FIPS 180-4). False with an error of the file where it cannot be read. */
 bool sp_file_sha256(const char *path, char sha256[SP_SHA256], sp_error *error);
 
+/* What may be changed in a page that evaluates layouts itself. Everything is borrowed. */
+typedef struct {
+    sp_place_options options; /* mounts, types and pressures to choose from */
+    const char *scene;        /* a scene (sp_scene_text) in place of whose nozzles others may be written */
+} sp_editing;
+
 /* What a command found. Everything is borrowed. designs[0] is not special; pictures and layout.yaml are for the design
  * named "proposed", or of alternatives that of `proposal`, or the only one. */
 typedef struct {
@@ -141,6 +147,7 @@ typedef struct {
     /* For the page's foot alone, so that result.json is the same of the same scene: the command as it was given, and
      * when. NULL where that is not told. */
     const char *command_line, *date;
+    const sp_editing *editing; /* NULL: the page evaluates no other layouts */
 } sp_result;
 
 /* The proposal that speaks of design `index`: the alternative that it is, or the result's. NULL where there is none. */

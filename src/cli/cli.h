@@ -18,7 +18,7 @@ typedef struct {
     int input_count;
     char *const *arguments; /* the command and all that follows it */
     int argument_count;
-    bool json, quiet, version, prove;
+    bool json, quiet, version, prove, no_live;
     int threads;
     double time_limit;  /* s, 0: none */
     double memory;      /* bytes, 0: not given */
@@ -54,6 +54,7 @@ enum option_flag {
     OPTION_MEMORY = 64,
     OPTION_PROVE = 128,
     OPTION_REPAIR = 256,
+    OPTION_NO_LIVE = 512,
 };
 
 /* options.c: fills options from the arguments after the command's name; false after a message on standard error. */

@@ -9,9 +9,10 @@
 static const cli_command commands[] = {
     {"check", "SCENE [-o DIR]", "what is in it, what is wrong with it, mesh diagnostics",
      OPTION_OUTPUT | OPTION_SET | OPTION_REPAIR, cli_check, 1, 1},
-    {"simulate", "SCENE [-o DIR]", "evaluate the scene's own nozzles", OPTION_SET | OPTION_OUTPUT, cli_simulate, 1, 1},
+    {"simulate", "SCENE [-o DIR]", "evaluate the scene's own nozzles", OPTION_SET | OPTION_OUTPUT | OPTION_NO_LIVE,
+     cli_simulate, 1, 1},
     {"place", "SCENE [-o DIR]", "propose a layout; compares with the scene's own nozzles",
-     OPTION_SET | OPTION_OUTPUT | OPTION_TIME_LIMIT | OPTION_MEMORY | OPTION_PROVE, cli_place, 1, 1},
+     OPTION_SET | OPTION_OUTPUT | OPTION_TIME_LIMIT | OPTION_MEMORY | OPTION_PROVE | OPTION_NO_LIVE, cli_place, 1, 1},
     {"compare", "A B... [-o DIR]", "scenes or results side by side, one report", OPTION_SET | OPTION_OUTPUT,
      cli_compare, 2, 64},
     {"study", "SCENE [-o DIR]", "measure speed against accuracy for this scene",
@@ -57,6 +58,7 @@ static void print_usage(FILE *to)
             "  --memory SIZE     what place may take for all that its candidates can reach, as \"2 GB\"; less takes\n"
             "                    longer, the answer does not depend on it\n"
             "  --prove           place spends the time limit on closing the gap between proposal and bound\n"
+            "  --no-live         leave the evaluator, which evaluates changed layouts in the report, out of it\n"
             "  --version, --help\n"
             "\n"
             "exit status: 0 done; 2 wrong usage; 3 bad input; 4 done, but the proposal does not reach the coverage\n"
@@ -90,6 +92,8 @@ static void print_command_usage(FILE *to, const cli_command *command)
     if (command->options & OPTION_PROVE)
         fprintf(to,
                 "  --prove                    spend the time limit on closing the gap between proposal and bound\n");
+    if (command->options & OPTION_NO_LIVE)
+        fprintf(to, "  --no-live                  leave the evaluator out of the report\n");
     if (command->options & OPTION_ATLAS)
         fprintf(to, "  --texel L                  edge length of a texel, as 10mm or 0.01\n"
                     "  --pack pixels|skyline      charts in each other's hollows (default), or their boxes as in 2008\n"

@@ -25,7 +25,8 @@ enum {
     PROVE,
     PACK,
     REUSE,
-    REPAIR
+    REPAIR,
+    NO_LIVE
 };
 
 static const struct option long_options[] = {
@@ -40,6 +41,7 @@ static const struct option long_options[] = {
     {"pack", required_argument, NULL, PACK},
     {"reuse", no_argument, NULL, REUSE},
     {"repair", required_argument, NULL, REPAIR},
+    {"no-live", no_argument, NULL, NO_LIVE},
     {"rays", required_argument, NULL, RAYS},
     {"gravity", required_argument, NULL, GRAVITY},
     {"accel", required_argument, NULL, ACCEL},
@@ -68,6 +70,8 @@ static unsigned flag_of(int option)
         return OPTION_MEMORY;
     case PROVE:
         return OPTION_PROVE;
+    case NO_LIVE:
+        return OPTION_NO_LIVE;
     case REPAIR:
         return OPTION_REPAIR;
     case RAYS:
@@ -91,7 +95,7 @@ static const char *name_of(int option)
                                         [GRAVITY - JSON] = "--gravity", [ACCEL - JSON] = "--accel",
                                         [MODE - JSON] = "--mode",       [TRAJECTORY - JSON] = "--trajectory",
                                         [MEMORY - JSON] = "--memory",   [PROVE - JSON] = "--prove",
-                                        [REPAIR - JSON] = "--repair"};
+                                        [REPAIR - JSON] = "--repair",   [NO_LIVE - JSON] = "--no-live"};
     return option == 'o' ? "-o" : names[option - JSON];
 }
 
@@ -217,6 +221,9 @@ static bool take_option(int option, const char *value, cli_options *options, boo
         return true;
     case PROVE:
         options->prove = true;
+        return true;
+    case NO_LIVE:
+        options->no_live = true;
         return true;
     case SET:
         return parse_override(value, options);

@@ -94,13 +94,30 @@ static bool write_layouts(const cli_options *options, const sp_result *result, c
     return good;
 }
 
+/* All but the layouts; where there is a layout, and nobody minds, the page evaluates changed ones. */
+static bool write_report(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
+                         const sp_layout *layout, sp_output *output, sp_error *error)
+{
+    if (!layout || options->no_live)
+        return sp_report_write(result, output, error);
+    const sp_fidelity *fidelity = sp_evaluator_fidelity(result->designs[0].evaluator);
+    char *text = sp_scene_text(scenes[0], layout, fidelity, options->output, error);
+    sp_editing editing = {.options = sp_scene_place_options(scenes[0]), .scene = text};
+    sp_result told = *result;
+    told.editing = &editing;
+    bool good = text && sp_report_write(&told, output, error);
+    free(text);
+    return good;
+}
+
 bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
                const sp_layout *layout, sp_error *error)
 {
     if (!options->output)
         return true;
     sp_output *output = cli_output_open(options, options->output, scenes, options->input_count, error);
-    bool good = output && sp_output_supersede(output, error) && sp_report_write(result, output, error);
+    bool good =
+        output && sp_output_supersede(output, error) && write_report(options, result, scenes, layout, output, error);
     good = good && (!layout || write_layouts(options, result, scenes[0], layout, output, error));
     if (good)
         return sp_output_commit(output, error);

@@ -1,5 +1,6 @@
 /* The report as one self-contained page: nothing fetched, and all but the viewer there without its script. */
 #include "page.h"
+#include "viewer/live.h"
 
 #include <sprayplan/sprayplan.h>
 
@@ -182,14 +183,15 @@ static void find_roles(sp_page *page)
     }
 }
 
-void sp_page_head(sp_text *text, const char *title, const char *scene)
+void sp_page_head(sp_text *text, const char *title, const char *scene, bool live)
 {
-    sp_text_add(text,
-                "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-                "content=\"width=device-width, initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
-                "content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src "
-                "'unsafe-inline'\">\n<meta name=\"generator\" content=\"sprayplan " SP_VERSION "\">\n<title>%s: ",
-                title);
+    sp_text_add(
+        text,
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+        "content=\"width=device-width, initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
+        "content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'%s\">\n"
+        "<meta name=\"generator\" content=\"sprayplan " SP_VERSION "\">\n<title>%s: ",
+        live ? " 'wasm-unsafe-eval'; worker-src blob:" : "", title);
     sp_markup_escape(text, scene);
     sp_text_add(text, "</title>\n");
     for (size_t i = 0; i < sizeof style / sizeof *style; ++i)
@@ -215,7 +217,7 @@ static void add_title(const sp_page *page, sp_text *text, const char *scene)
 
 static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *error)
 {
-    sp_page_head(text, "Spray nozzle layout", scene);
+    sp_page_head(text, "Spray nozzle layout", scene, page->live);
     add_title(page, text, scene);
     sp_page_out_of_reach(page, text);
     sp_page_headline(page, text);
@@ -244,7 +246,7 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
     sp_page_inputs(page, text);
     sp_page_foot(page, text);
     sp_text_add(text, "</main>\n");
-    sp_page_viewer_script(text);
+    sp_page_viewer_script(page, text);
     sp_text_add(text, "</body>\n</html>\n");
     return true;
 }
@@ -256,6 +258,7 @@ char *sp_report_html(const sp_result *result, sp_error *error)
     char *scene = sp_text_utf8(result->scene), *html = NULL;
     page.figures = figures;
     find_roles(&page);
+    page.live = !sp_page_not_live(&page);
     sp_text text = {0};
     if (!scene)
         sp_fail_memory(error);

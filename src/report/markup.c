@@ -30,6 +30,15 @@ void sp_markup_escape(sp_text *text, const char *value)
     }
 }
 
+void sp_markup_json(sp_text *text, const char *json)
+{
+    for (const char *rest; (rest = strchr(json, '<')); json = rest + 1) {
+        sp_text_append(text, json, (size_t)(rest - json));
+        sp_text_add(text, "\\u003c");
+    }
+    sp_text_append(text, json, strlen(json));
+}
+
 void sp_markup_base64(sp_text *text, const uint8_t *bytes, size_t size)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -8,6 +8,8 @@
 
 /* Safe between tags and in quoted attributes. */
 void sp_markup_escape(sp_text *text, const char *value);
+/* JSON between <script> and </script>: it may hold what ends a script, as names come from strangers. */
+void sp_markup_json(sp_text *text, const char *json);
 /* RFC 4648, with padding. */
 void sp_markup_base64(sp_text *text, const uint8_t *bytes, size_t size);
 /* A dash where the value is not known. Never an exponent. */

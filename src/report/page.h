@@ -15,10 +15,11 @@ typedef struct {
     bool alternatives;         /* designs with an `alternative` are what it was chosen from */
     size_t manual, greedy;
     sp_flux_scale scale;
+    bool live; /* it evaluates other layouts itself */
 } sp_page;
 
 /* html.c: all before the page's first heading: title (ours, not escaped), style, the beginning of <main>. */
-void sp_page_head(sp_text *text, const char *title, const char *scene);
+void sp_page_head(sp_text *text, const char *title, const char *scene, bool live);
 /* A design's name for readers, as plain text. */
 void sp_page_plain_name(const sp_page *page, sp_text *text, size_t design);
 /* The same, escaped. */
@@ -81,7 +82,7 @@ void sp_page_certificate(const sp_page *page, sp_text *text);
 bool sp_page_pictures(const sp_page *page, sp_text *text, sp_error *error);
 /* viewer/section.c: the surface to be turned and asked, its data, its script at the page's end. */
 bool sp_page_viewer(const sp_page *page, sp_text *text, sp_error *error);
-void sp_page_viewer_script(sp_text *text);
+void sp_page_viewer_script(const sp_page *page, sp_text *text);
 #define SP_PAGE_SHADOWS 10 /* largest ones that are listed */
 /* same_layouts.c: which designs are the same nozzles, counted by several runs; nothing where none are. */
 void sp_page_same_layouts(const sp_page *page, sp_text *text);

@@ -110,14 +110,11 @@ static bool draw_flux_figures(const sp_patches *patches, sp_coverage *coverage, 
     return true;
 }
 
-bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_bodies *bodies, sp_coverage *coverage,
-                          sp_error *error)
+void sp_coverage_judge(const sp_evaluator *evaluator, sp_coverage *coverage)
 {
     const sp_patches *patches = &evaluator->patches;
     sp_deposits *deposits = &coverage->deposits;
     double threshold = evaluator->setup.criterion.flux;
-    if (evaluator->rundown && !sp_rundown_find(evaluator->rundown, bodies->patterns, coverage, error))
-        return false;
     for (uint32_t i = 0; i < patches->count; i++) {
         double area = sp_evaluator_counted(evaluator, i);
         coverage->area += area;
@@ -136,7 +133,15 @@ bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_bodies *bodies
         coverage->covered_area += deposits->share[i] * area;
     }
     coverage->fraction = coverage->area > 0 ? coverage->covered_area / coverage->area : 0;
+}
+
+bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_bodies *bodies, sp_coverage *coverage,
+                          sp_error *error)
+{
+    if (evaluator->rundown && !sp_rundown_find(evaluator->rundown, bodies->patterns, coverage, error))
+        return false;
+    sp_coverage_judge(evaluator, coverage);
     coverage->flow = sp_layout_flow(bodies->layout, &evaluator->setup.liquid);
     coverage->area_per_water = coverage->flow > 0 ? coverage->covered_area / coverage->flow : 0;
-    return draw_flux_figures(patches, coverage, error);
+    return draw_flux_figures(&evaluator->patches, coverage, error);
 }

@@ -33,9 +33,7 @@ void sp_flock_free(sp_flock *flock)
     free(flock->shaded);
 }
 
-/* Within the cone, a hair wider than asked, so that round-off never takes a jet of the edge away; or not farther
- * beyond than a patch's share may lie. */
-static bool aimed(const sp_aim *aim, const sp_arrival *arrival)
+bool sp_aim_takes(const sp_aim *aim, const sp_arrival *arrival)
 {
     double along = sp_dot(arrival->direction, aim->axis);
     if (along < aim->cosine) {
@@ -104,7 +102,7 @@ static void take(const sp_gathering *own, const sp_target *target, const sp_flig
         /* what a spray's edge is blurred over is no less than a step, so that no thin spray falls between two */
         arrival->breadth = sp_flight_breadth(&flights[k], fmax(target->length, own->step));
         sp_flight way = aim->beside ? flight_beside(flights[k], aim->beside) : flights[k];
-        if (!aimed(aim, arrival))
+        if (!sp_aim_takes(aim, arrival))
             continue;
         double clear = traced ? free_share(own, target, &way) : 1;
         arrival->blocked = !(clear > 0);

@@ -1,8 +1,8 @@
 /* The inverse evaluator: for every patch, the closed-form flights that reach it, the share of it that lies inside the
  * spray and the pattern's density there. */
+#include "inverse.h"
+
 #include "bodies.h"
-#include "reach.h"
-#include "tally.h"
 
 #include <stdlib.h>
 
@@ -33,6 +33,15 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
     sp_tally_add(tally, first->patch, counted, &wetting);
 }
 
+void sp_lay_arrivals(const sp_emitter *emitter, double flow, const sp_arrival *arrivals, size_t count, sp_tally *tally)
+{
+    for (size_t i = 0, end; i < count; i = end) {
+        for (end = i + 1; end < count && arrivals[end].patch == arrivals[i].patch;)
+            end++;
+        lay_patch(emitter, flow, &arrivals[i], &arrivals[end], tally);
+    }
+}
+
 static bool lay_pattern(const sp_emitter *emitter, double flow, sp_tally *tally, sp_work *work, sp_error *error)
 {
     sp_aim aim = sp_aim_at(emitter->frame.z, sp_spray_reach(&emitter->spray));
@@ -40,11 +49,7 @@ static bool lay_pattern(const sp_emitter *emitter, double flow, sp_tally *tally,
     sp_reach *reach = sp_reach_create(&emitter->source, &aim, error);
     if (!reach)
         return false;
-    for (size_t i = 0, end; i < reach->count; i = end) {
-        for (end = i + 1; end < reach->count && reach->arrivals[end].patch == reach->arrivals[i].patch;)
-            end++;
-        lay_patch(emitter, flow, &reach->arrivals[i], &reach->arrivals[end], tally);
-    }
+    sp_lay_arrivals(emitter, flow, reach->arrivals, reach->count, tally);
     work->places += reach->work.places;
     work->rays += reach->work.rays;
     sp_reach_destroy(reach);

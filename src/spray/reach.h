@@ -21,6 +21,9 @@ typedef struct {
 
 /* A cone of directions, half_angle in rad; what of a patch beyond its edge may still lie in it counts too. */
 sp_aim sp_aim_at(sp_vec3 axis, double half_angle);
+/* flock.c: whether an arrival leaves within the cone, a hair wider than asked, so that round-off never takes a jet of
+ * the edge away, or not farther beyond than a patch's share may lie; and where an emitter is given, into its spray. */
+bool sp_aim_takes(const sp_aim *aim, const sp_arrival *arrival);
 /* All arrivals that are asked for, ascending by patch, low arc before high arc. */
 sp_reach *sp_reach_create(const sp_source *source, const sp_aim *aim, sp_error *error);
 

@@ -2,9 +2,9 @@
 #ifndef SPRAY_STATE_H
 #define SPRAY_STATE_H
 
-#include <sprayplan/evaluator.h>
+#include "trace/threads.h"
 
-#include <omp.h>
+#include <sprayplan/evaluator.h>
 
 struct sp_evaluator {
     sp_setup setup;
@@ -97,8 +97,9 @@ sp_coverage *sp_coverage_create(const sp_evaluator *evaluator, sp_error *error);
  * until sp_coverage_conclude divides. Does not touch `counted`. */
 void sp_deposit(sp_deposits *deposits, uint32_t patch, double flux, double jets, double speed, double incidence,
                 double density);
-/* Divides the means, applies the criterion to `counted`, and draws the figures. */
+/* Divides the means and applies the criterion, once; and that with what runs down, the flow and the flux's figures. */
 struct sp_bodies;
+void sp_coverage_judge(const sp_evaluator *evaluator, sp_coverage *coverage);
 bool sp_coverage_conclude(const sp_evaluator *evaluator, const struct sp_bodies *bodies, sp_coverage *coverage,
                           sp_error *error);
 

@@ -10,7 +10,7 @@
 
 static void add_title(sp_text *text, const sp_study *study, const char *scene)
 {
-    sp_page_head(text, "Speed against accuracy", scene);
+    sp_page_head(text, "Speed against accuracy", scene, false);
     sp_text_add(text, "<header><h1>Speed against accuracy</h1>\n<p class=\"about\">");
     sp_markup_escape(text, scene);
     sp_text_add(text, " \xc2\xb7 ");

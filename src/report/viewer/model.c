@@ -1,6 +1,7 @@
 #include "model.h"
 
 #include "design.h"
+#include "exact.h"
 #include "report/camera.h"
 #include "report/surface.h"
 
@@ -36,8 +37,8 @@ static json_t *quantities_json(const sp_shown_quantity quantities[SP_SHOWN_QUANT
     json_t *list = json_array();
     for (int k = 0; k < SP_SHOWN_QUANTITIES; ++k) {
         const sp_shown_quantity *q = &quantities[k];
-        json_array_append_new(list, json_pack("{s:s, s:s, s:s, s:f, s:f, s:b, s:[ff], s:f}", "key", q->key, "name",
-                                              q->name, "unit", q->unit, "low", q->low, "high", q->high, "log",
+        json_array_append_new(list, json_pack("{s:s, s:s, s:s, s:f, s:f, s:f, s:b, s:[ff], s:f}", "key", q->key, "name",
+                                              q->name, "unit", q->unit, "toUnit", q->to_unit, "low", q->low, "high", q->high, "log",
                                               (int)q->log, "shown", q->shown[0], q->shown[1], "step", q->criterion));
     }
     return list;
@@ -164,6 +165,17 @@ static json_t *designs_json(const sp_page *page, const sp_evaluator *evaluator,
     return list ? list : sp_fail_memory(error);
 }
 
+/* The surface as it is drawn, or to the last bit where layouts are evaluated on it; *about of the latter alone. */
+static bool pack_either(const sp_page *page, const sp_evaluator *evaluator, const sp_drawn_surface *surface,
+                        const box *around, sp_packed *packed, json_t **about, sp_error *error)
+{
+    *about = NULL;
+    if (!page->live)
+        return pack_surface(evaluator, surface, around, packed, error);
+    *about = sp_viewer_exact(evaluator, surface, packed, error);
+    return *about != NULL;
+}
+
 static json_t *surface_json(const sp_layers *layers, const sp_drawn_surface *surface, const box *around)
 {
     const sp_evaluator *evaluator = layers->evaluator;
@@ -186,16 +198,18 @@ static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator,
     sp_layers layers = {0};
     sp_drawn_surface surface = {0};
     sp_packed packed = {0};
-    json_t *object = NULL, *designs = NULL;
+    json_t *object = NULL, *designs = NULL, *exact = NULL;
     if (sp_layers_create(&layers, evaluator, error) && sp_drawn_surface_create(&surface, &layers, error)) {
         box around = box_of(evaluator, &surface);
-        if (pack_surface(evaluator, &surface, &around, &packed, error) && pack_pages(&layers, &packed, error))
+        if (pack_either(page, evaluator, &surface, &around, &packed, &exact, error) &&
+            pack_pages(&layers, &packed, error))
             designs = designs_json(page, evaluator, quantities, &packed, error);
         char *data = designs ? sp_packed_finish(&packed, error) : NULL;
         object = data ? surface_json(&layers, &surface, &around) : NULL;
         sp_camera camera = sp_camera_create(evaluator, page->result, &sp_views[0], 1);
         if (!object || json_object_set(object, "designs", designs) != 0 ||
             json_object_set_new(object, "cut", json_boolean(camera.cut)) != 0 ||
+            (exact && json_object_set(object, "exact", exact) != 0) ||
             json_object_set_new(object, "data", json_string_nocheck(data)) != 0) {
             json_decref(object);
             object = sp_fail_memory(error);
@@ -203,6 +217,7 @@ static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator,
         free(data);
     }
     json_decref(designs);
+    json_decref(exact);
     free(packed.text);
     sp_drawn_surface_free(&surface);
     sp_layers_free(&layers);
@@ -228,16 +243,6 @@ static json_t *models_json(const sp_page *page, const sp_shown_quantity quantiti
     return list;
 }
 
-/* JSON may hold what ends a script: names come from strangers. */
-static void add_safely(sp_text *text, const char *json)
-{
-    for (const char *rest; (rest = strchr(json, '<')); json = rest + 1) {
-        sp_text_append(text, json, (size_t)(rest - json));
-        sp_text_add(text, "\\u003c");
-    }
-    sp_text_append(text, json, strlen(json));
-}
-
 bool sp_viewer_model(const sp_page *page, sp_text *text, sp_error *error)
 {
     sp_shown_quantity quantities[SP_SHOWN_QUANTITIES];
@@ -254,7 +259,7 @@ bool sp_viewer_model(const sp_page *page, sp_text *text, sp_error *error)
                             quantities_json(quantities), "models", models);
     char *json = all ? json_dumps(all, JSON_COMPACT | JSON_REAL_PRECISION(7)) : NULL;
     if (json)
-        add_safely(text, json);
+        sp_markup_json(text, json);
     free(json);
     json_decref(all);
     return json || sp_fail_memory(error);

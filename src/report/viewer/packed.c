@@ -35,6 +35,29 @@ void sp_packed_words(sp_packed *packed, const uint32_t *values, size_t count, bo
         put(packed, differences && i ? values[i] - values[i - 1] : values[i], 4);
 }
 
+static uint64_t unsigned_of(int64_t value)
+{
+    return value < 0 ? 2 * (uint64_t) - (value + 1) + 1 : 2 * (uint64_t)value;
+}
+
+void sp_packed_numbers(sp_packed *packed, const int64_t *values, size_t count)
+{
+    uint32_t all = 0;
+    for (size_t i = 0; i < count; ++i) {
+        char bytes = 0;
+        for (uint64_t rest = unsigned_of(values[i]); rest; rest >>= 8)
+            bytes++;
+        sp_text_append(packed, &bytes, 1);
+        all += (uint32_t)bytes;
+    }
+    align(packed);
+    sp_packed_words(packed, &all, 1, false);
+    for (size_t i = 0; i < count; ++i)
+        for (uint64_t rest = unsigned_of(values[i]); rest; rest >>= 8)
+            put(packed, (uint32_t)(rest & 0xff), 1);
+    align(packed);
+}
+
 char *sp_packed_finish(const sp_packed *packed, sp_error *error)
 {
     uLongf size = compressBound(packed->length);

@@ -5,6 +5,8 @@
 
 #include "report/markup.h"
 
+#include <string.h>
+
 /* Bytes that grow; starts as {0}. */
 typedef sp_text sp_packed;
 
@@ -12,6 +14,20 @@ void sp_packed_bytes(sp_packed *packed, const uint8_t *values, size_t count);
 /* With `differences` each as what it is more than the value before, modulo 2^16 and 2^32: such deflate better. */
 void sp_packed_shorts(sp_packed *packed, const uint16_t *values, size_t count, bool differences);
 void sp_packed_words(sp_packed *packed, const uint32_t *values, size_t count, bool differences);
+/* Whole numbers that are mostly small: of each, twice its size, plus one where it is below 0, in as few bytes as it
+ * takes. How many these are for each of them, then how many in all, then they. */
+void sp_packed_numbers(sp_packed *packed, const int64_t *values, size_t count);
+/* How many doubles `value` lies above `from`, modulo 2^64: the difference of their bits. */
+static inline int64_t sp_packed_apart(double value, double from)
+{
+    uint64_t bits[2];
+    memcpy(&bits[0], &value, sizeof value);
+    memcpy(&bits[1], &from, sizeof from);
+    bits[0] -= bits[1];
+    int64_t apart;
+    memcpy(&apart, bits, sizeof apart);
+    return apart;
+}
 /* As base64, malloc'd; NULL on error. */
 char *sp_packed_finish(const sp_packed *packed, sp_error *error);
 

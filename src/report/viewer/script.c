@@ -13,4 +13,14 @@
         name "_end") "\n" SYMBOL(name "_end") ":\n.byte 0\n.text\n")
 
 EMBED("sp_viewer_script", SPRAYPLAN_VIEWER "/viewer.js");
+EMBED("sp_surface_script", SPRAYPLAN_VIEWER "/surface.js");
+EMBED("sp_live_script", SPRAYPLAN_VIEWER "/live.js");
+EMBED("sp_live_worker", SPRAYPLAN_VIEWER "/worker.js");
+#ifdef SPRAYPLAN_LIVE
+EMBED("sp_live_module", SPRAYPLAN_LIVE);
+const bool sp_live_is_built = true;
+#else
+EMBED("sp_live_module", "/dev/null");
+const bool sp_live_is_built = false;
+#endif
 EMBED("sp_viewer_style", SPRAYPLAN_VIEWER "/viewer.css");

@@ -1,8 +1,15 @@
-/* The viewer's script and style as they lie in this folder. */
+/* The page's scripts and style as they lie in this folder, and live.wasm. */
 #ifndef REPORT_VIEWER_SCRIPT_H
 #define REPORT_VIEWER_SCRIPT_H
 
+#include <stdbool.h>
+
 extern const char sp_viewer_script[], sp_viewer_script_end[];
+extern const char sp_surface_script[], sp_surface_script_end[]; /* what the viewer reads surfaces with */
+extern const char sp_live_script[], sp_live_script_end[];
+extern const char sp_live_worker[], sp_live_worker_end[];
+extern const bool sp_live_is_built; /* else the module is empty */
+extern const char sp_live_module[], sp_live_module_end[];
 extern const char sp_viewer_style[], sp_viewer_style_end[];
 
 #endif

@@ -1,4 +1,5 @@
 /* The viewer's place in the page. Hidden until its script finds that it can draw. */
+#include "live.h"
 #include "model.h"
 #include "script.h"
 
@@ -22,12 +23,20 @@ bool sp_page_viewer(const sp_page *page, sp_text *text, sp_error *error)
     if (!sp_viewer_model(page, text, error))
         return false;
     sp_text_add(text, "</script>\n");
-    return true;
+    const char *why = sp_page_not_live(page);
+    if (why && *why)
+        sp_text_add(text,
+                    "<p class=\"note\" id=\"not-live\">This page shows the layouts and evaluates no others: %s.</p>\n",
+                    why);
+    return !page->live || sp_page_live(page, text, error);
 }
 
-void sp_page_viewer_script(sp_text *text)
+void sp_page_viewer_script(const sp_page *page, sp_text *text)
 {
     sp_text_add(text, "<script>\n");
+    sp_text_append(text, sp_surface_script, (size_t)(sp_surface_script_end - sp_surface_script));
     sp_text_append(text, sp_viewer_script, (size_t)(sp_viewer_script_end - sp_viewer_script));
+    if (page->live)
+        sp_text_append(text, sp_live_script, (size_t)(sp_live_script_end - sp_live_script));
     sp_text_add(text, "</script>\n");
 }

@@ -1,11 +1,11 @@
 /* The report's viewer: the surface in colours that may be turned, cut and asked, every design under one camera. Needs
  * WebGL 2; without it the section stays hidden and the page is what it is on paper. The data is written by model.c. */
-(async () => {
+const viewer = (async () => {
     "use strict";
     const section = document.getElementById("viewer");
     const gl = document.createElement("canvas").getContext("webgl2", {antialias: true, preserveDrawingBuffer: true});
     if (!section || !gl || !window.DecompressionStream)
-        return;
+        return null;
 
     /* ---- the data ---- */
 
@@ -15,31 +15,6 @@
         const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
         const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
         return new Response(stream).arrayBuffer();
-    }
-
-    /* Arrays one after the other, each from a multiple of four bytes on; most as differences to the value before. */
-    function reader(buffer) {
-        let at = 0;
-        return (Kind, count, differences) => {
-            const values = new Kind(buffer, at, count);
-            at += Math.ceil(values.byteLength / 4) * 4;
-            for (let i = 1; differences && i < count; i++)
-                values[i] += values[i - 1];
-            return values;
-        };
-    }
-
-    function readVertices(model, take) {
-        const axes = Array.from({length: 5}, () => take(Uint16Array, model.vertices, true));
-        const packed = new Uint16Array(6 * model.vertices);
-        const places = new Float32Array(3 * model.vertices);
-        for (let i = 0; i < model.vertices; i++)
-            for (let k = 0; k < 5; k++) {
-                packed[6 * i + k] = axes[k][i];
-                if (k < 3)
-                    places[3 * i + k] = model.low[k] + (axes[k][i] / 65535) * (model.high[k] - model.low[k]);
-            }
-        return {packed, places, u: axes[3], v: axes[4]};
     }
 
     /* For each layer a picture of the pages, a patch's number + 1 in every pixel that it has, 0 elsewhere. */
@@ -68,10 +43,9 @@
     }
 
     async function readModel(model) {
-        const take = reader(await inflated(model.data));
+        const take = surfaces.reader(await inflated(model.data));
         delete model.data;
-        model.vertex = readVertices(model, take);
-        model.corners = take(Uint32Array, model.triangles * 3, true);
+        surfaces.read(model, take);
         model.page = readPages(model, take);
         model.designs.forEach((design) => readDesign(design, model, take));
     }
@@ -613,19 +587,22 @@
     }
 
     const switches = [];
-    function addDesigns() {
-        designs.forEach((design) => {
-            const [box, label] = checkbox(design.name, state.shown.includes(design), (changed) => {
-                const shown = designs.filter((other) =>
-                    (other === design ? changed.checked : state.shown.includes(other)));
-                if (shown.length)
-                    state.shown = shown;
-                changed.checked = state.shown.includes(design);
-                recolour();
-            });
-            switches.push([box, design]);
-            controls.append(label);
+    const switchboard = element("span", {class: "switches"});
+    function addSwitch(design) {
+        const [box, label] = checkbox(design.name, state.shown.includes(design), (changed) => {
+            const shown = designs.filter((other) =>
+                (other === design ? changed.checked : state.shown.includes(other)));
+            if (shown.length)
+                state.shown = shown;
+            changed.checked = state.shown.includes(design);
+            recolour();
         });
+        switches.push([box, design]);
+        switchboard.append(label);
+    }
+    function addDesigns() {
+        designs.forEach(addSwitch);
+        controls.append(switchboard);
     }
 
     const scales = ["log", "linear", "stepped"];
@@ -848,4 +825,13 @@
     recolour();
     tell("Drag to turn, with shift to move; click a point, a nozzle or a row of the tables below.", null, -1);
     section.dataset.ready = "true";
+
+    /* For live.js: a design more, that changes. */
+    function addDesign(design) {
+        designs.push(design);
+        uploadLines(design);
+        addSwitch(design);
+    }
+    return {about, designs, section, canvas, inflated, element, button, choice, option, addDesign, show, recolour, redraw,
+            uploadLines, state, size, up, box: {low, high}};
 })();

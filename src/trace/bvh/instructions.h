@@ -11,6 +11,14 @@ typedef enum {
     SP_INSTRUCTIONS_COUNT
 } sp_instructions;
 
+/* What a kernel is called for each of them, for a table by sp_instructions. Built for another processor it is the
+ * portable one whatever is asked for. */
+#if defined(__x86_64__) || defined(__i386__)
+#define SP_KERNELS(name) {name##_portable, name##_avx2, name##_avx512}
+#else
+#define SP_KERNELS(name) {name##_portable, name##_portable, name##_portable}
+#endif
+
 /* Whether this build has them and this processor knows them. */
 bool sp_instructions_available(sp_instructions instructions);
 /* The last one available. */

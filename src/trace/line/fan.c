@@ -10,7 +10,7 @@
 /* Origins farther away are left to single lines, which begin near the mesh. */
 #define NEAR_ENOUGH 7.0
 
-static const sp_bundle_kernel *const kernels[] = {&sp_bundle_portable, &sp_bundle_avx2, &sp_bundle_avx512};
+static const sp_bundle_kernel *const kernels[] = SP_KERNELS(&sp_bundle);
 
 sp_hit sp_bundle_ask(const sp_bundle *b, int lane, uint32_t triangle, uint32_t other)
 {

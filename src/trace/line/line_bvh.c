@@ -130,9 +130,8 @@ sp_hit sp_bvh_line_ask(const sp_bvh *bvh, const sp_ray *ray, uint32_t triangle)
 void sp_bvh_trace_lines(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays,
                         const sp_direction_entry *order, size_t count, sp_hit *hits, bool *occluded)
 {
-    static void (*const together[])(sp_bvh_stream *) = {sp_bvh_lines_portable, sp_bvh_lines_avx2, sp_bvh_lines_avx512};
-    static void (*const alone[])(sp_bvh_stream *) = {sp_bvh_lines_alone_portable, sp_bvh_lines_alone_avx2,
-                                                     sp_bvh_lines_alone_avx512};
+    static void (*const together[])(sp_bvh_stream *) = SP_KERNELS(sp_bvh_lines);
+    static void (*const alone[])(sp_bvh_stream *) = SP_KERNELS(sp_bvh_lines_alone);
     sp_bvh_stream stream = {
         .bvh = bvh, .rays = rays, .order = order, .count = count, .hits = hits, .occluded = occluded};
     for (size_t i = 0; bvh->node_count == 0 && i < count; i++) {

@@ -245,12 +245,9 @@ bool sp_bvh_jets_begin(sp_bvh_jets *jets, sp_bvh_jet *jet)
     }
 }
 
-static void (*const prepares[])(const sp_bvh_jets *, sp_bvh_starts *) = {
-    sp_bvh_prepare_starts_portable, sp_bvh_prepare_starts_avx2, sp_bvh_prepare_starts_avx512};
-static void (*const kernels[])(sp_bvh_jets *, sp_bvh_jet *, int) = {sp_bvh_parabolas_portable, sp_bvh_parabolas_avx2,
-                                                                    sp_bvh_parabolas_avx512};
-static void (*const computes[])(const sp_parabola_pairs *, sp_hit *) = {sp_parabola_hits_portable,
-                                                                        sp_parabola_hits_avx2, sp_parabola_hits_avx512};
+static void (*const prepares[])(const sp_bvh_jets *, sp_bvh_starts *) = SP_KERNELS(sp_bvh_prepare_starts);
+static void (*const kernels[])(sp_bvh_jets *, sp_bvh_jet *, int) = SP_KERNELS(sp_bvh_parabolas);
+static void (*const computes[])(const sp_parabola_pairs *, sp_hit *) = SP_KERNELS(sp_parabola_hits);
 
 void sp_bvh_trace_parabolas(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, const uint32_t *order,
                             size_t count, const sp_pull *pull, sp_hit *hits, bool *occluded)

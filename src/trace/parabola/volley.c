@@ -185,8 +185,7 @@ static size_t fill(const sheaf *s, size_t from, sp_volley *v)
 /* The answers: `hits`, or where that is NULL `occluded`. */
 static void answer(const sp_volley *v, sp_instructions instructions, sp_hit *hits, bool *occluded)
 {
-    static void (*const kernels[])(const sp_parabola_pairs *, sp_hit *) = {
-        sp_parabola_hits_portable, sp_parabola_hits_avx2, sp_parabola_hits_avx512};
+    static void (*const kernels[])(const sp_parabola_pairs *, sp_hit *) = SP_KERNELS(sp_parabola_hits);
     sp_parabola_pairs pairs = {.bvh = v->bvh, .pull = v->pull, .rays = v->rays};
     for (int i = 0; i < v->count; i++) {
         uint32_t ray = v->ray[i], triangle = v->triangle[i];
@@ -214,8 +213,7 @@ static size_t leave_all(size_t count, uint32_t *left)
 static void search_all(const sheaf *s, sp_instructions instructions, sp_volley *volley, sp_hit *hits, bool *occluded,
                        uint32_t *left, size_t *others)
 {
-    static void (*const searches[])(sp_volley *) = {sp_volley_search_portable, sp_volley_search_avx2,
-                                                    sp_volley_search_avx512};
+    static void (*const searches[])(sp_volley *) = SP_KERNELS(sp_volley_search);
     int rests = 0, rest = REST_LEAST;
     for (size_t i = 0; i < s->taken;) {
         i += fill(s, i, volley);

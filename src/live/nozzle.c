@@ -1,0 +1,154 @@
+/* What one nozzle brings. What it reaches depends on its position and speed alone and is kept while these stay: a turn,
+ * a roll, another angle or flow, or a type that is as fast, traces nothing. */
+#include "live/state.h"
+
+#include "spray/bodies.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define KEPT_MOST 1000000 /* arrivals of all reaches, some 150 MB */
+
+void sp_live_forget(sp_live_nozzle *kept)
+{
+    sp_coverage_destroy(kept->alone);
+    sp_reach_destroy(kept->reach);
+    *kept = (sp_live_nozzle){0};
+}
+
+static bool same_source(const sp_source *a, const sp_source *b)
+{
+    return a->position.x == b->position.x && a->position.y == b->position.y && a->position.z == b->position.z &&
+           a->speed == b->speed;
+}
+
+/* Those that were used longest ago go first, never that of the nozzle in hand. */
+static void keep_few(sp_live *live, const sp_live_nozzle *own)
+{
+    for (;;) {
+        size_t held = 0;
+        sp_live_nozzle *oldest = NULL;
+        for (size_t i = 0; i < live->nozzle_count; i++) {
+            sp_live_nozzle *other = &live->nozzles[i];
+            held += other->reach ? other->reach->count : 0;
+            if (other->reach && other != own && (!oldest || other->used < oldest->used))
+                oldest = other;
+        }
+        if (held <= KEPT_MOST || !oldest)
+            return;
+        sp_reach_destroy(oldest->reach);
+        oldest->reach = NULL;
+    }
+}
+
+/* All that the source reaches in any direction. */
+static bool know_reach(sp_live *live, sp_live_nozzle *kept, const sp_source *source, unsigned stride)
+{
+    kept->used = live->evaluations;
+    if (kept->reach && same_source(&kept->source, source) && kept->reach_stride <= stride &&
+        stride % kept->reach_stride == 0)
+        return true;
+    sp_reach_destroy(kept->reach);
+    sp_aim aim = sp_aim_at(sp_v(0, 0, 1), M_PI);
+    aim.among = stride > 1 ? live->sample.among : NULL;
+    kept->reach = sp_reach_create(source, &aim, &live->error);
+    kept->source = *source;
+    kept->reach_stride = stride;
+    live->figures[SP_LIVE_TRACED]++;
+    if (kept->reach)
+        keep_few(live, kept);
+    return kept->reach != NULL;
+}
+
+static sp_aim aim_of(const sp_emitter *emitter)
+{
+    sp_aim aim = sp_aim_at(emitter->frame.z, sp_spray_reach(&emitter->spray));
+    aim.emitter = emitter;
+    return aim;
+}
+
+static bool lay_known(sp_live *live, sp_live_nozzle *kept, const sp_emitter *emitter, double flow, unsigned stride,
+                      sp_tally *tally)
+{
+    if (!know_reach(live, kept, &emitter->source, stride))
+        return false;
+    sp_arrival *taken = malloc((kept->reach->count + 1) * sizeof *taken);
+    if (!taken)
+        return sp_fail_memory(&live->error);
+    sp_aim aim = aim_of(emitter);
+    size_t count = 0;
+    for (size_t i = 0; i < kept->reach->count; i++) {
+        const sp_arrival *arrival = &kept->reach->arrivals[i];
+        if ((stride == kept->reach_stride || live->sample.among[arrival->patch]) && sp_aim_takes(&aim, arrival))
+            taken[count++] = *arrival;
+    }
+    sp_lay_arrivals(emitter, flow, taken, count, tally);
+    free(taken);
+    return true;
+}
+
+/* One of several patterns, whose place turns with the body's axis. */
+static bool lay_member(sp_live *live, const sp_emitter *emitter, double flow, unsigned stride, sp_tally *tally)
+{
+    sp_aim aim = aim_of(emitter);
+    aim.among = stride > 1 ? live->sample.among : NULL;
+    sp_reach *reach = sp_reach_create(&emitter->source, &aim, &live->error);
+    if (!reach)
+        return false;
+    sp_lay_arrivals(emitter, flow, reach->arrivals, reach->count, tally);
+    sp_reach_destroy(reach);
+    return true;
+}
+
+static bool lay_patterns(sp_live *live, sp_live_nozzle *kept, const sp_bodies *bodies, unsigned stride, sp_tally *tally)
+{
+    const sp_layout *patterns = bodies->patterns;
+    bool done = true;
+    if (patterns->count > 1) {
+        sp_reach_destroy(kept->reach);
+        kept->reach = NULL;
+        live->figures[SP_LIVE_TRACED]++;
+    }
+    for (size_t i = 0; done && i < patterns->count; i++) {
+        sp_emitter emitter = sp_bodies_emitter(live->evaluator, bodies, i);
+        double flow = sp_nozzle_flow(&patterns->nozzles[i], &sp_evaluator_setup(live->evaluator)->liquid);
+        if (flow > 0)
+            done = patterns->count > 1 ? lay_member(live, &emitter, flow, stride, tally)
+                                       : lay_known(live, kept, &emitter, flow, stride, tally);
+    }
+    sp_tally_end_nozzle(tally);
+    return done;
+}
+
+/* On the same patches or more. */
+static bool is_laid(const sp_live_nozzle *kept, const sp_nozzle *nozzle, unsigned stride)
+{
+    const sp_nozzle *old = &kept->nozzle;
+    return kept->laid && kept->stride <= stride && stride % kept->stride == 0 && old->type == nozzle->type &&
+           !memcmp(&old->position, &nozzle->position, sizeof old->position) &&
+           !memcmp(&old->axis, &nozzle->axis, sizeof old->axis) && old->roll == nozzle->roll &&
+           old->pressure == nozzle->pressure && old->angle == nozzle->angle && old->flow == nozzle->flow &&
+           old->speed == nozzle->speed;
+}
+
+bool sp_live_lay(sp_live *live, sp_live_nozzle *kept, const sp_nozzle *nozzle, unsigned stride)
+{
+    if (is_laid(kept, nozzle, stride))
+        return true;
+    sp_layout one = {.count = 1, .nozzles = (sp_nozzle[]){*nozzle}};
+    sp_bodies bodies;
+    sp_tally tally = {0};
+    sp_coverage_destroy(kept->alone);
+    kept->laid = false;
+    kept->alone = sp_bodies_create(live->evaluator, &one, &bodies, &live->error)
+                      ? sp_coverage_create(live->evaluator, &live->error)
+                      : NULL;
+    bool done = kept->alone && sp_tally_create(live->evaluator, &kept->alone->deposits, &tally, &live->error) &&
+                lay_patterns(live, kept, &bodies, stride, &tally);
+    sp_tally_free(&tally);
+    sp_bodies_free(&bodies);
+    kept->laid = done;
+    kept->stride = stride;
+    kept->nozzle = *nozzle;
+    return done;
+}

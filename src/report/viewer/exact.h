@@ -1,0 +1,15 @@
+/* The surface to the last bit, and what an evaluation needs to know of it besides: for pages that evaluate layouts
+ * themselves (src/live). Takes the place of the rounded surface that pages draw otherwise. */
+#ifndef REPORT_VIEWER_EXACT_H
+#define REPORT_VIEWER_EXACT_H
+
+#include "packed.h"
+#include "report/surface.h"
+
+#include <jansson.h>
+
+/* Adds the arrays that surface.js reads. Returns their JSON, NULL on error. */
+json_t *sp_viewer_exact(const sp_evaluator *evaluator, const sp_drawn_surface *surface, sp_packed *packed,
+                        sp_error *error);
+
+#endif

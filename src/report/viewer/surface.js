@@ -1,0 +1,184 @@
+/* Surfaces as the page holds them: rounded for drawing (model.c), or to the last bit (exact.c, unfolded.c), of which this
+ * is the other way round, operation by operation. */
+const surfaces = (() => {
+    "use strict";
+
+    /* Arrays one after the other, each from a multiple of four bytes on; most as differences to the value before. */
+    function reader(buffer) {
+        let at = 0;
+        const take = (Kind, count, differences) => {
+            const values = new Kind(buffer, at, count);
+            at += Math.ceil(values.byteLength / 4) * 4;
+            for (let i = 1; differences && i < count; i++)
+                values[i] += values[i - 1];
+            return values;
+        };
+        /* Whole numbers of few bytes each. */
+        take.numbers = (count) => {
+            const lengths = take(Uint8Array, count), [all] = take(Uint32Array, 1), bytes = take(Uint8Array, all);
+            const values = new BigUint64Array(count), room = new Uint8Array(values.buffer);
+            for (let i = 0, from = 0; i < count; from += lengths[i++])
+                for (let k = 0; k < lengths[i]; k++)
+                    room[8 * i + k] = bytes[from + k];
+            for (let i = 0; i < count; i++)
+                if (values[i])
+                    values[i] = values[i] & 1n ? ~(values[i] >> 1n) : values[i] >> 1n;
+            return new BigInt64Array(values.buffer);
+        };
+        return take;
+    }
+
+    /* A float's bits, to be moved from one to one so many farther on. */
+    const one = new Float64Array(1), bits = new BigInt64Array(one.buffer);
+    function moved(value, apart) {
+        if (apart === 0n)
+            return value;
+        one[0] = value;
+        bits[0] += apart;
+        return one[0];
+    }
+
+    function doubles(take, count) {
+        const apart = take.numbers(count), values = new Float64Array(count);
+        for (let i = 0; i < count; i++)
+            values[i] = moved(i ? values[i - 1] : 0, apart[i]);
+        return values;
+    }
+
+    function readVertices(take, {vertices, parts, unit}) {
+        const numbers = [0, 1, 2].map(() => take(Int32Array, vertices, true));
+        const apart = take.numbers(3 * vertices), places = new Float64Array(3 * vertices);
+        for (let k = 0; k < 3; k++)
+            for (let i = 0; i < vertices; i++)
+                places[3 * i + k] = moved(numbers[k][i] / parts * unit, apart[k * vertices + i]);
+        return places;
+    }
+
+    const PARTS = 16, SWEEPS = 64, FARTHEST = 1e6;
+
+    function turnIn(places, a, b, c, from, to) {
+        const ex = places[3 * b] - places[3 * a], ey = places[3 * b + 1] - places[3 * a + 1];
+        const ez = places[3 * b + 2] - places[3 * a + 2], fx = places[3 * c] - places[3 * a];
+        const fy = places[3 * c + 1] - places[3 * a + 1], fz = places[3 * c + 2] - places[3 * a + 2];
+        const length2 = ex * ex + ey * ey + ez * ez, along = (ex * fx + ey * fy + ez * fz) / length2;
+        const x = ey * fz - ez * fy, y = ez * fx - ex * fz, z = ex * fy - ey * fx;
+        const across = Math.sqrt(x * x + y * y + z * z) / length2, gx = to[0] - from[0], gy = to[1] - from[1];
+        const u = from[0] + along * gx - across * gy, v = from[1] + along * gy + across * gx;
+        return Math.abs(u) < FARTHEST && Math.abs(v) < FARTHEST ? [u, v] : from;
+    }
+
+    function readUnfolded(take, surface, charts) {
+        const {triangles, chart, places} = surface, count = chart.length, vertices = places.length / 3;
+        const rounded = take(Uint8Array, charts), apart = take.numbers(6 * count);
+        const uv = new Float64Array(6 * count), told = new Uint8Array(count), known = new Map();
+        let next = 0;
+        const key = (t, i) => chart[t] * vertices + triangles[3 * t + i];
+        function expected(t, i, last) {
+            const own = known.get(key(t, i)), a = (i + 1) % 3, b = (i + 2) % 3;
+            if (own)
+                return own;
+            const from = known.get(key(t, a)), to = known.get(key(t, b));
+            return from && to ? turnIn(places, triangles[3 * t + a], triangles[3 * t + b], triangles[3 * t + i], from, to)
+                              : last;
+        }
+        function tell(t) {
+            let last = [0, 0];
+            told[t] = 1;
+            for (let i = 0; i < 3; i++) {
+                const from = expected(t, i, last), at = [0, 1].map((k) => {
+                    const off = apart[next++];
+                    return rounded[chart[t]] ? (Math.floor(from[k] * PARTS) + Number(off)) / PARTS : moved(from[k], off);
+                });
+                known.set(key(t, i), at);
+                uv.set(at, 6 * t + 2 * i);
+                last = at;
+            }
+        }
+        const corners = (t) => known.has(key(t, 0)) + known.has(key(t, 1)) + known.has(key(t, 2));
+        for (let sweeps = 0, first = 0;; sweeps++) {
+            let any = false;
+            for (let i = 0; i < count; i++) {
+                const t = sweeps % 2 ? count - 1 - i : i;
+                if (told[t] || corners(t) < (sweeps < SWEEPS ? 2 : 0))
+                    continue;
+                any = true;
+                tell(t);
+            }
+            while (first < count && told[first])
+                first++;
+            if (first === count)
+                return uv;
+            if (!any)
+                tell(first);
+        }
+    }
+
+    /* What layouts are evaluated on. */
+    function readExact(take, about) {
+        const {triangles, charts, nodes, cuts} = about, surface = {places: readVertices(take, about)};
+        surface.triangles = take(Uint32Array, 3 * triangles, true);
+        surface.part = take(Uint32Array, triangles, true);
+        surface.chart = take(Uint32Array, triangles, true);
+        surface.chartPage = take(Uint32Array, charts, true);
+        surface.chartTexel = doubles(take, charts);
+        surface.uv = readUnfolded(take, surface, charts);
+        return {surface, rest: () => {
+            surface.sides = take(Uint8Array, triangles);
+            surface.nodes = take(Uint8Array, nodes);
+            surface.cuts = doubles(take, 3 * cuts);
+        }};
+    }
+
+    /* Drawn corners that are one share a vertex: at each vertex of the mesh the latest first. */
+    function drawnOf(model, surface, drawn) {
+        const first = new Int32Array(surface.places.length / 3).fill(-1), next = [], packed = [], places = [];
+        const corners = new Uint32Array(3 * drawn.length), u = [], v = [];
+        const part = (value, low, high) => (high > low ? Math.round(65535 * (value - low) / (high - low)) : 0);
+        for (const range of model.draws)
+            for (let i = range.first; i < range.first + range.count; i++)
+                for (let k = 0; k < 3; k++) {
+                    const t = drawn[i], corner = range.layer ? 2 - k : k, at = surface.triangles[3 * t + corner];
+                    const spot = [0, 1].map((axis) => part(surface.uv[6 * t + 2 * corner + axis], 0, model.edge));
+                    let found = first[at];
+                    while (found >= 0 && (u[found] !== spot[0] || v[found] !== spot[1]))
+                        found = next[found];
+                    if (found < 0) {
+                        found = next.push(first[at]) - 1;
+                        first[at] = found;
+                        u.push(spot[0]);
+                        v.push(spot[1]);
+                        const place = [0, 1, 2].map((axis) => surface.places[3 * at + axis]);
+                        places.push(...place);
+                        packed.push(...place.map((x, axis) => part(x, model.low[axis], model.high[axis])), ...spot, 0);
+                    }
+                    corners[3 * i + k] = found;
+                }
+        model.corners = corners;
+        model.vertex = {packed: Uint16Array.from(packed), places: Float32Array.from(places), u, v};
+    }
+
+    function readRounded(model, take) {
+        const axes = Array.from({length: 5}, () => take(Uint16Array, model.vertices, true));
+        const packed = new Uint16Array(6 * model.vertices), places = new Float32Array(3 * model.vertices);
+        for (let i = 0; i < model.vertices; i++)
+            for (let k = 0; k < 5; k++) {
+                packed[6 * i + k] = axes[k][i];
+                if (k < 3)
+                    places[3 * i + k] = model.low[k] + (axes[k][i] / 65535) * (model.high[k] - model.low[k]);
+            }
+        model.vertex = {packed, places, u: axes[3], v: axes[4]};
+        model.corners = take(Uint32Array, model.triangles * 3, true);
+    }
+
+    /* Sets the model's vertex and corners, and where layouts can be evaluated on it its surface. */
+    function read(model, take) {
+        if (!model.exact)
+            return readRounded(model, take);
+        const {surface, rest} = readExact(take, model.exact);
+        const drawn = take(Uint32Array, model.triangles, true);
+        rest();
+        model.surface = surface;
+        drawnOf(model, surface, drawn);
+    }
+    return {reader, read};
+})();
