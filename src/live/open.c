@@ -77,6 +77,8 @@ static bool make_mesh(sp_live *live)
     size_t parts = live->bytes[SP_LIVE_CLEAN], triangles = live->bytes[SP_LIVE_PARTS] / 4;
     const uint8_t *clean = live->arrays[SP_LIVE_CLEAN];
     char *name = live->arrays[SP_LIVE_NAMES], *end = name + live->bytes[SP_LIVE_NAMES]; /* where a 0 is */
+    free(live->surfaces); /* of what could not be opened before */
+    free(live->mesh.parts);
     live->surfaces = calloc(parts, sizeof *live->surfaces);
     live->mesh = (sp_mesh){.vertex_count = live->bytes[SP_LIVE_VERTICES] / 24,
                            .vertices = live->arrays[SP_LIVE_VERTICES],

@@ -27,6 +27,7 @@ bool sp_live_make_types(sp_live *live)
     const double *rows = live->arrays[SP_LIVE_TYPES];
     size_t count = live->bytes[SP_LIVE_TYPES] / (SP_LIVE_TYPE_NUMBERS * sizeof(double));
     size_t member_count = live->bytes[SP_LIVE_MEMBERS] / (SP_LIVE_MEMBER_NUMBERS * sizeof(double));
+    sp_live_free_types(live);
     live->types = calloc(count + 1, sizeof *live->types);
     live->members = calloc(member_count + 1, sizeof *live->members);
     size_t *first = calloc(count + 1, sizeof *first);

@@ -14,23 +14,23 @@ static json_t *vector_json(sp_vec3 v)
 }
 
 static void pack_quantity(const sp_deposits *deposits, const sp_shown_quantity *quantity, const double *values,
-                          uint8_t *bytes, sp_packed *packed)
+                          uint8_t *bytes, const uint32_t *beside, sp_packed *packed)
 {
     for (size_t i = 0; i < deposits->count; ++i)
         bytes[i] = deposits->flux[i] > 0 ? sp_shown_byte(quantity, values[i]) : 0;
-    sp_packed_bytes(packed, bytes, deposits->count);
+    sp_packed_beside(packed, bytes, beside, deposits->count);
 }
 
-static void pack_covered(const sp_deposits *deposits, uint8_t *bytes, sp_packed *packed)
+static void pack_covered(const sp_deposits *deposits, uint8_t *bytes, const uint32_t *beside, sp_packed *packed)
 {
     for (size_t i = 0; i < deposits->count; ++i) {
         long share = lrint(255 * fmin(fmax(deposits->share[i], 0), 1));
         bytes[i] = (uint8_t)(deposits->covered[i] ? (share < HALF ? HALF : share) : (share < HALF ? share : HALF - 1));
     }
-    sp_packed_bytes(packed, bytes, deposits->count);
+    sp_packed_beside(packed, bytes, beside, deposits->count);
     for (size_t i = 0; i < deposits->count; ++i)
         bytes[i] = deposits->by_film[i];
-    sp_packed_bytes(packed, bytes, deposits->count);
+    sp_packed_beside(packed, bytes, beside, deposits->count);
 }
 
 /* The way that a shadow faces, and the box around its points. */
@@ -47,7 +47,8 @@ static void look_at(outlook *shadow, const sp_patches *patches, uint32_t patch)
 }
 
 /* The shadows that the page's table lists. */
-static json_t *pack_shadows(const sp_design *design, uint8_t *bytes, sp_packed *packed, sp_error *error)
+static json_t *pack_shadows(const sp_design *design, uint8_t *bytes, const uint32_t *beside, sp_packed *packed,
+                            sp_error *error)
 {
     const sp_patches *patches = sp_evaluator_patches(design->evaluator);
     sp_listed_shadows listed = {0};
@@ -68,7 +69,7 @@ static json_t *pack_shadows(const sp_design *design, uint8_t *bytes, sp_packed *
                               json_pack("{s:o, s:o, s:f}", "at", vector_json(listed.shadow[i].centroid), "towards",
                                         vector_json(facing), "extent", sp_distance(seen[i].low, seen[i].high)));
     }
-    sp_packed_bytes(packed, bytes, patches->count);
+    sp_packed_beside(packed, bytes, beside, patches->count);
     sp_listed_shadows_free(&listed);
     return list;
 }
@@ -97,7 +98,7 @@ static json_t *sprays_json(const sp_evaluator *evaluator, const sp_nozzle *nozzl
 
 /* What one nozzle brings by itself, where that is known. */
 static json_t *pack_nozzle(const sp_design *design, size_t index, const sp_shown_quantity *flux, uint8_t *bytes,
-                           sp_packed *packed)
+                           const uint32_t *beside, sp_packed *packed)
 {
     const sp_nozzle *nozzle = &design->layout->nozzles[index];
     const sp_contributions *does = design->contributions;
@@ -106,7 +107,7 @@ static json_t *pack_nozzle(const sp_design *design, size_t index, const sp_shown
         bytes[i] = brought > 0 ? sp_shown_byte(flux, brought) : 0;
     }
     if (does)
-        sp_packed_bytes(packed, bytes, does->patches);
+        sp_packed_beside(packed, bytes, beside, does->patches);
     char *name = sp_text_utf8(nozzle->name);
     json_t *object = name ? json_pack("{s:s, s:b, s:o, s:o}", "name", name, "known", (int)(does != NULL), "at",
                                       vector_json(nozzle->position), "sprays", sprays_json(design->evaluator, nozzle))
@@ -115,12 +116,12 @@ static json_t *pack_nozzle(const sp_design *design, size_t index, const sp_shown
     return object;
 }
 
-static json_t *pack_nozzles(const sp_design *design, const sp_shown_quantity *flux, uint8_t *bytes, sp_packed *packed,
-                            sp_error *error)
+static json_t *pack_nozzles(const sp_design *design, const sp_shown_quantity *flux, uint8_t *bytes,
+                            const uint32_t *beside, sp_packed *packed, sp_error *error)
 {
     json_t *list = json_array();
     for (size_t i = 0; list && i < design->layout->count; ++i) {
-        json_t *nozzle = pack_nozzle(design, i, flux, bytes, packed);
+        json_t *nozzle = pack_nozzle(design, i, flux, bytes, beside, packed);
         if (!nozzle || json_array_append_new(list, nozzle) != 0) {
             json_decref(list);
             return sp_fail_memory(error);
@@ -144,8 +145,29 @@ static json_t *head_json(const sp_page *page, size_t design)
     return object;
 }
 
+uint32_t *sp_viewer_beside(const sp_layers *layers)
+{
+    const sp_atlas *atlas = sp_evaluator_atlas(layers->evaluator);
+    const sp_patches *patches = sp_evaluator_patches(layers->evaluator);
+    uint32_t *beside = malloc((patches->count + 1) * sizeof *beside);
+    for (size_t i = 0; beside && i < patches->count; ++i) {
+        uint32_t texel = patches->texel[i];
+        const uint32_t *layer = layers->patch[patches->side[i] == SP_SIDE_BACK];
+        beside[i] = SP_NONE;
+        if (texel >= atlas->pixel_count)
+            continue;
+        sp_texel_place at = sp_atlas_place(atlas, texel);
+        uint32_t above = at.y ? sp_atlas_pixel(atlas, at.page, at.x, at.y - 1) : SP_NONE;
+        uint32_t left = at.x ? sp_atlas_pixel(atlas, at.page, at.x - 1, at.y) : SP_NONE;
+        beside[i] = above == SP_NONE ? SP_NONE : layer[above];
+        if (beside[i] == SP_NONE && left != SP_NONE)
+            beside[i] = layer[left];
+    }
+    return beside;
+}
+
 json_t *sp_viewer_design(const sp_page *page, size_t index, const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES],
-                         sp_packed *packed, sp_error *error)
+                         const uint32_t *beside, sp_packed *packed, sp_error *error)
 {
     const sp_design *design = &page->result->designs[index];
     const sp_deposits *deposits = &design->coverage->deposits;
@@ -156,10 +178,10 @@ json_t *sp_viewer_design(const sp_page *page, size_t index, const sp_shown_quant
         return sp_fail_memory(error);
     }
     for (int k = 0; k < SP_SHOWN_QUANTITIES; ++k)
-        pack_quantity(deposits, &quantities[k], sp_shown_values(deposits, k), bytes, packed);
-    pack_covered(deposits, bytes, packed);
-    json_t *shadows = pack_shadows(design, bytes, packed, error);
-    json_t *nozzles = shadows ? pack_nozzles(design, &quantities[SP_SHOWN_FLUX], bytes, packed, error) : NULL;
+        pack_quantity(deposits, &quantities[k], sp_shown_values(deposits, k), bytes, beside, packed);
+    pack_covered(deposits, bytes, beside, packed);
+    json_t *shadows = pack_shadows(design, bytes, beside, packed, error);
+    json_t *nozzles = shadows ? pack_nozzles(design, &quantities[SP_SHOWN_FLUX], bytes, beside, packed, error) : NULL;
     bool good =
         json_object_set_new(object, "shadows", shadows) == 0 && json_object_set_new(object, "nozzles", nozzles) == 0;
     free(bytes);

@@ -105,7 +105,7 @@ json_t *sp_viewer_exact(const sp_evaluator *evaluator, const sp_drawn_surface *s
     const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
     decimals told = decimals_of(mesh);
     bool done = pack_vertices(mesh, &told, packed);
-    sp_packed_words(packed, mesh->triangles[0], 3 * mesh->triangle_count, true);
+    sp_packed_split(packed, mesh->triangles[0], 3 * mesh->triangle_count);
     sp_packed_words(packed, mesh->part, mesh->triangle_count, true);
     sp_packed_words(packed, atlas->chart, mesh->triangle_count, true);
     sp_packed_words(packed, atlas->chart_page, atlas->chart_count, true);

@@ -234,8 +234,8 @@ static json_t *editing_json(const sp_page *page, type_rows *rows)
         json_array_append_new(lacks, json_string(sp_lack_text(lack) ? sp_lack_text(lack) : ""));
     json_t *all = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:f}", "settings", settings_json(evaluator), "parts",
                             parts_json(sp_evaluator_setup(evaluator)), "designs", designs, "mounts", mounts,
-                            "pressures", numbers_json(options->pressures, options->pressure_count), "lacks", lacks, "scene",
-                            page->result->editing->scene, "clearance", options->clearance);
+                            "pressures", numbers_json(options->pressures, options->pressure_count), "lacks", lacks,
+                            "scene", page->result->editing->scene, "clearance", options->clearance);
     if (all) /* after all rows are known */
         json_object_set_new(all, "types", types_json(rows));
     if (all)

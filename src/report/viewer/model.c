@@ -37,9 +37,10 @@ static json_t *quantities_json(const sp_shown_quantity quantities[SP_SHOWN_QUANT
     json_t *list = json_array();
     for (int k = 0; k < SP_SHOWN_QUANTITIES; ++k) {
         const sp_shown_quantity *q = &quantities[k];
-        json_array_append_new(list, json_pack("{s:s, s:s, s:s, s:f, s:f, s:f, s:b, s:[ff], s:f}", "key", q->key, "name",
-                                              q->name, "unit", q->unit, "toUnit", q->to_unit, "low", q->low, "high", q->high, "log",
-                                              (int)q->log, "shown", q->shown[0], q->shown[1], "step", q->criterion));
+        json_array_append_new(list,
+                              json_pack("{s:s, s:s, s:s, s:f, s:f, s:f, s:b, s:[ff], s:f}", "key", q->key, "name",
+                                        q->name, "unit", q->unit, "toUnit", q->to_unit, "low", q->low, "high", q->high,
+                                        "log", (int)q->log, "shown", q->shown[0], q->shown[1], "step", q->criterion));
     }
     return list;
 }
@@ -150,13 +151,14 @@ static bool pack_pages(const sp_layers *layers, sp_packed *packed, sp_error *err
 
 /* The designs of one evaluator, their arrays behind those of its surface. */
 static json_t *designs_json(const sp_page *page, const sp_evaluator *evaluator,
-                            const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], sp_packed *packed, sp_error *error)
+                            const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], const uint32_t *beside,
+                            sp_packed *packed, sp_error *error)
 {
     json_t *list = json_array();
     for (size_t i = 0; list && i < page->result->design_count; ++i) {
         if (page->result->designs[i].evaluator != evaluator)
             continue;
-        json_t *design = sp_viewer_design(page, i, quantities, packed, error);
+        json_t *design = sp_viewer_design(page, i, quantities, beside, packed, error);
         if (!design || json_array_append_new(list, design) != 0) {
             json_decref(list);
             list = NULL;
@@ -192,6 +194,16 @@ static json_t *surface_json(const sp_layers *layers, const sp_drawn_surface *sur
                      "parts", parts_json(setup->mesh), "draws", ranges_json(surface));
 }
 
+static json_t *described(const sp_page *page, const sp_layers *layers,
+                         const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], sp_packed *packed, sp_error *error)
+{
+    uint32_t *beside = sp_viewer_beside(layers);
+    json_t *designs =
+        beside ? designs_json(page, layers->evaluator, quantities, beside, packed, error) : sp_fail_memory(error);
+    free(beside);
+    return designs;
+}
+
 static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator,
                           const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], sp_error *error)
 {
@@ -203,7 +215,7 @@ static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator,
         box around = box_of(evaluator, &surface);
         if (pack_either(page, evaluator, &surface, &around, &packed, &exact, error) &&
             pack_pages(&layers, &packed, error))
-            designs = designs_json(page, evaluator, quantities, &packed, error);
+            designs = described(page, &layers, quantities, &packed, error);
         char *data = designs ? sp_packed_finish(&packed, error) : NULL;
         object = data ? surface_json(&layers, &surface, &around) : NULL;
         sp_camera camera = sp_camera_create(evaluator, page->result, &sp_views[0], 1);

@@ -1,5 +1,5 @@
 /* Arrays as the viewer's script reads them: little-endian one after the other, each from a multiple of four bytes on,
- * deflated (RFC 1950) and in base64. */
+ * deflated (RFC 1950), and 13 bits, the least first, as two letters of 91, behind how many bytes that makes. */
 #ifndef REPORT_VIEWER_PACKED_H
 #define REPORT_VIEWER_PACKED_H
 
@@ -11,6 +11,8 @@
 typedef sp_text sp_packed;
 
 void sp_packed_bytes(sp_packed *packed, const uint8_t *values, size_t count);
+/* Each as what it is more, modulo 2^8, than the one of a lower number that `beside` [count] names, SP_NONE: than 0. */
+void sp_packed_beside(sp_packed *packed, const uint8_t *values, const uint32_t *beside, size_t count);
 /* With `differences` each as what it is more than the value before, modulo 2^16 and 2^32: such deflate better. */
 void sp_packed_shorts(sp_packed *packed, const uint16_t *values, size_t count, bool differences);
 void sp_packed_words(sp_packed *packed, const uint32_t *values, size_t count, bool differences);
@@ -28,7 +30,10 @@ static inline int64_t sp_packed_apart(double value, double from)
     memcpy(&apart, bits, sizeof apart);
     return apart;
 }
-/* As base64, malloc'd; NULL on error. */
+/* The same with all lowest bytes first, then all second ones and so on, of each difference twice its size, plus one
+ * where it is below 0. */
+void sp_packed_split(sp_packed *packed, const uint32_t *values, size_t count);
+/* As text that neither JSON nor HTML has to escape, malloc'd; NULL on error. */
 char *sp_packed_finish(const sp_packed *packed, sp_error *error);
 
 #endif

@@ -11,8 +11,17 @@ const viewer = (async () => {
 
     const about = JSON.parse(document.getElementById("viewer-model").textContent);
 
-    async function inflated(base64) {
-        const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+    /* Two letters of 91 are 13 bits, the least first; what they hold is deflated. */
+    const letters = "!#$%&'()*+,-./0123456789:;=>?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[]^_`abcdefghijklmnopqrstuvwxyz{|}~";
+    const digits = new Uint8Array(128);
+    [...letters].forEach((letter, value) => (digits[letter.charCodeAt(0)] = value));
+    async function inflated(text) {
+        const from = text.indexOf(" ") + 1, bytes = new Uint8Array(Number(text.slice(0, from)));
+        for (let i = from, held = 0, bits = 0, at = 0; i < text.length; i += 2) {
+            held |= (digits[text.charCodeAt(i)] + 91 * digits[text.charCodeAt(i + 1)]) << bits;
+            for (bits += 13; bits >= 8; bits -= 8, held >>>= 8)
+                bytes[at++] = held;
+        }
         const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
         return new Response(stream).arrayBuffer();
     }
@@ -32,8 +41,23 @@ const viewer = (async () => {
         });
     }
 
+    /* Of each patch the one above it on its page, or else left of it, -1 for none: design.c. */
+    function patchesBeside(model) {
+        const beside = new Int32Array(model.patches).fill(-1), {edge} = model;
+        for (const page of model.page)
+            for (let i = 0; i < page.length; i++)
+                if (page[i])
+                    beside[page[i] - 1] = (Math.floor(i / edge) % edge && page[i - edge] || i % edge && page[i - 1] || 0) - 1;
+        return beside;
+    }
+
     function readDesign(design, model, take) {
-        const bytes = () => take(Uint8Array, model.patches, false);
+        const bytes = () => {
+            const values = take(Uint8Array, model.patches, false);
+            for (let i = 0; i < values.length; i++)
+                values[i] += model.beside[i] < 0 ? 0 : values[model.beside[i]];
+            return values;
+        };
         design.values = Object.fromEntries(about.quantities.map((quantity) => [quantity.key, bytes()]));
         design.share = bytes();
         design.film = bytes();
@@ -47,6 +71,7 @@ const viewer = (async () => {
         delete model.data;
         surfaces.read(model, take);
         model.page = readPages(model, take);
+        model.beside = patchesBeside(model);
         model.designs.forEach((design) => readDesign(design, model, take));
     }
 
