@@ -8,7 +8,7 @@
 /* Hatches of saturated red keep their edges: colour is thinned out in linear light. */
 static bool configure(WebPConfig *config)
 {
-    if (!WebPConfigPreset(config, WEBP_PRESET_DRAWING, 90))
+    if (!WebPConfigPreset(config, WEBP_PRESET_DRAWING, 87))
         return false;
     config->use_sharp_yuv = 1;
     config->method = 6; /* the slowest: as sharp, of fewer bytes */

@@ -30,6 +30,47 @@ static inline char *browse(const char *page, const char *arguments)
     return read_file(".out", NULL);
 }
 
+/* read.html: a report with a script of this folder behind its own, and `first` before all of them. */
+static inline void write_page_with_reader(const char *report, const char *first, const char *script)
+{
+    char *page = read_file(report, NULL), *head = page ? strstr(page, "</head>") : NULL;
+    char *end = page ? strstr(page, "</body>") : NULL;
+    assert_non_null(head);
+    assert_non_null(end);
+    *head = *end = 0;
+    char line[2048], path[1024];
+    snprintf(path, sizeof path, "%s/read.html", workplace);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fprintf(file, "%s%s</head>%s<script>\n", page, first, head + strlen("</head>"));
+    fclose(file);
+    snprintf(line, sizeof line, "cat '" SOURCE_DIR "/tests/browser/%s' >>'%s'", script, path);
+    assert_int_equal(system(line), 0);
+    snprintf(line, sizeof line, "echo '</script></body></html>' >>'%s'", path);
+    assert_int_equal(system(line), 0);
+    free(page);
+}
+
+/* The text of <pre id="told">, as JSON. */
+static inline json_t *what_was_told(char *page)
+{
+    char *from = strstr(page, "<pre id=\"told\">"), *to = from ? strstr(from, "</pre>") : NULL;
+    assert_non_null(to);
+    *to = 0;
+    char *text = from + strlen("<pre id=\"told\">"), *write = text;
+    for (const char *read = text; *read; ++write) { /* the browser escapes these three */
+        static const char *const entities[][2] = {{"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}};
+        *write = *read++;
+        for (int k = 0; k < 3; k++)
+            if (!strncmp(read - 1, entities[k][0], strlen(entities[k][0]))) {
+                *write = entities[k][1][0];
+                read += strlen(entities[k][0]) - 1;
+            }
+    }
+    *write = 0;
+    return json_loads(text, 0, NULL);
+}
+
 /* The workplace with the room's proposal in placed/, where there is a browser to open it. */
 static inline int place_once(void **state)
 {

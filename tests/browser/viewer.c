@@ -10,52 +10,13 @@ static sp_scene *scene; /* the proposal */
 static sp_evaluator *evaluator;
 static sp_coverage *coverage;
 
-/* The report with the test's own script behind the viewer's. */
-static void write_page_with_reader(void)
-{
-    char *page = read_file("placed/report.html", NULL), *end = page ? strstr(page, "</body>") : NULL;
-    assert_non_null(end);
-    *end = 0;
-    char line[2048], path[1024];
-    snprintf(path, sizeof path, "%s/read.html", workplace);
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    fprintf(file, "%s<script>\n", page);
-    fclose(file);
-    snprintf(line, sizeof line, "cat '" SOURCE_DIR "/tests/browser/viewer.js' >>'%s'", path);
-    assert_int_equal(system(line), 0);
-    snprintf(line, sizeof line, "echo '</script></body></html>' >>'%s'", path);
-    assert_int_equal(system(line), 0);
-    free(page);
-}
-
-/* The text of <pre id="told">, as JSON. */
-static json_t *what_was_told(char *page)
-{
-    char *from = strstr(page, "<pre id=\"told\">"), *to = from ? strstr(from, "</pre>") : NULL;
-    assert_non_null(to);
-    *to = 0;
-    char *text = from + strlen("<pre id=\"told\">"), *write = text;
-    for (const char *read = text; *read; ++write) { /* the browser escapes these three */
-        static const char *const entities[][2] = {{"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}};
-        *write = *read++;
-        for (int k = 0; k < 3; k++)
-            if (!strncmp(read - 1, entities[k][0], strlen(entities[k][0]))) {
-                *write = entities[k][1][0];
-                read += strlen(entities[k][0]) - 1;
-            }
-    }
-    *write = 0;
-    return json_loads(text, 0, NULL);
-}
-
 static int use_the_viewer(void **state)
 {
     if (place_once(state) != 0)
         return -1;
     if (!has_browser())
         return 0;
-    write_page_with_reader();
+    write_page_with_reader("placed/report.html", "", "viewer.js");
     char *page = browse("read.html", "--window-size=1200,900 --virtual-time-budget=60000 --dump-dom");
     found = what_was_told(page);
     free(page);

@@ -80,6 +80,15 @@ static json_t *vector_json(sp_vec3 v)
     return numbers_json((double[]){v.x, v.y, v.z}, 3);
 }
 
+/* Whatever bytes it has. */
+static json_t *text_json(const char *text)
+{
+    char *valid = sp_text_utf8(text);
+    json_t *json = json_string(valid ? valid : "");
+    free(valid);
+    return json;
+}
+
 /* In the order of sp_live_setting. */
 static json_t *settings_json(const sp_evaluator *evaluator)
 {
@@ -136,12 +145,18 @@ static bool list_types(const sp_page *page, type_rows *rows)
     size_t room = options->type_count;
     for (size_t i = 0; i < result->design_count; i++)
         room += result->designs[i].layout ? result->designs[i].layout->count : 0;
+    for (size_t i = 0; i < options->mount_count; i++)
+        room += options->mounts[i].type_count;
     rows->room = room * (SP_MEMBERS + 1);
     rows->types = malloc((rows->room + 1) * sizeof *rows->types);
     rows->members = json_array();
     for (size_t i = 0; rows->types && i < options->type_count; i++)
         if (!is_measured(options->types[i]))
             row_of(rows, options->types[i]);
+    for (size_t i = 0; rows->types && i < options->mount_count; i++)
+        for (size_t k = 0; k < options->mounts[i].type_count; k++)
+            if (!is_measured(options->mounts[i].types[k]))
+                row_of(rows, options->mounts[i].types[k]);
     for (size_t i = 0; rows->types && i < result->design_count; i++)
         for (size_t k = 0; result->designs[i].layout && k < result->designs[i].layout->count; k++)
             row_of(rows, result->designs[i].layout->nozzles[k].type);
@@ -162,8 +177,9 @@ static json_t *types_json(type_rows *rows)
         double numbers[SP_LIVE_TYPE_NUMBERS];
         sp_live_tell_type(rows->types[i], rows->member_count, numbers);
         rows->member_count += rows->types[i]->member_count;
-        json_array_append_new(list, json_pack("{s:s, s:o}", "name", i < rows->named ? rows->types[i]->name : "",
-                                              "numbers", numbers_json(numbers, SP_LIVE_TYPE_NUMBERS)));
+        json_array_append_new(list,
+                              json_pack("{s:o, s:o}", "name", text_json(i < rows->named ? rows->types[i]->name : ""),
+                                        "numbers", numbers_json(numbers, SP_LIVE_TYPE_NUMBERS)));
     }
     return list;
 }
@@ -175,11 +191,9 @@ static json_t *layout_json(const sp_layout *layout, type_rows *rows)
         const sp_nozzle *nozzle = &layout->nozzles[i];
         double numbers[SP_LIVE_NOZZLE_NUMBERS];
         sp_live_tell_nozzle(nozzle, row_of(rows, nozzle->type), numbers);
-        char *name = sp_text_utf8(nozzle->name);
-        json_array_append_new(list, json_pack("{s:s, s:o, s:b, s:I}", "name", name ? name : "", "numbers",
+        json_array_append_new(list, json_pack("{s:o, s:o, s:b, s:I}", "name", text_json(nozzle->name), "numbers",
                                               numbers_json(numbers, SP_LIVE_NOZZLE_NUMBERS), "keep", (int)nozzle->keep,
                                               "jets", (json_int_t)nozzle->jets));
-        free(name);
     }
     return list;
 }
@@ -204,10 +218,10 @@ static json_t *mount_json(const sp_mount *mount, type_rows *rows)
     for (size_t i = 0; i < mount->type_count; i++)
         if (!is_measured(mount->types[i]))
             json_array_append_new(types, json_integer((json_int_t)row_of(rows, mount->types[i])));
-    return json_pack("{s:s, s:s, s:o, s:o, s:f, s:[ff], s:I, s:I, s:f, s:o, s:o, s:o}", "kind", kinds[mount->kind],
-                     "name", mount->name, "position", vector_json(mount->position), "axis", vector_json(mount->axis),
-                     "tilt", mount->tilt, "depth", mount->depth_from, mount->depth_to, "geometry",
-                     (json_int_t)mount->geometry, "part",
+    return json_pack("{s:s, s:o, s:o, s:o, s:f, s:[ff], s:I, s:I, s:f, s:o, s:o, s:o}", "kind", kinds[mount->kind],
+                     "name", text_json(mount->name), "position", vector_json(mount->position), "axis",
+                     vector_json(mount->axis), "tilt", mount->tilt, "depth", mount->depth_from, mount->depth_to,
+                     "geometry", (json_int_t)mount->geometry, "part",
                      mount->part == SP_NONE ? (json_int_t)-1 : (json_int_t)mount->part, "standoff", mount->standoff,
                      "from", vector_json(mount->from), "to", vector_json(mount->to), "types", types);
 }
@@ -216,7 +230,7 @@ static json_t *parts_json(const sp_setup *setup)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < setup->mesh->part_count; i++)
-        json_array_append_new(list, json_pack("{s:s, s:b, s:I}", "name", setup->mesh->parts[i].name, "clean",
+        json_array_append_new(list, json_pack("{s:o, s:b, s:I}", "name", text_json(setup->mesh->parts[i].name), "clean",
                                               (int)setup->surfaces[i].clean, "geometry",
                                               (json_int_t)setup->mesh->parts[i].geometry));
     return list;
@@ -232,10 +246,9 @@ static json_t *editing_json(const sp_page *page, type_rows *rows)
     json_t *lacks = json_array();
     for (sp_lack lack = 0; lack < SP_LACKS; lack++)
         json_array_append_new(lacks, json_string(sp_lack_text(lack) ? sp_lack_text(lack) : ""));
-    json_t *all = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:f}", "settings", settings_json(evaluator), "parts",
-                            parts_json(sp_evaluator_setup(evaluator)), "designs", designs, "mounts", mounts,
-                            "pressures", numbers_json(options->pressures, options->pressure_count), "lacks", lacks,
-                            "scene", page->result->editing->scene, "clearance", options->clearance);
+    json_t *all = json_pack("{s:o, s:o, s:o, s:o, s:o, s:s}", "settings", settings_json(evaluator), "parts",
+                            parts_json(sp_evaluator_setup(evaluator)), "designs", designs, "mounts", mounts, "lacks",
+                            lacks, "scene", page->result->editing->scene);
     if (all) /* after all rows are known */
         json_object_set_new(all, "types", types_json(rows));
     if (all)
@@ -272,7 +285,7 @@ static bool add_module(sp_text *text, sp_error *error)
     sp_text_add(text, "<script type=\"text/plain\" id=\"live-module\">");
     sp_text_append(text, data, strlen(data));
     sp_text_add(text, "</script>\n<script type=\"text/plain\" id=\"live-worker\">");
-    sp_text_append(text, sp_live_worker, (size_t)(sp_live_worker_end - sp_live_worker));
+    sp_page_script(text, sp_live_worker, sp_live_worker_end);
     sp_text_add(text, "</script>\n");
     free(data);
     return true;

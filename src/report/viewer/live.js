@@ -197,8 +197,8 @@
             if (largest)
                 words.push(`Largest region that is not covered: ${short(largest.area, 3)} m² on ` +
                     `${editing.parts[largest.part].name}, ${editing.lacks[largest.lack]}.`);
-            words.push(...finished.stands.filter((wrong, i) => wrong && nozzles[i].on).map((wrong) =>
-                `This layout cannot be built: ${wrong}.`));
+            finished.stands.forEach((wrong, i) => wrong && nozzles[i].on &&
+                words.push(`This layout cannot be built: ${wrong.replace("nozzles: ", nozzles[i].name)}.`));
         }
         const ports = nozzles.filter((nozzle) => nozzle.on && mountOf(nozzle).kind === "port").map((nozzle) => nozzle.mount);
         const twice = ports.find((port, i) => ports.indexOf(port) < i);
@@ -310,7 +310,7 @@
         refresh(true);
     }
 
-    const shares = {}; /* what a type sprays at a pressure, as nozzle.h has it */
+    /* As sp_type_flow. */
     function flowAt(numbers, rated, pressure) {
         return rated * (pressure / numbers[5]) ** numbers[6] * Math.sqrt(1000 / density);
     }
@@ -352,7 +352,7 @@
     const axes = ["x", "y", "z"];
     function placeSliders(nozzle, mount) {
         const margin = mount.kind === "box" ? [mount.from, mount.to]
-            : [add(view.box.low, [0, 0, 0]), add(view.box.high, [0, 0, 0])];
+            : [view.box.low, view.box.high];
         axes.forEach((axis, k) => {
             if (margin[1][k] > margin[0][k])
                 slider(`${axis}, m`, margin[0][k] + origin[k], margin[1][k] + origin[k], 0.001, (own) => own.place[k] + origin[k],

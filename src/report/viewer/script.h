@@ -2,7 +2,12 @@
 #ifndef REPORT_VIEWER_SCRIPT_H
 #define REPORT_VIEWER_SCRIPT_H
 
+#include "report/markup.h"
+
 #include <stdbool.h>
+
+/* section.c: adds a script, which ends with a 0. */
+void sp_page_script(sp_text *text, const char *script, const char *end);
 
 extern const char sp_viewer_script[], sp_viewer_script_end[];
 extern const char sp_surface_script[], sp_surface_script_end[]; /* what the viewer reads surfaces with */

@@ -857,6 +857,6 @@ const viewer = (async () => {
         uploadLines(design);
         addSwitch(design);
     }
-    return {about, designs, section, canvas, inflated, element, button, choice, option, addDesign, show, recolour, redraw,
-            uploadLines, state, size, up, box: {low, high}};
+    return {about, designs, section, inflated, element, button, option, addDesign, show, recolour, uploadLines, state, size,
+            up, box: {low, high}};
 })();

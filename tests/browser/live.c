@@ -1,0 +1,209 @@
+/* The report's page evaluates layouts as the program does, and says so to who listens. */
+#include "browser.h"
+
+#include <sprayplan/sprayplan.h>
+
+#include <math.h>
+
+#define TOLERANCE 1e-9
+#define BUDGET "--window-size=1200,900 --virtual-time-budget=600000 --dump-dom"
+
+static json_t *found;
+static bool carried; /* this build makes pages that evaluate */
+
+static int use_the_page(void **state)
+{
+    if (place_once(state) != 0)
+        return -1;
+    char *page = has_browser() ? read_file("placed/report.html", NULL) : NULL;
+    carried = page && strstr(page, "id=\"live-module\"");
+    free(page);
+    if (!carried)
+        return 0;
+    write_page_with_reader("placed/report.html", "", "live.js");
+    page = browse("read.html", BUDGET);
+    found = what_was_told(page);
+    free(page);
+    return found ? 0 : -1;
+}
+
+static int put_away(void **state)
+{
+    json_decref(found);
+    return close_workplace(state);
+}
+
+static void skip_without_module(void)
+{
+    skip_without_browser();
+    if (!carried) {
+        print_message("clang for WebAssembly is not installed: pages evaluate nothing\n");
+        skip();
+    }
+}
+
+static const json_t *step(const char *name)
+{
+    const json_t *step = json_object_get(json_object_get(found, "steps"), name);
+    assert_non_null(step);
+    return step;
+}
+
+static double coverage_of(const char *name)
+{
+    return json_number_value(json_object_get(step(name), "coverage"));
+}
+
+static void it_opens_without_requests_or_messages(void **state)
+{
+    (void)state;
+    skip_without_module();
+    assert_string_equal(json_string_value(json_object_get(found, "ready")), "true");
+    assert_int_equal(json_array_size(json_object_get(found, "errors")), 0);
+    assert_int_equal(json_array_size(json_object_get(found, "requests")), 0);
+    char *messages = read_file(".err", NULL);
+    assert_null(strstr(messages, ":CONSOLE"));
+    free(messages);
+}
+
+/* Of the layout at `index` of a result, which it takes. */
+static double coverage_in(json_t *result, size_t index)
+{
+    const json_t *layout = json_array_get(json_object_get(result, "layouts"), index);
+    double coverage = json_number_value(json_object_get(layout, "coverage"));
+    json_decref(result);
+    return coverage;
+}
+
+static void the_reports_layout_covers_what_it_says(void **state)
+{
+    (void)state;
+    skip_without_module();
+    char path[1024];
+    snprintf(path, sizeof path, "%s/placed/result.json", workplace);
+    double coverage = coverage_in(json_load_file(path, 0, NULL), 2);
+    assert_true(coverage > 0.5);
+    assert_float_equal(coverage_of("start"), coverage, TOLERANCE);
+}
+
+static void a_changed_layout_covers_what_the_program_finds(void **state)
+{
+    (void)state;
+    skip_without_module();
+    static const char *const changes[] = {"moved", "turned", "pressed", "added", "typed", "placed"};
+    const char *before = json_string_value(json_object_get(step("start"), "scene"));
+    assert_float_equal(coverage_of("off"), 0, 0); /* the only one */
+    assert_true(coverage_of("moved") != coverage_of("start") && coverage_of("typed") != coverage_of("added"));
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        const char *scene = json_string_value(json_object_get(step(changes[i]), "scene"));
+        assert_string_not_equal(scene, before);
+        before = scene;
+        write_file("placed/changed.yaml", scene);
+        json_t *result = expect_json("simulate placed/changed.yaml --json", 0);
+        assert_float_equal(coverage_of(changes[i]), coverage_in(result, 0), TOLERANCE);
+    }
+}
+
+static void the_saved_scene_can_be_placed_on(void **state)
+{
+    (void)state;
+    skip_without_module();
+    write_file("placed/changed.yaml", json_string_value(json_object_get(step("placed"), "scene")));
+    json_decref(expect_json("place placed/changed.yaml --json --time-limit 20", 0));
+}
+
+static void only_what_moved_is_traced(void **state)
+{
+    (void)state;
+    skip_without_module();
+    static const struct {
+        const char *change;
+        int traced;
+    } expected[] = {{"moved", 1}, {"turned", 0}, {"pressed", 1}, {"off", 0}, {"undone", 0}, {"added", 1}};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
+        assert_int_equal(json_integer_value(json_object_get(step(expected[i].change), "traced")), expected[i].traced);
+}
+
+static void undo_brings_back_what_was(void **state)
+{
+    (void)state;
+    skip_without_module();
+    assert_float_equal(coverage_of("undone"), coverage_of("pressed"), 0);
+    assert_string_equal(json_string_value(json_object_get(step("undone"), "scene")),
+                        json_string_value(json_object_get(step("pressed"), "scene")));
+}
+
+static void it_says_what_comes_of_it(void **state)
+{
+    (void)state;
+    skip_without_module();
+    char percent[32];
+    snprintf(percent, sizeof percent, "Coverage %.2f %%", 100 * coverage_of("moved"));
+    const char *said = json_string_value(json_object_get(step("moved"), "said"));
+    if (!strstr(said, percent))
+        fail_msg("said %s, expected %s", said, percent);
+    assert_true(json_is_true(json_object_get(found, "reachable")));
+    assert_int_equal(json_integer_value(json_object_get(found, "shown")), 3);
+}
+
+/* The viewer as ever, and nothing that was to be evaluated. */
+static void without_webassembly_it_is_a_viewer(void **state)
+{
+    (void)state;
+    skip_without_module();
+    write_page_with_reader("placed/report.html", "<script>delete window.WebAssembly</script>", "viewer.js");
+    char *page = browse("read.html", BUDGET);
+    json_t *seen = what_was_told(page);
+    assert_string_equal(json_string_value(json_object_get(seen, "ready")), "true");
+    assert_int_equal(json_array_size(json_object_get(seen, "errors")), 0);
+    assert_null(strstr(page, "id=\"live\""));
+    json_decref(seen);
+    free(page);
+}
+
+static void without_it_the_page_is_smaller(void **state)
+{
+    (void)state;
+    skip_without_module();
+    outcome result = run_program("simulate room.yaml -o plain --quiet --no-live");
+    assert_int_equal(result.status, 0);
+    forget(&result);
+    char *page = read_file("plain/report.html", NULL);
+    assert_non_null(strstr(page, "id=\"viewer-model\""));
+    assert_null(strstr(page, "id=\"live-module\""));
+    assert_null(strstr(page, "wasm-unsafe-eval"));
+    assert_null(strstr(page, "not-live"));
+    free(page);
+}
+
+/* It never evaluates by less than the program did. */
+static void by_jets_it_says_that_it_does_not(void **state)
+{
+    (void)state;
+    skip_without_module();
+    outcome result = run_program("simulate room.yaml -o jets --quiet --set simulate.evaluator=forward --set "
+                                 "simulate.jets=2000");
+    assert_int_equal(result.status, 0);
+    forget(&result);
+    char *page = read_file("jets/report.html", NULL);
+    assert_non_null(strstr(page, "id=\"not-live\""));
+    assert_null(strstr(page, "id=\"live-module\""));
+    free(page);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(it_opens_without_requests_or_messages),
+        cmocka_unit_test(the_reports_layout_covers_what_it_says),
+        cmocka_unit_test(a_changed_layout_covers_what_the_program_finds),
+        cmocka_unit_test(the_saved_scene_can_be_placed_on),
+        cmocka_unit_test(only_what_moved_is_traced),
+        cmocka_unit_test(undo_brings_back_what_was),
+        cmocka_unit_test(it_says_what_comes_of_it),
+        cmocka_unit_test(without_webassembly_it_is_a_viewer),
+        cmocka_unit_test(without_it_the_page_is_smaller),
+        cmocka_unit_test(by_jets_it_says_that_it_does_not),
+    };
+    return cmocka_run_group_tests(tests, use_the_page, put_away);
+}

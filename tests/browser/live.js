@@ -1,0 +1,63 @@
+/* Put behind the report's own script by a test: changes the layout as a reader would, and writes what came of it into
+ * the page. The page's clock runs ahead while the worker works: it is waited for by working. */
+(async () => {
+    const found = {errors: [], steps: {}};
+    addEventListener("error", (event) => found.errors.push(event.message));
+    const live = () => document.getElementById("live");
+    async function until(what) {
+        for (let i = 0; i < 2000 && !what(); i++) {
+            for (let k = 0, sum = 0; k < 5e6; k++)
+                sum += k;
+            await new Promise((done) => setTimeout(done, 1));
+        }
+    }
+    const has = (name) => () => live() && (live().dataset[name] || live().dataset.failed);
+    await until(has("ready"));
+    found.ready = live().dataset.ready || live().dataset.failed;
+
+    const labelled = (name) => [...live().querySelectorAll("label")].find((label) => label.textContent.startsWith(name))
+        .querySelector("input, select");
+    const pressed = (name) => [...live().querySelectorAll("button")].find((button) => button.textContent === name);
+    async function step(name, act) {
+        if (act) {
+            delete live().dataset.settled;
+            act();
+        }
+        await until(has("settled"));
+        found.steps[name] = {coverage: Number(live().dataset.coverage), traced: Number(live().dataset.traced),
+            said: live().querySelector(".answer").textContent, scene: live().querySelector("textarea").value};
+    }
+    function set(name, share) {
+        const input = labelled(name);
+        input.value = String(Number(input.min) + share * (Number(input.max) - Number(input.min)));
+        input.dispatchEvent(new Event("input"));
+    }
+    /* The option of this text, or any other than now. */
+    function choose(name, text) {
+        const list = labelled(name), other = (option, i) => i !== list.selectedIndex;
+        list.selectedIndex = [...list.options].findIndex(text ? (option) => option.text === text : other);
+        list.dispatchEvent(new Event("change"));
+    }
+
+    if (live().dataset.ready) {
+        await step("start");
+        await step("moved", () => set("Depth", 0.7));
+        await step("turned", () => set("Tilt", 0.5));
+        await step("pressed", () => set("Pressure", 0.25));
+        await step("off", () => pressed("Switch off").click());
+        await step("undone", () => pressed("Undo").click());
+        await step("added", () => pressed("Add a nozzle at").click());
+        await step("typed", () => choose("Type"));
+        await step("free", () => choose("Mount", "anywhere"));
+        await step("placed", () => set("x, m", 0.31));
+        found.reachable = [...live().querySelectorAll("button, input, select, textarea, summary")].every((one) =>
+            one.tabIndex >= 0 && (one.textContent || one.ariaLabel || one.labels.length));
+        found.shown = document.querySelectorAll("#viewer .switches input:checked").length;
+    }
+    found.requests = performance.getEntriesByType("resource").map((entry) => entry.name)
+        .filter((name) => !name.startsWith("blob:"));
+    const told = document.createElement("pre");
+    told.id = "told";
+    told.textContent = JSON.stringify(found);
+    document.body.append(told);
+})();
