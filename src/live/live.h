@@ -92,6 +92,9 @@ bool SP_LIVE(sp_live_open)(sp_live *live);
 /* Evaluates the nozzles handed over, their order being who is who from one call to the next, on one patch in
  * stride², each standing for those beside it. */
 bool SP_LIVE(sp_live_evaluate)(sp_live *live, unsigned stride);
+/* Finds out all that a nozzle that was evaluated may reach from where it is, so that turning it traces nothing: takes
+ * a few times as long as moving it, and is done ahead. */
+bool SP_LIVE(sp_live_prepare)(sp_live *live, size_t index);
 /* Finds the shadows of what was evaluated last. */
 bool SP_LIVE(sp_live_find_shadows)(sp_live *live);
 /* Whether nozzle `index` of those handed over can stand where it is (sp_evaluator_admits). */

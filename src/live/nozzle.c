@@ -1,5 +1,5 @@
-/* What one nozzle brings. What it reaches depends on its position and speed alone and is kept while these stay: a turn,
- * a roll, another angle or flow, or a type that is as fast, traces nothing. */
+/* What one nozzle brings. What it may reach in any direction depends on its position and speed alone, and is kept while
+ * these stay: once it is known, a turn, a roll, another angle or flow, or a type that is as fast, traces nothing. */
 #include "live/state.h"
 
 #include "spray/bodies.h"
@@ -41,25 +41,6 @@ static void keep_few(sp_live *live, const sp_live_nozzle *own)
     }
 }
 
-/* All that the source reaches in any direction. */
-static bool know_reach(sp_live *live, sp_live_nozzle *kept, const sp_source *source, unsigned stride)
-{
-    kept->used = live->evaluations;
-    if (kept->reach && same_source(&kept->source, source) && kept->reach_stride <= stride &&
-        stride % kept->reach_stride == 0)
-        return true;
-    sp_reach_destroy(kept->reach);
-    sp_aim aim = sp_aim_at(sp_v(0, 0, 1), M_PI);
-    aim.among = stride > 1 ? live->sample.among : NULL;
-    kept->reach = sp_reach_create(source, &aim, &live->error);
-    kept->source = *source;
-    kept->reach_stride = stride;
-    live->figures[SP_LIVE_TRACED]++;
-    if (kept->reach)
-        keep_few(live, kept);
-    return kept->reach != NULL;
-}
-
 static sp_aim aim_of(const sp_emitter *emitter)
 {
     sp_aim aim = sp_aim_at(emitter->frame.z, sp_spray_reach(&emitter->spray));
@@ -67,11 +48,10 @@ static sp_aim aim_of(const sp_emitter *emitter)
     return aim;
 }
 
+/* Of what is known the arrivals that the spray takes. */
 static bool lay_known(sp_live *live, sp_live_nozzle *kept, const sp_emitter *emitter, double flow, unsigned stride,
                       sp_tally *tally)
 {
-    if (!know_reach(live, kept, &emitter->source, stride))
-        return false;
     sp_arrival *taken = malloc((kept->reach->count + 1) * sizeof *taken);
     if (!taken)
         return sp_fail_memory(&live->error);
@@ -79,16 +59,17 @@ static bool lay_known(sp_live *live, sp_live_nozzle *kept, const sp_emitter *emi
     size_t count = 0;
     for (size_t i = 0; i < kept->reach->count; i++) {
         const sp_arrival *arrival = &kept->reach->arrivals[i];
-        if ((stride == kept->reach_stride || live->sample.among[arrival->patch]) && sp_aim_takes(&aim, arrival))
+        if ((stride == 1 || live->sample.among[arrival->patch]) && sp_aim_takes(&aim, arrival))
             taken[count++] = *arrival;
     }
+    kept->used = live->evaluations;
     sp_lay_arrivals(emitter, flow, taken, count, tally);
     free(taken);
     return true;
 }
 
-/* One of several patterns, whose place turns with the body's axis. */
-static bool lay_member(sp_live *live, const sp_emitter *emitter, double flow, unsigned stride, sp_tally *tally)
+/* What the spray alone reaches. */
+static bool lay_traced(sp_live *live, const sp_emitter *emitter, double flow, unsigned stride, sp_tally *tally)
 {
     sp_aim aim = aim_of(emitter);
     aim.among = stride > 1 ? live->sample.among : NULL;
@@ -103,21 +84,53 @@ static bool lay_member(sp_live *live, const sp_emitter *emitter, double flow, un
 static bool lay_patterns(sp_live *live, sp_live_nozzle *kept, const sp_bodies *bodies, unsigned stride, sp_tally *tally)
 {
     const sp_layout *patterns = bodies->patterns;
-    bool done = true;
-    if (patterns->count > 1) {
-        sp_reach_destroy(kept->reach);
-        kept->reach = NULL;
-        live->figures[SP_LIVE_TRACED]++;
-    }
+    bool done = true, traced = false;
     for (size_t i = 0; done && i < patterns->count; i++) {
         sp_emitter emitter = sp_bodies_emitter(live->evaluator, bodies, i);
         double flow = sp_nozzle_flow(&patterns->nozzles[i], &sp_evaluator_setup(live->evaluator)->liquid);
-        if (flow > 0)
-            done = patterns->count > 1 ? lay_member(live, &emitter, flow, stride, tally)
-                                       : lay_known(live, kept, &emitter, flow, stride, tally);
+        bool known = kept->reach && patterns->count == 1 && same_source(&kept->source, &emitter.source);
+        if (!(flow > 0))
+            continue;
+        traced = traced || !known;
+        done = known ? lay_known(live, kept, &emitter, flow, stride, tally)
+                     : lay_traced(live, &emitter, flow, stride, tally);
     }
     sp_tally_end_nozzle(tally);
+    live->figures[SP_LIVE_TRACED] += traced;
     return done;
+}
+
+/* The source of a nozzle of one pattern: those of a cluster turn about its body. */
+static bool source_of(sp_live *live, const sp_nozzle *nozzle, sp_source *source)
+{
+    sp_layout one = {.count = 1, .nozzles = (sp_nozzle[]){*nozzle}};
+    sp_bodies bodies;
+    bool found = sp_bodies_create(live->evaluator, &one, &bodies, &live->error) && bodies.patterns->count == 1;
+    if (found)
+        *source = sp_bodies_emitter(live->evaluator, &bodies, 0).source;
+    sp_bodies_free(&bodies);
+    return found;
+}
+
+bool sp_live_prepare(sp_live *live, size_t index)
+{
+    sp_source source;
+    live->error = (sp_error){0};
+    if (index >= live->nozzle_count || !live->nozzles[index].laid)
+        return true;
+    sp_live_nozzle *kept = &live->nozzles[index];
+    if (!source_of(live, &kept->nozzle, &source))
+        return live->error.kind == SP_OK;
+    kept->used = live->evaluations;
+    if (kept->reach && same_source(&kept->source, &source))
+        return true;
+    sp_reach_destroy(kept->reach);
+    sp_aim aim = sp_aim_at(sp_v(0, 0, 1), M_PI);
+    kept->reach = sp_reach_create(&source, &aim, &live->error);
+    kept->source = source;
+    if (kept->reach)
+        keep_few(live, kept);
+    return kept->reach != NULL;
 }
 
 /* On the same patches or more. */

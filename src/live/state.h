@@ -11,10 +11,9 @@ typedef struct {
     unsigned stride;
     sp_nozzle nozzle;
     sp_coverage *alone; /* sums, not yet means; NULL where it is off */
-    sp_reach *reach;    /* all that its one pattern reaches in any direction; NULL: not kept */
+    sp_reach *reach;    /* all that its one pattern reaches in any direction; NULL: not known */
     sp_source source;   /* of the reach */
-    unsigned reach_stride;
-    uint64_t used; /* when the reach was, in evaluations */
+    uint64_t used;      /* when the reach was, in evaluations */
 } sp_live_nozzle;
 
 /* Patches that stand for those beside them. */

@@ -222,6 +222,7 @@ static void only_what_moved_is_traced(void **state)
     assert_true(sp_live_evaluate(live, 1));
     assert_true(figure(SP_LIVE_TRACED) == 1);
     expect_like(2);
+    assert_true(sp_live_prepare(live, 0));
     nozzles[0].axis = sp_unit(sp_v(0.3, -0.2, -1));
     nozzles[0].flow = 1.7e-4;
     hand_over_nozzles(true);

@@ -220,6 +220,7 @@
         view.recolour();
     }
 
+    /* True where nothing is left to be done. */
     async function evaluate(exactly) {
         const rows = nozzles.map(numbersOf), used = exactly ? 1 : stride;
         const found = await ask("evaluate", {nozzles: rows, stride: used});
@@ -230,16 +231,20 @@
             stride *= 2;
         else if (!exactly && found.figures.traced && found.ms < QUICK / 5 && stride > 1)
             stride /= 2;
-        if (used > 1 || wanted)
-            return tell(used);
+        if (used > 1 || wanted) {
+            tell(used);
+            return false;
+        }
         const finished = await ask("finish", {nozzles: rows});
         design.shadowOf = finished.shadowOf;
         design.shadows = finished.shadows.map(({at}) => ({at, towards: view.up, extent: 0.1 * view.size}));
         design.nozzles.forEach((nozzle, i) => (nozzle.flux = finished.alone[i] || empty));
         tell(1, finished);
+        await ask("prepare", {chosen});
         section.dataset.settled = JSON.stringify(rows);
         if (view.state.nozzle && view.state.nozzle.design === design)
             view.recolour();
+        return true;
     }
 
     /* One at a time; the latest wish counts. */
@@ -250,11 +255,12 @@
             return;
         busy = true;
         try {
+            let done = true;
             while (wanted) {
                 wanted = false;
-                await evaluate(exactly);
+                done = await evaluate(exactly);
             }
-            if (!exactly && stride > 1)
+            if (!done)
                 idle = setTimeout(() => run(true), IDLE);
         } catch (error) {
             answer.replaceChildren(element("p", {}, `Not evaluated: ${error.message}.`));
@@ -445,6 +451,7 @@
         list("Nozzle", nozzles.map(({name, on}) => (on ? name : `${name}, off`)), chosen, (i) => {
             chosen = i;
             build();
+            run(true);
         });
         const allowed = types.map((_, i) => i).filter((i) => i < named && (i === nozzle.type || !mount.types.length ||
             mount.types.includes(i)));

@@ -90,6 +90,13 @@
         return {shadows, shadowOf, alone, stands};
     }
 
+    /* What the nozzle in hand may reach, so that it can be turned at once. */
+    function prepare({chosen}) {
+        if (!wasm.sp_live_prepare(live, chosen))
+            throw new Error(why());
+        return {};
+    }
+
     /* The foot on any of these parts that is nearest. */
     function foot({parts, point}) {
         let nearest = null, least = Infinity;
@@ -104,7 +111,7 @@
         return {place: nearest && nearest.slice(0, 3), normal: nearest && nearest.slice(3), far: least};
     }
 
-    const acts = {open, evaluate, finish, foot};
+    const acts = {open, evaluate, finish, prepare, foot};
     addEventListener("message", async ({data}) => {
         try {
             postMessage({id: data.id, answer: await acts[data.act](data)});
