@@ -34,7 +34,8 @@
                 await set(name, 0.2 + 0.09 * round, "turn");
         }
     const say = (kind) => {
-        const sorted = times[kind].sort((a, b) => a - b), at = (share) => sorted[Math.floor(share * (sorted.length - 1))];
+        const sorted = times[kind].sort((a, b) => a - b);
+        const at = (share) => sorted[Math.floor(share * (sorted.length - 1))];
         return `${kind}: median ${at(0.5).toFixed(1)} ms, 10 % below ${at(0.1).toFixed(1)}, 90 % below ` +
             `${at(0.9).toFixed(1)}, of ${sorted.length}`;
     };

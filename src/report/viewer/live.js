@@ -87,8 +87,8 @@
 
     function nozzleOf({name, numbers, keep, jets}) {
         const [type, x, y, z, ax, ay, az, roll, pressure, angle, flow, speed] = numbers;
-        return {name, type, place: [x, y, z], axis: [ax, ay, az], roll, pressure, angle, flow, speed, on: true, keep, jets,
-                mount: -1, reference: downwards};
+        return {name, type, place: [x, y, z], axis: [ax, ay, az], roll, pressure, angle, flow, speed, on: true, keep,
+                jets, mount: -1, reference: downwards};
     }
     const numbersOf = (nozzle) => [nozzle.type, ...nozzle.place, ...nozzle.axis, nozzle.roll, nozzle.pressure,
                                    nozzle.angle, nozzle.flow, nozzle.speed, nozzle.on ? 1 : 0];
@@ -148,16 +148,16 @@
         return Array.from({length: 32}, (_, k) => {
             const turn = (2 * Math.PI * k) / 32, wide = half * Math.cos(turn), tall = thickness / 2 * Math.sin(turn);
             const way = pattern === 2
-                ? add(add(scaled(axis, Math.cos(tall) * Math.cos(wide)), x, Math.cos(tall) * Math.sin(wide)), y, Math.sin(tall))
-                : add(add(scaled(axis, Math.cos(half)), x, Math.sin(half) * Math.cos(turn)), y, Math.sin(half) * Math.sin(turn));
-            return add(nozzle.place, way, length);
+                ? [Math.cos(tall) * Math.cos(wide), Math.cos(tall) * Math.sin(wide), Math.sin(tall)]
+                : [Math.cos(half), Math.sin(half) * Math.cos(turn), Math.sin(half) * Math.sin(turn)];
+            return add(nozzle.place, add(add(scaled(axis, way[0]), x, way[1]), y, way[2]), length);
         });
     }
 
     const empty = new Uint8Array(model.patches);
     const design = {index: about.models.length + 1e6, name: "Yours", quote: "", manual: false, first: false, model,
-                    values: Object.fromEntries(about.quantities.map(({key}) => [key, empty])), share: empty, film: empty,
-                    shadowOf: empty, shadows: [], nozzles: []};
+                    values: Object.fromEntries(about.quantities.map(({key}) => [key, empty])), share: empty,
+                    film: empty, shadowOf: empty, shadows: [], nozzles: []};
     let nozzles = [], chosen = 0, start = null, last = null;
 
     function drawNozzles() {
@@ -174,7 +174,8 @@
     const section = element("section", {id: "live"}), figures = element("div", {class: "wide"});
     const answer = element("div", {class: "answer", role: "status", "aria-live": "polite"});
     const holder = element("div", {class: "controls"}), sliders = element("div", {class: "sliders"});
-    const scene = element("textarea", {readonly: "", rows: "12", "aria-label": "The layout as a scene", spellcheck: "false"});
+    const scene = element("textarea", {readonly: "", rows: "12", spellcheck: "false",
+                                         "aria-label": "The layout as a scene"});
 
     function tellFigures() {
         const row = (name, of) => element("tr", {}, element("th", {scope: "row"}, name),
@@ -182,15 +183,17 @@
         figures.replaceChildren(element("table", {class: "numbers narrow"},
             element("thead", {}, element("tr", {}, ...["", start.name, "Yours"].map((name) =>
                 element("th", {scope: "col"}, name)))),
-            element("tbody", {}, row("Coverage", (one) => percent(one.coverage)), row("Water", (one) => litres(one.flow)),
-                row("Area per water, m² per L/min", (one) => (one.flow > 0 ? short(one.covered / one.flow / LITRES) : "none")),
+            element("tbody", {}, row("Coverage", (one) => percent(one.coverage)),
+                row("Water", (one) => litres(one.flow)), row("Area per water, m² per L/min", (one) =>
+                    (one.flow > 0 ? short(one.covered / one.flow / LITRES) : "none")),
                 row("Not covered, m²", (one) => short(one.covered / one.coverage - one.covered, 3)))));
     }
 
     function tell(stride, finished) {
         const texel = 1e3 * editing.settings[8];
-        const how = stride > 1 ? ` counted on one texel of ${stride * stride} (every ${short(stride * texel, 3)} mm); ` +
-            "the figure on all of them follows" : ` on texels of ${short(texel, 3)} mm`;
+        const how = stride > 1
+            ? ` counted on one texel of ${stride * stride} (every ${short(stride * texel, 3)} mm); ` +
+                "the figure on all of them follows" : ` on texels of ${short(texel, 3)} mm`;
         const words = [`Coverage ${percent(last.coverage)} with ${litres(last.flow)},${how}.`];
         if (finished) {
             const [largest] = finished.shadows;
@@ -200,7 +203,8 @@
             finished.stands.forEach((wrong, i) => wrong && nozzles[i].on &&
                 words.push(`This layout cannot be built: ${wrong.replace("nozzles: ", nozzles[i].name)}.`));
         }
-        const ports = nozzles.filter((nozzle) => nozzle.on && mountOf(nozzle).kind === "port").map((nozzle) => nozzle.mount);
+        const ports = nozzles.filter((nozzle) => nozzle.on && mountOf(nozzle).kind === "port")
+            .map((nozzle) => nozzle.mount);
         const twice = ports.find((port, i) => ports.indexOf(port) < i);
         if (twice !== undefined)
             words.push(`Port ${mounts[twice].name} holds two nozzles.`);
@@ -361,8 +365,9 @@
             : [view.box.low, view.box.high];
         axes.forEach((axis, k) => {
             if (margin[1][k] > margin[0][k])
-                slider(`${axis}, m`, margin[0][k] + origin[k], margin[1][k] + origin[k], 0.001, (own) => own.place[k] + origin[k],
-                       (own, value) => (own.place = own.place.map((x, i) => (i === k ? value - origin[k] : x))));
+                slider(`${axis}, m`, margin[0][k] + origin[k], margin[1][k] + origin[k], 0.001,
+                       (own) => own.place[k] + origin[k], (own, value) =>
+                           (own.place = own.place.map((x, i) => (i === k ? value - origin[k] : x))));
         });
     }
     function positionSliders(nozzle, mount) {
@@ -392,7 +397,8 @@
     }
     function typeSliders(nozzle) {
         const n = typeOf(nozzle), rated = (row) => flowAt(n, row, nozzle.pressure);
-        slider("Pressure, bar", 0.2, Math.max(10, (2 * nozzle.pressure) / BAR), 0.05, (own) => own.pressure / BAR, (own, value) => {
+        slider("Pressure, bar", 0.2, Math.max(10, (2 * nozzle.pressure) / BAR), 0.05, (own) => own.pressure / BAR,
+               (own, value) => {
             own.pressure = value * BAR;
             fitType(own);
         });
@@ -400,7 +406,8 @@
             slider("Angle, deg", n[9] / DEGREE, n[10] / DEGREE, 0.5, (own) => (own.angle || n[1]) / DEGREE,
                    (own, value) => (own.angle = limited(value * DEGREE, n[9], n[10])));
         if (adjustable(n[11], n[12]))
-            slider("Flow, L/min", LITRES * rated(n[11]), LITRES * rated(n[12]), 0.1, (own) => LITRES * flowOf(own), (own, value) => {
+            slider("Flow, L/min", LITRES * rated(n[11]), LITRES * rated(n[12]), 0.1, (own) => LITRES * flowOf(own),
+                   (own, value) => {
                 own.flow = value / LITRES;
                 fitType(own);
             });
@@ -461,11 +468,13 @@
         }, true));
         list("Mount", ["anywhere", ...mounts.map(mountName)], nozzle.mount + 1, (i) =>
             change("mount", (own) => mountAt(own, i - 1), true));
-        const toggle = button(nozzle.on ? "Switch off" : "Switch on", () => change("switch", (own) => (own.on = !own.on), true));
+        const toggle = button(nozzle.on ? "Switch off" : "Switch on", () =>
+            change("switch", (own) => (own.on = !own.on), true));
         const adds = element("select", {"aria-label": "Mount of a nozzle more"},
             ...["anywhere", ...mounts.map(mountName)].map((text, i) => view.option(text, i === 1)));
-        holder.append(toggle, element("span", {class: "adding"}, button("Add a nozzle at", () => addNozzle(adds.selectedIndex - 1)),
-                                      " ", adds), undoButton, button("Save as scene", save));
+        const more = button("Add a nozzle at", () => addNozzle(adds.selectedIndex - 1));
+        holder.append(toggle, element("span", {class: "adding"}, more, " ", adds), undoButton,
+                      button("Save as scene", save));
         [...holder.querySelectorAll("select, button")].forEach((one, i) => (one.dataset.key = `key${i}`));
         if (focused)
             (holder.querySelector(`[data-key="${focused}"]`) || holder.querySelector("select")).focus();
@@ -479,8 +488,9 @@
     const quoted = (name) => JSON.stringify(name);
     function nozzleText(nozzle) {
         const place = nozzle.place.map((x, k) => `${x + origin[k]} m`).join(", ");
-        const lines = [`name: ${quoted(nozzle.name)}`, `type: ${quoted(types[nozzle.type].name)}`, `position: [${place}]`,
-                       `axis: [${nozzle.axis.join(", ")}]`, `roll: ${nozzle.roll} rad`, `pressure: ${nozzle.pressure} Pa`];
+        const lines = [`name: ${quoted(nozzle.name)}`, `type: ${quoted(types[nozzle.type].name)}`,
+                       `position: [${place}]`, `axis: [${nozzle.axis.join(", ")}]`, `roll: ${nozzle.roll} rad`,
+                       `pressure: ${nozzle.pressure} Pa`];
         if (nozzle.angle)
             lines.push(`angle: ${nozzle.angle} rad`);
         if (nozzle.flow)
@@ -502,8 +512,8 @@
         const address = URL.createObjectURL(new Blob([sceneText()], {type: "text/yaml"}));
         element("a", {href: address, download: "changed.yaml"}).click();
         setTimeout(() => URL.revokeObjectURL(address), 1000);
-        answer.replaceChildren(element("p", {}, "Saved as changed.yaml. Put it beside this page: its paths to geometry and " +
-            "catalogue start there."));
+        answer.replaceChildren(element("p", {}, "Saved as changed.yaml. Put it beside this page: its paths to " +
+            "geometry and catalogue start there."));
     }
 
     /* ---- all together ---- */
@@ -553,8 +563,8 @@
     view.addDesign(design);
     build();
     scene.value = sceneText();
-    section.append(element("div", {class: "controls"}, element("label", {}, "Start from ", starts)), holder, sliders, figures,
-                   element("details", {}, element("summary", {}, "The layout as a scene"), scene));
+    section.append(element("div", {class: "controls"}, element("label", {}, "Start from ", starts)), holder, sliders,
+                   figures, element("details", {}, element("summary", {}, "The layout as a scene"), scene));
     await run(true);
     section.dataset.ready = "true";
 })();

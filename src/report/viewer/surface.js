@@ -1,5 +1,5 @@
-/* Surfaces as the page holds them: rounded for drawing (model.c), or to the last bit (exact.c, unfolded.c), of which this
- * is the other way round, operation by operation. */
+/* Surfaces as the page holds them: rounded for drawing (model.c), or to the last bit (exact.c, unfolded.c), of which
+ * this is the other way round, operation by operation. */
 const surfaces = (() => {
     "use strict";
 
@@ -87,8 +87,8 @@ const surfaces = (() => {
             if (own)
                 return own;
             const from = known.get(key(t, a)), to = known.get(key(t, b));
-            return from && to ? turnIn(places, triangles[3 * t + a], triangles[3 * t + b], triangles[3 * t + i], from, to)
-                              : last;
+            const [p, q, r] = [a, b, i].map((k) => triangles[3 * t + k]);
+            return from && to ? turnIn(places, p, q, r, from, to) : last;
         }
         function tell(t) {
             let last = [0, 0];
@@ -96,7 +96,8 @@ const surfaces = (() => {
             for (let i = 0; i < 3; i++) {
                 const from = expected(t, i, last), at = [0, 1].map((k) => {
                     const off = apart[next++];
-                    return rounded[chart[t]] ? (Math.floor(from[k] * PARTS) + Number(off)) / PARTS : moved(from[k], off);
+                    return rounded[chart[t]] ? (Math.floor(from[k] * PARTS) + Number(off)) / PARTS
+                                             : moved(from[k], off);
                 });
                 known.set(key(t, i), at);
                 uv.set(at, 6 * t + 2 * i);

@@ -46,8 +46,10 @@ const viewer = (async () => {
         const beside = new Int32Array(model.patches).fill(-1), {edge} = model;
         for (const page of model.page)
             for (let i = 0; i < page.length; i++)
-                if (page[i])
-                    beside[page[i] - 1] = (Math.floor(i / edge) % edge && page[i - edge] || i % edge && page[i - 1] || 0) - 1;
+                if (page[i]) {
+                    const above = Math.floor(i / edge) % edge && page[i - edge], left = i % edge && page[i - 1];
+                    beside[page[i] - 1] = (above || left || 0) - 1;
+                }
         return beside;
     }
 
@@ -857,6 +859,6 @@ const viewer = (async () => {
         uploadLines(design);
         addSwitch(design);
     }
-    return {about, designs, section, inflated, element, button, option, addDesign, show, recolour, uploadLines, state, size,
-            up, box: {low, high}};
+    return {about, designs, section, inflated, element, button, option, addDesign, show, recolour, uploadLines, state,
+            size, up, box: {low, high}};
 })();

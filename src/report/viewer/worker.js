@@ -2,8 +2,8 @@
  * numbers of arrays, settings and results are those of live.h. */
 "use strict";
 (() => {
-    const ARRAYS = ["settings", "places", "triangles", "part", "clean", "names", "chart", "uv", "chartPage", "chartTexel",
-                    "sides", "nodes", "cuts", "types", "members"];
+    const ARRAYS = ["settings", "places", "triangles", "part", "clean", "names", "chart", "uv", "chartPage",
+                    "chartTexel", "sides", "nodes", "cuts", "types", "members"];
     const NOZZLES = 15, FIGURES = 0, SHARE = 5, SHADOW_LIST = 6, SHADOW_OF = 7, SHADOW_NUMBERS = 6;
     let wasm, live, count = 0, quantities = [];
 
@@ -67,8 +67,8 @@
         const flux = patchesOf(1);
         const values = quantities.map((quantity, k) => bytesOf(patchesOf(1 + k), quantity, flux));
         const share = sharesOf(patchesOf(SHARE));
-        return {figures: {coverage: figures[0], covered: figures[1], flow: figures[2], traced: figures[5]}, values, share,
-                stride, ms: performance.now() - start};
+        return {figures: {coverage: figures[0], covered: figures[1], flow: figures[2], traced: figures[5]}, values,
+                share, stride, ms: performance.now() - start};
     }
 
     /* What may wait: shadows, what each nozzle does alone, whether it can stand. */
@@ -81,7 +81,8 @@
             const [area, x, y, z, part, lack] = list.subarray(i * SHADOW_NUMBERS);
             return {area, at: [x, y, z], part, lack};
         });
-        const shadowOf = Uint8Array.from(new Uint32Array(wasm.memory.buffer, wasm.sp_live_tell(live, SHADOW_OF), count));
+        const numbers = new Uint32Array(wasm.memory.buffer, wasm.sp_live_tell(live, SHADOW_OF), count);
+        const shadowOf = Uint8Array.from(numbers);
         const alone = nozzles.map((_, i) => {
             const at = wasm.sp_live_alone(live, i), flux = at && doublesAt(at, count);
             return at ? bytesOf(flux, quantities[0], flux) : new Uint8Array(count);
