@@ -133,11 +133,11 @@ bool sp_live_prepare(sp_live *live, size_t index)
     return kept->reach != NULL;
 }
 
-/* On the same patches or more. */
+/* On the same patches or all. */
 static bool is_laid(const sp_live_nozzle *kept, const sp_nozzle *nozzle, unsigned stride)
 {
     const sp_nozzle *old = &kept->nozzle;
-    return kept->laid && kept->stride <= stride && stride % kept->stride == 0 && old->type == nozzle->type &&
+    return kept->laid && (kept->stride == 1 || kept->stride == stride) && old->type == nozzle->type &&
            !memcmp(&old->position, &nozzle->position, sizeof old->position) &&
            !memcmp(&old->axis, &nozzle->axis, sizeof old->axis) && old->roll == nozzle->roll &&
            old->pressure == nozzle->pressure && old->angle == nozzle->angle && old->flow == nozzle->flow &&

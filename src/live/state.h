@@ -7,7 +7,7 @@
 
 /* A nozzle as it was laid last. */
 typedef struct {
-    bool laid; /* `alone` is what `nozzle` brings, on the patches of `stride` and of any longer one that it divides */
+    bool laid; /* `alone` is what `nozzle` brings, on the patches of `stride`: on all of them where that is 1 */
     unsigned stride;
     sp_nozzle nozzle;
     sp_coverage *alone; /* sums, not yet means; NULL where it is off */

@@ -20,7 +20,7 @@ EMBED("sp_live_worker", SPRAYPLAN_VIEWER "/worker.js");
 EMBED("sp_live_module", SPRAYPLAN_LIVE);
 const bool sp_live_is_built = true;
 #else
-EMBED("sp_live_module", "/dev/null");
+const char sp_live_module[] = "", sp_live_module_end[] = "";
 const bool sp_live_is_built = false;
 #endif
 EMBED("sp_viewer_style", SPRAYPLAN_VIEWER "/viewer.css");
