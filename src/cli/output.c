@@ -100,7 +100,10 @@ static bool write_report(const cli_options *options, const sp_result *result, co
 {
     if (!layout || options->no_live)
         return sp_report_write(result, output, error);
-    const sp_fidelity *fidelity = sp_evaluator_fidelity(result->designs[0].evaluator);
+    size_t own = 0;
+    while (own + 1 < result->design_count && result->designs[own].layout != layout)
+        own++;
+    const sp_fidelity *fidelity = sp_evaluator_fidelity(result->designs[own].evaluator);
     char *text = sp_scene_text(scenes[0], layout, fidelity, options->output, error);
     sp_editing editing = {.options = sp_scene_place_options(scenes[0]), .scene = text};
     sp_result told = *result;

@@ -13,8 +13,7 @@
 #define MOST_TRIANGLES 300000 /* a page of about 10 MB, opened within some seconds */
 #define MOST_PATCHES 500000
 
-/* The evaluator of the layouts that may be changed. */
-static const sp_evaluator *evaluator_of(const sp_page *page)
+const sp_evaluator *sp_page_live_evaluator(const sp_page *page)
 {
     return page->main == SP_UNKNOWN ? NULL : page->result->designs[page->main].evaluator;
 }
@@ -57,7 +56,7 @@ static const char *too_much(const sp_evaluator *evaluator)
 
 const char *sp_page_not_live(const sp_page *page)
 {
-    const sp_evaluator *evaluator = evaluator_of(page);
+    const sp_evaluator *evaluator = sp_page_live_evaluator(page);
     if (!page->result->editing || !evaluator)
         return "";
     if (!sp_live_is_built)
@@ -203,7 +202,7 @@ static json_t *designs_json(const sp_page *page, type_rows *rows)
     json_t *list = json_array();
     for (size_t i = 0; i < page->result->design_count; i++) {
         const sp_design *design = &page->result->designs[i];
-        if (design->evaluator == evaluator_of(page))
+        if (design->evaluator == sp_page_live_evaluator(page))
             json_array_append_new(list, json_pack("{s:I, s:f, s:b, s:o}", "index", (json_int_t)i, "coverage",
                                                   design->coverage->fraction, "main", (int)(i == page->main), "nozzles",
                                                   layout_json(design->layout, rows)));
@@ -238,7 +237,7 @@ static json_t *parts_json(const sp_setup *setup)
 
 static json_t *editing_json(const sp_page *page, type_rows *rows)
 {
-    const sp_evaluator *evaluator = evaluator_of(page);
+    const sp_evaluator *evaluator = sp_page_live_evaluator(page);
     const sp_place_options *options = &page->result->editing->options;
     json_t *mounts = json_array(), *designs = designs_json(page, rows);
     for (size_t i = 0; i < options->mount_count; i++)

@@ -2,6 +2,7 @@
 
 #include "design.h"
 #include "exact.h"
+#include "live.h"
 #include "report/camera.h"
 #include "report/surface.h"
 
@@ -172,7 +173,7 @@ static bool pack_either(const sp_page *page, const sp_evaluator *evaluator, cons
                         const box *around, sp_packed *packed, json_t **about, sp_error *error)
 {
     *about = NULL;
-    if (!page->live)
+    if (!page->live || evaluator != sp_page_live_evaluator(page))
         return pack_surface(evaluator, surface, around, packed, error);
     *about = sp_viewer_exact(evaluator, surface, packed, error);
     return *about != NULL;
