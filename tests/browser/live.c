@@ -146,6 +146,17 @@ static void it_says_what_comes_of_it(void **state)
     assert_int_equal(json_integer_value(json_object_get(found, "shown")), 3);
 }
 
+/* A layout without nozzles is evaluated, and is no scene. */
+static void without_nozzles_nothing_is_saved(void **state)
+{
+    (void)state;
+    skip_without_module();
+    const char *figures = json_string_value(json_object_get(step("off"), "figures"));
+    if (!figures || !strstr(figures, "0.00 %") || strstr(figures, "NaN"))
+        fail_msg("found %s", figures);
+    assert_non_null(strstr(json_string_value(json_object_get(found, "savedWithout")), "no layout to save"));
+}
+
 /* The viewer as ever, and nothing that was to be evaluated. */
 static void without_webassembly_it_is_a_viewer(void **state)
 {
@@ -201,6 +212,7 @@ int main(void)
         cmocka_unit_test(only_what_moved_is_traced),
         cmocka_unit_test(undo_brings_back_what_was),
         cmocka_unit_test(it_says_what_comes_of_it),
+        cmocka_unit_test(without_nozzles_nothing_is_saved),
         cmocka_unit_test(without_webassembly_it_is_a_viewer),
         cmocka_unit_test(without_it_the_page_is_smaller),
         cmocka_unit_test(by_jets_it_says_that_it_does_not),

@@ -25,7 +25,8 @@
         }
         await until(has("settled"));
         found.steps[name] = {coverage: Number(live().dataset.coverage), traced: Number(live().dataset.traced),
-            said: live().querySelector(".answer").textContent, scene: live().querySelector("textarea").value};
+            said: live().querySelector(".answer").textContent,
+            figures: (live().querySelector("table") || {}).textContent, scene: live().querySelector("textarea").value};
     }
     function set(name, share) {
         const input = labelled(name);
@@ -45,6 +46,8 @@
         await step("turned", () => set("Tilt", 0.5));
         await step("pressed", () => set("Pressure", 0.25));
         await step("off", () => pressed("Switch off").click());
+        pressed("Save as scene").click();
+        found.savedWithout = live().querySelector(".answer").textContent;
         await step("undone", () => pressed("Undo").click());
         await step("added", () => pressed("Add a nozzle at").click());
         await step("typed", () => choose("Type"));

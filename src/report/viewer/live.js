@@ -178,6 +178,8 @@
                                          "aria-label": "The layout as a scene"});
 
     function tellFigures() {
+        const [area] = [start, last].filter((one) => one && one.coverage > 0)
+            .map((one) => one.covered / one.coverage);
         const row = (name, of) => element("tr", {}, element("th", {scope: "row"}, name),
             ...[start, last].map((one) => element("td", {}, one ? of(one) : "")));
         figures.replaceChildren(element("table", {class: "numbers narrow"},
@@ -186,7 +188,7 @@
             element("tbody", {}, row("Coverage", (one) => percent(one.coverage)),
                 row("Water", (one) => litres(one.flow)), row("Area per water, m² per L/min", (one) =>
                     (one.flow > 0 ? short(one.covered / one.flow / LITRES) : "none")),
-                row("Not covered, m²", (one) => short(one.covered / one.coverage - one.covered, 3)))));
+                row("Not covered, m²", (one) => (area ? short(area - one.covered, 3) : "all")))));
     }
 
     function tell(stride, finished) {
@@ -509,6 +511,10 @@
         return editing.scene.replace(block, () => text);
     }
     function save() {
+        if (!nozzles.some((nozzle) => nozzle.on)) {
+            answer.replaceChildren(element("p", {}, "No nozzle is switched on: there is no layout to save."));
+            return;
+        }
         const address = URL.createObjectURL(new Blob([sceneText()], {type: "text/yaml"}));
         element("a", {href: address, download: "changed.yaml"}).click();
         setTimeout(() => URL.revokeObjectURL(address), 1000);
