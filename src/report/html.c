@@ -9,9 +9,18 @@
 
 #define MOST_COLUMNS 6 /* of designs, in a table that is as wide as the page */
 
+#define LIGHT_COLOURS                                                                                                  \
+    "--ink:#1b2730;--soft:#55636f;--line:#d6dde3;--pale:#f3f6f8;--accent:#0b6670;--paper:#fff;--alarm:#c42636;"        \
+    "--alert:#fcf1f1"
+#define LIGHT ":root{" LIGHT_COLOURS ";color-scheme:light dark}\n"
+/* Pictures, the chart and the viewer's canvas are of one set of colours, made for white. */
+#define DARK                                                                                                           \
+    "@media screen and (prefers-color-scheme:dark){:root{--ink:#e3e9ed;--soft:#a3b1bb;--line:#37434c;--pale:#1d262d;"  \
+    "--accent:#58c4ce;--paper:#12181c;--alarm:#ff8a94;--alert:#3a2023}"                                                \
+    ".view,.chart,.stage{" LIGHT_COLOURS ";background:#fff;color:var(--ink)}}\n"
+
 static const char *const style[] = {
-    "<style>\n:root{--ink:#1b2730;--soft:#55636f;--line:#d6dde3;--pale:#f3f6f8;--accent:#0b6670}\n"
-    "*{box-sizing:border-box}\nbody{margin:0;background:#fff;color:var(--ink);"
+    "<style>\n" LIGHT DARK "*{box-sizing:border-box}\nbody{margin:0;background:var(--paper);color:var(--ink);"
     "font:16px/1.5 system-ui,\"Segoe UI\",Roboto,\"Helvetica Neue\",\"DejaVu Sans\",Arial,sans-serif}\n"
     "main{max-width:1120px;margin:0 auto;padding:0 28px 40px}\nheader{border-top:6px solid var(--accent);padding:26px "
     "0 8px}\n"
@@ -19,7 +28,7 @@ static const char *const style[] = {
     "h2{font-size:20px;margin:42px 0 12px;padding-bottom:5px;border-bottom:1px solid var(--line)}\n"
     "h3{font-size:16px;margin:22px 0 8px;color:var(--soft);font-weight:600}\n"
     ".about{color:var(--soft);margin:4px 0 0}\n.headline{font-size:20px;line-height:1.45;margin:18px 0}\n"
-    ".warning{border-left:4px solid #c42636;background:#fcf1f1;padding:10px 14px;margin:12px 0}\n"
+    ".warning{border-left:4px solid var(--alarm);background:var(--alert);padding:10px 14px;margin:12px 0}\n"
     ".note,.unit{color:var(--soft);font-weight:400}\n.note{font-size:14px;max-width:80ch}\n.unit{font-size:.86em}\n",
     ".cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(190px,1fr));gap:14px}\n"
     ".card{background:var(--pale);border-radius:6px;padding:12px 16px}\n.card "
@@ -58,7 +67,7 @@ static const char *const style[] = {
     /* The column that decides stays: the one before refinement goes, and what is measured stands still. */
     "@media screen and (max-width:640px){main{padding:0 12px 30px}body{font-size:15px}.aside{display:none}"
     "th,td{padding:5px 6px}.numbers{font-size:14px}"
-    ".wide :not(.sub)>th:first-child{position:sticky;left:0;background:#fff}}\n",
+    ".wide :not(.sub)>th:first-child{position:sticky;left:0;background:var(--paper)}}\n",
     "@page{size:A4;margin:16mm 14mm 18mm;@bottom-right{content:counter(page) \" / \" counter(pages);"
     "font:9pt system-ui,\"DejaVu Sans\",Arial,sans-serif;color:#55636f}}\n"
     "@media "
