@@ -644,8 +644,8 @@ static const slip settings[] = {
 /* The same of the catalogue. */
 static const slip type_settings[] = {
     {"body: 22 mm", "body: 0 m", "catalogue.yaml:5:100: body: found '0 m', expected a length above 0 such as 250 mm"},
-    {"thread: G 1/4", "thread: [G]", "catalogue.yaml:5:74: thread: found a list of 1, expected a name"},
-    {"insert: '7'", "insert: ''", "catalogue.yaml:5:89: insert: found '', expected a name"},
+    {"thread: G-1-4", "thread: [G]", "catalogue.yaml:5:74: thread: found a list of 1, expected a name"},
+    {"insert: n.7", "insert: ''", "catalogue.yaml:5:89: insert: found '', expected a name"},
     {"step: {angle: 5 deg", "step: {angle: -5 deg",
      "catalogue.yaml:7:86: angle: found '-5 deg', expected an angle of at least 5.72958e-05 deg such as 30 deg"},
     {"step: {angle: 5 deg, flow: 2 L/min", "step: {angle: 5 deg, flow: 2 bar",

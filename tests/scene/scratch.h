@@ -34,7 +34,7 @@ static const char catalogue[] =
     "order_code: R-80, url: 'https://example.com/r?a=x&b=y'}\n"
     "  - {name: fan, pattern: flat_fan, angle: 60 deg, thickness: 8 deg, flow: 2 gpm, at: 40 psi, cv: 0.9, drop: 2 "
     "mm}\n"
-    "  - {name: jet, pattern: solid_stream, flow: 5 L/min, at: 2 bar, thread: G 1/4, insert: '7', body: 22 mm}\n"
+    "  - {name: jet, pattern: solid_stream, flow: 5 L/min, at: 2 bar, thread: G-1-4, insert: n.7, body: 22 mm}\n"
     "  - {name: set, pattern: full_cone, angle: 90 deg, flow: 20 L/min, at: 2 bar,\n"
     "     angle_range: [60 deg, 120 deg], flow_range: [10 L/min, 30 L/min], "
     "step: {angle: 5 deg, flow: 2 L/min, pressure: 0.5 bar}}\n"
