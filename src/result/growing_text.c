@@ -30,7 +30,8 @@ void sp_text_append(sp_text *text, const char *bytes, size_t length)
 {
     if (!make_room(text, length))
         return;
-    memcpy(text->text + text->length, bytes, length);
+    if (length > 0) /* of nothing there may be no bytes */
+        memcpy(text->text + text->length, bytes, length);
     text->length += length;
     text->text[text->length] = 0;
 }
