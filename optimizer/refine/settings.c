@@ -149,9 +149,10 @@ static bool look(const sp_search *search, sp_placed *placed, sp_error *error)
            sp_field_nozzle(search, &placed->nozzle, NULL, placed->field, error);
 }
 
-/* Into the front, where it is within the water. */
-static bool measure(const sp_search *search, sp_front *front, const sp_draft *draft, sp_error *error)
+/* A draft whose nozzles were set, into the front where it is within the water. */
+static bool measure(const sp_search *search, sp_front *front, sp_draft *draft, sp_error *error)
 {
+    sp_draft_refresh(search, draft);
     return draft->flow > search->options->max_water * (1 + SP_ROUNDING) ||
            sp_front_measure(front, search, draft, NULL, error);
 }
@@ -166,8 +167,6 @@ static bool set_draft(const sp_search *search, const sp_draft *from, int way, sp
         turn_all(search, &draft.items[i], way);
         done = look(search, &draft.items[i], error);
     }
-    if (done)
-        sp_draft_refresh(search, &draft);
     done = done && measure(search, front, &draft, error);
     sp_draft_free(&draft);
     return done;
@@ -199,12 +198,8 @@ static bool try_beside(const sp_search *search, sp_front *front, size_t i, sp_se
     if (!sp_draft_copy(search, &front->best, &draft, error))
         return false;
     bool done = true;
-    if (turn(search, &draft.items[i], setting, steps)) {
-        done = look(search, &draft.items[i], error);
-        if (done)
-            sp_draft_refresh(search, &draft);
-        done = done && measure(search, front, &draft, error);
-    }
+    if (turn(search, &draft.items[i], setting, steps))
+        done = look(search, &draft.items[i], error) && measure(search, front, &draft, error);
     sp_draft_free(&draft);
     return done;
 }

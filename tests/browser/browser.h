@@ -71,6 +71,17 @@ static inline json_t *what_was_told(char *page)
     return json_loads(text, 0, NULL);
 }
 
+/* What a script found in a page that it opened: nothing went wrong, and nothing was asked for outside of it. */
+static inline void assert_opened(const json_t *found)
+{
+    assert_string_equal(json_string_value(json_object_get(found, "ready")), "true");
+    assert_int_equal(json_array_size(json_object_get(found, "errors")), 0);
+    assert_int_equal(json_array_size(json_object_get(found, "requests")), 0);
+    char *messages = read_file(".err", NULL);
+    assert_null(strstr(messages, ":CONSOLE"));
+    free(messages);
+}
+
 /* The workplace with the room's proposal in placed/, where there is a browser to open it. */
 static inline int place_once(void **state)
 {

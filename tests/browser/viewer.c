@@ -47,12 +47,7 @@ static void it_opens_without_requests_or_messages(void **state)
 {
     (void)state;
     skip_without_browser();
-    assert_string_equal(json_string_value(json_object_get(found, "ready")), "true");
-    assert_int_equal(json_array_size(json_object_get(found, "errors")), 0);
-    assert_int_equal(json_array_size(json_object_get(found, "requests")), 0);
-    char *messages = read_file(".err", NULL);
-    assert_null(strstr(messages, ":CONSOLE"));
-    free(messages);
+    assert_opened(found);
 }
 
 static void both_designs_are_drawn(void **state)

@@ -1,6 +1,6 @@
 /* place with alternatives: each is worked out as if it were the scene's only placement, one of them is proposed, and
  * all stand in one result, one report and scenes of their own. */
-#include "workplace.h"
+#include "results.h"
 
 static const char room_with[] = "geometry:\n"
                                 "  - file: room.obj\n"
@@ -35,22 +35,6 @@ static void write_room(const char *name, const char *own, const char *objective,
     char text[4096];
     snprintf(text, sizeof text, room_with, own, objective, limit, rest);
     write_file(name, text);
-}
-
-static json_t *named(json_t *object, const char *list, const char *name)
-{
-    size_t i;
-    json_t *entry;
-    json_array_foreach(json_object_get(object, list), i,
-                       entry) if (strcmp(json_string_value(json_object_get(entry, "name")), name) == 0) return entry;
-    fail_msg("no %s in %s", name, list);
-    return NULL;
-}
-
-static double number(json_t *object, const char *key)
-{
-    assert_true(json_is_number(json_object_get(object, key)));
-    return json_number_value(json_object_get(object, key));
 }
 
 static void same(json_t *a, json_t *b, const char *key)

@@ -1,5 +1,5 @@
 /* The example of a spray ball, as its user runs it: one nozzle in every list, nearly all of the vessel wet by film. */
-#include "workplace.h"
+#include "results.h"
 
 #include <math.h>
 
@@ -19,12 +19,6 @@ static int open_with_ball(void **state)
              "plain_vessel.obj",
              workplace, SOURCE_DIR, SOURCE_DIR, BINARY_DIR);
     return system(line);
-}
-
-static double number(const json_t *object, const char *key)
-{
-    assert_true(json_is_number(json_object_get(object, key)));
-    return json_number_value(json_object_get(object, key));
 }
 
 static json_t *first_layout(const json_t *object)

@@ -1,5 +1,5 @@
 /* sprayplan bench: its rows and keys, and that everything that traces finds the same. Nothing here looks at a time. */
-#include "workplace.h"
+#include "results.h"
 
 #include <sprayplan/sprayplan.h>
 
@@ -42,13 +42,6 @@ static const char *text_of(const json_t *object, const char *key)
     return text;
 }
 
-static double number_of(const json_t *object, const char *key)
-{
-    const json_t *number = json_object_get(object, key);
-    assert_true(json_is_number(number));
-    return json_number_value(number);
-}
-
 static bool is_own(const json_t *row)
 {
     for (int i = 0; i < OWN; i++)
@@ -76,7 +69,7 @@ static const json_t *find_row(const json_t *rows, const work *work, const char *
     const json_t *row;
     json_array_foreach(rows, i, row) if (is_of(row, work) && !strcmp(text_of(row, "accelerator"), accelerator) &&
                                          !strcmp(text_of(row, "variant"), variant) &&
-                                         number_of(row, "threads") == threads) return row;
+                                         number(row, "threads") == threads) return row;
     return NULL;
 }
 
@@ -87,13 +80,13 @@ static void expect_work(const json_t *rows, const work *work)
         for (int wave = 0; wave < 2; wave++) {
             const json_t *row = find_row(rows, work, own[i], wave ? "wave" : "single", 1);
             assert_non_null(row);
-            assert_true(number_of(row, "rays") == RAYS);
-            assert_true(number_of(row, "mrays_per_second") > 0);
-            assert_true(number_of(row, "wrong_share") == 0);
-            assert_true(number_of(row, "missed_share") == 0);
+            assert_true(number(row, "rays") == RAYS);
+            assert_true(number(row, "mrays_per_second") > 0);
+            assert_true(number(row, "wrong_share") == 0);
+            assert_true(number(row, "missed_share") == 0);
             if (hits < 0)
-                hits = number_of(row, "hits");
-            assert_true(number_of(row, "hits") == hits);
+                hits = number(row, "hits");
+            assert_true(number(row, "hits") == hits);
         }
     if (!strcmp(work->mode, "cone")) /* from inside a closed cube nothing escapes */
         assert_true(hits == RAYS);
@@ -111,8 +104,8 @@ static void expect_embree_lines(const json_t *rows, const work *work)
         for (int k = 0; k < 4; k++) {
             const json_t *row = find_row(rows, work, embree[i], variants[k], 1);
             assert_non_null(row);
-            assert_true(number_of(row, "rays") == RAYS);
-            assert_true(number_of(row, "wrong_share") + number_of(row, "missed_share") <= 0.01);
+            assert_true(number(row, "rays") == RAYS);
+            assert_true(number(row, "wrong_share") + number(row, "missed_share") <= 0.01);
         }
     assert_non_null(find_row(rows, work, "embree-fast", "packet16", 2));
 }
@@ -128,7 +121,7 @@ static void expect_embree_chords(const json_t *rows, const work *work)
             snprintf(variant, sizeof variant, "chords-%d-%s", counts[i], ways[k]);
             const json_t *row = find_row(rows, work, "embree-fast", variant, 1);
             assert_non_null(row);
-            errors[i] = number_of(row, "wrong_share") + number_of(row, "missed_share");
+            errors[i] = number(row, "wrong_share") + number(row, "missed_share");
         }
         assert_true(errors[3] <= errors[0]);
         assert_true(errors[3] <= 0.02);
@@ -158,7 +151,7 @@ static void every_mode_is_measured_and_all_agree(void **state)
                 }
     size_t i, found = 0;
     const json_t *row;
-    json_array_foreach(rows, i, row) found += is_own(row) && number_of(row, "threads") == 1;
+    json_array_foreach(rows, i, row) found += is_own(row) && number(row, "threads") == 1;
     assert_int_equal(found, expected);
     json_decref(object);
 }
@@ -168,18 +161,18 @@ static void builds_and_the_rest_are_there(void **state)
     (void)state;
     json_t *object = expect_json("bench cube.obj --rays 64 --mode cone --trajectory line --threads 1 --json", 0);
     assert_string_equal(text_of(object, "mesh"), "cube.obj");
-    assert_true(number_of(object, "triangles") == 1200);
+    assert_true(number(object, "triangles") == 1200);
     const json_t *row, *builds = json_object_get(object, "build"), *rows = json_object_get(object, "trace"),
                        *load = json_object_get(object, "load");
-    assert_true(number_of(load, "seconds") > 0);
-    assert_true(number_of(load, "bytes") == 602 * 24 + 1200 * 36);
-    assert_true(number_of(load, "peak_bytes") >= number_of(load, "bytes"));
+    assert_true(number(load, "seconds") > 0);
+    assert_true(number(load, "bytes") == 602 * 24 + 1200 * 36);
+    assert_true(number(load, "peak_bytes") >= number(load, "bytes"));
     size_t i, named = 0;
     json_array_foreach(builds, i, row)
     {
-        assert_true(number_of(row, "bytes") > 1200);
-        assert_true(number_of(row, "seconds") > 0);
-        assert_true(number_of(row, "threads") == 1);
+        assert_true(number(row, "bytes") > 1200);
+        assert_true(number(row, "seconds") > 0);
+        assert_true(number(row, "threads") == 1);
         named += is_own(row);
     }
     assert_int_equal(named, OWN);
@@ -206,7 +199,7 @@ static void the_atlas_is_the_one_that_atlas_prints(void **state)
     (void)state;
     json_t *object = expect_json("bench cube.obj --rays 64 --mode cone --trajectory line --json", 0);
     json_t *alone = expect_json("atlas cube.obj --json", 0), *atlas = json_object_get(object, "atlas");
-    assert_true(number_of(atlas, "seconds") > 0);
+    assert_true(number(atlas, "seconds") > 0);
     assert_true(json_is_array(json_object_get(atlas, "stages")));
     drop_measured(alone);
     drop_measured(atlas);
@@ -239,14 +232,14 @@ static void the_work_of_the_study_is_done(void **state)
         assert_int_equal(json_array_size(rows), OWN);
         json_array_foreach(rows, i, row)
         {
-            assert_true(number_of(row, "rays") == 1000);
-            assert_true(number_of(row, "hits") == 1000);
-            assert_true(number_of(row, "seconds") > 0);
+            assert_true(number(row, "rays") == 1000);
+            assert_true(number(row, "hits") == 1000);
+            assert_true(number(row, "seconds") > 0);
         }
     }
     assert_int_equal(json_array_size(json_object_get(study, "table_4_2")), OWN - 1);
-    assert_true(number_of(json_object_get(study, "table_4_5"), "seconds") > 0);
-    assert_true(number_of(json_object_get(json_object_get(study, "table_4_5"), "seconds_2008"), "horse") == 193);
+    assert_true(number(json_object_get(study, "table_4_5"), "seconds") > 0);
+    assert_true(number(json_object_get(json_object_get(study, "table_4_5"), "seconds_2008"), "horse") == 193);
     json_decref(object);
 }
 

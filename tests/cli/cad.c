@@ -1,6 +1,6 @@
 /* A STEP vessel of 5 mm wall whose area to clean is known in closed form, through check, simulate and place; and the
  * program without the one that reads CAD files. */
-#include "workplace.h"
+#include "results.h"
 
 #include "../cad/files.h"
 
@@ -42,12 +42,6 @@ static areas closed_form(bool altered)
                    M_PI * (RADIUS * RADIUS - SHAFT * SHAFT),
                    2 * M_PI * SHAFT * (LENGTH - sunk) + M_PI * SHAFT * SHAFT - 2 * arc * blade[2],
                    surface - faces * chord * blade[2] - 2 * within};
-}
-
-static double number(json_t *object, const char *key)
-{
-    assert_true(json_is_number(json_object_get(object, key)));
-    return json_number_value(json_object_get(object, key));
 }
 
 /* Within 0.2 %; of nothing, nothing. */

@@ -1,5 +1,5 @@
 /* Goods that pass a few nozzles, as their user runs them: check, place for any number of threads, and what it wrote. */
-#include "workplace.h"
+#include "results.h"
 
 static const char crate_obj[] = "v -0.2 -0.2 0\nv 0.2 -0.2 0\nv 0.2 0.2 0\nv -0.2 0.2 0\n"
                                 "v -0.2 -0.2 0.3\nv 0.2 -0.2 0.3\nv 0.2 0.2 0.3\nv -0.2 0.2 0.3\n"
@@ -36,28 +36,12 @@ static int open_belt(void **state)
     return 0;
 }
 
-static double number(const json_t *object, const char *key)
-{
-    assert_true(json_is_number(json_object_get(object, key)));
-    return json_number_value(json_object_get(object, key));
-}
-
-static json_t *layout_of(const json_t *object, const char *name)
-{
-    json_t *layouts = json_object_get(object, "layouts");
-    for (size_t i = 0; i < json_array_size(layouts); i++)
-        if (!strcmp(json_string_value(json_object_get(json_array_get(layouts, i), "name")), name))
-            return json_array_get(layouts, i);
-    fail_msg("no layout %s", name);
-    return NULL;
-}
-
 /* The pass takes 1.2 m at 0.1 m/s; liquid that lands on what is cleaned is the mean dose on all of it. */
 static void doses_are_told(void **state)
 {
     (void)state;
     json_t *object = expect_json("simulate belt.yaml --set simulate.texel=40mm -o belt --json", 0),
-           *own = layout_of(object, "manual");
+           *own = layout_named(object, "manual");
     double area = number(json_object_get(object, "geometry"), "clean_area_m2"), pass = number(own, "pass_s");
     double landed = number(json_object_get(own, "liquid_l_min"), "on_clean_surface") / 60;
     double dose = number(json_object_get(own, "dose_l_m2"), "mean");
@@ -75,13 +59,13 @@ static void goods_are_placed_for_whatever_the_threads(void **state)
 {
     (void)state;
     json_t *object = expect_json("place belt.yaml --threads 1 -o one --json", 0),
-           *proposed = layout_of(object, "proposed");
-    assert_true(number(proposed, "coverage") > number(layout_of(object, "manual"), "coverage") + 0.1);
+           *proposed = layout_named(object, "proposed");
+    assert_true(number(proposed, "coverage") > number(layout_named(object, "manual"), "coverage") + 0.1);
     json_t *again = expect_json("simulate one/layout.yaml --json", 0);
-    assert_true(number(layout_of(again, "manual"), "coverage") == number(proposed, "coverage"));
+    assert_true(number(layout_named(again, "manual"), "coverage") == number(proposed, "coverage"));
     json_decref(again);
     json_t *more = expect_again(object, "place belt.yaml --threads 3 --json", 0);
-    assert_true(json_equal(layout_of(more, "proposed"), proposed));
+    assert_true(json_equal(layout_named(more, "proposed"), proposed));
     assert_true(json_equal(json_object_get(more, "certificate"), json_object_get(object, "certificate")));
     json_decref(more);
     json_decref(object);

@@ -1,6 +1,6 @@
 /* A scene whose vessel leaks through the gap around its shaft: check says where, a cap in the scene file shuts it, and
  * the picture of what is wet. */
-#include "workplace.h"
+#include "results.h"
 
 #include "../spray/shapes.h"
 
@@ -50,12 +50,6 @@ static int open_with_gap(void **state)
     snprintf(scene, sizeof scene, "%s%s", leaking, capped);
     write_file("capped.yaml", scene);
     return 0;
-}
-
-static double number(const json_t *object, const char *key)
-{
-    assert_true(json_is_number(json_object_get(object, key)));
-    return json_number_value(json_object_get(object, key));
 }
 
 /* What of the vessel lies within, and the two walls of the gap through the lid. */

@@ -1,5 +1,5 @@
 /* A measured nozzle as its user runs it, with the image that is shipped. */
-#include "workplace.h"
+#include "results.h"
 
 #include <sprayplan/image.h>
 
@@ -18,12 +18,6 @@ static int open_with_image(void **state)
              ">image.yaml",
              workplace, SOURCE_DIR, SOURCE_DIR);
     return system(line);
-}
-
-static double number(const json_t *object, const char *key)
-{
-    assert_true(json_is_number(json_object_get(object, key)));
-    return json_number_value(json_object_get(object, key));
 }
 
 static float *values_of(const char *folder, const char *name, int *count)

@@ -1,5 +1,5 @@
 /* What check mends, and which unit it asks for. */
-#include "workplace.h"
+#include "results.h"
 
 #include <math.h>
 #include <sys/stat.h>
@@ -10,13 +10,6 @@ static const char unsound_obj[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n
                                   "g floor\nf 1 2 3 4\nf 1 2 3\nf 1 2 2\n"
                                   "g ceiling #1\nf 9 12 11 10\n"
                                   "g walls\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
-
-static double number(const json_t *object, const char *key)
-{
-    const json_t *value = json_object_get(object, key);
-    assert_true(json_is_number(value));
-    return json_number_value(value);
-}
 
 static double at(const json_t *object, const char *key, size_t index)
 {

@@ -7,38 +7,14 @@
         return;
     const {about, element, button} = view;
     const editing = JSON.parse(source.textContent), {types, mounts} = editing;
+    const {add, dot, cross, scaled, unit, limited, tiltOf, leaning, lies} = geometry;
     const model = about.models.find((other) => other.surface);
     const [DEGREE, LITRES, BAR, QUICK, IDLE] = [Math.PI / 180, 6e4, 1e5, 100, 150]; /* QUICK and IDLE in ms */
     const MOST_STRIDE = 8;
 
-    /* ---- vectors ---- */
-
-    const add = (a, b, s = 1) => a.map((x, k) => x + s * b[k]);
-    const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    const scaled = (a, s) => a.map((x) => x * s);
-    const unit = (a) => scaled(a, 1 / Math.sqrt(dot(a, a)));
-    const distance = (a, b) => Math.hypot(...add(a, b, -1));
-    const limited = (x, low, high) => Math.min(Math.max(x, low), high);
     const origin = editing.settings.slice(13, 16), density = editing.settings[0];
     /* A place as it is when it was written and read again. */
     const told = (place) => place.map((x, k) => x + origin[k] - origin[k]);
-
-    /* Two directions across one, of which a tilt's azimuth is counted from the first to the second. */
-    function across(axis) {
-        const other = Math.abs(axis[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0];
-        const first = unit(add(other, axis, -dot(other, axis)));
-        return [first, cross(axis, first)];
-    }
-    function leaning(reference, tilt, azimuth) {
-        const [first, second] = across(reference);
-        return unit(add(add(scaled(reference, Math.cos(tilt)), first, Math.sin(tilt) * Math.cos(azimuth)), second,
-                        Math.sin(tilt) * Math.sin(azimuth)));
-    }
-    function tiltOf(reference, axis) {
-        const [first, second] = across(reference), x = dot(axis, first), y = dot(axis, second);
-        return {tilt: Math.atan2(Math.hypot(x, y), dot(axis, reference)), azimuth: x || y ? Math.atan2(y, x) : 0};
-    }
 
     /* ---- the worker ---- */
 
@@ -93,18 +69,9 @@
     const numbersOf = (nozzle) => [nozzle.type, ...nozzle.place, ...nozzle.axis, nozzle.roll, nozzle.pressure,
                                    nozzle.angle, nozzle.flow, nozzle.speed, nozzle.on ? 1 : 0];
 
-    function lies(mount, place) {
-        const from = add(place, mount.position, -1), depth = dot(from, mount.axis), way = add(mount.to, mount.from, -1);
-        const along = limited(dot(add(place, mount.from, -1), way) / (dot(way, way) || 1), 0, 1);
-        return mount.kind === "port" ? depth > mount.depth[0] - near && depth < mount.depth[1] + near &&
-                distance(add(mount.position, mount.axis, depth), place) < near
-            : mount.kind === "line" ? distance(add(mount.from, way, along), place) < near
-            : mount.kind === "box" && place.every((x, k) => x > mount.from[k] - near && x < mount.to[k] + near);
-    }
-
     /* The mount that a nozzle is on, none where it is on none; and what its tilt is counted from. */
     async function findMount(nozzle, ask) {
-        nozzle.mount = mounts.findIndex((mount) => lies(mount, nozzle.place) &&
+        nozzle.mount = mounts.findIndex((mount) => lies(mount, nozzle.place, near) &&
             tiltOf(mount.axis, nozzle.axis).tilt <= mount.tilt + 1e-6);
         for (let i = 0; i < mounts.length && nozzle.mount < 0; i++) {
             if (mounts[i].kind !== "surface")

@@ -14,6 +14,7 @@
 
 EMBED("sp_viewer_script", SPRAYPLAN_VIEWER "/viewer.js");
 EMBED("sp_surface_script", SPRAYPLAN_VIEWER "/surface.js");
+EMBED("sp_geometry_script", SPRAYPLAN_VIEWER "/geometry.js");
 EMBED("sp_live_script", SPRAYPLAN_VIEWER "/live.js");
 EMBED("sp_live_worker", SPRAYPLAN_VIEWER "/worker.js");
 #ifdef SPRAYPLAN_LIVE

@@ -76,7 +76,8 @@ const surfaces = (() => {
         return Math.abs(u) < FARTHEST && Math.abs(v) < FARTHEST ? [u, v] : from;
     }
 
-    function readUnfolded(take, surface, charts) {
+    /* The corners in their charts, triangle by triangle as they are told. */
+    function unfolder(take, surface, charts) {
         const {triangles, chart, places} = surface, count = chart.length, vertices = places.length / 3;
         const rounded = take(Uint8Array, charts), apart = take.numbers(6 * count);
         const uv = new Float64Array(6 * count), told = new Uint8Array(count), known = new Map();
@@ -105,6 +106,12 @@ const surfaces = (() => {
             }
         }
         const corners = (t) => known.has(key(t, 0)) + known.has(key(t, 1)) + known.has(key(t, 2));
+        return {uv, told, tell, corners};
+    }
+
+    /* Those of which two corners are known first, as unfolded.c tells them. */
+    function readUnfolded(take, surface, charts) {
+        const {uv, told, tell, corners} = unfolder(take, surface, charts), count = told.length;
         for (let sweeps = 0, first = 0;; sweeps++) {
             let any = false;
             for (let i = 0; i < count; i++) {

@@ -180,11 +180,7 @@ const viewer = (async () => {
 
     /* ---- vectors and matrices (column by column) ---- */
 
-    const add = (a, b, s = 1) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
-    const scaled = (a, s) => a.map((x) => x * s);
-    const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    const unit = (a) => scaled(a, 1 / (Math.hypot(...a) || 1));
+    const {add, scaled, dot, cross, unit} = geometry;
 
     const up = about.up;
     const right = [1, 0, 0];

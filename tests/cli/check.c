@@ -1,0 +1,109 @@
+/* sprayplan check on a small room. */
+#include "results.h"
+
+#include <math.h>
+
+static void check_measures_the_room(void **state)
+{
+    (void)state;
+    json_t *object = expect_json("check room.yaml --json", 0);
+    assert_int_equal(number(json_object_get(object, "mesh"), "triangles"), 12);
+    assert_int_equal(json_array_size(json_object_get(object, "parts")), 3);
+    assert_true(fabs(number(object, "clean_area_m2") - 6) < 1e-9);
+    assert_int_equal(json_array_size(json_object_get(object, "warnings")), 0);
+    json_decref(object);
+}
+
+/* The box of each part, and a warning where the file's unit can hardly be meant. */
+static void check_tells_how_large_everything_is(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *unit;
+        double metres;
+        int warnings;
+    } units[] = {{"m", 1, 0}, {"mm", 1e-3, 1}, {"km", 1e3, 1}};
+    for (size_t i = 0; i < 3; i++) {
+        char scene[256];
+        snprintf(scene, sizeof scene, "geometry:\n  - {file: room.obj, unit: %s}\ncavity: [%g, %g, %g]\n",
+                 units[i].unit, 0.5 * units[i].metres, 0.5 * units[i].metres, 0.5 * units[i].metres);
+        write_file("sized.yaml", scene);
+        json_t *object = expect_json("check sized.yaml --json", 0), *warnings = json_object_get(object, "warnings");
+        json_t *ceiling = json_array_get(json_object_get(object, "parts"), 1);
+        const double low[] = {0, 0, 1}, high[] = {1, 1, 1};
+        for (size_t k = 0; k < 3; k++) {
+            double a = json_number_value(json_array_get(json_object_get(ceiling, "minimum_m"), k));
+            double b = json_number_value(json_array_get(json_object_get(ceiling, "maximum_m"), k));
+            assert_true(fabs(a - low[k] * units[i].metres) < 1e-9 * units[i].metres);
+            assert_true(fabs(b - high[k] * units[i].metres) < 1e-9 * units[i].metres);
+        }
+        assert_int_equal(json_array_size(warnings), units[i].warnings);
+        assert_true(!units[i].warnings || strstr(json_string_value(json_array_get(warnings, 0)), "unit"));
+        json_decref(object);
+    }
+    outcome result = run_program("check room.yaml");
+    assert_non_null(
+        strstr(result.out, "0        ceiling                  0, 0, 1                              1, 1, 1\n"));
+    forget(&result);
+}
+
+static void check_warns_where_bodies_are_closed_and_no_cavity_is_named(void **state)
+{
+    (void)state;
+    write_file("open.yaml", "geometry:\n  - file: room.obj\ncatalogue: catalogue.yaml\n");
+    json_t *object = expect_json("check open.yaml --json", 0);
+    assert_int_equal(json_array_size(json_object_get(object, "warnings")), 1);
+    assert_non_null(strstr(json_string_value(json_array_get(json_object_get(object, "warnings"), 0)), "cavity"));
+    json_decref(object);
+}
+
+static void check_reports_the_cavity(void **state)
+{
+    (void)state;
+    json_t *object = expect_json("check room.yaml --json", 0);
+    assert_true(fabs(json_number_value(json_array_get(json_object_get(object, "cavity_m"), 2)) - 0.5) < 1e-12);
+    json_decref(object);
+    write_file("astray.yaml", "geometry:\n  - file: room.obj\ncavity: [0.5 m, 0.5 m, 5 m]\n");
+    object = expect_json("check astray.yaml --json", 0);
+    assert_non_null(strstr(json_string_value(json_array_get(json_object_get(object, "warnings"), 0)), "box"));
+    json_decref(object);
+}
+
+/* The room's floor has no drain. */
+static void check_says_where_liquid_stands(void **state)
+{
+    (void)state;
+    write_room_with("film.yaml", "flux: 1 L/min/m2", "film: 2 L/min/m");
+    json_t *object = expect_json("check film.yaml --json", 0), *hollows = json_object_get(object, "hollows");
+    assert_int_equal(json_array_size(hollows), 1);
+    json_t *floor = json_array_get(hollows, 0);
+    assert_true(fabs(number(floor, "area_m2") - 1) < 1e-9);
+    assert_true(json_is_false(json_object_get(floor, "drains")));
+    assert_true(json_number_value(json_array_get(json_object_get(floor, "place_m"), 2)) == 0);
+    assert_non_null(strstr(json_string_value(json_array_get(json_object_get(object, "warnings"), 0)), "stands there"));
+    json_decref(object);
+    outcome result = run_program("check film.yaml");
+    assert_non_null(strstr(result.out, "not at all\n"));
+    forget(&result);
+    object = expect_json("check room.yaml --json", 0);
+    assert_int_equal(json_array_size(json_object_get(object, "hollows")), 0);
+    json_decref(object);
+    result = run_program("compare film.yaml room.yaml -o standing --quiet");
+    assert_int_equal(result.status, 0);
+    forget(&result);
+    char *page = read_file("standing/report.html", NULL);
+    assert_non_null(strstr(page, "<td>1.0000</td><td>not at all</td>"));
+    free(page);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(check_measures_the_room),
+        cmocka_unit_test(check_tells_how_large_everything_is),
+        cmocka_unit_test(check_warns_where_bodies_are_closed_and_no_cavity_is_named),
+        cmocka_unit_test(check_reports_the_cavity),
+        cmocka_unit_test(check_says_where_liquid_stands),
+    };
+    return cmocka_run_group_tests(tests, open_workplace, close_workplace);
+}

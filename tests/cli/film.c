@@ -1,0 +1,123 @@
+/* Film that runs down the walls of a small room, and drops that air holds back in it. */
+#include "results.h"
+
+#include <math.h>
+
+/* A closed room keeps all that runs down its walls; film covers more than impact alone, and is read back. */
+static void film_runs_down_the_walls(void **state)
+{
+    (void)state;
+    write_room_with("film.yaml", "flux: 1 L/min/m2", "flux: 20 L/min/m2, film: 2 L/min/m");
+    write_room_with("impact.yaml", "flux: 1 L/min/m2", "flux: 20 L/min/m2");
+    json_t *object = expect_json("simulate film.yaml --json", 0), *layout = layout_named(object, "manual");
+    json_t *film = json_object_get(layout, "film"), *impact = expect_json("simulate impact.yaml --json", 0);
+    double arriving = number(film, "arriving_l_min"), held = number(film, "held_l_min");
+    assert_true(fabs(arriving - 12) < 0.02 * 12); /* as far as patches tell how much falls on them */
+    assert_true(fabs(number(film, "left_l_min") + number(film, "astray_l_min") + held - arriving) < 1e-9);
+    assert_true(held > 0.999 * arriving);
+    assert_true(fabs(number(film, "per_girth_l_min_m") - arriving / 4) < 0.05 * arriving);
+    double alone = number(film, "covered_area_m2"), covered = number(layout, "covered_area_m2");
+    assert_true(alone > 0.1);
+    assert_true(fabs(number(layout_named(impact, "manual"), "covered_area_m2") + alone - covered) < 1e-9);
+    char *text = json_dumps(object, 0);
+    write_file("film.json", text);
+    free(text);
+    json_t *read = expect_json("compare film.json impact.yaml --json", 0);
+    json_t *again = json_object_get(json_array_get(json_object_get(read, "layouts"), 0), "film");
+    assert_true(fabs(number(again, "covered_area_m2") - alone) < 1e-12);
+    json_decref(object);
+    json_decref(impact);
+    json_decref(read);
+}
+
+static void refused(const char *arguments, const char *complaint)
+{
+    outcome result = run_program(arguments);
+    assert_int_equal(result.status, 3);
+    assert_non_null(strstr(result.err, complaint));
+    forget(&result);
+}
+
+/* A proposal counts film as simulate does, with fewer nozzles or more coverage than without, and the same bytes for any
+ * number of threads; its bound holds. */
+static void film_is_placed_for(void **state)
+{
+    (void)state;
+    write_room_with("film.yaml", "{flux: 1 L/min/m2}", "{flux: 20 L/min/m2, film: 3 L/min/m}");
+    json_t *one = expect_json("place film.yaml " COARSE " -o proposed --json --threads 1", 4);
+    json_t *three = expect_again(one, "place film.yaml " COARSE " --json --threads 3", 4);
+    json_t *layout = layout_named(one, "proposed"), *certificate = json_object_get(one, "certificate");
+    assert_true(number(json_object_get(layout, "film"), "covered_area_m2") > 0);
+    assert_true(number(certificate, "coverage_bound_same_water") >= number(certificate, "coverage"));
+    assert_true(json_equal(json_object_get(one, "layouts"), json_object_get(three, "layouts")));
+    assert_true(json_equal(json_object_get(one, "front"), json_object_get(three, "front")));
+    json_t *again = expect_json("simulate proposed/layout.yaml --json", 0);
+    assert_true(number(layout_named(again, "manual"), "coverage") == number(layout, "coverage"));
+    json_decref(one);
+    json_decref(three);
+    json_decref(again);
+}
+
+/* Where film cannot be counted, it is refused. */
+static void film_is_refused_where_it_cannot_be_counted(void **state)
+{
+    (void)state;
+    write_file("nowhere.yaml", "geometry:\n  - file: room.obj\ncriterion: {film: 2 L/min/m}\n");
+    refused("check nowhere.yaml", "nowhere.yaml:3:19: film: found without a cavity");
+    write_file("wrong.yaml", "geometry:\n  - file: room.obj\ncriterion: {film: 2 L/min}\n");
+    refused("check wrong.yaml", "wrong.yaml:3:19: film: found '2 L/min', expected a flow per width");
+}
+
+/* What drops that air holds back do is simulated, compared and told, and written back. */
+static void drag_is_simulated(void **state)
+{
+    (void)state;
+    write_room_with("drag.yaml", "simulate: {texel: " ROOM_TEXEL, "simulate: {trajectory: drag, texel: 100 mm");
+    json_t *drops = expect_json("simulate drag.yaml -o drops --json", 0);
+    assert_string_equal(json_string_value(json_object_get(json_object_get(drops, "fidelity"), "trajectory")), "drag");
+    json_t *again = expect_json("simulate drops/layout.yaml --json", 0);
+    json_t *set = expect_json("simulate room.yaml " COARSE " --set simulate.trajectory=drag --json", 0);
+    assert_true(json_equal(json_object_get(layout_named(drops, "manual"), "coverage"),
+                           json_object_get(layout_named(again, "manual"), "coverage")));
+    assert_true(json_equal(json_object_get(drops, "layouts"), json_object_get(set, "layouts")));
+    json_decref(drops);
+    json_decref(again);
+    json_decref(set);
+    json_decref(expect_json("compare drops/result.json drag.yaml room.yaml --json", 0));
+    char *page = read_file("drops/report.html", NULL);
+    assert_non_null(strstr(page, "far end of a bracket"));
+    free(page);
+}
+
+/* Drops are placed, the same for any number of threads, and the proposal simulated is what was proposed. */
+static void drag_is_placed(void **state)
+{
+    (void)state;
+    write_room_with("mist.yaml", "simulate: {", "simulate: {trajectory: drag, accuracy: 5%, ");
+    json_t *one = expect_json("place mist.yaml --set simulate.texel=160mm -o mist --threads 1 --json", 0);
+    json_t *three = expect_again(one, "place mist.yaml --set simulate.texel=160mm --threads 3 --json", 0);
+    json_t *again = expect_json("simulate mist/layout.yaml --json", 0);
+    const char *same[] = {"layouts", "front", "certificate", "fidelity"};
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++)
+        assert_true(json_equal(json_object_get(one, same[i]), json_object_get(three, same[i])));
+    assert_string_equal(json_string_value(json_object_get(json_object_get(one, "fidelity"), "trajectory")), "drag");
+    assert_true(json_equal(json_object_get(layout_named(one, "proposed"), "coverage"),
+                           json_object_get(layout_named(again, "manual"), "coverage")));
+    assert_true(number(json_object_get(one, "certificate"), "coverage_bound_same_water") >=
+                number(layout_named(one, "proposed"), "coverage"));
+    json_decref(one);
+    json_decref(three);
+    json_decref(again);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(film_runs_down_the_walls),
+        cmocka_unit_test(film_is_placed_for),
+        cmocka_unit_test(film_is_refused_where_it_cannot_be_counted),
+        cmocka_unit_test(drag_is_simulated),
+        cmocka_unit_test(drag_is_placed),
+    };
+    return cmocka_run_group_tests(tests, open_workplace, close_workplace);
+}

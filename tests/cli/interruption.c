@@ -1,0 +1,131 @@
+/* place on a small room, out of time, interrupted, and asked to end. */
+#include "results.h"
+
+#include <signal.h>
+#include <time.h>
+
+/* Whether the process has a handler of its own for this signal. */
+static bool catches(pid_t process, int signal)
+{
+    char path[64], line[256];
+    unsigned long long caught = 0;
+    snprintf(path, sizeof path, "/proc/%d/status", (int)process);
+    FILE *file = fopen(path, "r");
+    while (file && fgets(line, sizeof line, file))
+        sscanf(line, "SigCgt: %llx", &caught);
+    if (file)
+        fclose(file);
+    return caught >> (signal - 1) & 1;
+}
+
+static pid_t begin_long_place(const char *folder)
+{
+    pid_t child = fork();
+    if (child == 0) {
+        if (chdir(workplace) != 0 || !freopen(".out", "w", stdout) || !freopen(".err", "w", stderr))
+            _exit(127);
+        /* Thousands of mounting points on fine texels: far longer than the test lets it run. */
+        execl(BINARY_DIR "/sprayplan", "sprayplan", "place", "long.yaml", "-o", folder, (char *)NULL);
+        _exit(127);
+    }
+    return child;
+}
+
+static void write_long_scene(void)
+{
+    char *long_yaml = malloc(sizeof room_yaml + 512);
+    sprintf(long_yaml, "%s    - box: {min: [0.1, 0.1, 0.1], max: [0.9, 0.9, 0.9], spacing: 40 mm, tilt: 180 deg}\n",
+            room_yaml);
+    write_file("long.yaml", long_yaml);
+    free(long_yaml);
+}
+
+/* check accepts what was written in `folder`, and simulate gives its figures; of a proposal without nozzles, where that
+ * may be, there is nothing to simulate. */
+static void proposal_is_whole(const char *folder, bool may_be_empty)
+{
+    char text[256];
+    snprintf(text, sizeof text, "%s/result.json", folder);
+    json_t *placed = json_file(text), *proposed = layout_named(placed, "proposed");
+    if (may_be_empty && number(proposed, "water_l_min") == 0) {
+        assert_true(number(proposed, "covered_area_m2") == 0);
+        json_decref(placed);
+        return;
+    }
+    snprintf(text, sizeof text, "check %s/layout.yaml --quiet", folder);
+    outcome result = run_program(text);
+    assert_int_equal(result.status, 0);
+    forget(&result);
+    snprintf(text, sizeof text, "simulate %s/layout.yaml --json", folder);
+    json_t *again = expect_json(text, 0), *manual = layout_named(again, "manual");
+    assert_true(number(proposed, "covered_area_m2") == number(manual, "covered_area_m2"));
+    assert_true(number(proposed, "water_l_min") == number(manual, "water_l_min"));
+    json_decref(placed);
+    json_decref(again);
+}
+
+static void out_of_time_place_writes_the_best_so_far(void **state)
+{
+    (void)state;
+    write_long_scene();
+    static const char *const limits[] = {"0.1", "2"};
+    for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
+        char text[128];
+        snprintf(text, sizeof text, "place long.yaml -o limited%zu --time-limit %s", i, limits[i]);
+        outcome result = run_program(text);
+        assert_true(result.status == 0 || result.status == 4);
+        /* either what is proved of the best possible, or that nothing is */
+        assert_true(!strstr(result.out, "candidate poses") == !!strstr(result.out, "before anything was proved"));
+        forget(&result);
+        snprintf(text, sizeof text, "limited%zu", i);
+        proposal_is_whole(text, false);
+    }
+}
+
+static void place_survives(int signal, const char *folder)
+{
+    write_long_scene();
+    pid_t child = begin_long_place(folder);
+    assert_true(child > 0);
+    struct timespec pause = {0, 10000000}, worked = {0};
+    clockid_t clock;
+    int status;
+    assert_int_equal(clock_getcpuclockid(child, &clock), 0);
+    /* The evaluator of twelve triangles takes a few milliseconds of two seconds. */
+    while (!catches(child, signal) || worked.tv_sec < 2) {
+        assert_int_equal(waitpid(child, &status, WNOHANG), 0); /* it must not have ended by itself */
+        nanosleep(&pause, NULL);
+        assert_int_equal(clock_gettime(clock, &worked), 0);
+    }
+    assert_int_equal(kill(child, signal), 0);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 130);
+    char *complaint = read_file(".err", NULL);
+    assert_non_null(strstr(complaint, "interrupted"));
+    free(complaint);
+    proposal_is_whole(folder, true); /* the signal may come before the first nozzle is found */
+}
+
+static void interrupting_place_writes_the_best_so_far(void **state)
+{
+    (void)state;
+    place_survives(SIGINT, "interrupted");
+}
+
+/* As timeout(1) and schedulers do. */
+static void so_does_asking_it_to_end(void **state)
+{
+    (void)state;
+    place_survives(SIGTERM, "terminated");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(out_of_time_place_writes_the_best_so_far),
+        cmocka_unit_test(interrupting_place_writes_the_best_so_far),
+        cmocka_unit_test(so_does_asking_it_to_end),
+    };
+    return cmocka_run_group_tests(tests, open_workplace, close_workplace);
+}
