@@ -393,30 +393,37 @@ INLINE void look_at_bins(const sp_bins *bins, const sp_cull *cull, const sp_regi
     }
 }
 
+/* Arrivals of the bins that are set, as runs that rise. */
+INLINE size_t join_bins(const unsigned bins[SP_BINS / SP_LANES], const sp_view *view, sp_run_of_arrivals *runs)
+{
+    size_t count = 0;
+    for (size_t b = 0; b < SP_BINS / SP_LANES; b++)
+        for (unsigned bits = bins[b]; bits; bits &= bits - 1) {
+            size_t bin = b * SP_LANES + (size_t)__builtin_ctz(bits);
+            uint32_t first = view->start[bin], end = view->start[bin + 1];
+            if (count && runs[count - 1].end == first)
+                runs[count - 1].end = end;
+            else if (first < end)
+                runs[count++] = (sp_run_of_arrivals){first, end};
+        }
+    return count;
+}
+
 /* Bins wholly inside give their totals; runs of bins that the pattern's edge crosses are gone through. */
 INLINE void sum_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *region, bool fan, sp_count count,
                      const sp_view *view, const sp_weight *weights, size_t weight_count, double least, double *sums)
 {
     tally tally = {0};
     binned found = {.cut = {0}};
-    size_t first = 0, end = 0; /* the run in the making */
+    sp_run_of_arrivals runs[SP_BINS];
     look_at_bins(bins, cull, region, fan, weights, weight_count, &found);
     for (size_t k = 0; k < weight_count; k++)
         sums[k] = OPEN_MORE * sum_of(add_narrow(add_narrow((wide_lanes){0}, found.whole[k]), found.open[k]));
     if (sums[0] < least)
         return;
-    for (size_t b = 0; b < SP_BINS; b += SP_LANES)
-        for (unsigned bits = found.cut[b / SP_LANES]; bits; bits &= bits - 1) {
-            size_t bin = b + (size_t)__builtin_ctz(bits);
-            if (view->start[bin] != end) {
-                if (first < end)
-                    sum_run(region, fan, count, view, weights, weight_count, first, end, &tally);
-                first = view->start[bin];
-            }
-            end = view->start[bin + 1];
-        }
-    if (first < end)
-        sum_run(region, fan, count, view, weights, weight_count, first, end, &tally);
+    size_t run_count = join_bins(found.cut, view, runs);
+    for (size_t r = 0; r < run_count; r++)
+        sum_run(region, fan, count, view, weights, weight_count, runs[r].first, runs[r].end, &tally);
     flush(&tally, weight_count);
     for (size_t k = 0; k < weight_count; k++)
         sums[k] = sum_of(add_narrow(tally.flushed[k], found.whole[k]));
@@ -438,17 +445,10 @@ INLINE size_t share_bins(const sp_bins *bins, const sp_cull *cull, const sp_regi
                          const sp_view *view, float *share, float *counts, sp_run_of_arrivals *runs)
 {
     binned found = {.cut = {0}};
-    size_t count = 0;
     look_at_bins(bins, cull, region, fan, NULL, 0, &found);
-    for (size_t b = 0; b < SP_BINS; b += SP_LANES)
-        for (unsigned bits = found.cut[b / SP_LANES] | found.inside[b / SP_LANES]; bits; bits &= bits - 1) {
-            size_t bin = b + (size_t)__builtin_ctz(bits);
-            uint32_t first = view->start[bin], end = view->start[bin + 1];
-            if (count && runs[count - 1].end == first)
-                runs[count - 1].end = end;
-            else if (first < end)
-                runs[count++] = (sp_run_of_arrivals){first, end};
-        }
+    for (size_t b = 0; b < SP_BINS / SP_LANES; b++)
+        found.cut[b] |= found.inside[b];
+    size_t count = join_bins(found.cut, view, runs);
     /* rising, so that what a run writes behind its end the next one puts right */
     for (size_t r = 0; r < count; r++)
         share_run(region, fan, view, runs[r].first, runs[r].end, share, counts);
