@@ -8,13 +8,13 @@
 
 #ifdef SPRAYPLAN_SANITIZE
 #define SANITIZED true
-#define HALL_TEXEL 0.9
-#define CHAMBER_TEXEL 0.25
-#define SECONDS 0.5
+#define HALL_TEXEL 1.2
+#define CHAMBER_TEXEL 0.3
+#define SECONDS 0.3
 #else
 #define SANITIZED false
-#define HALL_TEXEL 0.6
-#define CHAMBER_TEXEL 0.14
+#define HALL_TEXEL 0.9
+#define CHAMBER_TEXEL 0.22
 #define SECONDS 0.3
 #endif
 #define HALL_TEXEL_FULL 0.14 /* where seconds are given */

@@ -50,9 +50,9 @@ static inline void job_open_coarse(job *j, double texel)
 }
 
 #ifdef SPRAYPLAN_SANITIZE
-#define SMALL_TEXEL 0.1
+#define SMALL_TEXEL 0.2
 #else
-#define SMALL_TEXEL 0.05
+#define SMALL_TEXEL 0.1
 #endif
 static inline void job_open(job *j)
 {
