@@ -18,7 +18,8 @@ static inline double sp_field_margin(size_t nozzles)
 
 typedef struct sp_pose_prices sp_pose_prices;
 
-/* For the cover of `search`, its texels the coarse patches: tier_of[make], the tier of each make's water; need
+/* For the cover of `search`, its texels the coarse patches: tier_of [mounts x makes], the tier of
+ * each make's outlay in a mount; need
  * [texels], flux over threshold that a texel lacks, 0 where it is not to be counted; film_need the same of film, NULL
  * where that is not asked for; ports [mounts], the port that a
  * mount is, SP_NO_PORT where it is none. All borrowed. */

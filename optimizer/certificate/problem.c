@@ -15,26 +15,42 @@ static double least_of(const double *values, size_t count)
     return least;
 }
 
-static bool list_flows(sp_problem *p, sp_error *error)
+double *sp_list_costs(const sp_place_options *options, size_t *count)
+{
+    double *costs = malloc((options->mount_count + 1) * sizeof *costs);
+    *count = 0;
+    for (size_t m = 0; costs && m < options->mount_count; m++) {
+        size_t at = 0;
+        while (at < *count && costs[at] != options->mounts[m].cost)
+            at++;
+        costs[at] = options->mounts[m].cost;
+        *count += at == *count;
+    }
+    return costs;
+}
+
+static bool list_outlays(sp_problem *p, sp_error *error)
 {
     const sp_candidates *candidates = p->search->candidates;
+    p->costs = sp_list_costs(p->search->options, &p->cost_count);
     for (size_t i = 0; i <= p->front->by_water.count; i++)
         p->own += sp_front_draft(p->front, i)->count;
-    p->flows = malloc((candidates->make_count + p->own + 1) * sizeof *p->flows);
-    if (!p->flows)
+    p->outlays = malloc((p->cost_count * candidates->make_count + p->own + 1) * sizeof *p->outlays);
+    if (!p->costs || !p->outlays)
         return sp_fail_memory(error);
     size_t count = 0;
-    for (size_t k = 0; k < candidates->make_count; k++)
-        p->flows[count++] = candidates->makes[k].flow;
+    for (size_t c = 0; c < p->cost_count; c++)
+        for (size_t k = 0; k < candidates->make_count; k++)
+            p->outlays[count++] = candidates->makes[k].flow + p->costs[c];
     for (size_t i = 0; i <= p->front->by_water.count; i++)
         for (size_t n = 0; n < sp_front_draft(p->front, i)->count; n++)
-            p->flows[count++] = sp_front_draft(p->front, i)->items[n].flow;
+            p->outlays[count++] = sp_placed_outlay(p->search, &sp_front_draft(p->front, i)->items[n]);
     return true;
 }
 
-static uint32_t tier_for(sp_problem *p, double flow)
+static uint32_t tier_for(sp_problem *p, double outlay)
 {
-    uint32_t weight = sp_water_weight(&p->units, flow), tier = 0;
+    uint32_t weight = sp_water_weight(&p->units, outlay), tier = 0;
     while (tier < p->cover.tier_count && p->weight[tier] != weight)
         tier++;
     if (tier == p->cover.tier_count)
@@ -46,10 +62,10 @@ static uint32_t tier_for(sp_problem *p, double flow)
 static bool set_limits(sp_problem *p)
 {
     const sp_search *search = p->search;
-    size_t makes = search->candidates->make_count, limit = search->options->max_nozzles;
-    double most = 0, least = least_of(p->flows, makes + p->own);
+    size_t listed = p->cost_count * search->candidates->make_count, limit = search->options->max_nozzles;
+    double most = 0, least = least_of(p->outlays, listed + p->own);
     for (size_t i = 0; i <= p->front->by_water.count; i++)
-        most = fmax(most, sp_front_draft(p->front, i)->flow - search->kept_flow);
+        most = fmax(most, sp_front_draft(p->front, i)->outlay - search->kept_flow);
     if (!(most >= least) || (limit && limit <= search->kept_count))
         return false;
     p->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
@@ -57,7 +73,7 @@ static bool set_limits(sp_problem *p)
         p->cover.nozzles = limit - search->kept_count;
     if (p->cover.nozzles > SP_NOZZLES_MOST)
         return false;
-    p->units = sp_water_units_create(p->flows, makes, least, p->cover.nozzles, most);
+    p->units = sp_water_units_create(p->outlays, listed, least, p->cover.nozzles, most);
     p->cover.water = sp_water_budget(&p->units, most);
     return true;
 }
@@ -66,15 +82,17 @@ static bool set_tiers(sp_problem *p, sp_error *error)
 {
     const sp_search *search = p->search;
     size_t makes = search->candidates->make_count, mounts = search->options->mount_count;
-    p->weight = malloc((makes + p->own + 1) * sizeof *p->weight);
-    p->tier_of = malloc((makes + 1) * sizeof *p->tier_of);
+    p->weight = malloc((p->cost_count * makes + p->own + 1) * sizeof *p->weight);
+    p->tier_of = malloc((mounts * makes + 1) * sizeof *p->tier_of);
     p->ports = malloc((mounts + 1) * sizeof *p->ports);
     if (!p->weight || !p->tier_of || !p->ports)
         return sp_fail_memory(error);
-    for (size_t k = 0; k < makes; k++)
-        p->tier_of[k] = tier_for(p, p->flows[k]);
-    for (size_t i = 0; i < p->own; i++)
-        tier_for(p, p->flows[makes + i]);
+    for (size_t i = 0; i < p->cost_count * makes + p->own; i++)
+        tier_for(p, p->outlays[i]);
+    for (size_t m = 0; m < mounts; m++)
+        for (size_t k = 0; k < makes; k++)
+            p->tier_of[m * makes + k] =
+                tier_for(p, sp_outlay_at(search, (uint32_t)m, search->candidates->makes[k].flow));
     for (size_t m = 0; m < mounts; m++)
         p->ports[m] = sp_mount_room(&search->options->mounts[m]) == 1 ? p->cover.port_count++ : SP_NO_PORT;
     return true;
@@ -119,7 +137,8 @@ static bool add_own(sp_problem *p, sp_error *error)
         const sp_draft *draft = sp_front_draft(p->front, i);
         for (size_t n = 0; n < draft->count; n++) {
             const sp_placed *placed = &draft->items[n];
-            if (!sp_pose_prices_found(p->prices, placed, tier_for(p, placed->flow), &p->nozzles, error))
+            uint32_t tier = tier_for(p, sp_placed_outlay(p->search, placed));
+            if (!sp_pose_prices_found(p->prices, placed, tier, &p->nozzles, error))
                 return false;
         }
     }
@@ -140,9 +159,9 @@ size_t sp_problem_poses(const sp_problem *p)
     return count;
 }
 
-size_t sp_problem_budget(const sp_problem *p, double flow)
+size_t sp_problem_budget(const sp_problem *p, double outlay)
 {
-    size_t budget = sp_water_budget(&p->units, flow - p->search->kept_flow);
+    size_t budget = sp_water_budget(&p->units, outlay - p->search->kept_flow);
     return budget < p->cover.water ? budget : p->cover.water;
 }
 
@@ -164,7 +183,7 @@ bool sp_problem_create(const sp_search *search, const sp_front *front, sp_proble
 {
     *problem = (sp_problem){.search = search, .front = front};
     *possible = false;
-    if (!list_flows(problem, error))
+    if (!list_outlays(problem, error))
         return false;
     *possible = set_limits(problem);
     return !*possible || prepare(problem, error);
@@ -181,5 +200,6 @@ void sp_problem_free(sp_problem *p)
     free(p->weight);
     free(p->tier_of);
     free(p->ports);
-    free(p->flows);
+    free(p->costs);
+    free(p->outlays);
 }
