@@ -141,33 +141,38 @@ static bool write_down(const sp_placement *placement, sp_layout **layout, sp_cov
     return *coverage != NULL;
 }
 
-/* The same as the best found on the candidates. */
+/* What the mounts of the best draft's nozzles cost, the kept ones' first; malloc'd, NULL with an error. */
+static double *list_costs(const sp_placement *placement, sp_error *error)
+{
+    const sp_search *search = &placement->search;
+    const sp_draft *best = &placement->front.best;
+    double *costs = calloc(search->kept_count + best->count + 1, sizeof *costs);
+    for (size_t i = 0; costs && i < best->count; i++)
+        costs[search->kept_count + i] = search->options->mounts[best->items[i].site.mount].cost;
+    return costs ? costs : sp_fail_memory(error);
+}
+
+/* The best found on the candidates. */
 static bool write_greedy(const sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
-    if (!write_down(placement, &proposal->greedy, &proposal->greedy_coverage, error))
-        return false;
-    proposal->greedy_outlay =
-        proposal->greedy_coverage->flow + sp_draft_costs(&placement->search, &placement->front.best);
-    return true;
+    return write_down(placement, &proposal->greedy, &proposal->greedy_coverage, error) &&
+           (proposal->greedy_costs = list_costs(placement, error));
 }
 
 /* The same as the proposal, with which of its nozzles want a fitting and what their mounts cost. */
 static bool propose(const sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
     const sp_search *search = &placement->search;
-    if (!write_down(placement, &proposal->layout, &proposal->coverage, error))
+    if (!write_down(placement, &proposal->layout, &proposal->coverage, error) ||
+        !(proposal->costs = list_costs(placement, error)))
         return false;
-    proposal->fittings = calloc(proposal->layout->count + 1, sizeof *proposal->fittings);
-    proposal->costs = calloc(proposal->layout->count + 1, sizeof *proposal->costs);
-    if (!proposal->fittings || !proposal->costs)
-        return sp_fail_memory(error);
-    for (size_t i = 0; i < placement->front.best.count; i++) {
-        const sp_mount *mount = &search->options->mounts[placement->front.best.items[i].site.mount];
-        proposal->fittings[search->kept_count + i] = mount->kind != SP_MOUNT_PORT;
-        proposal->costs[search->kept_count + i] = mount->cost;
-    }
     proposal->outlay = proposal->coverage->flow + sp_draft_costs(search, &placement->front.best);
-    return true;
+    proposal->fittings = calloc(proposal->layout->count + 1, sizeof *proposal->fittings);
+    for (size_t i = 0; proposal->fittings && i < placement->front.best.count; i++) {
+        uint32_t mount = placement->front.best.items[i].site.mount;
+        proposal->fittings[search->kept_count + i] = search->options->mounts[mount].kind != SP_MOUNT_PORT;
+    }
+    return proposal->fittings || sp_fail_memory(error);
 }
 
 static bool measure(const sp_placement *placement, sp_proposal *proposal, sp_error *error)
@@ -323,6 +328,7 @@ void sp_proposal_destroy(sp_proposal *proposal)
     sp_layout_destroy(proposal->layout);
     free(proposal->fittings);
     free(proposal->costs);
+    free(proposal->greedy_costs);
     sp_coverage_destroy(proposal->coverage);
     sp_layout_destroy(proposal->greedy);
     sp_coverage_destroy(proposal->greedy_coverage);

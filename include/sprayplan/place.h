@@ -154,8 +154,8 @@ typedef struct {
     sp_objective objective; /* the options' */
     sp_layout *layout;      /* the proposal, refined */
     bool *fittings;         /* [layout->count]: neither kept nor in a port, so that it wants a fitting made for it */
-    double *costs;          /* [layout->count], m³/s: of its mount; 0 of a kept one */
-    double outlay, greedy_outlay; /* m³/s, of `layout` and of `greedy`; at least their flow */
+    double *costs, *greedy_costs; /* [count] of `layout` and of `greedy`, m³/s: of its mount; 0 of a kept one */
+    double outlay;                /* m³/s, of `layout` */
     sp_coverage *coverage;        /* of it, by the scene's own settings, its error measured */
     sp_evaluator *again; /* NULL; or owned, and all here is counted on it: what auto had chosen for the search did not
                           * keep the accuracy on the proposal (sp_evaluator_again) */
