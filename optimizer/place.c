@@ -166,6 +166,7 @@ static bool propose(const sp_placement *placement, sp_proposal *proposal, sp_err
     if (!write_down(placement, &proposal->layout, &proposal->coverage, error) ||
         !(proposal->costs = list_costs(placement, error)))
         return false;
+    proposal->costly = search->costly;
     proposal->outlay = proposal->coverage->flow + sp_draft_costs(search, &placement->front.best);
     proposal->fittings = calloc(proposal->layout->count + 1, sizeof *proposal->fittings);
     for (size_t i = 0; proposal->fittings && i < placement->front.best.count; i++) {

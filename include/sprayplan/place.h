@@ -107,7 +107,8 @@ typedef struct {
 /* How far from the best the proposal can be: no layout of the candidate poses and of the poses of the layouts found
  * (the proposal's and the front's), within the limits on number, water and ports, does better than these bounds. They
  * are proved, rounded outwards. Areas are counted by the inverse evaluation on the search's own patches, which may be
- * coarser than the evaluator's; poses in between the candidates are not covered. */
+ * coarser than the evaluator's; poses in between the candidates are not covered. Where
+ * mounts cost something water is outlay here, and max_water limits none of these layouts. */
 typedef struct {
     bool computed;      /* false: nothing below means anything */
     size_t texels;      /* patches that areas are counted on */
@@ -115,7 +116,6 @@ typedef struct {
     size_t own;         /* poses of layouts found, besides */
     double whole;       /* m² of these patches */
     double counted;     /* m² of them that the proposal covers */
-    bool costly;        /* some mount costs something: `water` below is outlay, of which max_water limits nothing */
     double area_bound;  /* m² of them that no layout with the proposal's water exceeds */
     double water_bound; /* m³/s that every layout needs at least to cover what the proposal does */
     double gap;         /* (area_bound - counted) / area_bound */
@@ -156,6 +156,7 @@ typedef struct {
     bool *fittings;         /* [layout->count]: neither kept nor in a port, so that it wants a fitting made for it */
     double *costs, *greedy_costs; /* [count] of `layout` and of `greedy`, m³/s: of its mount; 0 of a kept one */
     double outlay;                /* m³/s, of `layout` */
+    bool costly;                  /* some mount costs something; else outlay is water */
     sp_coverage *coverage;        /* of it, by the scene's own settings, its error measured */
     sp_evaluator *again; /* NULL; or owned, and all here is counted on it: what auto had chosen for the search did not
                           * keep the accuracy on the proposal (sp_evaluator_again) */

@@ -293,7 +293,6 @@ static void conclude(const certifying *c, sp_front *front, sp_certificate *certi
     }
     size_t water = sp_bound_water(&c->bound, counted);
     certificate->computed = true;
-    certificate->costly = c->problem.search->costly;
     certificate->texels = c->problem.search->patch_count;
     certificate->candidates = sp_problem_poses(&c->problem);
     certificate->own = c->problem.own;

@@ -111,7 +111,7 @@ static void check_costs(const job *j, const sp_proposal *proposal)
 static void check_bounds(const job *j, const sp_proposal *proposal)
 {
     const sp_certificate *certificate = &proposal->certificate;
-    assert_true(certificate->computed && certificate->costly);
+    assert_true(certificate->computed && proposal->costly);
     assert_true(certificate->area_bound + SLACK >= most_area(j, proposal->outlay));
     assert_true(certificate->water_bound <= least_outlay(j, certificate->counted - SLACK) * (1 + 1e-9));
     for (size_t i = 0; i < proposal->front_count; i++) {
