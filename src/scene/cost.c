@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double most_cost = 1e6 / 6e4; /* m³/s: far beyond any plant */
+static const double most_cost = 1e6 / 6e4 * (1 + 1e-12); /* m³/s: far beyond any plant */
 
 enum { NUMBER = 40 };
 
@@ -14,6 +14,8 @@ static bool parse_money(const sp_reader *reader, const char *text, double *amoun
 {
     char number[NUMBER], why[80];
     size_t size = strspn(text, "0123456789.+-eE");
+    while (size > 0 && strchr("eE", text[size - 1])) /* of EUR */
+        size--;
     const char *letters = text + size + strspn(text + size, " ");
     if (!size || size >= NUMBER || strspn(letters, "ABCDEFGHIJKLMNOPQRSTUVWXYZ") != 3 ||
         (letters[3] && letters[3] != ' '))
