@@ -267,6 +267,7 @@ static void conclude(const aiming *a, sp_front *front, sp_certificate *certifica
 bool sp_aim_bound(const sp_aim_task *task, sp_front *front, sp_certificate *certificate, sp_error *error)
 {
     aiming a = {.task = task, .front = front, .cover = *task->cover};
+    a.cover.sums = NULL; /* flows between the candidates' come to others */
     for (size_t i = 0; i < front->by_water.count; i++)
         front->by_water.entries[i].point.every_aim_bound = NAN;
     if (!sp_watch_stage(task->watch, "certificate", error))

@@ -228,6 +228,7 @@ static bool grow_tree(certifying *c, size_t i, sp_error *error)
     double bound = sp_tree_bound(tree);
     for (size_t w = 0; w <= tree->water; w++)
         c->bound.by_water[w] = fmin(c->bound.by_water[w], bound);
+    sp_bound_settle(&c->bound);
     return true;
 }
 

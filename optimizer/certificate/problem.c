@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define ROUNDED 0x1p-22 /* more of a texel than single precision puts its area, and what of it is covered, wrong by */
 
@@ -165,6 +166,54 @@ size_t sp_problem_budget(const sp_problem *p, double outlay)
     return budget < p->cover.water ? budget : p->cover.water;
 }
 
+/* As many candidates of this weight as there is room for. */
+static void add_sums(sp_problem *p, uint32_t tier)
+{
+    for (size_t w = p->weight[tier]; w <= p->cover.water; w++)
+        p->sums[w] |= p->sums[w - p->weight[tier]];
+}
+
+/* Tiers of the candidates in a port, or of all in none. */
+static void mark_tiers(const sp_problem *p, size_t port, bool *marked)
+{
+    const sp_candidates *candidates = p->search->candidates;
+    for (size_t i = 0; i < candidates->mount_count * candidates->make_count; i++)
+        if (p->ports[i / candidates->make_count] == port && candidates->axes[i].count)
+            marked[p->tier_of[i]] = true;
+    for (size_t i = 0; i < p->nozzles.count; i++)
+        if (p->nozzles.port[i] == port)
+            marked[p->nozzles.tier[i]] = true;
+}
+
+/* Where a nozzle in one mount costs much more than in another, outlays lie far apart: a layout that takes less than the
+ * next takes no more than the last. */
+static bool set_sums(sp_problem *p, sp_error *error)
+{
+    size_t tiers = p->cover.tier_count;
+    bool *marked = calloc(tiers + 1, sizeof *marked);
+    p->sums = calloc(p->cover.water + 1, sizeof *p->sums);
+    if (!marked || !p->sums) {
+        free(marked);
+        return sp_fail_memory(error);
+    }
+    p->sums[0] = true;
+    mark_tiers(p, SP_NO_PORT, marked);
+    for (uint32_t k = 0; k < tiers; k++)
+        if (marked[k])
+            add_sums(p, k);
+    for (size_t port = 0; port < p->cover.port_count; port++) {
+        memset(marked, 0, tiers * sizeof *marked);
+        mark_tiers(p, port, marked);
+        /* one of them: downwards, so that what is read is still without it */
+        for (size_t w = p->cover.water + 1; w-- > 0;)
+            for (size_t k = 0; k < tiers && !p->sums[w]; k++)
+                p->sums[w] = marked[k] && p->weight[k] <= w && p->sums[w - p->weight[k]];
+    }
+    free(marked);
+    p->cover.sums = p->sums;
+    return true;
+}
+
 static bool prepare(sp_problem *p, sp_error *error)
 {
     if (!set_tiers(p, error) || !set_texels(p, error))
@@ -173,7 +222,7 @@ static bool prepare(sp_problem *p, sp_error *error)
     if (!p->prices)
         return false;
     p->pricer = sp_pose_pricer(p->prices);
-    return add_own(p, error) &&
+    return add_own(p, error) && (!p->search->costly || set_sums(p, error)) &&
            sp_pose_order_create(p->search, &p->cover, p->tier_of, p->ports, &p->nozzles, &p->order, error) &&
            sp_pose_line(p->prices, &p->order, &p->line, error);
 }
@@ -200,6 +249,7 @@ void sp_problem_free(sp_problem *p)
     free(p->weight);
     free(p->tier_of);
     free(p->ports);
+    free(p->sums);
     free(p->costs);
     free(p->outlays);
 }

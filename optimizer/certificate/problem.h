@@ -17,6 +17,7 @@ typedef struct {
     uint32_t *weight;   /* [tiers] */
     uint32_t *tier_of;  /* [mounts x makes] */
     size_t *ports;      /* [mounts] */
+    bool *sums;         /* [cover.water + 1], as the cover's; NULL where no mount costs anything */
     double *costs;      /* [cost_count], m³/s: of mounts, each once */
     size_t cost_count;
     double *outlays; /* [costs x makes], then one for each nozzle of the front */

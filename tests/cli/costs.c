@@ -11,7 +11,7 @@ static const char room_with[] = "geometry:\n"
                                 "nozzles:\n"
                                 "  - {name: N1, type: cone, position: [0.5 m, 0.5 m, 0.9 m], axis: [0, 0, -1], "
                                 "pressure: 2 bar}\n"
-                                "simulate: {texel: 200 mm}\n"
+                                "simulate: {texel: 200 mm, accuracy: 20 %%, trajectory: line}\n"
                                 "place:\n"
                                 "  objective: max_coverage\n"
                                 "  coverage: 60 %%\n"
@@ -35,7 +35,7 @@ static int run_once(void **state)
         return -1;
     snprintf(text, sizeof text, room_with, "  alternatives: [{name: ports, mounts: [P1]}, {name: welds}]\n");
     write_file("room.yaml", text);
-    found = expect_json("place room.yaml --json --threads 1 -o out", 0);
+    found = expect_json("place room.yaml --json --threads 1 --no-live -o out", 0);
     return 0;
 }
 
@@ -138,12 +138,9 @@ static void no_prices_without_costs(void **state)
     memset(cost, ' ', strlen(", cost: 300 EUR"));
     memset(water, ' ', strlen("  water_cost: 40 EUR per L/min"));
     write_file("free.yaml", text);
-    json_t *plain = expect_json("place free.yaml --json --threads 1 -o free", 0);
+    json_t *plain = expect_json("place free.yaml --json --threads 1", 0);
     assert_null(json_object_get(json_array_get(json_object_get(plain, "layouts"), 0), "price"));
     assert_null(json_object_get(json_array_get(json_object_get(plain, "front"), 0), "price_l_min"));
-    char *page = read_file("free/report.html", NULL);
-    assert_null(strstr(page, "Price"));
-    free(page);
     json_decref(plain);
 }
 
