@@ -107,8 +107,8 @@ typedef struct {
 /* How far from the best the proposal can be: no layout of the candidate poses and of the poses of the layouts found
  * (the proposal's and the front's), within the limits on number, water and ports, does better than these bounds. They
  * are proved, rounded outwards. Areas are counted by the inverse evaluation on the search's own patches, which may be
- * coarser than the evaluator's; poses in between the candidates are not covered. Where
- * mounts cost something water is outlay here, and max_water limits none of these layouts. */
+ * coarser than the evaluator's; poses in between the candidates are not covered. Where mounts cost something
+ * `water` is outlay here, and layouts beyond max_water are among those that do no better. */
 typedef struct {
     bool computed;      /* false: nothing below means anything */
     size_t texels;      /* patches that areas are counted on */

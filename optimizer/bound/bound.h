@@ -45,7 +45,7 @@ void sp_bound_free(sp_bound *bound);
 bool sp_bound_lower(sp_bound *bound, size_t water, sp_error *error);
 /* The same without a proof: only looks for candidates and lifts, where pricing all takes long. */
 bool sp_bound_explore(sp_bound *bound, size_t water, sp_error *error);
-/* What was lowered elsewhere lowers the bounds at more water, up to where more candidates come to. */
+/* A bound holds at more water, too, up to the next sum that candidates come to: after by_water was lowered. */
 void sp_bound_settle(sp_bound *bound);
 /* Lowers the bounds where no more than one nozzle fits, to what the best one covers. Goes before all else. */
 bool sp_bound_lower_single(sp_bound *bound, sp_error *error);
