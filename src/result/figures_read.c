@@ -288,8 +288,10 @@ static bool read_money(const reader *in, const json_t *price, double total, sp_w
     double money;
     const json_t *currency = json_object_get(price, "currency");
     const char *letters = currency && json_is_string(currency) ? json_string_value(currency) : "";
-    if (!get_real(in, price, "money", 0, LARGEST, 1, &money) || isnan(money))
-        return isnan(money);
+    if (!get_real(in, price, "money", 0, LARGEST, 1, &money))
+        return false;
+    if (isnan(money))
+        return true;
     if (strlen(letters) != 3 || strspn(letters, "ABCDEFGHIJKLMNOPQRSTUVWXYZ") != 3)
         return wrong(in, "currency", currency, "three capital letters");
     *cost = (sp_water_cost){.money = total > 0 ? money / total : 0};
