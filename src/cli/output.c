@@ -442,11 +442,14 @@ static bool print_summary(const sp_result *result, sp_error *error)
     int width = 0;
     for (size_t i = 0; i < result->design_count; i++)
         width = (int)strlen(result->designs[i].name) > width ? (int)strlen(result->designs[i].name) : width;
-    bool priced = false;
-    for (size_t i = 0; i < result->design_count; i++)
+    bool priced = false, in_money = false;
+    for (size_t i = 0; i < result->design_count; i++) {
         priced |= isfinite(figures[i].mount_cost);
-    printf("%-*s %8s %12s %13s %10s %15s %14s%s\n", width, "layout", "nozzles", "water L/min", "covered m2",
-           "coverage %", "of attainable %", "m2 per L/min", priced ? "  price L/min" : "");
+        in_money |= isfinite(sp_figures_money(&figures[i]));
+    }
+    printf("%-*s %8s %12s %13s %10s %15s %14s%s%s\n", width, "layout", "nozzles", "water L/min", "covered m2",
+           "coverage %", "of attainable %", "m2 per L/min", priced ? "  price L/min" : "",
+           in_money ? "        money" : "");
     for (size_t i = 0; i < result->design_count; i++)
         print_figures(&figures[i], result->designs[i].name, width);
     print_proposed(result);
