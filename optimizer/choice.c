@@ -11,16 +11,17 @@ static bool is_better(const sp_proposal *a, const sp_proposal *b)
 {
     const sp_coverage *x = a->coverage, *y = b->coverage;
     bool a_reaches = x->covered_area >= a->asked_area, b_reaches = y->covered_area >= b->asked_area;
-    int coverage = order(x->fraction, y->fraction, SP_TIE), water = order(x->flow, y->flow, SP_ROUNDING * y->flow);
-    double other = y->fraction * x->flow;
-    int ratio = order(x->fraction * y->flow, other, SP_TIE * other), merit = -water;
+    int coverage = order(x->fraction, y->fraction, SP_TIE);
+    int outlay = order(a->outlay, b->outlay, SP_ROUNDING * b->outlay);
+    double other = y->fraction * a->outlay;
+    int ratio = order(x->fraction * b->outlay, other, SP_TIE * other), merit = -outlay;
     if (a_reaches != b_reaches)
         return a_reaches;
     if (!a_reaches || a->objective == SP_OBJECTIVE_MAX_COVERAGE)
         merit = coverage;
     else if (a->objective == SP_OBJECTIVE_AREA_PER_WATER)
         merit = ratio;
-    merit = merit ? merit : -water;
+    merit = merit ? merit : -outlay;
     return (merit ? merit : coverage) > 0;
 }
 

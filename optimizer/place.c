@@ -141,12 +141,33 @@ static bool write_down(const sp_placement *placement, sp_layout **layout, sp_cov
     return *coverage != NULL;
 }
 
-/* The same as the proposal, with which of its nozzles want a fitting. */
+/* What the mounts of the best draft's nozzles cost, the kept ones' first; malloc'd, NULL with an error. */
+static double *list_costs(const sp_placement *placement, sp_error *error)
+{
+    const sp_search *search = &placement->search;
+    const sp_draft *best = &placement->front.best;
+    double *costs = calloc(search->kept_count + best->count + 1, sizeof *costs);
+    for (size_t i = 0; costs && i < best->count; i++)
+        costs[search->kept_count + i] = search->options->mounts[best->items[i].site.mount].cost;
+    return costs ? costs : sp_fail_memory(error);
+}
+
+/* The best found on the candidates. */
+static bool write_greedy(const sp_placement *placement, sp_proposal *proposal, sp_error *error)
+{
+    return write_down(placement, &proposal->greedy, &proposal->greedy_coverage, error) &&
+           (proposal->greedy_costs = list_costs(placement, error));
+}
+
+/* The same as the proposal, with which of its nozzles want a fitting and what their mounts cost. */
 static bool propose(const sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
     const sp_search *search = &placement->search;
-    if (!write_down(placement, &proposal->layout, &proposal->coverage, error))
+    if (!write_down(placement, &proposal->layout, &proposal->coverage, error) ||
+        !(proposal->costs = list_costs(placement, error)))
         return false;
+    proposal->costly = search->costly;
+    proposal->outlay = proposal->coverage->flow + sp_draft_costs(search, &placement->front.best);
     proposal->fittings = calloc(proposal->layout->count + 1, sizeof *proposal->fittings);
     for (size_t i = 0; proposal->fittings && i < placement->front.best.count; i++) {
         uint32_t mount = placement->front.best.items[i].site.mount;
@@ -185,7 +206,9 @@ static bool count_again(sp_placement *placement, sp_proposal *proposal, sp_evalu
     sp_coverage_destroy(proposal->coverage);
     sp_layout_destroy(proposal->layout);
     free(proposal->fittings);
+    free(proposal->costs);
     proposal->fittings = NULL;
+    proposal->costs = NULL;
     proposal->attainable = NULL;
     proposal->reasons = NULL;
     proposal->coverage = NULL;
@@ -282,16 +305,16 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
         return sp_fail_memory(error);
     sp_placement placement = {.fine = evaluator, .options = options, .watch = sp_watch_start(&options->run)};
     sp_watch_allow(&placement.watch, options->prove ? SEARCH_PROVING : SEARCH);
-    bool done =
-        look_around(&placement, error) && set_target(&placement, proposal, error) &&
-        sp_find(&placement.search, &placement.watch, &placement.front, &placement.pool, error) &&
-        write_down(&placement, &proposal->greedy, &proposal->greedy_coverage, error) && is_sound(&placement, error) &&
-        sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
-        sp_set_front(&placement.search, &placement.watch, &placement.front, error) && is_sound(&placement, error) &&
-        propose(&placement, proposal, error) && sp_watch_stage(&placement.watch, "refine", error) &&
-        confirm(&placement, proposal, error) && check_forward(&placement, proposal, error) &&
-        certify(&placement, proposal, error) && is_sound(&placement, error) &&
-        sp_watch_stage(&placement.watch, "certificate", error) && conclude(&placement, proposal, error);
+    bool done = look_around(&placement, error) && set_target(&placement, proposal, error) &&
+                sp_find(&placement.search, &placement.watch, &placement.front, &placement.pool, error) &&
+                write_greedy(&placement, proposal, error) && is_sound(&placement, error) &&
+                sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
+                sp_set_front(&placement.search, &placement.watch, &placement.front, error) &&
+                is_sound(&placement, error) && propose(&placement, proposal, error) &&
+                sp_watch_stage(&placement.watch, "refine", error) && confirm(&placement, proposal, error) &&
+                check_forward(&placement, proposal, error) && certify(&placement, proposal, error) &&
+                is_sound(&placement, error) && sp_watch_stage(&placement.watch, "certificate", error) &&
+                conclude(&placement, proposal, error);
     placement_free(&placement);
     if (done)
         return proposal;
@@ -305,6 +328,8 @@ void sp_proposal_destroy(sp_proposal *proposal)
         return;
     sp_layout_destroy(proposal->layout);
     free(proposal->fittings);
+    free(proposal->costs);
+    free(proposal->greedy_costs);
     sp_coverage_destroy(proposal->coverage);
     sp_layout_destroy(proposal->greedy);
     sp_coverage_destroy(proposal->greedy_coverage);

@@ -15,6 +15,7 @@ typedef struct {
     sp_mount_kind kind;
     char name[SP_NAME]; /* a port has one; others may, "" where not */
     size_t most;        /* nozzles that it takes besides kept ones; 0: any number. A port takes one whatever it says */
+    double cost;        /* m³/s: the water that a nozzle placed there must save to be worth its weld or fitting */
     sp_vec3 position;   /* port, m */
     sp_vec3 axis;       /* port, line, box: unit reference axis */
     double tilt;        /* rad that a nozzle's axis may lean from the reference axis; π is any direction */
@@ -46,10 +47,12 @@ size_t sp_mount_at(const sp_setup *setup, const sp_mount *mounts, size_t count, 
 bool sp_mounts_admit(const sp_setup *setup, const sp_mount *mounts, size_t count, const sp_nozzle *nozzle,
                      sp_error *error);
 
+/* A layout's outlay is its water and what the mounts of its nozzles cost, but for kept ones, which are there already;
+ * its water alone where no mount costs anything. */
 typedef enum {
-    SP_OBJECTIVE_AREA_PER_WATER, /* highest ratio among layouts that reach the coverage asked for */
-    SP_OBJECTIVE_MIN_WATER,      /* least water that reaches it */
-    SP_OBJECTIVE_MAX_COVERAGE,   /* most coverage within max_nozzles and max_water */
+    SP_OBJECTIVE_AREA_PER_WATER, /* highest ratio of area to outlay among layouts that reach the coverage asked for */
+    SP_OBJECTIVE_MIN_WATER,      /* least outlay that reaches it */
+    SP_OBJECTIVE_MAX_COVERAGE,   /* most coverage within max_nozzles and max_water; of equal ones least outlay */
 } sp_objective;
 
 /* How far refinement may move each nozzle; 0 or false: not at all. */
@@ -66,7 +69,7 @@ typedef struct {
     double coverage;    /* asked for, share of the surface to be cleaned; where less is attainable the search aims at
                          * this share of what is */
     size_t max_nozzles; /* 0: unlimited */
-    double max_water;   /* m³/s; INFINITY: unlimited */
+    double max_water;   /* m³/s, of water alone; INFINITY: unlimited */
     size_t type_count;
     const sp_nozzle_type *const *types; /* borrowed: what may be chosen */
     size_t pressure_count;
@@ -95,15 +98,17 @@ typedef struct {
     double area; /* covered, m², by the scene's own evaluator on the final atlas */
     size_t nozzles;
     double counted; /* m² that it covers on the certificate's patches; NAN: no certificate */
-    double bound;   /* m² of the same patches that no layout of as much water covers (see sp_certificate); NAN */
+    double bound;   /* m² of the same patches that no layout of as much outlay covers (see sp_certificate); NAN */
     double every_aim_bound; /* the same of nozzles aimed in any way (see sp_certificate); NAN */
     size_t fittings;        /* of the nozzles, those that are neither kept nor in ports */
+    double outlay;          /* m³/s, at least the flow */
 } sp_front_point;
 
 /* How far from the best the proposal can be: no layout of the candidate poses and of the poses of the layouts found
  * (the proposal's and the front's), within the limits on number, water and ports, does better than these bounds. They
  * are proved, rounded outwards. Areas are counted by the inverse evaluation on the search's own patches, which may be
- * coarser than the evaluator's; poses in between the candidates are not covered. */
+ * coarser than the evaluator's; poses in between the candidates are not covered. Where mounts cost something
+ * `water` is outlay here, and layouts beyond max_water are among those that do no better. */
 typedef struct {
     bool computed;      /* false: nothing below means anything */
     size_t texels;      /* patches that areas are counted on */
@@ -149,7 +154,10 @@ typedef struct {
     sp_objective objective; /* the options' */
     sp_layout *layout;      /* the proposal, refined */
     bool *fittings;         /* [layout->count]: neither kept nor in a port, so that it wants a fitting made for it */
-    sp_coverage *coverage;  /* of it, by the scene's own settings, its error measured */
+    double *costs, *greedy_costs; /* [count] of `layout` and of `greedy`, m³/s: of its mount; 0 of a kept one */
+    double outlay;                /* m³/s, of `layout` */
+    bool costly;                  /* some mount costs something; else outlay is water */
+    sp_coverage *coverage;        /* of it, by the scene's own settings, its error measured */
     sp_evaluator *again; /* NULL; or owned, and all here is counted on it: what auto had chosen for the search did not
                           * keep the accuracy on the proposal (sp_evaluator_again) */
     sp_layout *greedy;   /* the best found on the candidates, before refinement */
@@ -164,9 +172,9 @@ typedef struct {
     size_t positions,
         candidates; /* mounting points kept; poses considered (position × axis × roll × type × pressure) */
     size_t front_count;
-    sp_front_point *front; /* best found for rising water, both strictly rising */
+    sp_front_point *front; /* best found for rising outlay, both strictly rising */
     size_t by_number_count;
-    sp_front_point *by_number; /* best found for rising numbers of nozzles, whatever their water; bounds NAN */
+    sp_front_point *by_number; /* best found for rising numbers of nozzles, whatever their outlay; bounds NAN */
     sp_forward_check forward_check;
     sp_certificate certificate;
     size_t stage_count;
@@ -185,8 +193,8 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
 void sp_proposal_destroy(sp_proposal *proposal);
 
 /* Which of proposals [count >= 1] with one objective, for the same surface and coverage, is best by it: of those that
- * cover what was asked for the one of most area per water, of least water or of most coverage; where none does, the one
- * that covers most. Of equal ones that of less water, of these that of more coverage, then the first. */
+ * cover what was asked for the one of most area per outlay, of least outlay or of most coverage; where none does, the
+ * one that covers most. Of equal ones that of less outlay, of these that of more coverage, then the first. */
 size_t sp_place_best(const sp_proposal *const *proposals, size_t count);
 
 #ifdef __cplusplus

@@ -45,6 +45,7 @@ typedef struct {
     sp_vec3 axis;                              /* unit */
     double roll, angle, pressure, flow, speed; /* rad, rad, Pa, m³/s, m/s */
     double alone, lost;                        /* m², as sp_contributions */
+    double cost;                               /* m³/s, of its mount; unknown where no mount costs anything */
     bool fitting;                              /* of an alternative: wants a fitting made for it, as sp_proposal */
     sp_track_gaps tracks;                      /* of a two-axis head */
 } sp_nozzle_figures;
@@ -76,6 +77,8 @@ typedef struct {
     size_t nozzle_count;
     sp_nozzle_figures *nozzles; /* owned */
     size_t fittings;            /* nozzles that want one; unknown but of alternatives */
+    double mount_cost;          /* m³/s, of all its nozzles; unknown where no mount costs anything */
+    sp_water_cost water_cost;   /* as sp_design */
     size_t part_count;
     sp_part_figures *parts; /* owned; those that are to be cleaned, in the mesh's order */
 } sp_figures;
@@ -94,6 +97,9 @@ const char *sp_lack_text(sp_lack lack);
  * index as `last`, of the next; SP_UNKNOWN before the first and after the last. */
 size_t sp_missing_next(const sp_figures *figures, sp_reason reason, size_t last);
 
+/* What a layout costs: water and mounts, m³/s, and in the currency of its water_cost; NAN where that is not told. */
+double sp_figures_price(const sp_figures *figures);
+double sp_figures_money(const sp_figures *figures);
 /* Accepts NULL. */
 void sp_figures_destroy(sp_figures *figures, size_t count);
 
@@ -114,6 +120,8 @@ typedef struct {
     const sp_contributions *contributions; /* of its nozzles; NULL where they were not worked out */
     const sp_mount *mounts;                /* [mount_count], that its nozzles may sit on; NULL for none */
     size_t mount_count;
+    const double *costs;            /* [layout->count], m³/s; NULL: those of the mounts that its nozzles lie on */
+    sp_water_cost water_cost;       /* none where a scene tells none */
     const sp_proposal *alternative; /* that it is, where a scene asks for alternatives; NULL elsewhere */
 } sp_design;
 
@@ -154,6 +162,8 @@ typedef struct {
 const sp_proposal *sp_result_proposal(const sp_result *result, size_t index);
 /* True where the result is of alternatives. */
 bool sp_result_has_alternatives(const sp_result *result);
+/* True where mounts of what was placed cost something, so that prices decide, not water alone. */
+bool sp_result_is_costly(const sp_result *result);
 /* The design whose layout the result's proposal is; SP_UNKNOWN where there is none. */
 size_t sp_result_proposed(const sp_result *result);
 /* Why that is proposed and not another alternative, as a clause of plain text; "" without alternatives. */

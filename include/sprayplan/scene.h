@@ -31,6 +31,14 @@ const sp_layout *sp_scene_layout(const sp_scene *scene);        /* the engineer'
 sp_place_options sp_scene_place_options(const sp_scene *scene); /* defaults for NULL */
 bool sp_scene_has_place(const sp_scene *scene);                 /* the file has a `place:` block with mounts */
 
+/* What water is worth, `water_cost` of `place:`. */
+#define SP_CURRENCY 4
+typedef struct {
+    double money;               /* per m³/s; 0: not told */
+    char currency[SP_CURRENCY]; /* ISO 4217; "" */
+} sp_water_cost;
+sp_water_cost sp_scene_water_cost(const sp_scene *scene); /* none for NULL */
+
 /* The alternatives of `place:`, each by itself a placement: place's settings but for its own mounts (in place's order),
  * types, pressures and limits. `index` below the count. */
 size_t sp_scene_alternative_count(const sp_scene *scene); /* 0 for NULL */

@@ -72,6 +72,14 @@ static void find_needed(sp_bound *bound, size_t water)
                                                                                water - cover->weight[k]);
 }
 
+void sp_bound_settle(sp_bound *bound)
+{
+    const sp_cover *cover = bound->cover;
+    for (size_t w = 1; cover->sums && w <= cover->water; w++)
+        if (!cover->sums[w])
+            bound->by_water[w] = fmin(bound->by_water[w], bound->by_water[w - 1]);
+}
+
 /* Prices all candidates on top of the few and lowers every bound that these prices lower; `proved` is the one at
  * `water`. */
 static bool prove(sp_bound *bound, size_t water, sp_error *error)
@@ -96,6 +104,7 @@ static bool prove(sp_bound *bound, size_t water, sp_error *error)
     for (size_t n = 0; n <= nozzles; n++)
         bound->by_nozzles[n] = fmin(bound->by_nozzles[n], rest + sp_knapsack_value(&bound->knapsack, n, cover->water));
     bound->proved = rest + sp_knapsack_value(&bound->knapsack, cover->nozzles, water);
+    sp_bound_settle(bound);
     return true;
 }
 

@@ -45,6 +45,8 @@ void sp_bound_free(sp_bound *bound);
 bool sp_bound_lower(sp_bound *bound, size_t water, sp_error *error);
 /* The same without a proof: only looks for candidates and lifts, where pricing all takes long. */
 bool sp_bound_explore(sp_bound *bound, size_t water, sp_error *error);
+/* A bound holds at more water, too, up to the next sum that candidates come to: after by_water was lowered. */
+void sp_bound_settle(sp_bound *bound);
 /* Lowers the bounds where no more than one nozzle fits, to what the best one covers. Goes before all else. */
 bool sp_bound_lower_single(sp_bound *bound, sp_error *error);
 /* The least water with which the bound does not rule out that `area` (m²) is covered; SIZE_MAX where it always does. */

@@ -24,6 +24,7 @@ typedef struct {
     const uint32_t *weight; /* [tier_count], whole units of water, above 0 */
     size_t port_count;      /* each holds one candidate at most */
     size_t nozzles, water;  /* most that may be chosen; units */
+    const bool *sums;       /* [water + 1], whether any candidates come to just so much; NULL: all may */
     bool repeats;           /* a candidate without a port may be chosen more than once */
     bool whole;             /* every share is 1: nothing to lift */
     int threads;

@@ -17,11 +17,11 @@ typedef struct {
     sp_cover cover;
     sp_water_units units;
     sp_aim_kinds kinds;
-    double *flows; /* [flow_count], of all that may be taken, the makes' first */
-    size_t flow_count;
+    double *outlays; /* [outlay_count], of all that may be taken, the makes' at every cost first */
+    size_t outlay_count;
     uint32_t *weight;   /* [tiers] */
-    uint32_t **tier_of; /* [kinds][steps] */
-    uint32_t *none;     /* [makes], for the poses' prices, which are not asked */
+    uint32_t **tier_of; /* [mounts x kinds][steps] */
+    uint32_t *none;     /* [mounts x makes], for the poses' prices, which are not asked */
     sp_pose_prices *poses;
     sp_aim_prices *prices;
     sp_pricer pricer;
@@ -33,35 +33,41 @@ static void aiming_free(aiming *a)
     sp_bound_free(&a->bound);
     sp_aim_prices_destroy(a->prices);
     sp_pose_prices_destroy(a->poses);
-    for (size_t k = 0; a->tier_of && k < a->kinds.count; k++)
-        free(a->tier_of[k]);
+    for (size_t i = 0; a->tier_of && i < a->task->search->options->mount_count * a->kinds.count; i++)
+        free(a->tier_of[i]);
     free(a->tier_of);
     free(a->none);
     free(a->weight);
-    free(a->flows);
+    free(a->outlays);
     sp_aim_kinds_free(&a->kinds);
 }
 
-static bool list_flows(aiming *a, sp_error *error)
+static void list_at(aiming *a, double flow)
+{
+    for (size_t c = 0; c < a->task->cost_count; c++)
+        a->outlays[a->outlay_count++] = flow + a->task->costs[c];
+}
+
+static bool list_outlays(aiming *a, sp_error *error)
 {
     const sp_candidates *candidates = a->task->search->candidates;
-    size_t count = candidates->make_count;
+    size_t count = candidates->make_count * a->task->cost_count;
     for (size_t i = 0; i <= a->front->by_water.count; i++)
         count += sp_front_draft(a->front, i)->count;
     for (size_t k = 0; k < a->kinds.count; k++)
-        count += a->kinds.items[k].step_count;
-    a->flows = malloc((count + 1) * sizeof *a->flows);
+        count += a->kinds.items[k].step_count * a->task->cost_count;
+    a->outlays = malloc((count + 1) * sizeof *a->outlays);
     a->weight = malloc((count + 1) * sizeof *a->weight);
-    if (!a->flows || !a->weight)
+    if (!a->outlays || !a->weight)
         return sp_fail_memory(error);
     for (size_t k = 0; k < candidates->make_count; k++)
-        a->flows[a->flow_count++] = candidates->makes[k].flow;
+        list_at(a, candidates->makes[k].flow);
     for (size_t i = 0; i <= a->front->by_water.count; i++)
         for (size_t n = 0; n < sp_front_draft(a->front, i)->count; n++)
-            a->flows[a->flow_count++] = sp_front_draft(a->front, i)->items[n].flow;
+            a->outlays[a->outlay_count++] = sp_placed_outlay(a->task->search, &sp_front_draft(a->front, i)->items[n]);
     for (size_t k = 0; k < a->kinds.count; k++)
         for (size_t step = 0; step < a->kinds.items[k].step_count; step++)
-            a->flows[a->flow_count++] = a->kinds.items[k].edge[step];
+            list_at(a, a->kinds.items[k].edge[step]);
     return true;
 }
 
@@ -71,10 +77,10 @@ static bool set_limits(aiming *a)
     const sp_search *search = a->task->search;
     size_t limit = search->options->max_nozzles;
     double most = 0, least = INFINITY;
-    for (size_t i = 0; i < a->flow_count; i++)
-        least = fmin(least, a->flows[i]);
+    for (size_t i = 0; i < a->outlay_count; i++)
+        least = fmin(least, a->outlays[i]);
     for (size_t i = 0; i <= a->front->by_water.count; i++)
-        most = fmax(most, sp_front_draft(a->front, i)->flow - search->kept_flow);
+        most = fmax(most, sp_front_draft(a->front, i)->outlay - search->kept_flow);
     if (!(most >= least))
         return false;
     a->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
@@ -82,7 +88,8 @@ static bool set_limits(aiming *a)
         a->cover.nozzles = limit - search->kept_count;
     if (a->cover.nozzles > SP_NOZZLES_MOST)
         return false;
-    a->units = sp_water_units_create(a->flows, search->candidates->make_count, least, a->cover.nozzles, most);
+    a->units = sp_water_units_create(a->outlays, search->candidates->make_count * a->task->cost_count, least,
+                                     a->cover.nozzles, most);
     a->cover.water = sp_water_budget(&a->units, most);
     return true;
 }
@@ -101,19 +108,23 @@ static bool set_tiers(aiming *a, sp_error *error)
 {
     a->cover.tier_count = 0;
     a->cover.weight = a->weight;
-    a->tier_of = calloc(a->kinds.count + 1, sizeof *a->tier_of);
-    a->none = calloc(a->task->search->candidates->make_count + 1, sizeof *a->none);
+    const sp_search *search = a->task->search;
+    size_t mounts = search->options->mount_count, kinds = a->kinds.count;
+    a->tier_of = calloc(mounts * kinds + 1, sizeof *a->tier_of);
+    a->none = calloc(mounts * search->candidates->make_count + 1, sizeof *a->none);
     if (!a->tier_of || !a->none)
         return sp_fail_memory(error);
-    for (size_t i = 0; i < a->flow_count; i++)
-        tier_of_weight(a, sp_water_weight(&a->units, a->flows[i]));
-    for (size_t k = 0; k < a->kinds.count; k++) {
-        const sp_aim_kind *kind = &a->kinds.items[k];
-        a->tier_of[k] = malloc(kind->step_count * sizeof **a->tier_of);
-        if (!a->tier_of[k])
+    for (size_t i = 0; i < a->outlay_count; i++)
+        tier_of_weight(a, sp_water_weight(&a->units, a->outlays[i]));
+    for (size_t i = 0; i < mounts * kinds; i++) {
+        const sp_aim_kind *kind = &a->kinds.items[i % kinds];
+        a->tier_of[i] = malloc(kind->step_count * sizeof **a->tier_of);
+        if (!a->tier_of[i])
             return sp_fail_memory(error);
-        for (size_t step = 0; step < kind->step_count; step++)
-            a->tier_of[k][step] = tier_of_weight(a, sp_water_weight(&a->units, kind->edge[step]));
+        for (size_t step = 0; step < kind->step_count; step++) {
+            double outlay = sp_outlay_at(search, (uint32_t)(i / kinds), kind->edge[step]);
+            a->tier_of[i][step] = tier_of_weight(a, sp_water_weight(&a->units, outlay));
+        }
     }
     return true;
 }
@@ -125,7 +136,7 @@ static bool add_rows(aiming *a, sp_error *error)
     for (size_t i = 0; i <= a->front->by_water.count; i++)
         for (size_t n = 0; n < sp_front_draft(a->front, i)->count; n++) {
             const sp_placed *placed = &sp_front_draft(a->front, i)->items[n];
-            uint32_t tier = tier_of_weight(a, sp_water_weight(&a->units, placed->flow));
+            uint32_t tier = tier_of_weight(a, sp_water_weight(&a->units, sp_placed_outlay(a->task->search, placed)));
             if (!sp_pose_prices_found(a->poses, placed, tier, &a->bound.rows, error))
                 return false;
         }
@@ -156,9 +167,9 @@ static bool prepare(aiming *a, sp_error *error)
     return sp_bound_create(&a->cover, &a->pricer, &a->bound, error) && add_rows(a, error);
 }
 
-static size_t budget_of(const aiming *a, double flow)
+static size_t budget_of(const aiming *a, double outlay)
 {
-    size_t budget = sp_water_budget(&a->units, flow - a->task->search->kept_flow);
+    size_t budget = sp_water_budget(&a->units, outlay - a->task->search->kept_flow);
     return budget < a->cover.water ? budget : a->cover.water;
 }
 
@@ -193,7 +204,7 @@ static size_t widest(const aiming *a, const bool *had)
     double most = 0;
     for (size_t i = 0; i < a->front->by_water.count; i++) {
         const sp_front_point *point = &a->front->by_water.entries[i].point;
-        double open = 1 - point->counted / a->bound.by_water[budget_of(a, point->flow)];
+        double open = 1 - point->counted / a->bound.by_water[budget_of(a, point->outlay)];
         if (!had[i] && open > most) {
             found = i;
             most = open;
@@ -212,7 +223,7 @@ static bool lower_front(aiming *a, sp_error *error)
         if (i == a->front->by_water.count)
             break;
         had[i] = true;
-        done = lower(a, budget_of(a, a->front->by_water.entries[i].point.flow), ROUNDS_FRONT, error);
+        done = lower(a, budget_of(a, a->front->by_water.entries[i].point.outlay), ROUNDS_FRONT, error);
     }
     free(had);
     return done;
@@ -236,11 +247,11 @@ static void conclude(const aiming *a, sp_front *front, sp_certificate *certifica
 {
     double whole = certificate->whole, counted = certificate->counted;
     size_t water = sp_bound_water(&a->bound, counted);
-    double area = fmin(whole, a->bound.by_water[budget_of(a, front->best.flow)]);
+    double area = fmin(whole, a->bound.by_water[budget_of(a, front->best.outlay)]);
     bool says = area < whole * (1 - WORTH_LEAST);
     for (size_t i = 0; i < front->by_water.count; i++) {
         sp_front_point *point = &front->by_water.entries[i].point;
-        point->every_aim_bound = fmin(whole, a->bound.by_water[budget_of(a, point->flow)]);
+        point->every_aim_bound = fmin(whole, a->bound.by_water[budget_of(a, point->outlay)]);
         says = says || point->every_aim_bound < whole * (1 - WORTH_LEAST);
     }
     if (!says)
@@ -249,20 +260,21 @@ static void conclude(const aiming *a, sp_front *front, sp_certificate *certifica
     certificate->every_aim.places = count_places(a->task->search);
     certificate->every_aim.area_bound = area;
     certificate->every_aim.water_bound =
-        fmin(front->best.flow, a->task->search->kept_flow + sp_water_least(&a->units, water));
+        fmin(front->best.outlay, a->task->search->kept_flow + sp_water_least(&a->units, water));
     certificate->every_aim.gap = (area - counted) / area;
 }
 
 bool sp_aim_bound(const sp_aim_task *task, sp_front *front, sp_certificate *certificate, sp_error *error)
 {
     aiming a = {.task = task, .front = front, .cover = *task->cover};
+    a.cover.sums = NULL; /* flows between the candidates' come to others */
     for (size_t i = 0; i < front->by_water.count; i++)
         front->by_water.entries[i].point.every_aim_bound = NAN;
     if (!sp_watch_stage(task->watch, "certificate", error))
         return false;
-    bool done = sp_aim_kinds_create(task->search, &a.kinds, error) && list_flows(&a, error);
+    bool done = sp_aim_kinds_create(task->search, &a.kinds, error) && list_outlays(&a, error);
     if (done && set_limits(&a)) {
-        done = prepare(&a, error) && lower(&a, budget_of(&a, front->best.flow), ROUNDS_FIRST, error) &&
+        done = prepare(&a, error) && lower(&a, budget_of(&a, front->best.outlay), ROUNDS_FIRST, error) &&
                lower_water(&a, certificate->counted, error) && lower_front(&a, error);
         if (done && a.bound.proofs)
             conclude(&a, front, certificate);

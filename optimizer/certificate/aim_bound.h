@@ -15,6 +15,8 @@ typedef struct {
     const float *need;   /* [patches] */
     const size_t *ports; /* [mounts] */
     const sp_rows *rows; /* candidates that make good layouts, by the cover's tiers; and the layouts' own nozzles */
+    const double *costs; /* [cost_count], m³/s: of mounts, each once */
+    size_t cost_count;
 } sp_aim_task;
 
 /* Fills certificate->every_aim, and every_aim_bound of the front's points, after all else of them. */

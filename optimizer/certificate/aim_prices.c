@@ -156,7 +156,8 @@ static double tilt_of(const sp_aim_prices *prices, uint32_t site)
 
 static uint32_t tier_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
 {
-    return prices->tier_of[cell->kind][cell->step];
+    size_t mount = prices->search->sites->items[cell->site].mount;
+    return prices->tier_of[mount * prices->kinds->count + cell->kind][cell->step];
 }
 
 /* The best price known of the cell's port, or of all other mounting points, and tier. */
@@ -369,7 +370,7 @@ static bool open_all(sp_aim_prices *prices)
                 continue;
             for (uint32_t step = 0; step < kind->step_count; step++) {
                 sp_aim_cell whole = sp_aim_cell_whole(kind, site, k, step);
-                if (prices->cover->weight[prices->tier_of[k][step]] <= prices->cover->water &&
+                if (prices->cover->weight[tier_of(prices, &whole)] <= prices->cover->water &&
                     !append(&prices->open, &whole))
                     return false;
             }

@@ -8,8 +8,8 @@
 
 typedef struct sp_aim_prices sp_aim_prices;
 
-/* As sp_pose_prices_create; tier_of[kind][step] is the tier of the least flow of the step. `poses` are of the same
- * cover. All borrowed. */
+/* As sp_pose_prices_create; tier_of[mount x kinds + kind][step] is the tier of the least flow of the step in
+ * that mount. `poses` are of the same cover. All borrowed. */
 sp_aim_prices *sp_aim_prices_create(const sp_search *search, const sp_cover *cover, const sp_aim_kinds *kinds,
                                     const uint32_t *const *tier_of, const size_t *ports, const sp_pose_prices *poses,
                                     sp_error *error);

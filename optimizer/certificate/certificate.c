@@ -67,7 +67,7 @@ static double found_within(const certifying *c, size_t water)
 {
     double most = c->problem.cover.base;
     for (size_t i = 0; i <= c->problem.front->by_water.count; i++)
-        if (sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->flow) <= water)
+        if (sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->outlay) <= water)
             most = fmax(most, sp_draft_counted(c->problem.search, sp_front_draft(c->problem.front, i)));
     return most;
 }
@@ -76,7 +76,7 @@ static double found_within(const certifying *c, size_t water)
 static bool plant_trees(certifying *c, sp_error *error)
 {
     for (size_t i = 0; i <= c->problem.front->by_water.count; i++) {
-        size_t water = sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->flow);
+        size_t water = sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->outlay);
         c->found[i] = found_within(c, water);
         if (water && !sp_tree_create(&c->branching, water, c->bound.by_water[water], c->found[i], &c->trees[i], error))
             return false;
@@ -161,7 +161,7 @@ static double open_at(const certifying *c, size_t i)
 {
     return fmax(0,
                 1 - c->found[i] /
-                        c->bound.by_water[sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->flow)]);
+                        c->bound.by_water[sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->outlay)]);
 }
 
 /* The same of all points of about as much water, which prices for one of them are good for. */
@@ -200,7 +200,7 @@ static size_t next_point(const certifying *c)
  * these get further in as much time, but do not see what a narrow gap is about. */
 static bool begin_tree(certifying *c, size_t i, sp_error *error)
 {
-    size_t water = sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->flow),
+    size_t water = sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->outlay),
            iterations = c->bound.iterations;
     for (size_t k = 0; k <= c->problem.front->by_water.count; k++) {
         double other = (double)c->trees[k].water;
@@ -228,6 +228,7 @@ static bool grow_tree(certifying *c, size_t i, sp_error *error)
     double bound = sp_tree_bound(tree);
     for (size_t w = 0; w <= tree->water; w++)
         c->bound.by_water[w] = fmin(c->bound.by_water[w], bound);
+    sp_bound_settle(&c->bound);
     return true;
 }
 
@@ -289,7 +290,7 @@ static void conclude(const certifying *c, sp_front *front, sp_certificate *certi
     for (size_t i = 0; i < front->by_water.count; i++) {
         sp_front_point *point = &front->by_water.entries[i].point;
         point->counted = sp_draft_counted(c->problem.search, &front->by_water.entries[i].draft);
-        point->bound = fmin(whole, c->bound.by_water[sp_problem_budget(&c->problem, point->flow)]);
+        point->bound = fmin(whole, c->bound.by_water[sp_problem_budget(&c->problem, point->outlay)]);
     }
     size_t water = sp_bound_water(&c->bound, counted);
     certificate->computed = true;
@@ -298,9 +299,9 @@ static void conclude(const certifying *c, sp_front *front, sp_certificate *certi
     certificate->own = c->problem.own;
     certificate->whole = whole;
     certificate->counted = counted;
-    certificate->area_bound = fmin(whole, c->bound.by_water[sp_problem_budget(&c->problem, front->best.flow)]);
+    certificate->area_bound = fmin(whole, c->bound.by_water[sp_problem_budget(&c->problem, front->best.outlay)]);
     certificate->water_bound =
-        fmin(front->best.flow, c->problem.search->kept_flow + sp_water_least(&c->problem.units, water));
+        fmin(front->best.outlay, c->problem.search->kept_flow + sp_water_least(&c->problem.units, water));
     certificate->gap = certificate->area_bound > 0 ? (certificate->area_bound - counted) / certificate->area_bound : 0;
 }
 
@@ -308,15 +309,16 @@ static void conclude(const certifying *c, sp_front *front, sp_certificate *certi
  * bounded whichever way nozzles are aimed, which a proof that is not closed in time would leave none for. */
 static bool certify(certifying *c, sp_front *front, sp_certificate *certificate, sp_error *error)
 {
-    size_t water = sp_problem_budget(&c->problem, front->best.flow);
+    size_t water = sp_problem_budget(&c->problem, front->best.outlay);
     double area = sp_draft_counted(c->problem.search, &front->best);
     if (!lower_all(c, water, area, error))
         return false;
     if (!c->bound.proofs)
         return true;
     conclude(c, front, certificate);
-    const sp_aim_task task = {c->problem.search, c->watch,         &c->problem.cover, &c->problem.units,
-                              c->problem.need,   c->problem.ports, &c->bound.rows};
+    const sp_aim_task task = {c->problem.search, c->watch,         &c->problem.cover,
+                              &c->problem.units, c->problem.need,  c->problem.ports,
+                              &c->bound.rows,    c->problem.costs, c->problem.cost_count};
     /* film has no discs of aims: what runs down depends on all that hits above; and footprints are of single poses */
     bool aims = !c->problem.search->runoffs && !c->problem.search->footprints;
     if (aims && !sp_aim_bound(&task, front, certificate, error))

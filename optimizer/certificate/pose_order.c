@@ -121,14 +121,16 @@ static void add_block(lining *l, sp_pose_block block, size_t port, size_t count)
     line->count += count;
 }
 
-static void add_make(lining *l, uint32_t make)
+/* The make's poses in mounts where it is of the tier. */
+static void add_make(lining *l, uint32_t make, uint32_t tier)
 {
     const sp_search *search = l->order->search;
     const sp_candidates *candidates = search->candidates;
     for (size_t i = 0; i < search->sites->count; i++) {
         uint32_t site = l->sites[i], mount = search->sites->items[site].mount;
         size_t poses = sp_candidates_axes(candidates, mount, make)->count * candidates->makes[make].roll_count;
-        if (!poses || search->port_taken[mount] || !sp_search_knows(search, site, make))
+        if (!poses || l->tier_of[mount * candidates->make_count + make] != tier || search->port_taken[mount] ||
+            !sp_search_knows(search, site, make))
             continue;
         l->order->block_of[site * candidates->make_count + make] = l->order->block_count;
         add_block(l, (sp_pose_block){0, site, make}, l->ports[mount], poses);
@@ -165,8 +167,7 @@ static void fill(lining *l)
         line->kind_start[line->kind_count] = before;
         line->weight[line->kind_count++] = l->cover->weight[tier];
         for (uint32_t k = 0; k < l->order->search->candidates->make_count; k++)
-            if (l->tier_of[k] == tier)
-                add_make(l, k);
+            add_make(l, k, tier);
         add_found(l, tier, &listed);
         line->kind_count -= line->count == before;
     }

@@ -24,8 +24,8 @@ typedef struct {
     sp_line line;          /* without the callbacks that price */
 } sp_pose_order;
 
-/* Borrows all. tier_of [makes], tiers of the cover; ports [mounts]. Poses that were not traced, or whose port a kept
- * nozzle takes, are left out. */
+/* Borrows all. tier_of [mounts x makes], tiers of the cover; ports [mounts]. Poses that were not traced, or whose port
+ * a kept nozzle takes, are left out. */
 bool sp_pose_order_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of, const size_t *ports,
                           const sp_rows *own, sp_pose_order *order, sp_error *error);
 void sp_pose_order_free(sp_pose_order *order);

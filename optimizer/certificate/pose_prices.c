@@ -78,6 +78,11 @@ static bool allocate(sp_pose_prices *prices)
     return true;
 }
 
+static uint32_t tier_at(const sp_pose_prices *prices, uint32_t site, uint32_t make)
+{
+    return prices->tier_of[prices->search->sites->items[site].mount * prices->search->candidates->make_count + make];
+}
+
 sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of,
                                       const float *need, const float *film_need, const size_t *ports, sp_error *error)
 {
@@ -243,10 +248,11 @@ bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *row
     float *field = prices->scratches[0].field;
     size_t key = sp_pose_order_position(prices->order, pose),
            port = prices->ports[search->sites->items[pose.site].mount];
+    uint32_t tier = tier_at(prices, pose.site, pose.make);
     if (!sp_type_is_uniform(search->candidates->makes[pose.make].type))
-        return add_footprint(prices, pose, key, port, prices->tier_of[pose.make], rows, error);
+        return add_footprint(prices, pose, key, port, tier, rows, error);
     sp_field_pose(search, pose, field);
-    return sp_pose_prices_row(prices, field, key, port, prices->tier_of[pose.make], rows, error);
+    return sp_pose_prices_row(prices, field, key, port, tier, rows, error);
 }
 
 /* What each arrival of a view brings to a make; returns the make's region about the site's axis. */
@@ -354,7 +360,8 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
     for (uint32_t k = 0; k < candidates->make_count; k++) {
         const sp_make *make = &candidates->makes[k];
         best *found = &prices->bests[site * candidates->make_count + k];
-        double least = least_of(prices, prices->ports[mount], prices->tier_of[k], needed, offers);
+        uint32_t tier = tier_at(prices, site, k);
+        double least = least_of(prices, prices->ports[mount], tier, needed, offers);
         *found = (best){.price = 0};
         if (!sp_candidates_axes(candidates, mount, k)->count || !isfinite(least) || prices->search->port_taken[mount])
             continue;
@@ -362,7 +369,7 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
         if (!view->start && sp_type_is_uniform(make->type))
             continue;
         sp_region region = prepare_worth(prices, own, view, make, &frame, u);
-        *found = price_make(prices, own, view, site, k, &region, stride, least, needed[prices->tier_of[k]]);
+        *found = price_make(prices, own, view, site, k, &region, stride, least, needed[tier]);
     }
 }
 
@@ -376,7 +383,8 @@ static bool hand_out(const sp_pose_prices *prices, const double *needed, sp_rows
     if (!done)
         sp_fail_memory(error);
     for (size_t i = 0; done && i < count; i++) {
-        double need = needed[prices->tier_of[prices->bests[i].pose.make]], price = prices->bests[i].price;
+        sp_pose pose = prices->bests[i].pose;
+        double need = needed[tier_at(prices, pose.site, pose.make)], price = prices->bests[i].price;
         if (price > need)
             entries[found++] = (sp_ranked){need > 0 ? price / need : price * 1e30, i};
     }
@@ -426,8 +434,8 @@ static bool price_poses(void *user, const sp_prices *u, const double *needed, bo
         return true;
     for (size_t i = 0; i < sites * makes; i++)
         if (prices->bests[i].price > 0)
-            sp_offers_add(offers, prices->ports[search->sites->items[i / makes].mount], prices->tier_of[i % makes],
-                          prices->bests[i].price);
+            sp_offers_add(offers, prices->ports[search->sites->items[i / makes].mount],
+                          tier_at(prices, (uint32_t)(i / makes), (uint32_t)(i % makes)), prices->bests[i].price);
     return hand_out(prices, needed, rows, error);
 }
 

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define ROUNDED 0x1p-22 /* more of a texel than single precision puts its area, and what of it is covered, wrong by */
 
@@ -15,26 +16,42 @@ static double least_of(const double *values, size_t count)
     return least;
 }
 
-static bool list_flows(sp_problem *p, sp_error *error)
+double *sp_list_costs(const sp_place_options *options, size_t *count)
+{
+    double *costs = malloc((options->mount_count + 1) * sizeof *costs);
+    *count = 0;
+    for (size_t m = 0; costs && m < options->mount_count; m++) {
+        size_t at = 0;
+        while (at < *count && costs[at] != options->mounts[m].cost)
+            at++;
+        costs[at] = options->mounts[m].cost;
+        *count += at == *count;
+    }
+    return costs;
+}
+
+static bool list_outlays(sp_problem *p, sp_error *error)
 {
     const sp_candidates *candidates = p->search->candidates;
+    p->costs = sp_list_costs(p->search->options, &p->cost_count);
     for (size_t i = 0; i <= p->front->by_water.count; i++)
         p->own += sp_front_draft(p->front, i)->count;
-    p->flows = malloc((candidates->make_count + p->own + 1) * sizeof *p->flows);
-    if (!p->flows)
+    p->outlays = malloc((p->cost_count * candidates->make_count + p->own + 1) * sizeof *p->outlays);
+    if (!p->costs || !p->outlays)
         return sp_fail_memory(error);
     size_t count = 0;
-    for (size_t k = 0; k < candidates->make_count; k++)
-        p->flows[count++] = candidates->makes[k].flow;
+    for (size_t c = 0; c < p->cost_count; c++)
+        for (size_t k = 0; k < candidates->make_count; k++)
+            p->outlays[count++] = candidates->makes[k].flow + p->costs[c];
     for (size_t i = 0; i <= p->front->by_water.count; i++)
         for (size_t n = 0; n < sp_front_draft(p->front, i)->count; n++)
-            p->flows[count++] = sp_front_draft(p->front, i)->items[n].flow;
+            p->outlays[count++] = sp_placed_outlay(p->search, &sp_front_draft(p->front, i)->items[n]);
     return true;
 }
 
-static uint32_t tier_for(sp_problem *p, double flow)
+static uint32_t tier_for(sp_problem *p, double outlay)
 {
-    uint32_t weight = sp_water_weight(&p->units, flow), tier = 0;
+    uint32_t weight = sp_water_weight(&p->units, outlay), tier = 0;
     while (tier < p->cover.tier_count && p->weight[tier] != weight)
         tier++;
     if (tier == p->cover.tier_count)
@@ -46,10 +63,10 @@ static uint32_t tier_for(sp_problem *p, double flow)
 static bool set_limits(sp_problem *p)
 {
     const sp_search *search = p->search;
-    size_t makes = search->candidates->make_count, limit = search->options->max_nozzles;
-    double most = 0, least = least_of(p->flows, makes + p->own);
+    size_t listed = p->cost_count * search->candidates->make_count, limit = search->options->max_nozzles;
+    double most = 0, least = least_of(p->outlays, listed + p->own);
     for (size_t i = 0; i <= p->front->by_water.count; i++)
-        most = fmax(most, sp_front_draft(p->front, i)->flow - search->kept_flow);
+        most = fmax(most, sp_front_draft(p->front, i)->outlay - search->kept_flow);
     if (!(most >= least) || (limit && limit <= search->kept_count))
         return false;
     p->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
@@ -57,7 +74,7 @@ static bool set_limits(sp_problem *p)
         p->cover.nozzles = limit - search->kept_count;
     if (p->cover.nozzles > SP_NOZZLES_MOST)
         return false;
-    p->units = sp_water_units_create(p->flows, makes, least, p->cover.nozzles, most);
+    p->units = sp_water_units_create(p->outlays, listed, least, p->cover.nozzles, most);
     p->cover.water = sp_water_budget(&p->units, most);
     return true;
 }
@@ -66,15 +83,17 @@ static bool set_tiers(sp_problem *p, sp_error *error)
 {
     const sp_search *search = p->search;
     size_t makes = search->candidates->make_count, mounts = search->options->mount_count;
-    p->weight = malloc((makes + p->own + 1) * sizeof *p->weight);
-    p->tier_of = malloc((makes + 1) * sizeof *p->tier_of);
+    p->weight = malloc((p->cost_count * makes + p->own + 1) * sizeof *p->weight);
+    p->tier_of = malloc((mounts * makes + 1) * sizeof *p->tier_of);
     p->ports = malloc((mounts + 1) * sizeof *p->ports);
     if (!p->weight || !p->tier_of || !p->ports)
         return sp_fail_memory(error);
-    for (size_t k = 0; k < makes; k++)
-        p->tier_of[k] = tier_for(p, p->flows[k]);
-    for (size_t i = 0; i < p->own; i++)
-        tier_for(p, p->flows[makes + i]);
+    for (size_t i = 0; i < p->cost_count * makes + p->own; i++)
+        tier_for(p, p->outlays[i]);
+    for (size_t m = 0; m < mounts; m++)
+        for (size_t k = 0; k < makes; k++)
+            p->tier_of[m * makes + k] =
+                tier_for(p, sp_outlay_at(search, (uint32_t)m, search->candidates->makes[k].flow));
     for (size_t m = 0; m < mounts; m++)
         p->ports[m] = sp_mount_room(&search->options->mounts[m]) == 1 ? p->cover.port_count++ : SP_NO_PORT;
     return true;
@@ -119,7 +138,8 @@ static bool add_own(sp_problem *p, sp_error *error)
         const sp_draft *draft = sp_front_draft(p->front, i);
         for (size_t n = 0; n < draft->count; n++) {
             const sp_placed *placed = &draft->items[n];
-            if (!sp_pose_prices_found(p->prices, placed, tier_for(p, placed->flow), &p->nozzles, error))
+            uint32_t tier = tier_for(p, sp_placed_outlay(p->search, placed));
+            if (!sp_pose_prices_found(p->prices, placed, tier, &p->nozzles, error))
                 return false;
         }
     }
@@ -140,10 +160,58 @@ size_t sp_problem_poses(const sp_problem *p)
     return count;
 }
 
-size_t sp_problem_budget(const sp_problem *p, double flow)
+size_t sp_problem_budget(const sp_problem *p, double outlay)
 {
-    size_t budget = sp_water_budget(&p->units, flow - p->search->kept_flow);
+    size_t budget = sp_water_budget(&p->units, outlay - p->search->kept_flow);
     return budget < p->cover.water ? budget : p->cover.water;
+}
+
+/* As many candidates of this weight as there is room for. */
+static void add_sums(sp_problem *p, uint32_t tier)
+{
+    for (size_t w = p->weight[tier]; w <= p->cover.water; w++)
+        p->sums[w] |= p->sums[w - p->weight[tier]];
+}
+
+/* Tiers of the candidates in a port, or of all in none. */
+static void mark_tiers(const sp_problem *p, size_t port, bool *marked)
+{
+    const sp_candidates *candidates = p->search->candidates;
+    for (size_t i = 0; i < candidates->mount_count * candidates->make_count; i++)
+        if (p->ports[i / candidates->make_count] == port && candidates->axes[i].count)
+            marked[p->tier_of[i]] = true;
+    for (size_t i = 0; i < p->nozzles.count; i++)
+        if (p->nozzles.port[i] == port)
+            marked[p->nozzles.tier[i]] = true;
+}
+
+/* Where a nozzle in one mount costs much more than in another, outlays lie far apart: a layout that takes less than the
+ * next takes no more than the last. */
+static bool set_sums(sp_problem *p, sp_error *error)
+{
+    size_t tiers = p->cover.tier_count;
+    bool *marked = calloc(tiers + 1, sizeof *marked);
+    p->sums = calloc(p->cover.water + 1, sizeof *p->sums);
+    if (!marked || !p->sums) {
+        free(marked);
+        return sp_fail_memory(error);
+    }
+    p->sums[0] = true;
+    mark_tiers(p, SP_NO_PORT, marked);
+    for (uint32_t k = 0; k < tiers; k++)
+        if (marked[k])
+            add_sums(p, k);
+    for (size_t port = 0; port < p->cover.port_count; port++) {
+        memset(marked, 0, tiers * sizeof *marked);
+        mark_tiers(p, port, marked);
+        /* one of them: downwards, so that what is read is still without it */
+        for (size_t w = p->cover.water + 1; w-- > 0;)
+            for (size_t k = 0; k < tiers && !p->sums[w]; k++)
+                p->sums[w] = marked[k] && p->weight[k] <= w && p->sums[w - p->weight[k]];
+    }
+    free(marked);
+    p->cover.sums = p->sums;
+    return true;
 }
 
 static bool prepare(sp_problem *p, sp_error *error)
@@ -154,7 +222,7 @@ static bool prepare(sp_problem *p, sp_error *error)
     if (!p->prices)
         return false;
     p->pricer = sp_pose_pricer(p->prices);
-    return add_own(p, error) &&
+    return add_own(p, error) && (!p->search->costly || set_sums(p, error)) &&
            sp_pose_order_create(p->search, &p->cover, p->tier_of, p->ports, &p->nozzles, &p->order, error) &&
            sp_pose_line(p->prices, &p->order, &p->line, error);
 }
@@ -164,7 +232,7 @@ bool sp_problem_create(const sp_search *search, const sp_front *front, sp_proble
 {
     *problem = (sp_problem){.search = search, .front = front};
     *possible = false;
-    if (!list_flows(problem, error))
+    if (!list_outlays(problem, error))
         return false;
     *possible = set_limits(problem);
     return !*possible || prepare(problem, error);
@@ -181,5 +249,7 @@ void sp_problem_free(sp_problem *p)
     free(p->weight);
     free(p->tier_of);
     free(p->ports);
-    free(p->flows);
+    free(p->sums);
+    free(p->costs);
+    free(p->outlays);
 }

@@ -15,10 +15,13 @@ typedef struct {
     float *area, *need; /* [patches] */
     float *film_need;   /* [patches], NULL where film is not asked for */
     uint32_t *weight;   /* [tiers] */
-    uint32_t *tier_of;  /* [makes] */
+    uint32_t *tier_of;  /* [mounts x makes] */
     size_t *ports;      /* [mounts] */
-    double *flows;      /* [makes], then one for each nozzle of the front */
-    size_t own;         /* nozzles of the front */
+    bool *sums;         /* [cover.water + 1], as the cover's; NULL where no mount costs anything */
+    double *costs;      /* [cost_count], m³/s: of mounts, each once */
+    size_t cost_count;
+    double *outlays; /* [costs x makes], then one for each nozzle of the front */
+    size_t own;      /* nozzles of the front */
     sp_pose_prices *prices;
     sp_rows nozzles; /* of the front */
     sp_pose_order order;
@@ -32,9 +35,12 @@ bool sp_problem_create(const sp_search *search, const sp_front *front, sp_proble
                        sp_error *error);
 void sp_problem_free(sp_problem *problem);
 
-/* Units of water for so much flow, kept nozzles included, no more than the problem is about. */
-size_t sp_problem_budget(const sp_problem *problem, double flow);
+/* Units of water for so much outlay, kept nozzles included, no more than the problem is about. */
+size_t sp_problem_budget(const sp_problem *problem, double outlay);
 /* Candidate poses. */
 size_t sp_problem_poses(const sp_problem *problem);
+
+/* What the mounts cost, each once, in their order; malloc'd, NULL when memory runs out. */
+double *sp_list_costs(const sp_place_options *options, size_t *count);
 
 #endif

@@ -12,7 +12,7 @@ static const sp_width widths[SP_WIDTHS] = {{0.8, 0.085},  {0.4, 0.06},    {0.2, 
 
 typedef struct {
     sp_sights *sights;
-    double budget;
+    double water; /* m³/s */
     sp_error *error;
 } sp_annealing;
 
@@ -24,16 +24,16 @@ double sp_least_flow(const sp_search *search, const sp_placed *placed)
     return high > low * (1 + 1e-9) ? fmin(low, placed->flow) : placed->flow;
 }
 
-void sp_turn_down(const sp_search *search, sp_draft *draft, double budget)
+void sp_turn_down(const sp_search *search, sp_draft *draft, double water)
 {
     double total = search->kept_flow, spare = 0;
     for (size_t i = 0; i < draft->count; i++) {
         total += draft->items[i].flow;
         spare += draft->items[i].flow - sp_least_flow(search, &draft->items[i]);
     }
-    if (total <= budget || spare <= 0)
+    if (total <= water || spare <= 0)
         return;
-    double share = fmin(1, (total - budget) / spare * (1 + 1e-12));
+    double share = fmin(1, (total - water) / spare * (1 + 1e-12));
     for (size_t i = 0; i < draft->count; i++) {
         sp_placed *placed = &draft->items[i];
         double low = sp_least_flow(search, placed);
@@ -62,7 +62,7 @@ static bool go(const sp_annealing *annealing, const sp_freedom *freedoms, double
             part[k] = freedoms[i].value[k] + share * (values[i][k] - freedoms[i].value[k]);
         sp_placed_move(search, &draft->items[i], &freedoms[i], part);
     }
-    sp_turn_down(search, draft, annealing->budget);
+    sp_turn_down(search, draft, annealing->water);
     return sp_draft_look(annealing->sights, draft, annealing->error);
 }
 
@@ -118,7 +118,7 @@ static bool step(const sp_annealing *annealing, size_t width, sp_draft *draft)
         done = views[i] != NULL;
     }
     done = done &&
-           sp_soft_solve(search, draft, freedoms, views, widths[width], annealing->budget, values, annealing->error);
+           sp_soft_solve(search, draft, freedoms, views, widths[width], annealing->water, values, annealing->error);
     for (size_t i = 0; done && i < draft->count; i++)
         mark(&freedoms[i], values[i]);
     done = done && line_search(annealing, freedoms, values, width >= SP_CAREFUL, draft);
@@ -129,18 +129,18 @@ static bool step(const sp_annealing *annealing, size_t width, sp_draft *draft)
 }
 
 /* Takes the copy over where it covers more with no more water. */
-static void keep_better(const sp_search *search, sp_draft *draft, sp_draft *copy, double budget)
+static void keep_better(const sp_search *search, sp_draft *draft, sp_draft *copy, double water)
 {
-    bool better = sp_covers_more(search, copy, draft) && copy->flow <= budget * (1 + SP_ROUNDING);
+    bool better = sp_covers_more(search, copy, draft) && copy->flow <= water * (1 + SP_ROUNDING);
     sp_draft_free(better ? draft : copy);
     if (better)
         *draft = *copy;
 }
 
-bool sp_anneal(sp_sights *sights, size_t start, size_t end, double budget, sp_watch *watch, sp_draft *draft,
+bool sp_anneal(sp_sights *sights, size_t start, size_t end, double water, sp_watch *watch, sp_draft *draft,
                sp_error *error)
 {
-    sp_annealing annealing = {sights, budget, error};
+    sp_annealing annealing = {sights, water, error};
     sp_draft moving;
     if (!draft->count)
         return true;
@@ -151,7 +151,7 @@ bool sp_anneal(sp_sights *sights, size_t start, size_t end, double budget, sp_wa
         sp_draft copy;
         done = step(&annealing, w, &moving) && sp_draft_copy(sights->search, &moving, &copy, error);
         if (done)
-            keep_better(sights->search, draft, &copy, budget);
+            keep_better(sights->search, draft, &copy, water);
     }
     sp_draft_free(&moving);
     return done;

@@ -15,7 +15,7 @@ typedef struct {
     const sp_search *search; /* without credit */
     sp_sights *sights;
     sp_draft *draft; /* without the nozzle */
-    double budget, least;
+    double water, least;
     sp_placed placed;
     double gain;  /* of its field, exact, m² */
     float *trial; /* [field_count] */
@@ -52,7 +52,7 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
         return true;
     sp_placed trial = needle->placed;
     sp_placed_move(needle->search, &trial, &freedom, values);
-    if (needle->draft->flow + trial.flow > needle->budget * (1 + 1e-12))
+    if (needle->draft->flow + trial.flow > needle->water * (1 + 1e-12))
         return true;
     bool elsewhere = sp_distance(trial.nozzle.position, needle->placed.nozzle.position) > 0;
     bool promising = elsewhere || freedom.kind[k] != SP_UNKNOWN_PLACE;
@@ -76,13 +76,13 @@ static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
 }
 
 /* Both ways along every unknown of the draft's first nozzle, which then stands last. */
-static bool try_nozzle(const sp_search *search, sp_sights *sights, double budget, double step, sp_draft *draft,
+static bool try_nozzle(const sp_search *search, sp_sights *sights, double water, double step, sp_draft *draft,
                        bool *moved, sp_error *error)
 {
     sp_needle needle = {.search = search,
                         .sights = sights,
                         .draft = draft,
-                        .budget = budget,
+                        .water = water,
                         .error = error,
                         .least = GAIN_LEAST * search->all};
     needle.placed = sp_draft_take(search, draft, 0);
@@ -102,7 +102,7 @@ static bool try_nozzle(const sp_search *search, sp_sights *sights, double budget
     return sp_draft_add(search, draft, needle.placed, error) && done;
 }
 
-bool sp_compass(sp_sights *sights, double first, double least, double budget, sp_watch *watch, sp_draft *draft,
+bool sp_compass(sp_sights *sights, double first, double least, double water, sp_watch *watch, sp_draft *draft,
                 sp_error *error)
 {
     sp_search exact = *sights->search;
@@ -115,7 +115,7 @@ bool sp_compass(sp_sights *sights, double first, double least, double budget, sp
             break;
         /* after all turns the first nozzle is the first again */
         for (size_t i = 0; done && i < draft->count; i++)
-            done = try_nozzle(&exact, sights, budget, step, draft, &moved, error);
+            done = try_nozzle(&exact, sights, water, step, draft, &moved, error);
         if (moved && ++sweeps < SWEEPS_MOST)
             continue;
         step /= 2;

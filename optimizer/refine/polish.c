@@ -128,15 +128,21 @@ static bool look_again(const sp_search *search, sp_draft *draft, sp_error *error
     return true;
 }
 
+static bool fits_within(const sp_search *search, const sp_draft *draft, double budget)
+{
+    return draft->flow <= sp_draft_water(search, draft, budget) * (1 + SP_ROUNDING);
+}
+
 /* Within the budget by turning nozzles down; false in *fits where that is not enough. */
 static bool fit(sp_sights *sights, double budget, sp_draft *draft, bool *fits, sp_error *error)
 {
-    if (draft->flow > budget) {
-        sp_turn_down(sights->search, draft, budget);
+    double water = sp_draft_water(sights->search, draft, budget);
+    if (draft->flow > water) {
+        sp_turn_down(sights->search, draft, water);
         if (!sp_draft_look(sights, draft, error))
             return false;
     }
-    *fits = draft->flow <= budget * (1 + SP_ROUNDING);
+    *fits = fits_within(sights->search, draft, budget);
     return true;
 }
 
@@ -146,9 +152,10 @@ static bool anneal(const sp_polishing *polishing, sp_sights *sights, const sp_tr
                    sp_error *error)
 {
     static const size_t starts[] = {3, 0};
+    double water = sp_draft_water(polishing->search, draft, trial->budget);
     for (size_t i = 0; i < sizeof starts / sizeof *starts; i++)
         if ((trial->kind == SP_TRIAL_ANNEAL || i == trial->seed % TURNS) &&
-            !sp_anneal(sights, starts[i], SP_WIDTHS, trial->budget, polishing->watch, draft, error))
+            !sp_anneal(sights, starts[i], SP_WIDTHS, water, polishing->watch, draft, error))
             return false;
     return true;
 }
@@ -160,11 +167,12 @@ static bool refine(const sp_polishing *polishing, sp_sights *sights, const sp_tr
     bool fits;
     if (!transfer(sights, start, refined, error))
         return false;
+    double water = sp_draft_water(polishing->search, refined, trial->budget);
     bool done = fit(sights, trial->budget, refined, &fits, error);
     if (done && fits)
         done = anneal(polishing, sights, trial, refined, error) &&
                (refined->covered < before * (1 - BEHIND_MOST) ||
-                sp_compass(sights, STEP_FIRST, STEP_LEAST, trial->budget, polishing->watch, refined, error));
+                sp_compass(sights, STEP_FIRST, STEP_LEAST, water, polishing->watch, refined, error));
     if (!done)
         sp_draft_free(refined);
     return done;
@@ -207,7 +215,8 @@ static bool take_over(const sp_polishing *polishing, int thread, sp_trial *trial
     sp_sights_forget(sights);
     if (!transfer(sights, &trial->refined, &draft, error))
         return false;
-    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, trial->budget, polishing->watch, &draft, error) ||
+    double water = sp_draft_water(polishing->search, &draft, trial->budget);
+    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, water, polishing->watch, &draft, error) ||
         !look_again(polishing->search, &draft, error)) {
         sp_draft_free(&draft);
         return false;
@@ -233,8 +242,8 @@ static bool polish(const sp_polishing *polishing, int thread, sp_trial *trial, s
     if (!done)
         return false;
     trial->covered = trial->refined.covered;
-    trial->better =
-        trial->refined.flow <= trial->budget * (1 + SP_ROUNDING) && trial->refined.covered > before * (1 + GAIN_LEAST);
+    trial->better = fits_within(polishing->search, &trial->refined, trial->budget) &&
+                    trial->refined.covered > before * (1 + GAIN_LEAST);
     return true;
 }
 
@@ -296,8 +305,9 @@ static bool sharpen(const sp_polishing *polishing, int thread, sp_trial *trial, 
     sp_sights_forget(own);
     if (!transfer(sights, &trial->draft, &sharp, error))
         return false;
-    bool done = sp_anneal(sights, SHARP_START, SP_WIDTHS, trial->budget, polishing->watch, &sharp, error) &&
-                sp_compass(sights, STEP_SHARP, STEP_LEAST, trial->budget, polishing->watch, &sharp, error) &&
+    double water = sp_draft_water(polishing->search, &sharp, trial->budget);
+    bool done = sp_anneal(sights, SHARP_START, SP_WIDTHS, water, polishing->watch, &sharp, error) &&
+                sp_compass(sights, STEP_SHARP, STEP_LEAST, water, polishing->watch, &sharp, error) &&
                 transfer(own, &sharp, &draft, error);
     sp_draft_free(&sharp);
     if (!done)

@@ -17,7 +17,7 @@ typedef struct {
     sp_trial_kind kind;
     sp_draft draft;   /* what comes out takes its place, if better, and no other of the same water much more so */
     sp_draft other;   /* of the tuned search, where that kind asks for it */
-    double budget;    /* m³/s */
+    double budget;    /* m³/s of outlay */
     uint64_t seed;    /* of the walk */
     bool better;      /* it came to cover more on few patches; the search's and the final ones may see it otherwise */
     sp_draft refined; /* on few patches */

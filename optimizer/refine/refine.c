@@ -54,8 +54,7 @@ static bool try_also(sp_refining *refining, sp_trials *trials, const sp_draft *d
     if (!sp_grow(&trials->items, &trials->capacity, trials->count + 1, sizeof *trials->items))
         return sp_fail_memory(refining->error);
     sp_trial *trial = &trials->items[trials->count];
-    *trial = (sp_trial){
-        .kind = kind, .seed = ++refining->seeds, .budget = fmin(budget, refining->search->options->max_water)};
+    *trial = (sp_trial){.kind = kind, .seed = ++refining->seeds, .budget = fmin(budget, refining->search->outlay_most)};
     if (!sp_draft_copy(refining->search, draft, &trial->draft, refining->error))
         return false;
     trials->count++;
@@ -66,7 +65,7 @@ static bool try_also(sp_refining *refining, sp_trials *trials, const sp_draft *d
  */
 static bool may_count(const sp_front *front, const sp_draft *draft)
 {
-    for (size_t i = 0; i < front->by_water.count && front->by_water.entries[i].point.flow <= draft->flow; i++)
+    for (size_t i = 0; i < front->by_water.count && front->by_water.entries[i].point.outlay <= draft->outlay; i++)
         if (front->by_water.entries[i].draft.covered > draft->covered * (1 + MISJUDGED))
             return false;
     return true;
@@ -101,7 +100,7 @@ static bool try_front(sp_refining *refining, sp_trials *trials)
     const sp_front *front = refining->front;
     for (size_t i = 0; i < front->by_water.count; i++)
         if (sp_front_counts(front, i) && !try_also(refining, trials, &front->by_water.entries[i].draft,
-                                                   front->by_water.entries[i].point.flow, SP_TRIAL_POLISH))
+                                                   front->by_water.entries[i].point.outlay, SP_TRIAL_POLISH))
             return false;
     return true;
 }
@@ -109,7 +108,7 @@ static bool try_front(sp_refining *refining, sp_trials *trials)
 static bool on_water_front(const sp_front *front, const sp_front_point *point)
 {
     for (size_t i = 0; i < front->by_water.count; i++)
-        if (front->by_water.entries[i].point.flow == point->flow &&
+        if (front->by_water.entries[i].point.outlay == point->outlay &&
             front->by_water.entries[i].point.area == point->area)
             return true;
     return false;
@@ -122,20 +121,20 @@ static bool try_fewest(sp_refining *refining, sp_trials *trials)
     for (size_t i = 0; i < front->by_number.count; i++) {
         const sp_front_entry *entry = &front->by_number.entries[i];
         if (entry->draft.count && entry->draft.count < front->best.count && !on_water_front(front, &entry->point) &&
-            !try_also(refining, trials, &entry->draft, entry->point.flow, SP_TRIAL_POLISH))
+            !try_also(refining, trials, &entry->draft, entry->point.outlay, SP_TRIAL_POLISH))
             return false;
     }
     return true;
 }
 
 /* A trial of another draft for so much water, to be better than what the front has for no more. */
-static bool ask_other(sp_refining *refining, sp_trials *trials, double flow)
+static bool ask_other(sp_refining *refining, sp_trials *trials, double outlay)
 {
     const sp_front *front = refining->front;
     size_t i = 0;
-    while (i + 1 < front->by_water.count && front->by_water.entries[i + 1].point.flow <= flow * (1 + SP_ROUNDING))
+    while (i + 1 < front->by_water.count && front->by_water.entries[i + 1].point.outlay <= outlay * (1 + SP_ROUNDING))
         i++;
-    return try_also(refining, trials, &front->by_water.entries[i].draft, flow, SP_TRIAL_OTHER);
+    return try_also(refining, trials, &front->by_water.entries[i].draft, outlay, SP_TRIAL_OTHER);
 }
 
 /* Trials of other drafts for the water of every draft of the front, `between` also for a little less, where the front
@@ -144,26 +143,25 @@ static bool ask_other(sp_refining *refining, sp_trials *trials, double flow)
 static bool ask_others(sp_refining *refining, sp_trials *trials, bool between)
 {
     const sp_front *front = refining->front;
-    const sp_layout *own = refining->search->options->kept;
-    double own_flow = own ? sp_layout_flow(own, &sp_evaluator_setup(refining->search->coarse)->liquid) : 0;
+    double own = sp_own_outlay(refining->search);
     for (size_t i = 0; i < front->by_water.count; i++) {
-        double flow = front->by_water.entries[i].point.flow, less = flow * (1 - BETWEEN);
+        double outlay = front->by_water.entries[i].point.outlay, less = outlay * (1 - BETWEEN);
         if (!sp_front_counts(front, i))
             continue;
         if (between && front->by_water.entries[i].draft.count > 1 &&
-            less > front->by_water.entries[i - 1].point.flow * (1 + APART) && !ask_other(refining, trials, less))
+            less > front->by_water.entries[i - 1].point.outlay * (1 + APART) && !ask_other(refining, trials, less))
             return false;
-        if (!ask_other(refining, trials, flow))
+        if (!ask_other(refining, trials, outlay))
             return false;
     }
-    return own_flow <= 0 || ask_other(refining, trials, own_flow);
+    return own <= 0 || ask_other(refining, trials, own);
 }
 
 /* The same for a little less water than the best draft takes. */
 static bool ask_savings(sp_refining *refining, sp_trials *trials)
 {
     for (int i = 1; i <= SAVINGS; i++)
-        if (!ask_other(refining, trials, refining->front->best.flow * (1 - SAVING * i)))
+        if (!ask_other(refining, trials, refining->front->best.outlay * (1 - SAVING * i)))
             return false;
     return true;
 }
@@ -249,7 +247,7 @@ static bool recombine_front(sp_refining *refining)
 
 static bool same(const sp_front_point *a, const sp_front_point *b)
 {
-    return fabs(a->area - b->area) <= GAIN_LEAST * b->area && fabs(a->flow - b->flow) <= GAIN_LEAST * b->flow;
+    return fabs(a->area - b->area) <= GAIN_LEAST * b->area && fabs(a->outlay - b->outlay) <= GAIN_LEAST * b->outlay;
 }
 
 /* Turns a draft's adjustable nozzles down while it reaches the target. */
@@ -307,7 +305,7 @@ static bool save_share(sp_refining *refining, double share, bool *saved)
 {
     sp_front *front = refining->front;
     sp_front_point before = front->measured;
-    double budget = front->best.flow * (1 - share);
+    double budget = front->best.outlay * (1 - share);
     sp_draft reduced;
     bool found;
     *saved = false;
@@ -343,11 +341,11 @@ static bool sharpen(sp_refining *refining, bool saves, bool near)
 {
     sp_front *front = refining->front;
     sp_trials trials = {0};
-    bool done = try_also(refining, &trials, &front->best, front->best.flow, SP_TRIAL_POLISH);
+    bool done = try_also(refining, &trials, &front->best, front->best.outlay, SP_TRIAL_POLISH);
     for (size_t i = 0; near && done && i < front->by_water.count && trials.count <= NEAR_MOST; i++) {
         const sp_front_entry *entry = &front->by_water.entries[i];
-        double budget = fmin(entry->point.flow * (1 + LEEWAY), front->best.flow);
-        if (entry->point.flow < front->best.flow * (1 - GAIN_LEAST) && entry->point.area < front->target &&
+        double budget = fmin(entry->point.outlay * (1 + LEEWAY), front->best.outlay);
+        if (entry->point.outlay < front->best.outlay * (1 - GAIN_LEAST) && entry->point.area < front->target &&
             entry->point.area >= front->target * (1 - NEAR))
             done = try_also(refining, &trials, &entry->draft, budget, SP_TRIAL_POLISH);
     }
@@ -367,8 +365,8 @@ static bool sharpen_often(sp_refining *refining, bool saves)
 {
     double before = INFINITY;
     const sp_draft *best = &refining->front->best;
-    for (int round = 0; round < SHARP_ROUNDS && best->flow < before * (1 - SHARP_SAVING); round++) {
-        before = best->flow;
+    for (int round = 0; round < SHARP_ROUNDS && best->outlay < before * (1 - SHARP_SAVING); round++) {
+        before = best->outlay;
         if (!sharpen(refining, saves, saves && round == 0))
             return false;
     }

@@ -57,6 +57,25 @@ static bool set_patches(sp_search *search, sp_error *error)
     return true;
 }
 
+/* Whatever the number of nozzles that max_water lets be placed, each in the dearest mount. */
+static void set_outlay(sp_search *search)
+{
+    const sp_place_options *options = search->options;
+    double dearest = 0, least = INFINITY;
+    for (size_t m = 0; m < options->mount_count; m++)
+        dearest = fmax(dearest, options->mounts[m].cost);
+    for (size_t k = 0; k < search->candidates->make_count; k++)
+        least = fmin(least, search->candidates->makes[k].flow);
+    search->costly = dearest > 0;
+    search->outlay_most = options->max_water;
+    if (!search->costly || isinf(options->max_water))
+        return;
+    double number = fmax(0, floor((options->max_water - search->kept_flow) / least * (1 + SP_ROUNDING)));
+    if (options->max_nozzles)
+        number = fmin(number, (double)options->max_nozzles);
+    search->outlay_most += number * dearest;
+}
+
 bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *options, const sp_sites *sites,
                       const sp_candidates *candidates, const sp_visibility *visibility, sp_search *search,
                       sp_error *error)
@@ -83,6 +102,7 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
         sp_search_free(search);
         return false;
     }
+    set_outlay(search);
     double tolerance = sp_mount_tolerance(sp_evaluator_setup(coarse));
     for (size_t m = 0; m < options->mount_count; m++)
         for (size_t i = 0; options->mounts[m].kind == SP_MOUNT_PORT && i < search->kept_count; i++)
@@ -111,6 +131,7 @@ static void pour_item(const sp_search *search, sp_draft *draft, size_t i)
     const float *field = draft->items[i].field, *more = field + search->patch_count;
     float *restrict hit = draft->hit, *restrict dry = draft->dry, *restrict film = draft->film;
     draft->flow += draft->items[i].flow;
+    draft->outlay += sp_placed_outlay(search, &draft->items[i]);
     if (!sp_type_is_uniform(draft->items[i].nozzle.type)) {
         sp_footprint_pour(search, sp_footprints_look(search->footprints, draft->items[i].pose), hit, film, dry);
         return;
@@ -141,7 +162,7 @@ void sp_draft_refresh(const sp_search *search, sp_draft *draft)
     if (draft->film)
         memcpy(draft->film, search->kept_film, search->patch_count * sizeof *draft->film);
     memcpy(draft->dry, search->kept_dry, search->patch_count * sizeof *draft->dry);
-    draft->flow = search->kept_flow;
+    draft->flow = draft->outlay = search->kept_flow;
     for (size_t i = 0; i < draft->count; i++)
         pour_item(search, draft, i);
     count_up(search, draft);
@@ -256,6 +277,32 @@ double sp_draft_counted(const sp_search *search, const sp_draft *draft)
     for (size_t p = 0; p < search->patch_count; p++)
         area += (double)(search->area[p] * sp_covered(draft->wet[p], draft->dry[p]));
     return area * search->all;
+}
+
+double sp_own_outlay(const sp_search *search)
+{
+    const sp_layout *own = search->options->kept;
+    const sp_setup *setup = sp_evaluator_setup(search->coarse);
+    double outlay = own ? sp_layout_flow(own, &setup->liquid) : 0;
+    for (size_t i = 0; search->costly && own && i < own->count; i++) {
+        size_t mount =
+            sp_mount_at(setup, search->options->mounts, search->options->mount_count, own->nozzles[i].position);
+        outlay += own->nozzles[i].keep || mount == SIZE_MAX ? 0 : search->options->mounts[mount].cost;
+    }
+    return outlay;
+}
+
+double sp_draft_costs(const sp_search *search, const sp_draft *draft)
+{
+    double costs = 0;
+    for (size_t i = 0; i < draft->count; i++)
+        costs += search->options->mounts[draft->items[i].site.mount].cost;
+    return costs;
+}
+
+double sp_draft_water(const sp_search *search, const sp_draft *draft, double budget)
+{
+    return search->costly ? fmin(budget - sp_draft_costs(search, draft), search->options->max_water) : budget;
 }
 
 bool sp_draft_has_place(const sp_search *search, const sp_draft *draft, uint32_t mount)

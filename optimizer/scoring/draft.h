@@ -41,10 +41,12 @@ typedef struct {
     size_t kept_count;
     sp_nozzle *kept; /* the nozzles that every layout contains */
     double kept_flow;
-    float *kept_hit;                  /* [patch_count], flux over threshold on all of a patch */
-    float *kept_film;                 /* [patch_count], film over what is asked for; NULL where none is */
-    float *kept_dry;                  /* [patch_count], share of a patch that their edges do not cover */
-    bool *port_taken;                 /* [mount_count], by a kept nozzle */
+    bool costly;        /* some mount costs something; else a layout's outlay is its water */
+    double outlay_most; /* m³/s that no layout is looked for beyond: max_water, and what mounts may cost besides */
+    float *kept_hit;    /* [patch_count], flux over threshold on all of a patch */
+    float *kept_film;   /* [patch_count], film over what is asked for; NULL where none is */
+    float *kept_dry;    /* [patch_count], share of a patch that their edges do not cover */
+    bool *port_taken;   /* [mount_count], by a kept nozzle */
     struct sp_footprints *footprints; /* of poses that no sweep knows; NULL: there are none */
 } sp_search;
 
@@ -82,6 +84,7 @@ typedef struct {
     float *wet;       /* [patch_count], the greater of both; `hit` itself where there is but that */
     float *dry;       /* [patch_count], share of a patch that no edge covers */
     double flow;      /* m³/s, kept nozzles included */
+    double outlay;    /* m³/s, the same with what the mounts cost */
     double covered;   /* m² of coarse patches */
     double value;     /* covered, and the credit for what is on the way */
 } sp_draft;
@@ -126,7 +129,7 @@ static inline float sp_covered(float wet, float dry)
 {
     return wet >= SP_ENOUGH ? 1 : 1 - dry;
 }
-/* Draws wet, dry, flow, covered and value from the items. */
+/* Draws wet, dry, flow, outlay, covered and value from the items. */
 void sp_draft_refresh(const sp_search *search, sp_draft *draft);
 /* What it covers of the search's patches, m², added up in their order. */
 double sp_draft_counted(const sp_search *search, const sp_draft *draft);
@@ -134,6 +137,27 @@ double sp_draft_counted(const sp_search *search, const sp_draft *draft);
 static inline bool sp_covers_more(const sp_search *search, const sp_draft *a, const sp_draft *b)
 {
     return a->covered > b->covered + SP_TIE * search->all;
+}
+/* What a nozzle of this flow takes there, m³/s. */
+static inline double sp_outlay_at(const sp_search *search, uint32_t mount, double flow)
+{
+    return flow + search->options->mounts[mount].cost;
+}
+static inline double sp_placed_outlay(const sp_search *search, const sp_placed *placed)
+{
+    return sp_outlay_at(search, placed->site.mount, placed->flow);
+}
+/* m³/s that the scene's own layout would take, with what the mounts that its nozzles lie on cost. */
+double sp_own_outlay(const sp_search *search);
+/* What the draft's mounts cost, m³/s; and the water (m³/s) that its nozzles may take within an outlay of `budget`. */
+double sp_draft_costs(const sp_search *search, const sp_draft *draft);
+double sp_draft_water(const sp_search *search, const sp_draft *draft, double budget);
+/* True where one more nozzle of this flow fits within an outlay of `budget`, and within max_water. */
+static inline bool sp_affords(const sp_search *search, double flow, double outlay, uint32_t mount, double more,
+                              double budget)
+{
+    return outlay + sp_outlay_at(search, mount, more) <= budget &&
+           (!search->costly || flow + more <= search->options->max_water * (1 + SP_ROUNDING));
 }
 /* True where the draft may take one more nozzle at the site: number and ports, not water. */
 bool sp_draft_has_place(const sp_search *search, const sp_draft *draft, uint32_t mount);

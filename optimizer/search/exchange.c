@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #define SWEEPS_MOST 8
-#define GAIN_LEAST 1e-5 /* of the area, for a replacement: an exchange must end */
-#define WATER_STEP 0.02 /* share of the water that a reduction must save */
+#define GAIN_LEAST 1e-5  /* of the area, for a replacement: an exchange must end */
+#define OUTLAY_STEP 0.02 /* share of the outlay that a reduction must save */
 
 /* Replaces item i where the pool holds something better for its place. The item then stands last. */
 static bool replace(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_draft *draft,
@@ -109,10 +109,10 @@ bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_draft *dra
             break;
         sp_draft_remove(search, &trial, order[i]);
         /* one nozzle may not be enough to leave out: then the smallest remaining follow */
-        while (trial.count && trial.flow > budget)
+        while (trial.count && trial.outlay > budget)
             sp_draft_remove(search, &trial, trial.count - 1);
         done = sp_improve(search, pool, budget, watch, &trial, error);
-        if (done && trial.flow <= budget && (!*found || sp_covers_more(search, &trial, reduced))) {
+        if (done && trial.outlay <= budget && (!*found || sp_covers_more(search, &trial, reduced))) {
             if (*found)
                 sp_draft_free(reduced);
             *reduced = trial;
@@ -137,7 +137,7 @@ bool sp_shrink(const sp_search *search, const sp_pool *pool, double target, sp_w
         bool found;
         if (draft->count == 0 || !sp_watch_goes_on(watch, "exchange", 0))
             return true;
-        if (!sp_reduce(search, pool, draft, draft->flow * (1 - WATER_STEP), target, watch, &reduced, &found, error))
+        if (!sp_reduce(search, pool, draft, draft->outlay * (1 - OUTLAY_STEP), target, watch, &reduced, &found, error))
             return false;
         if (!found || reduced.covered < target) {
             if (found)

@@ -8,8 +8,8 @@
 
 #define ROUNDS_MOST 4    /* corrections for what the coarse patches misjudge */
 #define FRONT_BUDGETS 8  /* about as many points of the front are searched for */
-#define FRONT_RATIO 1.15 /* between two amounts of water at which the front is searched, at most */
-#define STARTS 2         /* of the search at one amount of water */
+#define FRONT_RATIO 1.15 /* between two outlays at which the front is searched, at most */
+#define STARTS 2         /* of the search at one outlay */
 #define WALK 4e8         /* patches that a walk from the better of these goes through */
 
 typedef struct {
@@ -19,7 +19,7 @@ typedef struct {
     sp_pool *pool;
     sp_error *error;
     double target; /* m² on the final patches; INFINITY: as much as possible */
-    double budget; /* m³/s */
+    double budget; /* m³/s of outlay */
 } sp_finding;
 
 /* Greedy over everything; where the fine measure falls short of the target, on with a higher coarse one. */
@@ -40,7 +40,7 @@ static bool first_draft(const sp_finding *finding, sp_draft *draft)
     return true;
 }
 
-/* Greedy over the pool with another weight of water, improved within the water allowed. */
+/* Greedy over the pool with another weight of outlay, improved within what is allowed. */
 static bool other_draft(const sp_finding *finding, double power)
 {
     sp_draft draft;
@@ -54,14 +54,14 @@ static bool other_draft(const sp_finding *finding, double power)
                               finding->error);
         sp_bench_free(&bench);
     }
-    double budget = draft.covered >= coarse ? draft.flow * (1 + SP_ROUNDING) : finding->budget;
+    double budget = draft.covered >= coarse ? draft.outlay * (1 + SP_ROUNDING) : finding->budget;
     done = done && sp_improve(finding->search, finding->pool, budget, finding->watch, &draft, finding->error) &&
            sp_front_measure(finding->front, finding->search, &draft, NULL, finding->error);
     sp_draft_free(&draft);
     return done;
 }
 
-/* Less water at the same coverage, judged on the coarse patches and confirmed on the fine ones. */
+/* Less outlay at the same coverage, judged on the coarse patches and confirmed on the fine ones. */
 static bool shrink_best(const sp_finding *finding)
 {
     bool done = true;
@@ -75,7 +75,7 @@ static bool shrink_best(const sp_finding *finding)
         /* each round asks the coarse patches for a little more than the last one's miss */
         double coarse = target - front->bias + 0.001 * round * target;
         done = sp_shrink(finding->search, finding->pool, coarse, finding->watch, &draft, finding->error);
-        bool shrunk = done && draft.flow < before.flow;
+        bool shrunk = done && draft.outlay < before.outlay;
         if (shrunk)
             done = sp_front_measure(front, finding->search, &draft, &point, finding->error);
         sp_draft_free(&draft);
@@ -93,7 +93,7 @@ static bool start_from(const sp_finding *finding, const sp_draft *greedy, const 
         return sp_lineup_draft(guessed, draft, finding->error);
     if (!sp_draft_copy(finding->search, greedy, draft, finding->error))
         return false;
-    while (draft->count && draft->flow > budget)
+    while (draft->count && draft->outlay > budget)
         sp_draft_remove(finding->search, draft, draft->count - 1);
     return true;
 }
@@ -192,30 +192,43 @@ static double *densify(double *budgets, size_t *count)
     return dense;
 }
 
-/* The water at which the front is searched: what the greedy order used as it went, all of it where that falls short of
- * the target, what one nozzle of each make takes, that of the scene's own layout, with which the proposal will be
- * compared, and enough between. Rising; malloc'd, NULL when memory runs out. */
+/* What one nozzle of each make takes, in each of the mounts that cost differently; returns how many. */
+static size_t list_singles(const sp_search *search, double *budgets)
+{
+    const sp_place_options *options = search->options;
+    size_t found = 0;
+    for (size_t k = 0; k < options->mount_count; k++) {
+        bool known = false;
+        for (size_t i = 0; i < k; i++)
+            known |= options->mounts[i].cost == options->mounts[k].cost;
+        for (size_t m = 0; !known && m < search->candidates->make_count; m++)
+            budgets[found++] = search->kept_flow + sp_outlay_at(search, (uint32_t)k, search->candidates->makes[m].flow);
+    }
+    return found;
+}
+
+/* The outlays at which the front is searched: what the greedy order used as it went, all that is allowed where that
+ * falls short of the target, what one nozzle of each make takes, that of the scene's own layout, with which the
+ * proposal will be compared, and enough between. Rising; malloc'd, NULL when memory runs out. */
 static double *list_budgets(const sp_finding *finding, const sp_draft *greedy, size_t *count)
 {
     const sp_search *search = finding->search;
-    const sp_candidates *candidates = search->candidates;
-    const sp_layout *own = search->options->kept;
-    double *budgets = malloc((greedy->count + candidates->make_count + 2) * sizeof *budgets);
+    size_t singles = search->candidates->make_count * search->options->mount_count;
+    double *budgets = malloc((greedy->count + singles + 2) * sizeof *budgets);
     if (!budgets)
         return NULL;
     size_t found = 0, stride = greedy->count / (FRONT_BUDGETS + 1) + 1;
-    double flow = search->kept_flow;
+    double outlay = search->kept_flow;
     for (size_t i = 0; i + 1 < greedy->count; i++) {
-        flow += greedy->items[i].flow;
+        outlay += sp_placed_outlay(search, &greedy->items[i]);
         if ((i + 1) % stride == 0)
-            budgets[found++] = flow;
+            budgets[found++] = outlay;
     }
     if (!(finding->front->measured.area >= finding->target))
-        budgets[found++] = isfinite(search->options->max_water) ? search->options->max_water : greedy->flow;
-    for (size_t m = 0; m < candidates->make_count; m++)
-        budgets[found++] = search->kept_flow + candidates->makes[m].flow;
-    if (own)
-        budgets[found++] = sp_layout_flow(own, &sp_evaluator_setup(search->coarse)->liquid);
+        budgets[found++] = isfinite(search->outlay_most) ? search->outlay_most : greedy->outlay;
+    found += list_singles(search, budgets + found);
+    if (search->options->kept)
+        budgets[found++] = sp_own_outlay(search);
     *count = sift(finding, budgets, found);
     return densify(budgets, count);
 }
@@ -252,7 +265,7 @@ bool sp_find(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool 
                           .pool = pool,
                           .error = error,
                           .target = most ? INFINITY : front->target,
-                          .budget = search->options->max_water * (1 + SP_ROUNDING)};
+                          .budget = search->outlay_most * (1 + SP_ROUNDING)};
     sp_draft draft;
     if (!sp_draft_create(search, &draft, error))
         return false;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FLOW_LEAST 0.01 /* share of the water by which points of the front differ */
+#define FLOW_LEAST 0.01 /* share of the outlay by which points of the front differ */
 
 /* m² by which equal coverages may differ. */
 static double tie_of(const sp_front *front)
@@ -13,9 +13,9 @@ static double tie_of(const sp_front *front)
     return SP_TIE * sp_evaluator_patches(front->fine)->total_area;
 }
 
-static bool less_water(const sp_front_point *a, const sp_front_point *b)
+static bool less_outlay(const sp_front_point *a, const sp_front_point *b)
 {
-    return a->flow < b->flow * (1 - SP_ROUNDING);
+    return a->outlay < b->outlay * (1 - SP_ROUNDING);
 }
 
 bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_front_point *b)
@@ -25,16 +25,16 @@ bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_fr
     if (front->objective == SP_OBJECTIVE_MAX_COVERAGE || !both) {
         if (front->objective != SP_OBJECTIVE_MAX_COVERAGE && (a->area >= front->target) != (b->area >= front->target))
             return a->area >= front->target;
-        return a->area > b->area + tie || (a->area >= b->area - tie && less_water(a, b));
+        return a->area > b->area + tie || (a->area >= b->area - tie && less_outlay(a, b));
     }
     if (front->objective == SP_OBJECTIVE_AREA_PER_WATER)
-        return a->area * b->flow > b->area * a->flow * (1 + SP_TIE);
-    return less_water(a, b) || (!less_water(b, a) && a->area > b->area + tie);
+        return a->area * b->outlay > b->area * a->outlay * (1 + SP_TIE);
+    return less_outlay(a, b) || (!less_outlay(b, a) && a->area > b->area + tie);
 }
 
 static double by_water(const sp_front_point *point)
 {
-    return point->flow;
+    return point->outlay;
 }
 
 static double by_number(const sp_front_point *point)
@@ -84,8 +84,14 @@ bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *
     sp_coverage *coverage = layout ? sp_evaluate(front->fine, layout, error) : NULL;
     sp_front_point measured = {0};
     if (coverage)
-        measured = (sp_front_point){
-            coverage->flow, coverage->covered_area, layout->count, NAN, NAN, NAN, fittings_of(search, draft)};
+        measured = (sp_front_point){.flow = coverage->flow,
+                                    .area = coverage->covered_area,
+                                    .nozzles = layout->count,
+                                    .counted = NAN,
+                                    .bound = NAN,
+                                    .every_aim_bound = NAN,
+                                    .fittings = fittings_of(search, draft),
+                                    .outlay = coverage->flow + sp_draft_costs(search, draft)};
     bool done = coverage != NULL;
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
@@ -110,7 +116,7 @@ bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *
 bool sp_front_counts(const sp_front *front, size_t i)
 {
     return i + 1 == front->by_water.count ||
-           front->by_water.entries[i + 1].point.flow > front->by_water.entries[i].point.flow * (1 + FLOW_LEAST);
+           front->by_water.entries[i + 1].point.outlay > front->by_water.entries[i].point.outlay * (1 + FLOW_LEAST);
 }
 
 static sp_front_point *points_of(const sp_front *front, const sp_front_list *list, size_t *count, sp_error *error)

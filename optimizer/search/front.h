@@ -10,8 +10,8 @@ typedef struct {
     sp_draft draft;
 } sp_front_entry;
 
-/* What nothing measured betters with no more water, or no more nozzles: by rising water or number, all areas rising
- * too. */
+/* What nothing measured betters with no more outlay, or no more nozzles: by rising outlay or number, all areas rising
+ * too. `Water` in names of the front is outlay where mounts cost something. */
 typedef struct {
     size_t count, capacity;
     sp_front_entry *entries;

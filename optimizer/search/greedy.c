@@ -48,7 +48,7 @@ void sp_pool_free(sp_pool *pool)
 /* The best pose of one mounting point and make in this round. */
 typedef struct {
     sp_pose pose;
-    double merit; /* gain per water^power; 0: none */
+    double merit; /* gain per outlay^power; 0: none */
     double gain;
 } sp_round_best;
 
@@ -130,6 +130,17 @@ static void rise_note(sp_rise *rise, sp_pose pose, double gain, double tie)
     rise->count = kept + 1;
 }
 
+static double price_of(const sp_search *search, const sp_pose *pose, double power)
+{
+    uint32_t mount = search->sites->items[pose->site].mount;
+    return pow(sp_outlay_at(search, mount, search->candidates->makes[pose->make].flow), power);
+}
+
+static bool affords(const sp_search *search, const sp_draft *draft, uint32_t mount, size_t make, double budget)
+{
+    return sp_affords(search, draft->flow, draft->outlay, mount, search->candidates->makes[make].flow, budget);
+}
+
 /* Scores one site's poses of a make but those that cannot beat `least`, a merit that some pose of this round has. The
  * sweeper takes the make where that is needed. */
 static void scan_make(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t make, size_t number, double least)
@@ -137,8 +148,9 @@ static void scan_make(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t make, siz
     const sp_candidates *candidates = rounds->search->candidates;
     const sp_make *own = &candidates->makes[make];
     sp_round_best *best = &rounds->best[sweeper->site * candidates->make_count + make];
-    size_t axes = sp_candidates_axes(candidates, rounds->search->sites->items[sweeper->site].mount, make)->count;
-    double price = pow(own->flow, rounds->power);
+    uint32_t mount = rounds->search->sites->items[sweeper->site].mount;
+    size_t axes = sp_candidates_axes(candidates, mount, make)->count;
+    double price = pow(sp_outlay_at(rounds->search, mount, own->flow), rounds->power);
     bool taken = false;
     sp_rise rise = {0};
     for (uint32_t a = 0; a < axes; a++)
@@ -169,7 +181,7 @@ static void scan_site(sp_rounds *rounds, const sp_draft *draft, sp_sweeper *swee
         sp_sweeper_look(sweeper, rounds->search, draft, site, s);
         for (size_t k = 0; k < candidates->make_count; k++) {
             const sp_make *make = &candidates->makes[k];
-            if (make->launch == s && draft->flow + make->flow <= rounds->budget)
+            if (make->launch == s && affords(rounds->search, draft, mount, k, rounds->budget))
                 scan_make(rounds, sweeper, (uint32_t)k, number, least);
             number += sp_candidates_axes(candidates, mount, k)->count * make->roll_count;
         }
@@ -188,13 +200,13 @@ static double round_floor(sp_rounds *rounds, const sp_draft *draft)
         const sp_round_best *best = &rounds->best[i];
         if (best->merit <= 0)
             continue;
-        const sp_make *make = &search->candidates->makes[best->pose.make];
-        if (draft->flow + make->flow > rounds->budget ||
-            !sp_draft_has_place(search, draft, search->sites->items[best->pose.site].mount))
+        uint32_t mount = search->sites->items[best->pose.site].mount;
+        if (!affords(search, draft, mount, best->pose.make, rounds->budget) ||
+            !sp_draft_has_place(search, draft, mount))
             continue;
         sp_sweeper *sweeper = &rounds->sweepers[omp_get_thread_num()];
         double gain = sp_score_pose(sweeper, search, draft, best->pose, 0).gain;
-        least = fmax(least, gain / pow(make->flow, rounds->power));
+        least = fmax(least, gain / price_of(search, &best->pose, rounds->power));
     }
     return least;
 }
@@ -233,13 +245,12 @@ static bool remember(const sp_rounds *rounds, bool first, sp_pool *pool, sp_erro
 static const sp_round_best *round_best(const sp_rounds *rounds)
 {
     size_t count = rounds->search->sites->count * rounds->search->candidates->make_count;
-    const sp_make *makes = rounds->search->candidates->makes;
     double most = 0;
     for (size_t i = 0; i < count; i++)
         most = fmax(most, rounds->best[i].merit);
     for (size_t i = 0; most > 0 && i < count; i++) {
         const sp_round_best *best = &rounds->best[i];
-        if (best->merit > 0 && best->gain + rounds->tie >= most * pow(makes[best->pose.make].flow, rounds->power))
+        if (best->merit > 0 && best->gain + rounds->tie >= most * price_of(rounds->search, &best->pose, rounds->power))
             return best;
     }
     return &rounds->best[0];
@@ -293,11 +304,6 @@ void sp_bench_free(sp_bench *bench)
     *bench = (sp_bench){0};
 }
 
-static double price_of(const sp_search *search, const sp_pose *pose, double power)
-{
-    return pow(search->candidates->makes[pose->make].flow, power);
-}
-
 /* Scores all of the pool, exactly where they may be the best or equal to it; `least` as sp_pool_best's. */
 static void score_pool(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
                        double least, sp_bench *bench)
@@ -311,8 +317,8 @@ static void score_pool(const sp_search *search, const sp_pool *pool, const sp_dr
         for (size_t i = 0; i < pool->count; i++) {
             sp_pose pose = pool->items[i];
             double price = price_of(search, &pose, power), enough = fmax(least, merit * price) - tie;
-            bool allowed = draft->flow + search->candidates->makes[pose.make].flow <= budget &&
-                           sp_draft_has_place(search, draft, search->sites->items[pose.site].mount);
+            uint32_t mount = search->sites->items[pose.site].mount;
+            bool allowed = affords(search, draft, mount, pose.make, budget) && sp_draft_has_place(search, draft, mount);
             double gain = allowed ? sp_score_pose(sweeper, search, draft, pose, enough).gain : 0;
             bench->scores[i] = gain >= enough ? gain : 0;
             merit = fmax(merit, bench->scores[i] / price);

@@ -8,23 +8,23 @@
 
 #define FIRST_MOST 300     /* first nozzles that have their turn */
 #define SECOND_MOST 48     /* second ones of each first that proved good */
-#define STARTS 3           /* of each amount of water, that are improved */
+#define STARTS 3           /* of each outlay, that are improved */
 #define PATHS_WORK 2e9     /* terms of sums that all greedy orders may take */
-#define REGROUP_WORK 1.5e9 /* the same for regrouping at one amount of water */
+#define REGROUP_WORK 1.5e9 /* the same for regrouping at one outlay */
 
 /* A greedy order: what its first so many nozzles take and cover. */
 typedef struct {
     size_t guessed, count;
     double power;
     uint32_t row[SP_LINEUP_MOST];
-    double flow[SP_LINEUP_MOST], covered[SP_LINEUP_MOST];
+    double outlay[SP_LINEUP_MOST], covered[SP_LINEUP_MOST];
 } path;
 
 /* The first nozzles of a path. */
 typedef struct {
     uint32_t row[SP_LINEUP_MOST];
     size_t count;
-    double flow, covered;
+    double outlay, covered;
 } start;
 
 typedef struct {
@@ -78,33 +78,33 @@ static void follow(const guessing *g, sp_lineup *lineup, path *p)
             break;
         sp_lineup_add(lineup, row);
         p->row[i] = row;
-        p->flow[i] = lineup->flow;
+        p->outlay[i] = lineup->outlay;
         p->covered[i] = lineup->covered;
         p->count = i + 1;
     }
 }
 
-/* Keeps the path's longest beginning within each amount of water where no other of as many nozzles covers more. */
+/* Keeps the path's longest beginning within each outlay where no other of as many nozzles covers more. */
 static void enter(guessing *g, const path *p)
 {
     for (size_t b = 0; b < g->count; b++) {
         size_t n = 0;
-        while (n < p->count && p->flow[n] <= g->budgets[b])
+        while (n < p->count && p->outlay[n] <= g->budgets[b])
             n++;
         start *own = &g->starts[b * SP_LINEUP_MOST + n - (n > 0)];
         if (!n || p->covered[n - 1] <= own->covered + SP_TIE * g->table->search->all)
             continue;
-        *own = (start){.count = n, .covered = p->covered[n - 1], .flow = p->flow[n - 1]};
+        *own = (start){.count = n, .covered = p->covered[n - 1], .outlay = p->outlay[n - 1]};
         memcpy(own->row, p->row, n * sizeof *own->row);
     }
 }
 
-/* What a beginning promises: what it covers, and of the water left half as much as of the water used. */
+/* What a beginning promises: what it covers, and of the outlay left half as much as of what is used. */
 static double promise(const guessing *g, size_t b, size_t i)
 {
     const start *s = &g->starts[b * SP_LINEUP_MOST + i];
-    double used = s->flow - g->table->search->kept_flow;
-    return s->count ? s->covered * (1 + 0.5 * (g->budgets[b] - s->flow) / used) : 0;
+    double used = s->outlay - g->table->search->kept_flow;
+    return s->count ? s->covered * (1 + 0.5 * (g->budgets[b] - s->outlay) / used) : 0;
 }
 
 /* Beginning number `rank` by promise; NULL for none. */
@@ -131,8 +131,8 @@ static void follow_all(guessing *g, size_t from)
         enter(g, &g->paths[i]);
 }
 
-/* Adds paths that begin with the lineup's nozzles and one more, of those that gain most per root of the water, by
- * either weight of water. */
+/* Adds paths that begin with the lineup's nozzles and one more, of those that gain most per root of the outlay, by
+ * either weight of it. */
 static bool add_guesses(guessing *g, const sp_lineup *lineup, size_t most, sp_error *error)
 {
     size_t rows = g->table->row_count, found = 0;
@@ -142,7 +142,7 @@ static bool add_guesses(guessing *g, const sp_lineup *lineup, size_t most, sp_er
     for (size_t r = 0; r < rows; r++) {
         double gain = sp_lineup_gain(lineup, (uint32_t)r, g->most);
         if (gain > 0)
-            list[found++] = (sp_ranked){gain / sqrt(sp_table_flow(g->table, r)), r};
+            list[found++] = (sp_ranked){gain / sqrt(sp_table_outlay(g->table, r)), r};
     }
     sp_rank_falling_ties(list, found, SP_SCORE_TIE);
     for (size_t i = 0; i < found && i < most; i++)
@@ -192,7 +192,7 @@ static bool guess(guessing *g, sp_error *error)
     return true;
 }
 
-/* What the beginnings for one amount of water become. */
+/* What the beginnings for one outlay become. */
 static void improve(const guessing *g, size_t b, sp_lineup *own, sp_lineup *scratch, sp_lineup *best)
 {
     for (size_t k = 0; k < STARTS && sp_watch_goes_on(g->watch, "front", 0); k++) {

@@ -7,7 +7,7 @@
 
 #include "search/lineup.h"
 
-/* For each amount of water (m³/s) the best lineup found on the table; lineups[count] are created by it, and freed by
+/* For each outlay (m³/s) the best lineup found on the table; lineups[count] are created by it, and freed by
  * the caller. What is found does not depend on the number of threads. */
 bool sp_guess(const sp_table *table, const double *budgets, size_t count, sp_watch *watch, sp_lineup *lineups,
               sp_error *error);

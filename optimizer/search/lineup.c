@@ -47,6 +47,7 @@ static void pour(sp_lineup *lineup, uint32_t row)
 {
     const sp_table *table = lineup->table;
     lineup->flow += sp_table_flow(table, row);
+    lineup->outlay += sp_table_outlay(table, row);
     for (size_t i = table->start[row]; i < table->start[row + 1]; i++)
         sp_pour(table->search, table->field[i], &lineup->hit[table->patch[i]], &lineup->dry[table->patch[i]]);
     for (size_t i = table->start[row]; table->film && i < table->start[row + 1]; i++) {
@@ -65,7 +66,7 @@ void sp_lineup_set(sp_lineup *lineup, const uint32_t *rows, size_t count)
         lineup->wet[p] = fmaxf(lineup->hit[p], lineup->film[p]);
     }
     memcpy(lineup->dry, table->kept_dry, table->patch_count * sizeof *lineup->dry);
-    lineup->flow = table->search->kept_flow;
+    lineup->flow = lineup->outlay = table->search->kept_flow;
     lineup->count = count;
     for (size_t i = 0; i < count; i++) {
         lineup->row[i] = rows[i];
@@ -99,6 +100,13 @@ static bool has_place(const sp_lineup *lineup, size_t row)
     for (size_t i = 0; room > 0 && room <= lineup->count && i < lineup->count; i++)
         room -= sp_table_mount(table, lineup->row[i]) == mount;
     return room > 0;
+}
+
+static bool affords(const sp_lineup *lineup, size_t row, double budget)
+{
+    const sp_table *table = lineup->table;
+    return sp_affords(table->search, lineup->flow, lineup->outlay, sp_table_mount(table, row),
+                      sp_table_flow(table, row), budget);
 }
 
 static bool has_number(const sp_lineup *lineup)
@@ -154,8 +162,7 @@ static double gain_of(const sp_lineup *lineup, size_t row, float credit)
 
 double sp_lineup_gain(const sp_lineup *lineup, uint32_t row, double budget)
 {
-    bool fits =
-        has_number(lineup) && has_place(lineup, row) && lineup->flow + sp_table_flow(lineup->table, row) <= budget;
+    bool fits = has_number(lineup) && has_place(lineup, row) && affords(lineup, row, budget);
     return fits ? gain_of(lineup, row, lineup->table->search->credit) : 0;
 }
 
@@ -187,7 +194,7 @@ static void set_gains(sp_lineup *lineup, float credit)
 
 static double price_of(const sp_table *table, size_t row, double power)
 {
-    return power == 0 ? 1 : pow(sp_table_flow(table, row), power);
+    return power == 0 ? 1 : pow(sp_table_outlay(table, row), power);
 }
 
 uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double budget, double *gain)
@@ -199,7 +206,7 @@ uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double bu
         return 0;
     set_gains(lineup, credit);
     for (size_t r = 0; r < table->row_count; r++) {
-        if (lineup->flow + sp_table_flow(table, r) > budget || !has_place(lineup, r))
+        if (!affords(lineup, r, budget) || !has_place(lineup, r))
             lineup->gain[r] = 0;
         merit = fmax(merit, lineup->gain[r] / price_of(table, r, power));
     }
@@ -260,7 +267,7 @@ bool sp_lineup_merge(sp_lineup *lineup, size_t a, size_t b, double budget)
 {
     uint32_t before[SP_LINEUP_MOST];
     size_t count = lineup->count;
-    double gain, whole = lineup->flow;
+    double gain, whole = lineup->outlay;
     memcpy(before, lineup->row, count * sizeof *before);
     sp_lineup_remove(lineup, a > b ? a : b);
     sp_lineup_remove(lineup, a > b ? b : a);

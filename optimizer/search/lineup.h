@@ -12,6 +12,7 @@ typedef struct {
     size_t count;
     uint32_t row[SP_LINEUP_MOST];
     double flow;                   /* m³/s, kept nozzles included */
+    double outlay;                 /* m³/s, the same with what the mounts cost */
     double covered;                /* m² of the sample */
     float *hit, *film, *wet, *dry; /* [table->patch_count], as sp_draft's */
     double *gain;                  /* [table->row_count], scratch */
@@ -26,16 +27,16 @@ void sp_lineup_remove(sp_lineup *lineup, size_t i);
 /* What a row would add to what is covered, and the credit for what is on the way; 0 where it does not fit within the
  * budget, the number or its port. */
 double sp_lineup_gain(const sp_lineup *lineup, uint32_t row, double budget);
-/* The row of most gain per water^power, the first of equals, that fits within the budget, an uncovered patch being
+/* The row of most gain per outlay^power, the first of equals, that fits within the budget, an uncovered patch being
  * worth `credit` per share of what it needs; *gain in m², 0 for none. */
 uint32_t sp_lineup_best(sp_lineup *lineup, double power, float credit, double budget, double *gain);
 
-/* Puts one row, of no more water than the two together, in the place of two: the one that gains most there. False, and
+/* Puts one row, of no more outlay than the two together, in the place of two: the one that gains most there. False, and
  * nothing changed, where there is none. */
 bool sp_lineup_merge(sp_lineup *lineup, size_t a, size_t b, double budget);
-/* Adds what the water allows and exchanges one row at a time, until neither helps. */
+/* Adds what the budget allows and exchanges one row at a time, until neither helps. */
 void sp_lineup_improve(sp_lineup *lineup, double budget);
-/* Takes two that overlap most out, fills their place anew, by a merge or by gain per water, and improves what comes of
+/* Takes two that overlap most out, fills their place anew, by a merge or by gain per outlay, and improves what comes of
  * it, as long as that helps. `trial` is scratch of the same table. */
 void sp_lineup_regroup(sp_lineup *lineup, double budget, sp_lineup *trial);
 

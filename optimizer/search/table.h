@@ -26,16 +26,21 @@ bool sp_table_create(const sp_search *search, const sp_pool *pool, const sp_plac
                      sp_table *table, sp_error *error);
 void sp_table_free(sp_table *table);
 
+static inline uint32_t sp_table_mount(const sp_table *table, size_t row)
+{
+    return row < table->pool->count ? table->search->sites->items[table->pool->items[row].site].mount
+                                    : table->others[row - table->pool->count]->site.mount;
+}
+
 static inline double sp_table_flow(const sp_table *table, size_t row)
 {
     return row < table->pool->count ? table->search->candidates->makes[table->pool->items[row].make].flow
                                     : table->others[row - table->pool->count]->flow;
 }
 
-static inline uint32_t sp_table_mount(const sp_table *table, size_t row)
+static inline double sp_table_outlay(const sp_table *table, size_t row)
 {
-    return row < table->pool->count ? table->search->sites->items[table->pool->items[row].site].mount
-                                    : table->others[row - table->pool->count]->site.mount;
+    return sp_outlay_at(table->search, sp_table_mount(table, row), sp_table_flow(table, row));
 }
 
 #endif

@@ -40,7 +40,7 @@ static size_t draw(sp_walker *walker, size_t count)
 /* The best pose that one addition has looked at. */
 typedef struct {
     sp_pose pose;
-    double merit; /* gain per water^power; 0: none */
+    double merit; /* gain per outlay^power; 0: none */
 } sp_walk_choice;
 
 /* Some of the poses of one make at one mounting point. */
@@ -48,9 +48,9 @@ static void look(sp_walker *walker, uint32_t site, uint32_t make, double power, 
 {
     const sp_candidates *candidates = walker->search->candidates;
     const sp_make *own = &candidates->makes[make];
-    size_t poses =
-        own->roll_count * sp_candidates_axes(candidates, walker->search->sites->items[site].mount, make)->count;
-    double price = pow(own->flow, power);
+    uint32_t mount = walker->search->sites->items[site].mount;
+    size_t poses = own->roll_count * sp_candidates_axes(candidates, mount, make)->count;
+    double price = pow(sp_outlay_at(walker->search, mount, own->flow), power);
     for (size_t i = 0; i < POSES && i < poses; i++) {
         size_t at = poses > POSES ? draw(walker, poses) : i;
         sp_pose pose = {site, make, (uint32_t)(at / own->roll_count), (uint32_t)(at % own->roll_count)};
@@ -69,8 +69,10 @@ static bool add(sp_walker *walker, uint32_t near, double power, bool *added)
     for (int i = 0; i < SITES; i++) {
         uint32_t site = uniform(walker) < NEAR_SHARE ? near : (uint32_t)draw(walker, search->sites->count);
         uint32_t make = (uint32_t)draw(walker, search->candidates->make_count);
-        if (walker->draft->flow + search->candidates->makes[make].flow <= walker->budget &&
-            sp_draft_has_place(search, walker->draft, search->sites->items[site].mount))
+        uint32_t mount = search->sites->items[site].mount;
+        if (sp_affords(search, walker->draft->flow, walker->draft->outlay, mount, search->candidates->makes[make].flow,
+                       walker->budget) &&
+            sp_draft_has_place(search, walker->draft, mount))
             look(walker, site, make, power, &best);
     }
     sp_sweepers_forget(walker->sweeper, 1);

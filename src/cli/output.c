@@ -179,6 +179,15 @@ static void print_geometry(const sp_result *result)
         printf("(`check` says where)\n\n");
 }
 
+/* Water and mounts, and that in money; nothing where neither is told. */
+static void print_price(const sp_figures *figures)
+{
+    if (isfinite(figures->mount_cost))
+        printf(" %12.1f", 6e4 * sp_figures_price(figures));
+    if (isfinite(sp_figures_money(figures)))
+        printf(" %12.2f %s", sp_figures_money(figures), figures->water_cost.currency);
+}
+
 static void print_figures(const sp_figures *figures, const char *name, int width)
 {
     printf("%-*s %8zu %12.1f %13.3f %10.1f", width, name, figures->nozzle_count, 6e4 * figures->flow,
@@ -187,7 +196,9 @@ static void print_figures(const sp_figures *figures, const char *name, int width
         printf(" %15.1f", 100 * figures->of_attainable);
     else
         printf(" %15s", "");
-    printf(" %14.4f\n", isnan(figures->area_per_water) ? 0 : figures->area_per_water / 6e4);
+    printf(" %14.4f", isnan(figures->area_per_water) ? 0 : figures->area_per_water / 6e4);
+    print_price(figures);
+    printf("\n");
 }
 
 /* How far each coverage is off, where that was measured. Rounded upwards: the error is no larger than said. */
@@ -333,18 +344,21 @@ static void print_certificate(const sp_proposal *proposal)
     }
     printf(
         "\nAmong these %zu candidate poses and the proposal's own, on %zu texels, no layout reaches %.1f %% with less "
-        "than %.1f L/min.\nWith the proposal's water none covers more than %.1f %% of them (gap %.1f %%). Poses "
+        "than %.1f L/min%s.\n%s none covers more than %.1f %% of them (gap %.1f %%). Poses "
         "between "
         "candidates are not covered.\n",
         certificate->candidates, certificate->texels, ceil(1e3 * certificate->counted / certificate->whole - 1e-9) / 10,
-        floor(6e5 * certificate->water_bound + 1e-6) / 10,
+        floor(6e5 * certificate->water_bound + 1e-6) / 10, proposal->costly ? " of water and cost of mounts" : "",
+        proposal->costly ? "For the proposal's price" : "With the proposal's water",
         ceil(1e3 * certificate->area_bound / certificate->whole - 1e-9) / 10, 100 * certificate->gap);
     if (certificate->every_aim.computed)
         printf(
             "Whichever way nozzles at these %zu mounting points are aimed, at any roll, angle and flow allowed: none "
-            "reaches it with less\nthan %.1f L/min, and with the proposal's water none covers more than %.1f %%. "
+            "reaches it with less\nthan %.1f L/min%s, and %s none covers more than %.1f %%. "
             "Places between are not covered.\n",
             certificate->every_aim.places, floor(6e5 * certificate->every_aim.water_bound + 1e-6) / 10,
+            proposal->costly ? " of water and cost of mounts" : "",
+            proposal->costly ? "for the proposal's price" : "with the proposal's water",
             ceil(1e3 * certificate->every_aim.area_bound / certificate->whole - 1e-9) / 10);
 }
 
@@ -428,8 +442,14 @@ static bool print_summary(const sp_result *result, sp_error *error)
     int width = 0;
     for (size_t i = 0; i < result->design_count; i++)
         width = (int)strlen(result->designs[i].name) > width ? (int)strlen(result->designs[i].name) : width;
-    printf("%-*s %8s %12s %13s %10s %15s %14s\n", width, "layout", "nozzles", "water L/min", "covered m2", "coverage %",
-           "of attainable %", "m2 per L/min");
+    bool priced = false, in_money = false;
+    for (size_t i = 0; i < result->design_count; i++) {
+        priced |= isfinite(figures[i].mount_cost);
+        in_money |= isfinite(sp_figures_money(&figures[i]));
+    }
+    printf("%-*s %8s %12s %13s %10s %15s %14s%s%s\n", width, "layout", "nozzles", "water L/min", "covered m2",
+           "coverage %", "of attainable %", "m2 per L/min", priced ? "  price L/min" : "",
+           in_money ? "        money" : "");
     for (size_t i = 0; i < result->design_count; i++)
         print_figures(&figures[i], result->designs[i].name, width);
     print_proposed(result);

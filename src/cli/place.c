@@ -34,9 +34,12 @@ static size_t list_designs(const cli_scene *opened, const placement *found, sp_d
         const sp_proposal *proposal = found->proposals[i];
         const sp_evaluator *evaluator = evaluator_of(opened, proposal);
         const char *name = alternatives ? sp_scene_alternative_name(opened->scene, i) : "proposed";
-        if (!alternatives)
-            designs[count++] = cli_design(opened, "greedy", evaluator, proposal->greedy, proposal->greedy_coverage);
+        if (!alternatives) {
+            designs[count] = cli_design(opened, "greedy", evaluator, proposal->greedy, proposal->greedy_coverage);
+            designs[count++].costs = proposal->greedy_costs;
+        }
         designs[count] = cli_design(opened, name, evaluator, proposal->layout, proposal->coverage);
+        designs[count].costs = proposal->costs;
         designs[count++].alternative = alternatives ? proposal : NULL;
     }
     return count;

@@ -49,7 +49,8 @@ sp_design cli_design(const cli_scene *opened, const char *name, const sp_evaluat
                        .layout = layout,
                        .coverage = coverage,
                        .mounts = place.mounts,
-                       .mount_count = place.mount_count};
+                       .mount_count = place.mount_count,
+                       .water_cost = sp_scene_water_cost(opened->scene)};
 }
 
 sp_coverage *cli_simulated(const cli_scene *opened, const sp_layout *layout, sp_error *error)

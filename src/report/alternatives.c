@@ -62,6 +62,22 @@ static void add_water(const sp_page *page, sp_text *text, size_t design)
     sp_text_add(text, "&nbsp;L/min");
 }
 
+/* Water and mounts, and that in money. */
+static void add_price(const sp_page *page, sp_text *text, size_t design)
+{
+    const sp_figures *figures = &page->figures[design];
+    sp_markup_decimals(text, L_MIN * sp_page_price(figures), 1);
+    sp_text_add(text, "&nbsp;L/min");
+    if (isfinite(sp_figures_money(figures))) {
+        sp_text_add(text, ", ");
+        sp_markup_significant(text, sp_figures_money(figures), 4);
+        sp_text_add(text, "&nbsp;%s", figures->water_cost.currency);
+    }
+    sp_text_add(text, "<br><span class=\"unit\">");
+    sp_markup_decimals(text, L_MIN * figures->mount_cost, 1);
+    sp_text_add(text, "&nbsp;L/min for mounts</span>");
+}
+
 static void add_counts(const sp_page *page, sp_text *text, size_t design)
 {
     add_nozzle_count(text, page->figures[design].nozzle_count, page->figures[design].fittings);
@@ -95,14 +111,14 @@ static void add_gain(sp_text *text, double gain, int decimals, const char *unit,
     sp_text_add(text, " for each");
 }
 
-/* The most that was found with no more water than the first's layout takes. */
-static void add_at_its_water(const sp_page *page, sp_text *text, size_t design)
+/* The most that was found for no higher price than the first's layout takes. */
+static void add_at_its_price(const sp_page *page, sp_text *text, size_t design)
 {
     const sp_figures *first = &page->figures[first_of(page)];
     sp_page_point best, ignored;
-    sp_page_best_points(page, design, first->flow, first->covered_area, &best, &ignored);
+    sp_page_best_points(page, design, sp_page_price(first), first->covered_area, &best, &ignored);
     if (best.area < 0) {
-        sp_text_add(text, "nothing found with so little water");
+        sp_text_add(text, page->costly ? "nothing found for so low a price" : "nothing found with so little water");
         return;
     }
     double share = best.area / page->figures[design].clean_area;
@@ -117,23 +133,23 @@ static void add_at_its_water(const sp_page *page, sp_text *text, size_t design)
     sp_text_add(text, "</span>");
 }
 
-/* The least water that was found to cover no less than the first's layout does. */
+/* The least price at which what was found covers no less than the first's layout does. */
 static void add_at_its_coverage(const sp_page *page, sp_text *text, size_t design)
 {
     const sp_figures *first = &page->figures[first_of(page)];
     double area = first->coverage * page->figures[design].clean_area;
     sp_page_point best, ignored;
-    sp_page_best_points(page, design, first->flow, area, &ignored, &best);
-    if (!isfinite(best.flow)) {
+    sp_page_best_points(page, design, sp_page_price(first), area, &ignored, &best);
+    if (!isfinite(best.price)) {
         sp_text_add(text, "nothing found that covers as much");
         return;
     }
-    sp_markup_decimals(text, L_MIN * best.flow, 1);
+    sp_markup_decimals(text, L_MIN * best.price, 1);
     sp_text_add(text, "&nbsp;L/min");
     if (design == first_of(page))
         return;
     sp_text_add(text, " (");
-    add_gain(text, L_MIN * (best.flow - first->flow), 1, "L/min", best.fittings, first->fittings);
+    add_gain(text, L_MIN * (best.price - sp_page_price(first)), 1, "L/min", best.fittings, first->fittings);
     sp_text_add(text, ")<br><span class=\"unit\">");
     add_nozzle_count(text, best.nozzles, best.fittings);
     sp_text_add(text, "</span>");
@@ -186,9 +202,13 @@ static void add_table(const sp_page *page, sp_text *text)
     free(reached.text);
     add_row(page, text, "Attainable at all", add_attainable);
     add_row(page, text, "Water", add_water);
+    if (page->costly)
+        add_row(page, text, "Price: water and mounts", add_price);
     add_row(page, text, "Made of", add_counts);
-    add_row_of_first(page, text, "With no more water than", ", the most found", add_at_its_water);
-    add_row_of_first(page, text, "To cover as much as", ", the least water found", add_at_its_coverage);
+    add_row_of_first(page, text, page->costly ? "For no higher price than" : "With no more water than",
+                     ", the most found", add_at_its_price);
+    add_row_of_first(page, text, "To cover as much as",
+                     page->costly ? ", the lowest price found" : ", the least water found", add_at_its_coverage);
     sp_text_add(text, "</tbody></table></div>\n");
 }
 
@@ -213,7 +233,10 @@ static void add_fitting(const sp_page *page, sp_text *text, size_t design, const
     sp_markup_decimals(text, nozzle->lost, 3);
     sp_text_add(text, "</td><td>");
     sp_markup_decimals(text, 100 * nozzle->lost / page->figures[design].clean_area, 2);
-    sp_text_add(text, "</td></tr>\n");
+    sp_text_add(text, "</td>");
+    if (page->costly)
+        sp_page_cost_cells(text, nozzle, page->figures[design].clean_area);
+    sp_text_add(text, "</tr>\n");
 }
 
 static void add_fittings(const sp_page *page, sp_text *text)
@@ -228,7 +251,8 @@ static void add_fittings(const sp_page *page, sp_text *text)
                 "<thead><tr><th scope=\"col\">Nozzle</th><th scope=\"col\" class=\"text\">Alternative</th><th "
                 "scope=\"col\" class=\"text\">Type</th><th scope=\"col\">x&nbsp;m</th><th scope=\"col\">y&nbsp;m</th>"
                 "<th scope=\"col\">z&nbsp;m</th><th scope=\"col\">L/min</th><th scope=\"col\">Lost without it, "
-                "m\xc2\xb2</th><th scope=\"col\">points</th></tr></thead>\n<tbody>\n");
+                "m\xc2\xb2</th><th scope=\"col\">points</th>%s</tr></thead>\n<tbody>\n",
+                page->costly ? sp_page_cost_heads : "");
     for (size_t i = 0; i < page->result->design_count; ++i)
         for (size_t k = 0; is_alternative(page, i) && k < page->figures[i].nozzle_count; ++k)
             if (page->figures[i].nozzles[k].fitting)

@@ -1,6 +1,8 @@
 /* How far from the best possible the proposal can be, as far as that is proved. */
 #include "page.h"
 
+static const char of_both[] = " of water and cost of mounts together";
+
 /* Fractions that are proved from above are rounded up, from below down. */
 static void add_percent(sp_text *text, double fraction, bool up)
 {
@@ -10,8 +12,9 @@ static void add_percent(sp_text *text, double fraction, bool up)
 }
 
 /* `only`: there is no other on the page. */
-static void add_every_aim(const sp_certificate *found, sp_text *text, bool only)
+static void add_every_aim(const sp_proposal *proposal, sp_text *text, bool only)
 {
+    const sp_certificate *found = &proposal->certificate;
     if (!found->every_aim.computed)
         return;
     sp_text_add(text,
@@ -20,7 +23,8 @@ static void add_every_aim(const sp_certificate *found, sp_text *text, bool only)
                 "set, and of the proposal&#39;s own poses, no layout reaches that with less than ",
                 only ? " id=\"every-aim\"" : "", found->every_aim.places);
     sp_markup_decimals(text, floor(6e5 * found->every_aim.water_bound + 1e-6) / 10, 1);
-    sp_text_add(text, "&nbsp;L/min, and with the proposal&#39;s water none reaches more than ");
+    sp_text_add(text, "&nbsp;L/min%s, and with the proposal&#39;s %s none reaches more than ",
+                proposal->costly ? of_both : "", proposal->costly ? "price" : "water");
     add_percent(text, found->every_aim.area_bound / found->whole, true);
     sp_text_add(text, ". Places between the mounting points are not covered.</p>\n");
 }
@@ -37,15 +41,18 @@ static void add_proof(const sp_proposal *proposal, sp_text *text, bool only)
     sp_text_add(text, " with less than ");
     sp_markup_decimals(text, floor(6e5 * found->water_bound + 1e-6) / 10, 1);
     sp_text_add(
-        text, "&nbsp;L/min. Poses between candidates are not covered.</p>\n<p>That share of the surface to be cleaned, "
-              "attainable or not, is what the proposal itself reaches on these texels, with ");
-    sp_markup_decimals(text, 6e4 * proposal->coverage->flow, 1);
-    sp_text_add(text, "&nbsp;L/min. With as much water no layout reaches more than ");
+        text,
+        "&nbsp;L/min%s. Poses between candidates are not covered.</p>\n<p>That share of the surface to be cleaned, "
+        "attainable or not, is what the proposal itself reaches on these texels, with ",
+        proposal->costly ? of_both : "");
+    sp_markup_decimals(text, 6e4 * proposal->outlay, 1);
+    sp_text_add(text, "&nbsp;L/min%s. %s no layout reaches more than ", proposal->costly ? of_both : "",
+                proposal->costly ? "For the same price" : "With as much water");
     add_percent(text, found->area_bound / found->whole, true);
     sp_text_add(text, ": at most ");
     add_percent(text, found->gap, true);
     sp_text_add(text, " of what is possible is left.</p>\n");
-    add_every_aim(found, text, only);
+    add_every_aim(proposal, text, only);
 }
 
 /* The same of each alternative. */
@@ -85,8 +92,13 @@ void sp_page_certificate(const sp_page *page, sp_text *text)
         add_proofs(page, text);
     else
         add_proof(page->result->proposal, text, true);
-    sp_text_add(text, "<p class=\"note\">Proved by Lagrangian duality for every choice "
-                      "of these poses that keeps the limits on nozzles, water and ports, rounded outwards. The texels "
-                      "are those of the search and may be coarser than those that the other figures are counted on; "
-                      "liquid that is thrown back from walls does not count here.</p></section>\n");
+    sp_text_add(text,
+                "<p class=\"note\">%sProved by Lagrangian duality for every choice "
+                "of these poses that keeps the limits on nozzles, water and ports, rounded outwards. The texels "
+                "are those of the search and may be coarser than those that the other figures are counted on; "
+                "liquid that is thrown back from walls does not count here.</p></section>\n",
+                page->costly
+                    ? "Where mounts cost something, a limit on water does not limit what is proved here: layouts "
+                      "beyond it are among those that do no better. "
+                    : "");
 }

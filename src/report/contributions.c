@@ -15,7 +15,19 @@ static void add_area(sp_text *text, double area, double whole, bool lost)
     sp_text_add(text, "</td>");
 }
 
-static void add_nozzle(sp_text *text, const sp_nozzle_figures *nozzle, double whole)
+const char sp_page_cost_heads[] = "<th scope=\"col\">Cost of its mount, L/min</th><th scope=\"col\">points per L/min "
+                                  "of water and cost</th>";
+
+void sp_page_cost_cells(sp_text *text, const sp_nozzle_figures *nozzle, double whole)
+{
+    sp_text_add(text, "<td>");
+    sp_markup_decimals(text, 6e4 * nozzle->cost, 1);
+    sp_text_add(text, "</td><td>");
+    sp_markup_decimals(text, 100 * nozzle->lost / whole / (6e4 * (nozzle->flow + nozzle->cost)), 3);
+    sp_text_add(text, "</td>");
+}
+
+static void add_nozzle(sp_text *text, const sp_nozzle_figures *nozzle, double whole, bool costly)
 {
     sp_text_add(text, "<tr><th scope=\"row\">");
     sp_markup_escape(text, nozzle->name);
@@ -24,6 +36,8 @@ static void add_nozzle(sp_text *text, const sp_nozzle_figures *nozzle, double wh
     sp_text_add(text, "</td>");
     add_area(text, nozzle->alone, whole, false);
     add_area(text, nozzle->lost, whole, true);
+    if (costly)
+        sp_page_cost_cells(text, nozzle, whole);
     sp_text_add(text, "</tr>\n");
 }
 
@@ -32,11 +46,13 @@ static void add_design(const sp_page *page, sp_text *text, size_t design)
     const sp_figures *figures = &page->figures[design];
     sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\" data-design=\"%zu\"><caption>", design);
     sp_page_name(page, text, design);
-    sp_text_add(text, "</caption>\n<thead><tr><th scope=\"col\">Nozzle</th><th scope=\"col\">L/min</th><th "
-                      "scope=\"col\">Covers alone, m\xc2\xb2</th><th scope=\"col\">%%</th><th scope=\"col\">Lost "
-                      "without it, m\xc2\xb2</th><th scope=\"col\">points</th></tr></thead>\n<tbody>\n");
+    sp_text_add(text,
+                "</caption>\n<thead><tr><th scope=\"col\">Nozzle</th><th scope=\"col\">L/min</th><th "
+                "scope=\"col\">Covers alone, m\xc2\xb2</th><th scope=\"col\">%%</th><th scope=\"col\">Lost "
+                "without it, m\xc2\xb2</th><th scope=\"col\">points</th>%s</tr></thead>\n<tbody>\n",
+                page->costly ? sp_page_cost_heads : "");
     for (size_t i = 0; i < figures->nozzle_count; ++i)
-        add_nozzle(text, &figures->nozzles[i], figures->clean_area);
+        add_nozzle(text, &figures->nozzles[i], figures->clean_area, page->costly);
     sp_text_add(text, "</tbody></table></div>\n");
 }
 

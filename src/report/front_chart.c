@@ -1,4 +1,4 @@
-/* Coverage against water: the best found for rising water, and the designs. */
+/* Coverage against water, or price: the best found as it rises, and the designs. */
 #include "page.h"
 
 #define WIDTH 760
@@ -11,12 +11,12 @@
 #define MANY 24 /* designs: more have none */
 
 typedef struct {
-    double x_max, x_step, y_min, y_max, y_step; /* L/min, % */
+    double x_max, x_step, y_min, y_max, y_step; /* L/min (price: water, and cost of mounts), % */
 } axes;
 
-static double x_of(const axes *a, double water)
+static double x_of(const axes *a, double price)
 {
-    return LEFT + (WIDTH - LEFT - RIGHT) * water / a->x_max;
+    return LEFT + (WIDTH - LEFT - RIGHT) * price / a->x_max;
 }
 
 static double y_of(const axes *a, double percent)
@@ -51,10 +51,10 @@ static axes choose_axes(const sp_page *page)
     double most = 1e-3, least = 100;
     for (size_t i = 0; i < page->result->design_count; ++i) {
         const sp_proposal *proposal = front_of(page, i);
-        most = fmax(most, 6e4 * page->figures[i].flow);
+        most = fmax(most, 6e4 * sp_page_price(&page->figures[i]));
         least = fmin(least, 100 * page->figures[i].coverage);
         for (size_t k = 0; proposal && k < proposal->front_count; ++k) {
-            most = fmax(most, 6e4 * proposal->front[k].flow);
+            most = fmax(most, 6e4 * proposal->front[k].outlay);
             least = fmin(least, 100 * proposal->front[k].area / page->figures[i].clean_area);
         }
     }
@@ -65,7 +65,7 @@ static axes choose_axes(const sp_page *page)
     return a;
 }
 
-static void add_grid(sp_text *text, const axes *a)
+static void add_grid(const sp_page *page, sp_text *text, const axes *a)
 {
     for (double y = a->y_min; y < a->y_max + 0.5 * a->y_step; y += a->y_step) {
         sp_text_add(text, "<line class=\"grid\" x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\"/>", LEFT, WIDTH - RIGHT,
@@ -77,8 +77,8 @@ static void add_grid(sp_text *text, const axes *a)
                     "<line class=\"grid\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%d\" y2=\"%d\"/><text x=\"%.1f\" y=\"%d\" "
                     "text-anchor=\"middle\">%g</text>\n",
                     x_of(a, x), x_of(a, x), TOP, HEIGHT - BOTTOM, x_of(a, x), HEIGHT - BOTTOM + 20, x);
-    sp_text_add(text, "<text class=\"axis\" x=\"%d\" y=\"%d\" text-anchor=\"middle\">Water, L/min</text>\n",
-                (LEFT + WIDTH - RIGHT) / 2, HEIGHT - 12);
+    sp_text_add(text, "<text class=\"axis\" x=\"%d\" y=\"%d\" text-anchor=\"middle\">%s, L/min</text>\n",
+                (LEFT + WIDTH - RIGHT) / 2, HEIGHT - 12, page->costly ? "Price: water and mounts" : "Water");
     sp_text_add(
         text,
         "<text class=\"axis\" transform=\"translate(18 %d) rotate(-90)\" text-anchor=\"middle\">Coverage of the "
@@ -86,7 +86,7 @@ static void add_grid(sp_text *text, const axes *a)
         (TOP + HEIGHT - BOTTOM) / 2);
 }
 
-/* Steps: with water between two points one has the left one's layout. */
+/* Steps: between two points one has the left one's layout. */
 static void add_front(const sp_page *page, sp_text *text, const axes *a, size_t design)
 {
     const sp_proposal *proposal = front_of(page, design);
@@ -97,7 +97,7 @@ static void add_front(const sp_page *page, sp_text *text, const axes *a, size_t 
     add_stroke(page, text, design);
     sp_text_add(text, " d=\"");
     for (size_t i = 0; i < proposal->front_count; ++i) {
-        double x = x_of(a, 6e4 * proposal->front[i].flow), y = y_of(a, 100 * proposal->front[i].area / whole);
+        double x = x_of(a, 6e4 * proposal->front[i].outlay), y = y_of(a, 100 * proposal->front[i].area / whole);
         if (i == 0)
             sp_text_add(text, "M%.1f %.1f", x, y);
         else
@@ -106,14 +106,14 @@ static void add_front(const sp_page *page, sp_text *text, const axes *a, size_t 
     sp_text_add(text, "H%d\"/>\n", WIDTH - RIGHT);
     for (size_t i = 0; i < proposal->front_count; ++i) {
         sp_text_add(text, "<circle class=\"point\" cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\"",
-                    x_of(a, 6e4 * proposal->front[i].flow), y_of(a, 100 * proposal->front[i].area / whole));
+                    x_of(a, 6e4 * proposal->front[i].outlay), y_of(a, 100 * proposal->front[i].area / whole));
         if (page->alternatives)
             sp_text_add(text, " style=\"fill:%s\"", sp_page_colour(page, design));
         sp_text_add(text, "/>\n");
     }
 }
 
-/* What is proved that no layout exceeds, at the waters of the front. */
+/* What is proved that no layout exceeds, at the prices of the front. */
 static void add_bound(const sp_page *page, sp_text *text, const axes *a, size_t design)
 {
     const sp_proposal *proposal = front_of(page, design);
@@ -124,7 +124,7 @@ static void add_bound(const sp_page *page, sp_text *text, const axes *a, size_t 
     sp_text_add(text, " d=\"");
     for (size_t i = 0; i < proposal->front_count; ++i) {
         double y = y_of(a, fmin(100, 100 * proposal->front[i].bound / proposal->certificate.whole));
-        sp_text_add(text, i == 0 ? "M%.1f %.1f" : "H%.1fV%.1f", x_of(a, 6e4 * proposal->front[i].flow), y);
+        sp_text_add(text, i == 0 ? "M%.1f %.1f" : "H%.1fV%.1f", x_of(a, 6e4 * proposal->front[i].outlay), y);
     }
     sp_text_add(text, "H%d\"/>\n", WIDTH - RIGHT);
 }
@@ -175,8 +175,8 @@ static void add_lines_legend(const sp_page *page, sp_text *text)
     legend_place(page, count, &x, &y);
     sp_text_add(text,
                 "<path class=\"front\" d=\"M%g %.1fh20\"/><circle class=\"point\" cx=\"%g\" cy=\"%.1f\" "
-                "r=\"3.5\"/><text class=\"legend\" x=\"%g\" y=\"%.1f\">Best found for rising water</text>\n",
-                x - 26, y - 4, x - 16, y - 4, x, y);
+                "r=\"3.5\"/><text class=\"legend\" x=\"%g\" y=\"%.1f\">Best found for rising %s</text>\n",
+                x - 26, y - 4, x - 16, y - 4, x, y, page->costly ? "price" : "water");
     if (!page->result->proposal->certificate.computed)
         return;
     legend_place(page, count + 1, &x, &y);
@@ -192,7 +192,7 @@ static void add_designs(const sp_page *page, sp_text *text, const axes *a)
     for (size_t i = 0; i < count; ++i) {
         double x, y;
         legend_place(page, i, &x, &y);
-        add_marker(text, x_of(a, 6e4 * page->figures[i].flow), y_of(a, 100 * page->figures[i].coverage), i,
+        add_marker(text, x_of(a, 6e4 * sp_page_price(&page->figures[i])), y_of(a, 100 * page->figures[i].coverage), i,
                    sp_page_colour(page, i));
         if (legend_lines(page) == 0)
             continue;
@@ -212,10 +212,11 @@ void sp_page_front_chart(const sp_page *page, sp_text *text)
         return;
     axes a = choose_axes(page);
     sp_text_add(text,
-                "<section id=\"front\"><h2>Coverage against water</h2>\n<svg class=\"chart\" viewBox=\"0 0 %d %d\" "
-                "role=\"img\" aria-label=\"Chart: coverage in per cent against water in litres a minute\">\n",
-                WIDTH, HEIGHT + (is_below(page) ? 22 * (int)legend_lines(page) + 8 : 0));
-    add_grid(text, &a);
+                "<section id=\"front\"><h2>Coverage against %s</h2>\n<svg class=\"chart\" viewBox=\"0 0 %d %d\" "
+                "role=\"img\" aria-label=\"Chart: coverage in per cent against %s in litres a minute\">\n",
+                page->costly ? "price" : "water", WIDTH,
+                HEIGHT + (is_below(page) ? 22 * (int)legend_lines(page) + 8 : 0), page->costly ? "price" : "water");
+    add_grid(page, text, &a);
     for (size_t i = 0; i < page->result->design_count; ++i)
         add_bound(page, text, &a, i);
     for (size_t i = 0; i < page->result->design_count; ++i)
@@ -224,8 +225,9 @@ void sp_page_front_chart(const sp_page *page, sp_text *text)
     sp_text_add(text, "</svg>\n");
     if (front)
         sp_text_add(text,
-                    "<p class=\"note\">Each dot is a layout that the search found; none that it found covers more with "
-                    "as little water. %s%s</p>\n",
+                    "<p class=\"note\">Each dot is a layout that the search found; none that it found covers more %s. "
+                    "%s%s</p>\n",
+                    page->costly ? "for as low a price" : "with as little water",
                     page->result->proposal->certificate.computed
                         ? "The dashed line is what no layout of the candidates exceeds, counted on the texels of the "
                           "certificate below."

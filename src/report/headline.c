@@ -36,10 +36,16 @@ static void add_cards(const sp_page *page, sp_text *text)
     const double coverage[2] = {100 * main->coverage, 100 * manual->coverage};
     const double water[2] = {6e4 * main->flow, 6e4 * manual->flow};
     const double ratio[2] = {main->area_per_water / 6e4, manual->area_per_water / 6e4};
+    const double price[2] = {6e4 * sp_page_price(main), 6e4 * sp_page_price(manual)};
+    const double money[2] = {sp_figures_money(main), sp_figures_money(manual)};
     const double count[2] = {(double)main->nozzle_count, (double)manual->nozzle_count};
     sp_text_add(text, "<div class=\"cards\">\n");
     add_card(page, text, "Coverage", "%", coverage, 1, true);
     add_card(page, text, "Water", "L/min", water, 1, false);
+    if (isfinite(sp_figures_money(main)))
+        add_card(page, text, "Price", main->water_cost.currency, money, 0, false);
+    else if (page->costly)
+        add_card(page, text, "Price", "L/min", price, 1, false);
     add_card(page, text, "Area per water", "m\xc2\xb2 per L/min", ratio, 3, false);
     add_card(page, text, "Nozzles", "", count, 0, false);
     sp_text_add(text, "</div>\n");

@@ -180,6 +180,7 @@ static void find_roles(sp_page *page)
     if (strcmp(result->command, "compare") == 0)
         return;
     page->alternatives = sp_result_has_alternatives(result);
+    page->costly = sp_result_is_costly(result);
     if (page->alternatives)
         page->main = sp_result_proposed(result);
     for (size_t i = 0; i < result->design_count; ++i) {

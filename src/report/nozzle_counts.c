@@ -1,16 +1,22 @@
 /* Coverage against number of nozzles: every nozzle more is a hole in the vessel, whatever its water. */
 #include "page.h"
 
-static void add_row(sp_text *text, const sp_front_point *point, double whole, bool fittings)
+static void add_row(sp_text *text, const sp_front_point *point, double whole, const sp_page *page)
 {
     sp_text_add(text, "<tr><th scope=\"row\">%zu</th>", point->nozzles);
-    if (fittings)
+    if (page->alternatives)
         sp_text_add(text, "<td>%zu</td>", point->fittings);
     sp_text_add(text, "<td>");
     sp_markup_decimals(text, 100 * point->area / whole, 1);
     sp_text_add(text, "&nbsp;%%</td><td>");
     sp_markup_decimals(text, 6e4 * point->flow, 1);
-    sp_text_add(text, "&nbsp;L/min</td></tr>\n");
+    sp_text_add(text, "&nbsp;L/min</td>");
+    if (page->costly) {
+        sp_text_add(text, "<td>");
+        sp_markup_decimals(text, 6e4 * point->outlay, 1);
+        sp_text_add(text, "&nbsp;L/min</td>");
+    }
+    sp_text_add(text, "</tr>\n");
 }
 
 /* `design` whose front it is, where there are several. */
@@ -25,10 +31,11 @@ static void add_table(const sp_page *page, sp_text *text, size_t design)
     }
     sp_text_add(text,
                 "<thead><tr><th scope=\"col\">Nozzles</th>%s<th scope=\"col\">Coverage</th><th "
-                "scope=\"col\">Water</th></tr></thead>\n<tbody>\n",
-                page->alternatives ? "<th scope=\"col\">New fittings</th>" : "");
+                "scope=\"col\">Water</th>%s</tr></thead>\n<tbody>\n",
+                page->alternatives ? "<th scope=\"col\">New fittings</th>" : "",
+                page->costly ? "<th scope=\"col\">Price</th>" : "");
     for (size_t i = 0; i < proposal->by_number_count; ++i)
-        add_row(text, &proposal->by_number[i], page->figures[design].clean_area, page->alternatives);
+        add_row(text, &proposal->by_number[i], page->figures[design].clean_area, page);
     sp_text_add(text, "</tbody></table>\n");
 }
 

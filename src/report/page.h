@@ -13,6 +13,7 @@ typedef struct {
     const sp_figures *figures; /* [result->design_count] */
     size_t main;               /* what is proposed, or the only design */
     bool alternatives;         /* designs with an `alternative` are what it was chosen from */
+    bool costly;               /* mounts cost something: layouts are held against each other by price, not by water */
     size_t manual, greedy;
     sp_flux_scale scale;
     bool live; /* it evaluates other layouts itself */
@@ -50,16 +51,18 @@ void sp_page_headline(const sp_page *page, sp_text *text);
  * them, and what each nozzle that wants a fitting buys. Nothing without alternatives. */
 void sp_page_choice(const sp_page *page, sp_text *text);
 void sp_page_alternatives(const sp_page *page, sp_text *text);
-/* Most area with no more water than `flow` (m³/s), least water that covers no less than `area` (m²), of what was
- * reported and of the front of the proposal that speaks of a design. Nothing found: area -1, flow INFINITY. */
+/* What a layout takes, m³/s: its water, and where they cost something its mounts, as the outlay of a point. */
+double sp_page_price(const sp_figures *figures);
+/* Most area for no higher price than `price` (m³/s), lowest price that covers no less than `area` (m²), of what was
+ * reported and of the front of the proposal that speaks of a design. Nothing found: area -1, price INFINITY. */
 typedef struct {
-    double flow, area;
+    double price, area;
     size_t nozzles, fittings;
 } sp_page_point;
-void sp_page_best_points(const sp_page *page, size_t design, double flow, double area, sp_page_point *same_water,
+void sp_page_best_points(const sp_page *page, size_t design, double price, double area, sp_page_point *same_price,
                          sp_page_point *same_area);
-/* comparison.c: at equal water and at equal coverage, as a sentence and as a table; nothing where there is nothing to
- * compare. */
+/* comparison.c: at equal price (water, where nothing else costs) and at equal coverage, as a sentence and as a table;
+ * nothing where there is nothing to compare. */
 void sp_page_gain(const sp_page *page, sp_text *text);
 void sp_page_comparison(const sp_page *page, sp_text *text);
 /* liquid.c: where it ends; nothing where that was not counted. */
@@ -72,6 +75,10 @@ void sp_page_tracks(const sp_page *page, sp_text *text);
 void sp_page_parts(const sp_page *page, sp_text *text);
 /* contributions.c: what each nozzle does alone, and what is lost without it; nothing where that is not known. */
 void sp_page_contributions(const sp_page *page, sp_text *text);
+/* Where mounts cost something, two more columns beside a nozzle's lost area: what its mount costs, and what is lost
+ * per water and cost. */
+extern const char sp_page_cost_heads[];
+void sp_page_cost_cells(sp_text *text, const sp_nozzle_figures *nozzle, double whole);
 /* front_chart.c: coverage against water, SVG. */
 void sp_page_front_chart(const sp_page *page, sp_text *text);
 /* nozzle_counts.c: coverage against number of nozzles; nothing without a front. */

@@ -33,6 +33,18 @@ static double ratio(const sp_figures *f)
 {
     return f->area_per_water / L_MIN;
 }
+static double mounts(const sp_figures *f)
+{
+    return L_MIN * f->mount_cost;
+}
+static double price(const sp_figures *f)
+{
+    return L_MIN * sp_figures_price(f);
+}
+static double per_price(const sp_figures *f)
+{
+    return f->covered_area / price(f);
+}
 static double nozzles(const sp_figures *f)
 {
     return (double)f->nozzle_count;
@@ -86,6 +98,10 @@ static const row rows[] = {
     {"Largest uncovered region", "m\xc2\xb2", largest, 3, false, false},
     {"Water", "L/min", water, 1, true, false},
     {"Covered area per water", "m\xc2\xb2 per L/min", ratio, 3, false, false},
+    {"Cost of mounts", "L/min", mounts, 1, true, false},
+    {"Price: water and mounts", "L/min", price, 1, true, false},
+    {"Price: water and mounts", "", sp_figures_money, 4, false, false},
+    {"Covered area per price", "m\xc2\xb2 per L/min", per_price, 3, false, false},
     {"Nozzles", "", nozzles, 0, true, false},
     {"New fittings", "", fittings, 0, true, false},
     {"Liquid flux, mean", "L/min per m\xc2\xb2", flux_mean, 3, false, false},
@@ -104,6 +120,8 @@ static void add_value(const sp_page *page, sp_text *text, const row *r, size_t d
         sp_markup_decimals(text, r->value(figures), r->digits);
     else
         sp_markup_significant(text, r->value(figures), r->digits);
+    if (r->value == sp_figures_money && isfinite(r->value(figures)))
+        sp_text_add(text, "&nbsp;%s", figures->water_cost.currency);
     if (r->value == of_clean)
         sp_page_error(text, figures);
     sp_text_add(text, "</td>");

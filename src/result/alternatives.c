@@ -28,11 +28,22 @@ bool sp_result_has_alternatives(const sp_result *result)
     return false;
 }
 
+bool sp_result_is_costly(const sp_result *result)
+{
+    bool any = result->proposal && result->proposal->costly;
+    for (size_t i = 0; i < result->design_count; ++i)
+        any |= result->designs[i].alternative && result->designs[i].alternative->costly;
+    return any;
+}
+
 void sp_result_choice(const sp_result *result, char text[SP_CHOICE_TEXT])
 {
     static const char *const best[] = {[SP_OBJECTIVE_AREA_PER_WATER] = "cleans most area per water",
                                        [SP_OBJECTIVE_MIN_WATER] = "needs least water",
                                        [SP_OBJECTIVE_MAX_COVERAGE] = "covers most"};
+    static const char *const cheapest[] = {[SP_OBJECTIVE_AREA_PER_WATER] = "cleans most area for its price",
+                                           [SP_OBJECTIVE_MIN_WATER] = "has the least price",
+                                           [SP_OBJECTIVE_MAX_COVERAGE] = "covers most"};
     const sp_proposal *proposal = result->proposal;
     text[0] = 0;
     if (!proposal || !sp_result_has_alternatives(result))
@@ -40,7 +51,7 @@ void sp_result_choice(const sp_result *result, char text[SP_CHOICE_TEXT])
     double asked = 100 * proposal->asked_area / proposal->coverage->area;
     if (proposal->coverage->covered_area >= proposal->asked_area)
         snprintf(text, SP_CHOICE_TEXT, "of those that cover the %.4g %% asked for, it %s", asked,
-                 best[proposal->objective]);
+                 (sp_result_is_costly(result) ? cheapest : best)[proposal->objective]);
     else
         snprintf(text, SP_CHOICE_TEXT, "none covers the %.4g %% asked for, and of all it covers most", asked);
 }

@@ -80,6 +80,26 @@ static bool set_nozzles(sp_figures *figures, const sp_design *design)
     return copied;
 }
 
+/* What the mounts of its nozzles cost; one that is kept or lies on no mount costs nothing. */
+static void set_costs(sp_figures *figures, const sp_design *design)
+{
+    const sp_setup *setup = sp_evaluator_setup(design->evaluator);
+    bool costly = false;
+    for (size_t m = 0; m < design->mount_count; ++m)
+        costly |= design->mounts[m].cost > 0;
+    figures->water_cost = design->water_cost;
+    figures->mount_cost = costly || design->water_cost.money > 0 ? 0 : NAN;
+    for (size_t i = 0; i < figures->nozzle_count; ++i) {
+        const sp_nozzle *nozzle = &design->layout->nozzles[i];
+        size_t mount = costly && !design->costs && !nozzle->keep
+                           ? sp_mount_at(setup, design->mounts, design->mount_count, nozzle->position)
+                           : SIZE_MAX;
+        double cost = mount == SIZE_MAX ? 0 : design->mounts[mount].cost;
+        figures->nozzles[i].cost = !costly ? NAN : design->costs ? design->costs[i] : cost;
+        figures->mount_cost += costly ? figures->nozzles[i].cost : 0;
+    }
+}
+
 static bool set_tracks(sp_figures *figures, const sp_design *design, sp_error *error)
 {
     for (size_t i = 0; i < figures->nozzle_count; ++i)
@@ -227,6 +247,7 @@ static bool describe(sp_figures *figures, const sp_design *design, const sp_reas
     free(shadows);
     if (!done)
         return sp_fail_memory(error);
+    set_costs(figures, design);
     return set_tracks(figures, design, error);
 }
 

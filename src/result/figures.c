@@ -36,6 +36,16 @@ void sp_figures_destroy(sp_figures *figures, size_t count)
     free(figures);
 }
 
+double sp_figures_price(const sp_figures *figures)
+{
+    return figures->flow + figures->mount_cost;
+}
+
+double sp_figures_money(const sp_figures *figures)
+{
+    return figures->water_cost.money > 0 ? sp_figures_price(figures) * figures->water_cost.money : NAN;
+}
+
 bool sp_figures_make_rows(sp_figures *figures, size_t shadows, size_t nozzles)
 {
     figures->shadows = calloc(shadows + 1, sizeof *figures->shadows);

@@ -282,6 +282,37 @@ static bool read_liquid(const reader *in, const json_t *layout, sp_figures *figu
            get_real(&inner, liquid, "not_followed", 0, LARGEST, l_min, &figures->unfollowed);
 }
 
+/* What a total in money says of water. */
+static bool read_money(const reader *in, const json_t *price, double total, sp_water_cost *cost)
+{
+    double money;
+    const json_t *currency = json_object_get(price, "currency");
+    const char *letters = currency && json_is_string(currency) ? json_string_value(currency) : "";
+    if (!get_real(in, price, "money", 0, LARGEST, 1, &money))
+        return false;
+    if (isnan(money))
+        return true;
+    if (strlen(letters) != 3 || strspn(letters, "ABCDEFGHIJKLMNOPQRSTUVWXYZ") != 3)
+        return wrong(in, "currency", currency, "three capital letters");
+    *cost = (sp_water_cost){.money = total > 0 ? money / total : 0};
+    strcpy(cost->currency, letters);
+    return true;
+}
+
+static bool read_price(const reader *in, const json_t *layout, sp_figures *figures)
+{
+    const json_t *price;
+    figures->mount_cost = NAN;
+    if (!get_part(in, layout, "price", JSON_OBJECT, false, &price))
+        return false;
+    if (!price)
+        return true;
+    reader inner = *in;
+    snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "price.");
+    return get_real(&inner, price, "mounts_l_min", 0, LARGEST, 1 / 6e4, &figures->mount_cost) &&
+           read_money(&inner, price, sp_figures_price(figures), &figures->water_cost);
+}
+
 static bool read_film(const reader *in, const json_t *layout, sp_film_balance *balance)
 {
     const double l_min = 1 / 6e4;
@@ -379,7 +410,9 @@ static bool read_nozzle(const reader *in, const json_t *entry, sp_nozzle_figures
            get_real(in, entry, "speed_m_s", 0, LARGEST, 1, &nozzle->speed) &&
            get_real(in, entry, "alone_m2", 0, LARGEST, 1, &nozzle->alone) &&
            get_real(in, entry, "lost_without_m2", -LARGEST, LARGEST, 1, &nozzle->lost) &&
-           get_flag(in, entry, "new_fitting", &nozzle->fitting) && read_tracks(in, entry, &nozzle->tracks);
+           get_flag(in, entry, "new_fitting", &nozzle->fitting) &&
+           get_real(in, entry, "cost_l_min", 0, LARGEST, 1 / 6e4, &nozzle->cost) &&
+           read_tracks(in, entry, &nozzle->tracks);
 }
 
 static bool read_part(const reader *in, const json_t *entry, sp_part_figures *part)
@@ -448,7 +481,7 @@ static bool read_layout(const reader *in, const json_t *root, const json_t *layo
         return wrong(in, "name", json_object_get(layout, "name"), "a text that is not empty");
     return read_errors(in, layout, figures) && read_coverage(in, layout, figures) && read_liquid(in, layout, figures) &&
            read_film(in, layout, &figures->film) && get_count(in, layout, "new_fittings", &figures->fittings) &&
-           read_rows(in, layout, figures);
+           read_price(in, layout, figures) && read_rows(in, layout, figures);
 }
 
 /* At most so much is made of the text, in bytes: two copies of it, and what jansson and sp_figures need for the least

@@ -223,7 +223,8 @@ static bool put_nozzle(json_t *nozzles, const sp_nozzle_figures *figures)
                 put_real(nozzle, "pressure_pa", figures->pressure) &&
                 put_real(nozzle, "flow_l_min", 6e4 * figures->flow) && put_real(nozzle, "speed_m_s", figures->speed) &&
                 put_real(nozzle, "alone_m2", figures->alone) && put_real(nozzle, "lost_without_m2", figures->lost) &&
-                (!figures->fitting || put(nozzle, "new_fitting", json_true())) && put_tracks(nozzle, &figures->tracks);
+                (!figures->fitting || put(nozzle, "new_fitting", json_true())) &&
+                put_real(nozzle, "cost_l_min", 6e4 * figures->cost) && put_tracks(nozzle, &figures->tracks);
     return json_array_append_new(nozzles, nozzle) == 0 && done;
 }
 
@@ -234,6 +235,19 @@ static bool put_part(json_t *parts, const sp_part_figures *figures)
                 put_real(part, "covered_area_m2", figures->covered) &&
                 put_real(part, "coverage", figures->covered / figures->area);
     return json_array_append_new(parts, part) == 0 && done;
+}
+
+/* Water and what the mounts cost, and that in money; nothing where neither is told. */
+static bool put_price(json_t *layout, const sp_figures *figures)
+{
+    if (!isfinite(figures->mount_cost))
+        return true;
+    json_t *price = json_object();
+    bool done = put_real(price, "mounts_l_min", 6e4 * figures->mount_cost) &&
+                put_real(price, "total_l_min", 6e4 * sp_figures_price(figures)) &&
+                (!(figures->water_cost.money > 0) || (put_real(price, "money", sp_figures_money(figures)) &&
+                                                      put_text(price, "currency", figures->water_cost.currency)));
+    return put(layout, "price", price) && done;
 }
 
 static bool put_layout(json_t *layouts, const sp_figures *figures, const sp_evaluator *evaluator, bool own_geometry,
@@ -248,8 +262,8 @@ static bool put_layout(json_t *layouts, const sp_figures *figures, const sp_eval
         put_real(layout, "borderline_m2", figures->borderline) &&
         put_real(layout, "coverage_of_attainable", figures->of_attainable) &&
         put_real(layout, "area_per_water", figures->area_per_water / 6e4) && put_flux(layout, figures) &&
-        put_count(layout, "new_fittings", figures->fittings) && put_dose(layout, figures) &&
-        put_liquid(layout, figures) && put_film(layout, &figures->film);
+        put_count(layout, "new_fittings", figures->fittings) && put_price(layout, figures) &&
+        put_dose(layout, figures) && put_liquid(layout, figures) && put_film(layout, &figures->film);
     for (size_t i = 0; done && i < figures->shadow_count; ++i)
         done = put_shadow(shadows, &figures->shadows[i]);
     for (size_t i = 0; done && i < figures->nozzle_count; ++i)
@@ -301,6 +315,7 @@ static bool put_front(json_t *root, const sp_proposal *proposal, double clean_ar
         const sp_front_point *point = &proposal->front[i];
         json_t *entry = json_object();
         done = put_real(entry, "water_l_min", 6e4 * point->flow) &&
+               (!proposal->costly || put_real(entry, "price_l_min", 6e4 * point->outlay)) &&
                put_real(entry, "coverage", point->area / clean_area) && put_count(entry, "nozzles", point->nozzles) &&
                (!fittings || put_count(entry, "new_fittings", point->fittings)) &&
                (!proposal->certificate.computed || (put_real(entry, "coverage_on_texels", point->counted / whole) &&
@@ -320,6 +335,7 @@ static bool put_front_by_nozzles(json_t *root, const sp_proposal *proposal, doub
         const sp_front_point *point = &proposal->by_number[i];
         json_t *entry = json_object();
         done = put_count(entry, "nozzles", point->nozzles) && put_real(entry, "water_l_min", 6e4 * point->flow) &&
+               (!proposal->costly || put_real(entry, "price_l_min", 6e4 * point->outlay)) &&
                put_real(entry, "coverage", point->area / clean_area) &&
                (!fittings || put_count(entry, "new_fittings", point->fittings));
         done = json_array_append_new(front, entry) == 0 && done;
@@ -327,12 +343,18 @@ static bool put_front_by_nozzles(json_t *root, const sp_proposal *proposal, doub
     return put(root, "front_by_nozzles", front) && done;
 }
 
-static bool put_every_aim(json_t *certificate, const sp_certificate *found)
+/* The keys of bounds: of water, or where mounts cost something of water and cost. */
+static const char *const bound_keys[2][2] = {
+    {"coverage_bound_same_water", "water_bound_same_coverage_l_min"},
+    {"coverage_bound_same_price", "price_bound_same_coverage_l_min"},
+};
+
+static bool put_every_aim(json_t *certificate, const sp_certificate *found, bool costly)
 {
     json_t *every = json_object();
     bool done = put_count(every, "mounting_points", found->every_aim.places) &&
-                put_real(every, "coverage_bound_same_water", found->every_aim.area_bound / found->whole) &&
-                put_real(every, "water_bound_same_coverage_l_min", 6e4 * found->every_aim.water_bound) &&
+                put_real(every, bound_keys[costly][0], found->every_aim.area_bound / found->whole) &&
+                put_real(every, bound_keys[costly][1], 6e4 * found->every_aim.water_bound) &&
                 put_real(every, "gap", found->every_aim.gap);
     return put(certificate, "every_aim", every) && done;
 }
@@ -347,16 +369,16 @@ static bool put_forward_check(json_t *root, const sp_forward_check *found)
 }
 
 /* Everything that it speaks of is counted on its own texels. */
-static bool put_certificate(json_t *root, const sp_certificate *found)
+static bool put_certificate(json_t *root, const sp_certificate *found, bool costly)
 {
     json_t *certificate = json_object();
     bool done = put_text(certificate, "method", "lagrangian dual, branch and bound") &&
                 put_real(certificate, "coverage", found->counted / found->whole) &&
-                put_real(certificate, "coverage_bound_same_water", found->area_bound / found->whole) &&
-                put_real(certificate, "water_bound_same_coverage_l_min", 6e4 * found->water_bound) &&
+                put_real(certificate, bound_keys[costly][0], found->area_bound / found->whole) &&
+                put_real(certificate, bound_keys[costly][1], 6e4 * found->water_bound) &&
                 put_real(certificate, "gap", found->gap) && put_count(certificate, "candidates", found->candidates) &&
                 put_count(certificate, "own_poses", found->own) && put_count(certificate, "texels", found->texels) &&
-                (!found->every_aim.computed || put_every_aim(certificate, found));
+                (!found->every_aim.computed || put_every_aim(certificate, found, costly));
     return put(root, "certificate", certificate) && done;
 }
 
@@ -391,7 +413,7 @@ static bool put_proposal(json_t *object, const sp_proposal *proposal, double cle
     return put_target(object, proposal, clean_area) && put_front(object, proposal, clean_area, fittings) &&
            put_front_by_nozzles(object, proposal, clean_area, fittings) &&
            (!proposal->forward_check.computed || put_forward_check(object, &proposal->forward_check)) &&
-           (!proposal->certificate.computed || put_certificate(object, &proposal->certificate));
+           (!proposal->certificate.computed || put_certificate(object, &proposal->certificate, proposal->costly));
 }
 
 /* Which alternative is proposed, and the same of each. */

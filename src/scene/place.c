@@ -76,9 +76,9 @@ static bool read_lance_steps(const sp_reader *reader, const sp_yaml *node, sp_mo
 
 static bool read_port(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"name", true},  {"position", true}, {"axis", false},
-                                  {"tilt", false}, {"depth", false},   {"types", false},
-                                  {"bore", false}, {"step", false},    {NULL, false}};
+    static const sp_key keys[] = {{"name", true},   {"position", true}, {"axis", false}, {"tilt", false},
+                                  {"depth", false}, {"types", false},   {"bore", false}, {"step", false},
+                                  {"cost", false},  {NULL, false}};
     const sp_nozzle_type ***types = &scene->mount_types[scene->mount_count];
     if (!sp_read_keys(reader, node, "port", "a port", keys) ||
         !sp_read_vector(reader, node, "position", &sp_length_unit, &mount->position) ||
@@ -112,8 +112,9 @@ static bool find_part(const sp_scene *scene, const sp_reader *reader, const sp_y
 
 static bool read_surface(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"geometry", true}, {"part", false}, {"spacing", true},      {"standoff", false},
-                                  {"tilt", false},    {"name", false}, {"max_nozzles", false}, {NULL, false}};
+    static const sp_key keys[] = {{"geometry", true},     {"part", false}, {"spacing", true},
+                                  {"standoff", false},    {"tilt", false}, {"name", false},
+                                  {"max_nozzles", false}, {"cost", false}, {NULL, false}};
     uint64_t geometry = 0;
     mount->axis = sp_v(0, 0, 0);
     mount->part = SP_NONE;
@@ -130,8 +131,9 @@ static bool read_surface(sp_scene *scene, const sp_reader *reader, const sp_yaml
 
 static bool read_line(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"from", true},  {"to", true},    {"spacing", false},     {"axis", false},
-                                  {"tilt", false}, {"name", false}, {"max_nozzles", false}, {NULL, false}};
+    static const sp_key keys[] = {{"from", true},         {"to", true},    {"spacing", false},
+                                  {"axis", false},        {"tilt", false}, {"name", false},
+                                  {"max_nozzles", false}, {"cost", false}, {NULL, false}};
     (void)scene;
     return sp_read_keys(reader, node, "line", "a line", keys) &&
            sp_read_vector(reader, node, "from", &sp_length_unit, &mount->from) &&
@@ -143,8 +145,9 @@ static bool read_line(sp_scene *scene, const sp_reader *reader, const sp_yaml *n
 
 static bool read_box(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"min", true},   {"max", true},   {"spacing", false},     {"axis", false},
-                                  {"tilt", false}, {"name", false}, {"max_nozzles", false}, {NULL, false}};
+    static const sp_key keys[] = {{"min", true},          {"max", true},   {"spacing", false},
+                                  {"axis", false},        {"tilt", false}, {"name", false},
+                                  {"max_nozzles", false}, {"cost", false}, {NULL, false}};
     (void)scene;
     if (!sp_read_keys(reader, node, "box", "a box", keys) ||
         !sp_read_vector(reader, node, "min", &sp_length_unit, &mount->from) ||
@@ -163,7 +166,8 @@ static bool read_common(const sp_scene *scene, const sp_reader *reader, const sp
 {
     uint64_t most = 0;
     if (!sp_read_name(reader, node, "name", mount->name) ||
-        !sp_read_count(reader, node, "max_nozzles", 1, SP_MAX_ITEMS, &most))
+        !sp_read_count(reader, node, "max_nozzles", 1, SP_MAX_ITEMS, &most) ||
+        !sp_scene_read_cost(scene, reader, node, &mount->cost))
         return false;
     mount->most = most;
     for (size_t i = 0; mount->name[0] && i < scene->mount_count; i++)
@@ -291,16 +295,16 @@ static bool read_place_types(sp_scene *scene, const sp_reader *reader, const sp_
 
 bool sp_scene_read_place(sp_scene *scene, const sp_reader *reader)
 {
-    static const sp_key keys[] = {{"objective", false},    {"coverage", false}, {"max_nozzles", false},
-                                  {"max_water", false},    {"types", false},    {"pressure", false},
-                                  {"clearance", false},    {"mounts", false},   {"refine", false},
-                                  {"alternatives", false}, {NULL, false}};
+    static const sp_key keys[] = {{"objective", false},    {"coverage", false},   {"max_nozzles", false},
+                                  {"max_water", false},    {"types", false},      {"pressure", false},
+                                  {"clearance", false},    {"mounts", false},     {"refine", false},
+                                  {"alternatives", false}, {"water_cost", false}, {NULL, false}};
     const sp_yaml *node = sp_yaml_get(scene->tree, "place");
     sp_place_options *place = &scene->place;
     if (node &&
         (!sp_read_keys(reader, node, "place", "the placement", keys) || !read_aims(reader, node, place) ||
          !sp_scene_read_pressures(reader, sp_yaml_get(node, "pressure"), &scene->pressures, &place->pressure_count) ||
-         !read_mounts(scene, reader, sp_yaml_get(node, "mounts")) ||
+         !sp_scene_read_water_cost(scene, reader, node) || !read_mounts(scene, reader, sp_yaml_get(node, "mounts")) ||
          !read_refine(reader, sp_yaml_get(node, "refine"), &place->refine)))
         return false;
     if (!read_place_types(scene, reader, node))

@@ -46,6 +46,7 @@ struct sp_scene {
     sp_setup setup;
     sp_layout *layout;
     sp_place_options place;
+    sp_water_cost water_cost;
     size_t mount_count;
     sp_mount *mounts;
     const sp_nozzle_type ***mount_types; /* [mount_count], what a port's `types` points to */
@@ -67,6 +68,9 @@ bool sp_scene_read_nozzles(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_simulate(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_place(sp_scene *scene, const sp_reader *reader);
 
+/* cost.c: `water_cost` of place, before mounts; and `cost` of a mount, m³/s. Absent: none. */
+bool sp_scene_read_water_cost(sp_scene *scene, const sp_reader *reader, const sp_yaml *place);
+bool sp_scene_read_cost(const sp_scene *scene, const sp_reader *reader, const sp_yaml *mount, double *cost);
 /* A pressure or a list of them, malloc'd; no node: none. */
 bool sp_scene_read_pressures(const sp_reader *reader, const sp_yaml *node, double **pressures, size_t *count);
 /* alternatives.c: the list in `place:`, all else of which has been read; no node: none. */

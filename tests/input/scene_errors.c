@@ -159,7 +159,7 @@ static const slip keys[] = {
      "flow"},
     {"tilt: 10 deg", "tilt: 10 deg, types: [cone]",
      "scene.yaml:43:77: types: found a key that a line does not have, expected one of from, to, spacing, axis, tilt, "
-     "name, max_nozzles"},
+     "name, max_nozzles, cost"},
     {"gravity: 9.8", "up: z\ngravity: 9.8", "scene.yaml:15:1: up: found a second time, expected once"},
     {"jets: 5000", "jets: 5000, jets: 6000", "scene.yaml:21:65: jets: found a second time, expected once"},
     {"geometry:\n  -", "nozzle:\n  -",

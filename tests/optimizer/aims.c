@@ -31,7 +31,7 @@ typedef struct {
     sp_search search;
     sp_cover cover;
     uint32_t weight[1], tier[64];
-    const uint32_t *tiers[TYPES];
+    const uint32_t *tiers[2 * TYPES];
     size_t ports[2];
     float *need;
     sp_lifts lifts;
@@ -80,7 +80,7 @@ static void set_prices(stage *s, bool sparse, uint64_t *random)
     s->weight[0] = 1;
     for (size_t i = 0; i < 64; i++)
         s->tier[i] = 0;
-    for (size_t i = 0; i < TYPES; i++)
+    for (size_t i = 0; i < 2 * TYPES; i++)
         s->tiers[i] = s->tier;
     s->ports[0] = s->ports[1] = SP_NO_PORT;
     s->cover = (sp_cover){.texel_count = patches,

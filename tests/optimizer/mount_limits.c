@@ -172,7 +172,7 @@ static void ports_left_out_keep_their_names(void **state)
 static sp_proposal proposal_of(sp_coverage *coverage, sp_objective objective, double covered, double water)
 {
     *coverage = (sp_coverage){.area = 10, .covered_area = covered, .fraction = covered / 10, .flow = water};
-    return (sp_proposal){.objective = objective, .coverage = coverage, .asked_area = 9};
+    return (sp_proposal){.objective = objective, .coverage = coverage, .asked_area = 9, .outlay = water};
 }
 
 static void the_best_is_chosen_by_the_objective(void **state)

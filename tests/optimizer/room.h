@@ -125,7 +125,7 @@ static inline void room_check(const sp_proposal *proposal, const sp_place_option
         for (size_t j = 0; j < i; j++)
             assert_string_not_equal(proposal->layout->nozzles[i].name, proposal->layout->nozzles[j].name);
     for (size_t i = 1; i < proposal->front_count; i++) {
-        assert_true(proposal->front[i].flow > proposal->front[i - 1].flow);
+        assert_true(proposal->front[i].outlay > proposal->front[i - 1].outlay);
         assert_true(proposal->front[i].area > proposal->front[i - 1].area);
     }
     for (size_t i = 1; i < proposal->by_number_count; i++) {
@@ -145,7 +145,7 @@ static inline void room_check(const sp_proposal *proposal, const sp_place_option
         return;
     assert_true(certificate->area_bound >= certificate->counted);
     assert_true(certificate->area_bound <= certificate->whole);
-    assert_true(certificate->water_bound <= proposal->coverage->flow * (1 + 1e-9));
+    assert_true(certificate->water_bound <= proposal->outlay * (1 + 1e-9));
     assert_true(certificate->gap >= 0 && certificate->gap <= 1);
     for (size_t i = 0; i < proposal->front_count; i++)
         assert_true(proposal->front[i].bound >= proposal->front[i].counted);

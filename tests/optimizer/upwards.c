@@ -122,7 +122,7 @@ typedef struct {
     sp_candidates candidates;
     sp_visibility visibility;
     sp_search search;
-    uint32_t weight[1], tier[TYPES];
+    uint32_t weight[1], tier[2 * TYPES];
     size_t ports[2];
     float *need, *film_need; /* film_need NULL where film is not asked for */
     sp_cover cover;

@@ -63,7 +63,8 @@ static int set_up(void **state)
                                       NAN,
                                       NAN,
                                       NAN,
-                                      0};
+                                      0,
+                                      f.coverages[2]->flow * (i + 1) / 3};
     f.stages[0] = (sp_stage){"visibility", 1.25};
     f.stages[1] = (sp_stage){"refine", 2.5};
     f.proposal = (sp_proposal){.layout = f.layouts[2],
