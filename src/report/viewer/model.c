@@ -50,8 +50,11 @@ static json_t *quantities_json(const sp_shown_quantity quantities[SP_SHOWN_QUANT
 static json_t *parts_json(const sp_mesh *mesh)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < mesh->part_count; ++i)
-        json_array_append_new(list, json_pack("{s:s}", "name", mesh->parts[i].name));
+    for (size_t i = 0; i < mesh->part_count; ++i) {
+        char *name = sp_text_utf8(mesh->parts[i].name);
+        json_array_append_new(list, json_pack("{s:s}", "name", name ? name : ""));
+        free(name);
+    }
     return list;
 }
 

@@ -17,9 +17,9 @@ static void add_drawn(const sp_viewer_drawn *drawn, sp_text *text)
     if (drawn->triangles < drawn->all)
         sp_text_add(
             text,
-            "<p class=\"note\" id=\"drawn\">The geometry is too large to be drawn whole: what is drawn below is "
-            "%zu of its %zu triangles, and may be %.2g mm off. All figures, here and where a point is asked, are "
-            "those of the whole.</p>\n",
+            "<p class=\"note\" id=\"drawn\">The geometry is too large to be drawn whole: below are %zu triangles "
+            "of the %zu that face the liquid, up to %.2g mm off. Figures, also those of a point that is asked, are of "
+            "the whole.</p>\n",
             drawn->triangles, drawn->all, 1e3 * drawn->cell);
 }
 
