@@ -30,9 +30,6 @@ static inline int64_t sp_packed_apart(double value, double from)
     memcpy(&apart, bits, sizeof apart);
     return apart;
 }
-/* The same with all lowest bytes first, then all second ones and so on, of each difference twice its size, plus one
- * where it is below 0. */
-void sp_packed_split(sp_packed *packed, const uint32_t *values, size_t count);
 /* As text that neither JSON nor HTML has to escape, malloc'd; NULL on error. */
 char *sp_packed_finish(const sp_packed *packed, sp_error *error);
 

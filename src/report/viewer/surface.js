@@ -13,15 +13,6 @@ const surfaces = (() => {
                 values[i] += values[i - 1];
             return values;
         };
-        /* Lowest bytes first, then the next ones. */
-        take.split = (count) => {
-            const bytes = take(Uint8Array, 4 * count), values = new Uint32Array(count);
-            for (let i = 0; i < count; i++) {
-                const told = bytes[i] | bytes[count + i] << 8 | bytes[2 * count + i] << 16 | bytes[3 * count + i] << 24;
-                values[i] = (told >>> 1 ^ -(told & 1)) + (i ? values[i - 1] : 0);
-            }
-            return values;
-        };
         /* Whole numbers of few bytes each. */
         take.numbers = (count) => {
             const lengths = take(Uint8Array, count), [all] = take(Uint32Array, 1), bytes = take(Uint8Array, all);
@@ -33,6 +24,18 @@ const surfaces = (() => {
                 if (values[i])
                     values[i] = values[i] & 1n ? ~(values[i] >> 1n) : values[i] >> 1n;
             return new BigInt64Array(values.buffer);
+        };
+        /* The same of numbers below 2^52, as such. */
+        take.small = (count) => {
+            const lengths = take(Uint8Array, count), [all] = take(Uint32Array, 1), bytes = take(Uint8Array, all);
+            const values = new Float64Array(count);
+            for (let i = 0, from = 0; i < count; from += lengths[i++]) {
+                let told = 0;
+                for (let k = lengths[i]; k > 0; k--)
+                    told = 256 * told + bytes[from + k - 1];
+                values[i] = told % 2 ? -(told + 1) / 2 : told / 2;
+            }
+            return values;
         };
         return take;
     }
@@ -54,12 +57,85 @@ const surfaces = (() => {
         return values;
     }
 
-    function readVertices(take, {vertices, parts, unit}) {
-        const numbers = [0, 1, 2].map(() => take(Int32Array, vertices, true));
-        const apart = take.numbers(3 * vertices), places = new Float64Array(3 * vertices);
-        for (let k = 0; k < 3; k++)
-            for (let i = 0; i < vertices; i++)
-                places[3 * i + k] = moved(numbers[k][i] / parts * unit, apart[k * vertices + i]);
+    const MOST_DIGITS = 60, STEPS = 32;
+
+    /* Corners of the triangles that are known, by the vertex that they are at. */
+    function around(triangles, vertices) {
+        const first = new Int32Array(vertices).fill(-1), next = new Int32Array(triangles.length);
+        const add = (corner) => {
+            next[corner] = first[triangles[corner]];
+            first[triangles[corner]] = corner;
+        };
+        /* The third corner of the latest triangle on the edge from a to b, -1 for none. */
+        const beyond = (a, b) => {
+            for (let corner = first[a], steps = 0; corner >= 0 && steps < STEPS; corner = next[corner], steps++) {
+                const start = corner - (corner % 3), one = triangles[start + ((corner + 1) % 3)];
+                const two = triangles[start + ((corner + 2) % 3)];
+                if (one === b || two === b)
+                    return one === b ? two : one;
+            }
+            return -1;
+        };
+        return {add, beyond};
+    }
+
+    function readTriangles(take, count) {
+        const before = take.small(3 * count), triangles = new Uint32Array(3 * count);
+        for (let i = 0, next = 0; i < 3 * count; i++) {
+            triangles[i] = next - before[i];
+            next = Math.max(next, triangles[i] + 1);
+        }
+        return triangles;
+    }
+
+    /* As places.c tells them. */
+    function readNumbers(take, triangles, {vertices, base, digits}) {
+        const more = take(Int8Array, 3 * vertices), off = take.small(3 * vertices);
+        const numbers = new Float64Array(3 * vertices), known = new Uint8Array(vertices);
+        const {add, beyond} = around(triangles, vertices);
+        let count = 0, last = -1;
+        const stepOf = (power) => {
+            let step = 1;
+            for (; power > 0; power--)
+                step *= base;
+            return step;
+        };
+        const start = stepOf(digits);
+        function zerosOf(number) {
+            let zeros = 0;
+            for (let limit = start; Math.abs(number) >= limit && zeros < MOST_DIGITS; limit *= base)
+                zeros++;
+            return zeros;
+        }
+        function tell(vertex, a, b) {
+            const [hasA, hasB] = [a, b].map((one) => one >= 0 && known[one]), other = hasA && hasB ? beyond(a, b) : -1;
+            const near = hasA ? a : hasB ? b : last;
+            for (let k = 0; k < 3; k++, count++) {
+                const expected = other >= 0 ? numbers[3 * a + k] + numbers[3 * b + k] - numbers[3 * other + k]
+                    : near >= 0 ? numbers[3 * near + k] : 0;
+                const step = stepOf(zerosOf(expected) + more[count]);
+                numbers[3 * vertex + k] = (Math.floor(expected / step + 0.5) + off[count]) * step;
+            }
+            known[vertex] = 1;
+            last = vertex;
+        }
+        for (let i = 0; i < triangles.length; i += 3) {
+            for (let k = 0; k < 3; k++)
+                if (!known[triangles[i + k]])
+                    tell(triangles[i + k], triangles[i + ((k + 1) % 3)], triangles[i + ((k + 2) % 3)]);
+            for (let k = 0; k < 3; k++)
+                add(i + k);
+        }
+        for (let i = 0; i < vertices; i++)
+            if (!known[i])
+                tell(i, -1, -1);
+        return numbers;
+    }
+
+    function readVertices(take, triangles, about) {
+        const places = readNumbers(take, triangles, about), apart = take.numbers(places.length);
+        for (let i = 0; i < places.length; i++)
+            places[i] = moved(places[i] / about.parts * about.unit, apart[i]);
         return places;
     }
 
@@ -132,8 +208,8 @@ const surfaces = (() => {
 
     /* What layouts are evaluated on. */
     function readExact(take, about) {
-        const {triangles, charts, nodes, cuts} = about, surface = {places: readVertices(take, about)};
-        surface.triangles = take.split(3 * triangles);
+        const {triangles, charts, nodes, cuts} = about, surface = {triangles: readTriangles(take, triangles)};
+        surface.places = readVertices(take, surface.triangles, about);
         surface.part = take(Uint32Array, triangles, true);
         surface.chart = take(Uint32Array, triangles, true);
         surface.chartPage = take(Uint32Array, charts, true);
