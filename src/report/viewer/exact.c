@@ -57,10 +57,11 @@ json_t *sp_viewer_exact(const sp_evaluator *evaluator, const sp_drawn_surface *s
     if (!done)
         sp_fail_memory(error);
     else if (pack_wet(evaluator, packed, &wet, error))
-        about = json_pack("{s:f, s:f, s:f, s:i, s:I, s:I, s:I, s:I, s:I}", "parts", told.parts, "unit", told.unit,
-                          "base", told.base, "digits", told.digits, "vertices", (json_int_t)mesh->vertex_count,
-                          "triangles", (json_int_t)mesh->triangle_count, "charts", (json_int_t)atlas->chart_count,
-                          "nodes", (json_int_t)wet.node_count, "cuts", (json_int_t)wet.cut_count);
+        about = json_pack("{s:I, s:f, s:I, s:i, s:I, s:I, s:I, s:I, s:I}", "parts", (json_int_t)told.parts, "unit",
+                          told.unit, "base", (json_int_t)told.base, "digits", told.digits, "vertices",
+                          (json_int_t)mesh->vertex_count, "triangles", (json_int_t)mesh->triangle_count, "charts",
+                          (json_int_t)atlas->chart_count, "nodes", (json_int_t)wet.node_count, "cuts",
+                          (json_int_t)wet.cut_count);
     sp_wet_told_free(&wet);
     return about;
 }
