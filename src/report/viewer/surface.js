@@ -141,47 +141,79 @@ const surfaces = (() => {
 
     const PARTS = 16, SWEEPS = 64, FARTHEST = 1e6;
 
-    function turnIn(places, a, b, c, from, to) {
+    /* Where the corner opposite to the edge from a to b, at from and to, lies if the triangle keeps its shape: into spot. */
+    function turnIn(places, a, b, c, from, to, spot) {
         const ex = places[3 * b] - places[3 * a], ey = places[3 * b + 1] - places[3 * a + 1];
         const ez = places[3 * b + 2] - places[3 * a + 2], fx = places[3 * c] - places[3 * a];
         const fy = places[3 * c + 1] - places[3 * a + 1], fz = places[3 * c + 2] - places[3 * a + 2];
         const length2 = ex * ex + ey * ey + ez * ez, along = (ex * fx + ey * fy + ez * fz) / length2;
         const x = ey * fz - ez * fy, y = ez * fx - ex * fz, z = ex * fy - ey * fx;
         const across = Math.sqrt(x * x + y * y + z * z) / length2, gx = to[0] - from[0], gy = to[1] - from[1];
-        const u = from[0] + along * gx - across * gy, v = from[1] + along * gy + across * gx;
-        return Math.abs(u) < FARTHEST && Math.abs(v) < FARTHEST ? [u, v] : from;
+        spot[0] = from[0] + along * gx - across * gy;
+        spot[1] = from[1] + along * gy + across * gx;
+        if (!(Math.abs(spot[0]) < FARTHEST && Math.abs(spot[1]) < FARTHEST))
+            spot.set(from);
+    }
+
+    /* The latest places of vertices in charts, by number: -1 where there is none. */
+    function latest(vertices, most) {
+        const first = new Int32Array(vertices).fill(-1), next = new Int32Array(most), charts = new Int32Array(most);
+        const spots = new Float64Array(2 * most);
+        let count = 0;
+        const find = (chart, vertex) => {
+            let i = first[vertex];
+            while (i >= 0 && charts[i] !== chart)
+                i = next[i];
+            return i;
+        };
+        const remember = (chart, vertex, spot) => {
+            let i = find(chart, vertex);
+            if (i < 0) {
+                i = count++;
+                charts[i] = chart;
+                next[i] = first[vertex];
+                first[vertex] = i;
+            }
+            spots.set(spot, 2 * i);
+        };
+        return {find, remember, spot: (i) => spots.subarray(2 * i, 2 * i + 2)};
     }
 
     /* The corners in their charts, triangle by triangle as they are told. */
     function unfolder(take, surface, charts) {
-        const {triangles, chart, places} = surface, count = chart.length, vertices = places.length / 3;
+        const {triangles, chart, places} = surface, count = chart.length;
         const rounded = take(Uint8Array, charts), apart = take.numbers(6 * count);
-        const uv = new Float64Array(6 * count), told = new Uint8Array(count), known = new Map();
+        const uv = new Float64Array(6 * count), told = new Uint8Array(count), spot = new Float64Array(2);
+        const known = latest(places.length / 3, 3 * count);
         let next = 0;
-        const key = (t, i) => chart[t] * vertices + triangles[3 * t + i];
-        function expected(t, i, last) {
-            const own = known.get(key(t, i)), a = (i + 1) % 3, b = (i + 2) % 3;
-            if (own)
-                return own;
-            const from = known.get(key(t, a)), to = known.get(key(t, b));
-            const [p, q, r] = [a, b, i].map((k) => triangles[3 * t + k]);
-            return from && to ? turnIn(places, p, q, r, from, to) : last;
+        const find = (t, i) => known.find(chart[t], triangles[3 * t + i]);
+        /* Into spot, which holds the corner told before. */
+        function expect(t, i) {
+            const own = find(t, i), a = (i + 1) % 3, b = (i + 2) % 3;
+            if (own >= 0) {
+                spot.set(known.spot(own));
+                return;
+            }
+            const from = find(t, a), to = find(t, b);
+            if (from >= 0 && to >= 0)
+                turnIn(places, triangles[3 * t + a], triangles[3 * t + b], triangles[3 * t + i], known.spot(from),
+                       known.spot(to), spot);
         }
         function tell(t) {
-            let last = [0, 0];
+            spot.fill(0);
             told[t] = 1;
             for (let i = 0; i < 3; i++) {
-                const from = expected(t, i, last), at = [0, 1].map((k) => {
+                expect(t, i);
+                for (let k = 0; k < 2; k++) {
                     const off = apart[next++];
-                    return rounded[chart[t]] ? (Math.floor(from[k] * PARTS) + Number(off)) / PARTS
-                                             : moved(from[k], off);
-                });
-                known.set(key(t, i), at);
-                uv.set(at, 6 * t + 2 * i);
-                last = at;
+                    spot[k] = rounded[chart[t]] ? (Math.floor(spot[k] * PARTS) + Number(off)) / PARTS
+                                                : moved(spot[k], off);
+                }
+                known.remember(chart[t], triangles[3 * t + i], spot);
+                uv.set(spot, 6 * t + 2 * i);
             }
         }
-        const corners = (t) => known.has(key(t, 0)) + known.has(key(t, 1)) + known.has(key(t, 2));
+        const corners = (t) => (find(t, 0) >= 0) + (find(t, 1) >= 0) + (find(t, 2) >= 0);
         return {uv, told, tell, corners};
     }
 
@@ -224,30 +256,40 @@ const surfaces = (() => {
 
     /* Drawn corners that are one share a vertex: at each vertex of the mesh the latest first. */
     function drawnOf(model, surface, drawn) {
-        const first = new Int32Array(surface.places.length / 3).fill(-1), next = [], packed = [], places = [];
-        const corners = new Uint32Array(3 * drawn.length), u = [], v = [];
+        const first = new Int32Array(surface.places.length / 3).fill(-1), most = 3 * drawn.length;
+        const next = new Int32Array(most), at = new Uint32Array(most), u = new Uint16Array(most);
+        const v = new Uint16Array(most), corners = new Uint32Array(most);
         const part = (value, low, high) => (high > low ? Math.round(65535 * (value - low) / (high - low)) : 0);
+        let count = 0;
+        function vertexAt(vertex, x, y) {
+            let found = first[vertex];
+            while (found >= 0 && (u[found] !== x || v[found] !== y))
+                found = next[found];
+            if (found >= 0)
+                return found;
+            next[count] = first[vertex];
+            [at[count], u[count], v[count]] = [vertex, x, y];
+            first[vertex] = count;
+            return count++;
+        }
         for (const range of model.draws)
             for (let i = range.first; i < range.first + range.count; i++)
                 for (let k = 0; k < 3; k++) {
-                    const t = drawn[i], corner = range.layer ? 2 - k : k, at = surface.triangles[3 * t + corner];
-                    const spot = [0, 1].map((axis) => part(surface.uv[6 * t + 2 * corner + axis], 0, model.edge));
-                    let found = first[at];
-                    while (found >= 0 && (u[found] !== spot[0] || v[found] !== spot[1]))
-                        found = next[found];
-                    if (found < 0) {
-                        found = next.push(first[at]) - 1;
-                        first[at] = found;
-                        u.push(spot[0]);
-                        v.push(spot[1]);
-                        const place = [0, 1, 2].map((axis) => surface.places[3 * at + axis]);
-                        places.push(...place);
-                        packed.push(...place.map((x, axis) => part(x, model.low[axis], model.high[axis])), ...spot, 0);
-                    }
-                    corners[3 * i + k] = found;
+                    const corner = 3 * drawn[i] + (range.layer ? 2 - k : k);
+                    corners[3 * i + k] = vertexAt(surface.triangles[corner],
+                        part(surface.uv[2 * corner], 0, model.edge), part(surface.uv[2 * corner + 1], 0, model.edge));
                 }
+        const packed = new Uint16Array(6 * count), places = new Float32Array(3 * count);
+        for (let i = 0; i < count; i++) {
+            for (let k = 0; k < 3; k++) {
+                places[3 * i + k] = surface.places[3 * at[i] + k];
+                packed[6 * i + k] = part(surface.places[3 * at[i] + k], model.low[k], model.high[k]);
+            }
+            packed[6 * i + 3] = u[i];
+            packed[6 * i + 4] = v[i];
+        }
         model.corners = corners;
-        model.vertex = {packed: Uint16Array.from(packed), places: Float32Array.from(places), u, v};
+        model.vertex = {packed, places, u, v};
     }
 
     function readRounded(model, take) {
