@@ -1,4 +1,5 @@
-/* Put behind the report's own script by a test: the surface that layouts are evaluated on, as numbers that JSON keeps. */
+/* Put behind the report's own script by a test: the surface that layouts are evaluated on, as numbers that JSON
+ * keeps. */
 (async () => {
     const found = {errors: [], requests: []}, told = document.createElement("pre");
     addEventListener("error", (event) => found.errors.push(event.message));

@@ -9,6 +9,7 @@
     const drawn = performance.now();
     while (document.getElementById("live-model") && !told("live", "ready") && !told("live", "failed"))
         await wait(5);
-    const live = told("live", "failed") || (told("live", "ready") ? `live ${Math.round(performance.now())} ms` : "not live");
+    const ready = told("live", "ready") ? `live ${Math.round(performance.now())} ms` : "not live";
+    const live = told("live", "failed") || ready;
     console.log(`open-times drawn ${Math.round(drawn)} ms, ${live}`);
 })();

@@ -141,7 +141,8 @@ const surfaces = (() => {
 
     const PARTS = 16, SWEEPS = 64, FARTHEST = 1e6;
 
-    /* Where the corner opposite to the edge from a to b, at from and to, lies if the triangle keeps its shape: into spot. */
+    /* Into spot: where the corner opposite to the edge from a to b, at from and to, lies if the triangle keeps its
+     * shape. */
     function turnIn(places, a, b, c, from, to, spot) {
         const ex = places[3 * b] - places[3 * a], ey = places[3 * b + 1] - places[3 * a + 1];
         const ez = places[3 * b + 2] - places[3 * a + 2], fx = places[3 * c] - places[3 * a];
