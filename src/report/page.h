@@ -19,7 +19,7 @@ typedef struct {
     size_t most_drawn; /* triangles in all pictures that can be turned: of more the pictures are coarser */
 } sp_page;
 
-#define SP_PAGE_MOST_DRAWN 2500000 /* about 15 MB; two million triangles, a quarter of them wet on both sides */
+#define SP_PAGE_MOST_DRAWN 2500000 /* about 19 MB; two million triangles, a quarter of them wet on both sides */
 /* html.c: sp_report_html, which draws SP_PAGE_MOST_DRAWN triangles at most. */
 char *sp_page_html(const sp_result *result, size_t most_drawn, sp_error *error);
 

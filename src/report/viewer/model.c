@@ -121,8 +121,7 @@ static bool pack_surface(const sp_evaluator *evaluator, const sp_drawn_surface *
         sp_packed_shorts(packed, numbers, surface->vertex_count, true);
     }
     free(numbers);
-    sp_packed_words(packed, surface->corners[0], 3 * surface->triangle_count, true);
-    return true;
+    return sp_packed_corners(packed, surface->corners[0], 3 * surface->triangle_count) || sp_fail_memory(error);
 }
 
 /* Where the pages' pixels are, and which patch each of them shows. */

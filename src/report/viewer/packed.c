@@ -67,6 +67,20 @@ void sp_packed_numbers(sp_packed *packed, const int64_t *values, size_t count)
     align(packed);
 }
 
+bool sp_packed_corners(sp_packed *packed, const uint32_t *vertices, size_t count)
+{
+    int64_t *before = malloc((count + 1) * sizeof *before);
+    uint32_t next = 0;
+    for (size_t i = 0; before && i < count; ++i) {
+        before[i] = (int64_t)next - vertices[i];
+        next = vertices[i] >= next ? vertices[i] + 1 : next;
+    }
+    if (before)
+        sp_packed_numbers(packed, before, count);
+    free(before);
+    return before != NULL;
+}
+
 /* 91² letters tell 13 bits: a seventh less than base64 takes. */
 static void add_letters(sp_text *text, const uint8_t *bytes, size_t count)
 {

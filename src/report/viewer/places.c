@@ -157,23 +157,6 @@ static void tell_all(teller *t)
             tell(t, i, SP_NONE, SP_NONE);
 }
 
-/* Most vertices come one after the other as triangles ask for them: each as what it is less than the next of these. */
-static bool pack_triangles(const sp_mesh *mesh, sp_packed *packed)
-{
-    size_t count = 3 * mesh->triangle_count;
-    int64_t *before = malloc((count + 1) * sizeof *before);
-    uint32_t next = 0;
-    for (size_t i = 0; before && i < count; i++) {
-        uint32_t vertex = mesh->triangles[0][i];
-        before[i] = (int64_t)next - vertex;
-        next = vertex >= next ? vertex + 1 : next;
-    }
-    if (before)
-        sp_packed_numbers(packed, before, count);
-    free(before);
-    return before != NULL;
-}
-
 bool sp_places_pack(const sp_mesh *mesh, sp_packed *packed, sp_places_told *told)
 {
     size_t count = mesh->vertex_count;
@@ -192,7 +175,7 @@ bool sp_places_pack(const sp_mesh *mesh, sp_packed *packed, sp_places_told *told
     if (done) {
         memset(t.first, 0xff, count * sizeof *t.first);
         tell_all(&t);
-        done = pack_triangles(mesh, packed);
+        done = sp_packed_corners(packed, mesh->triangles[0], 3 * mesh->triangle_count);
         sp_packed_bytes(packed, t.zeros, 3 * count);
         sp_packed_numbers(packed, t.off, 3 * count);
         sp_packed_numbers(packed, t.missed, 3 * count);

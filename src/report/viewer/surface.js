@@ -303,7 +303,7 @@ const surfaces = (() => {
                     places[3 * i + k] = model.low[k] + (axes[k][i] / 65535) * (model.high[k] - model.low[k]);
             }
         model.vertex = {packed, places, u: axes[3], v: axes[4]};
-        model.corners = take(Uint32Array, model.triangles * 3, true);
+        model.corners = readTriangles(take, model.triangles);
     }
 
     /* Sets the model's vertex and corners, and where layouts can be evaluated on it its surface. */
