@@ -209,8 +209,8 @@ static json_t *described(const sp_page *page, const sp_layers *layers,
 }
 
 /* As it is drawn: no more than its share of the triangles, unless layouts are evaluated on it. */
-static bool make_surface(const sp_page *page, sp_layers *layers, sp_drawn_surface *surface, sp_viewer_drawn *drawn,
-                         sp_error *error)
+static bool make_surface(const sp_page *page, const sp_layers *layers, sp_drawn_surface *surface,
+                         sp_viewer_drawn *drawn, sp_error *error)
 {
     if (!sp_drawn_surface_create(surface, layers, error))
         return false;
