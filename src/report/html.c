@@ -261,9 +261,10 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
     return true;
 }
 
-char *sp_report_html(const sp_result *result, sp_error *error)
+char *sp_page_html(const sp_result *result, size_t most_drawn, sp_error *error)
 {
-    sp_page page = {.result = result, .scale = sp_flux_scale_of(result->designs, result->design_count)};
+    sp_page page = {
+        .result = result, .scale = sp_flux_scale_of(result->designs, result->design_count), .most_drawn = most_drawn};
     sp_figures *figures = sp_result_figures(result, error);
     char *scene = sp_text_utf8(result->scene), *html = NULL;
     page.figures = figures;
@@ -279,4 +280,9 @@ char *sp_report_html(const sp_result *result, sp_error *error)
     sp_figures_destroy(figures, result->design_count);
     free(scene);
     return html;
+}
+
+char *sp_report_html(const sp_result *result, sp_error *error)
+{
+    return sp_page_html(result, SP_PAGE_MOST_DRAWN, error);
 }

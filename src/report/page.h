@@ -16,8 +16,13 @@ typedef struct {
     bool costly;               /* mounts cost something: layouts are held against each other by price, not by water */
     size_t manual, greedy;
     sp_flux_scale scale;
-    bool live; /* it evaluates other layouts itself */
+    bool live;         /* it evaluates other layouts itself */
+    size_t most_drawn; /* triangles in all pictures that can be turned: of more the pictures are coarser */
 } sp_page;
+
+#define SP_PAGE_MOST_DRAWN 2500000 /* about 19 MB; two million triangles, a quarter of them wet on both sides */
+/* html.c: sp_report_html, which draws SP_PAGE_MOST_DRAWN triangles at most. */
+char *sp_page_html(const sp_result *result, size_t most_drawn, sp_error *error);
 
 /* html.c: all before the page's first heading: title (ours, not escaped), style, the beginning of <main>. */
 void sp_page_head(sp_text *text, const char *title, const char *scene, bool live);

@@ -1,4 +1,4 @@
-/* Put behind a report's own scripts by live_times.sh: moves and turns every nozzle of the layout, and says on the
+/* Put behind a report's own scripts by times.sh: moves and turns every nozzle of the layout, and says on the
  * console how long the page's worker took for each, evaluation and colours. */
 (async () => {
     const wait = (ms) => new Promise((done) => setTimeout(done, ms));

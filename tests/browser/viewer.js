@@ -46,6 +46,8 @@
     found.focused = document.activeElement === canvas;
     for (let i = 0; i < 24; i++) {
         press("ArrowLeft");
+        if (i < 4) /* beside what stands in the middle */
+            press("ArrowRight", {shiftKey: true});
         press(i % 2 ? "ArrowUp" : "+");
         press("Enter");
         found.picks.push({patch: Number(answer.dataset.patch), text: answer.querySelector("p").textContent,

@@ -21,11 +21,11 @@ typedef struct {
 } exported;
 
 /* With a part and a nozzle of a strange name, and a shell that faces outwards, so that its wet side is its back;
- * without a cavity both sides of all are one. */
-static void export_set_up(exported *e, bool cavity, sp_vec3 origin, sp_transform file)
+ * without a cavity both sides of all are one. The shell has so many corners `around`. */
+static inline void export_set_up_around(exported *e, int around, bool cavity, sp_vec3 origin, sp_transform file)
 {
     sp_error error = {0};
-    *e = (exported){.mesh = tank_mesh(24, &error)};
+    *e = (exported){.mesh = tank_mesh(around, &error)};
     free(e->mesh->parts[1].name);
     e->mesh->parts[1].name = strdup(EXPORTED_NAME);
     for (uint32_t t = 0; t < e->mesh->triangle_count; t++)
@@ -48,6 +48,11 @@ static void export_set_up(exported *e, bool cavity, sp_vec3 origin, sp_transform
         (sp_design){.name = "proposed", .evaluator = e->evaluator, .layout = e->layout, .coverage = e->coverage};
 }
 
+static inline void export_set_up(exported *e, bool cavity, sp_vec3 origin, sp_transform file)
+{
+    export_set_up_around(e, 24, cavity, origin, file);
+}
+
 static void export_tear_down(exported *e)
 {
     sp_coverage_destroy(e->coverage);
@@ -59,7 +64,7 @@ static void export_tear_down(exported *e)
 typedef bool export_writer(const sp_design *design, const char *path, sp_error *error);
 
 /* The file's bytes, malloc'd, with a zero behind them. Writing it again must give the same. */
-static char *export_bytes(const exported *e, export_writer *write, const char *path, size_t *size)
+static inline char *export_bytes(const exported *e, export_writer *write, const char *path, size_t *size)
 {
     char *bytes[2];
     size_t sizes[2];
@@ -84,7 +89,7 @@ static char *export_bytes(const exported *e, export_writer *write, const char *p
     return bytes[0];
 }
 
-static uint64_t export_number(const char *bytes, size_t width)
+static inline uint64_t export_number(const char *bytes, size_t width)
 {
     uint64_t value = 0;
     for (size_t k = width; k-- > 0;)

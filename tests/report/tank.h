@@ -86,7 +86,7 @@ static sp_mesh *tank_mesh(int around, sp_error *error)
 
 static const sp_surface tank_surfaces[3] = {{true, 0, 1, false}, {true, 0, 1, false}, {false, 0, 1, false}};
 
-static sp_setup tank_setup(const sp_mesh *mesh, double texel)
+static inline sp_setup tank_setup(const sp_mesh *mesh, double texel)
 {
     sp_setup setup = sp_setup_default();
     setup.mesh = mesh;

@@ -4,7 +4,8 @@
 #include "exact.h"
 #include "live.h"
 #include "report/camera.h"
-#include "report/surface.h"
+#include "report/coarse.h"
+#include "shown.h"
 
 #include <sprayplan/image.h>
 
@@ -49,8 +50,11 @@ static json_t *quantities_json(const sp_shown_quantity quantities[SP_SHOWN_QUANT
 static json_t *parts_json(const sp_mesh *mesh)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < mesh->part_count; ++i)
-        json_array_append_new(list, json_pack("{s:s}", "name", mesh->parts[i].name));
+    for (size_t i = 0; i < mesh->part_count; ++i) {
+        char *name = sp_text_utf8(mesh->parts[i].name);
+        json_array_append_new(list, json_pack("{s:s}", "name", name ? name : ""));
+        free(name);
+    }
     return list;
 }
 
@@ -117,8 +121,7 @@ static bool pack_surface(const sp_evaluator *evaluator, const sp_drawn_surface *
         sp_packed_shorts(packed, numbers, surface->vertex_count, true);
     }
     free(numbers);
-    sp_packed_words(packed, surface->corners[0], 3 * surface->triangle_count, true);
-    return true;
+    return sp_packed_corners(packed, surface->corners[0], 3 * surface->triangle_count) || sp_fail_memory(error);
 }
 
 /* Where the pages' pixels are, and which patch each of them shows. */
@@ -157,7 +160,7 @@ static json_t *designs_json(const sp_page *page, const sp_evaluator *evaluator,
 {
     json_t *list = json_array();
     for (size_t i = 0; list && i < page->result->design_count; ++i) {
-        if (page->result->designs[i].evaluator != evaluator)
+        if (sp_viewer_evaluator(page, i) != evaluator)
             continue;
         json_t *design = sp_viewer_design(page, i, quantities, beside, packed, error);
         if (!design || json_array_append_new(list, design) != 0) {
@@ -205,14 +208,32 @@ static json_t *described(const sp_page *page, const sp_layers *layers,
     return designs;
 }
 
+/* As it is drawn: no more than its share of the triangles, unless layouts are evaluated on it. */
+static bool make_surface(const sp_page *page, const sp_layers *layers, sp_drawn_surface *surface,
+                         sp_viewer_drawn *drawn, sp_error *error)
+{
+    if (!sp_drawn_surface_create(surface, layers, error))
+        return false;
+    double cell = 0;
+    size_t all = surface->triangle_count, most = page->most_drawn / drawn->models;
+    bool exact = page->live && layers->evaluator == sp_page_live_evaluator(page);
+    if (!exact && !sp_drawn_surface_coarsen(surface, layers->evaluator, most, &cell, error))
+        return false;
+    drawn->all += all;
+    drawn->triangles += surface->triangle_count;
+    drawn->cell = fmax(drawn->cell, cell);
+    return true;
+}
+
 static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator,
-                          const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], sp_error *error)
+                          const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], sp_viewer_drawn *drawn,
+                          sp_error *error)
 {
     sp_layers layers = {0};
     sp_drawn_surface surface = {0};
     sp_packed packed = {0};
     json_t *object = NULL, *designs = NULL, *exact = NULL;
-    if (sp_layers_create(&layers, evaluator, error) && sp_drawn_surface_create(&surface, &layers, error)) {
+    if (sp_layers_create(&layers, evaluator, error) && make_surface(page, &layers, &surface, drawn, error)) {
         box around = box_of(evaluator, &surface);
         if (pack_either(page, evaluator, &surface, &around, &packed, &exact, error) &&
             pack_pages(&layers, &packed, error))
@@ -237,18 +258,29 @@ static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator,
     return object;
 }
 
-/* One for each evaluator that the designs have. */
+/* Whether the surface of a design was not that of one before. */
+static bool begins_model(const sp_page *page, size_t design)
+{
+    const sp_evaluator *evaluator = sp_viewer_evaluator(page, design);
+    bool begins = evaluator != NULL;
+    for (size_t i = 0; begins && i < design; ++i)
+        begins = sp_viewer_evaluator(page, i) != evaluator;
+    return begins;
+}
+
+/* One for each surface that the designs have. */
 static json_t *models_json(const sp_page *page, const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES],
-                           sp_error *error)
+                           sp_viewer_drawn *drawn, sp_error *error)
 {
     json_t *list = json_array();
+    *drawn = (sp_viewer_drawn){0};
+    for (size_t i = 0; i < page->result->design_count; ++i)
+        drawn->models += begins_model(page, i);
     for (size_t i = 0; list && i < page->result->design_count; ++i) {
-        const sp_evaluator *evaluator = page->result->designs[i].evaluator;
-        bool known = !evaluator;
-        for (size_t k = 0; k < i; ++k)
-            known |= page->result->designs[k].evaluator == evaluator;
-        json_t *model = known ? NULL : model_json(page, evaluator, quantities, error);
-        if (!known && (!model || json_array_append_new(list, model) != 0)) {
+        if (!begins_model(page, i))
+            continue;
+        json_t *model = model_json(page, sp_viewer_evaluator(page, i), quantities, drawn, error);
+        if (!model || json_array_append_new(list, model) != 0) {
             json_decref(list);
             return sp_fail_memory(error);
         }
@@ -256,11 +288,11 @@ static json_t *models_json(const sp_page *page, const sp_shown_quantity quantiti
     return list;
 }
 
-bool sp_viewer_model(const sp_page *page, sp_text *text, sp_error *error)
+bool sp_viewer_model(const sp_page *page, sp_text *text, sp_viewer_drawn *drawn, sp_error *error)
 {
     sp_shown_quantity quantities[SP_SHOWN_QUANTITIES];
     sp_shown_quantities(page, quantities);
-    json_t *models = models_json(page, quantities, error);
+    json_t *models = models_json(page, quantities, drawn, error);
     if (!models)
         return false;
     sp_vec3 up = sp_v(0, 0, 1);

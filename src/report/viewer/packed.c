@@ -44,16 +44,6 @@ void sp_packed_words(sp_packed *packed, const uint32_t *values, size_t count, bo
         put(packed, differences && i ? values[i] - values[i - 1] : values[i], 4);
 }
 
-void sp_packed_split(sp_packed *packed, const uint32_t *values, size_t count)
-{
-    for (int shift = 0; shift < 32; shift += 8)
-        for (size_t i = 0; i < count; ++i) {
-            uint32_t apart = values[i] - (i ? values[i - 1] : 0);
-            put(packed, (apart << 1 ^ (apart >> 31 ? UINT32_MAX : 0)) >> shift, 1);
-        }
-    align(packed);
-}
-
 static uint64_t unsigned_of(int64_t value)
 {
     return value < 0 ? 2 * (uint64_t) - (value + 1) + 1 : 2 * (uint64_t)value;
@@ -75,6 +65,20 @@ void sp_packed_numbers(sp_packed *packed, const int64_t *values, size_t count)
         for (uint64_t rest = unsigned_of(values[i]); rest; rest >>= 8)
             put(packed, (uint32_t)(rest & 0xff), 1);
     align(packed);
+}
+
+bool sp_packed_corners(sp_packed *packed, const uint32_t *vertices, size_t count)
+{
+    int64_t *before = malloc((count + 1) * sizeof *before);
+    uint32_t next = 0;
+    for (size_t i = 0; before && i < count; ++i) {
+        before[i] = (int64_t)next - vertices[i];
+        next = vertices[i] >= next ? vertices[i] + 1 : next;
+    }
+    if (before)
+        sp_packed_numbers(packed, before, count);
+    free(before);
+    return before != NULL;
 }
 
 /* 91² letters tell 13 bits: a seventh less than base64 takes. */

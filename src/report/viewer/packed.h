@@ -19,6 +19,9 @@ void sp_packed_words(sp_packed *packed, const uint32_t *values, size_t count, bo
 /* Whole numbers that are mostly small: of each, twice its size, plus one where it is below 0, in as few bytes as it
  * takes. How many these are for each of them, then how many in all, then they. */
 void sp_packed_numbers(sp_packed *packed, const int64_t *values, size_t count);
+/* Vertices of triangles, which mostly come one after the other as triangles ask for them: each as what it is less than
+ * the next of these, as sp_packed_numbers. False where memory runs out. */
+bool sp_packed_corners(sp_packed *packed, const uint32_t *vertices, size_t count);
 /* How many doubles `value` lies above `from`, modulo 2^64: the difference of their bits. */
 static inline int64_t sp_packed_apart(double value, double from)
 {
@@ -30,9 +33,6 @@ static inline int64_t sp_packed_apart(double value, double from)
     memcpy(&apart, bits, sizeof apart);
     return apart;
 }
-/* The same with all lowest bytes first, then all second ones and so on, of each difference twice its size, plus one
- * where it is below 0. */
-void sp_packed_split(sp_packed *packed, const uint32_t *values, size_t count);
 /* As text that neither JSON nor HTML has to escape, malloc'd; NULL on error. */
 char *sp_packed_finish(const sp_packed *packed, sp_error *error);
 

@@ -12,6 +12,17 @@ static void add_style(sp_text *text)
     sp_text_add(text, "</style>\n");
 }
 
+static void add_drawn(const sp_viewer_drawn *drawn, sp_text *text)
+{
+    if (drawn->triangles < drawn->all)
+        sp_text_add(
+            text,
+            "<p class=\"note\" id=\"drawn\">The geometry is too large to be drawn whole: below are %zu triangles "
+            "of the %zu that face the liquid, up to %.2g mm off. Figures, also those of a point that is asked, are of "
+            "the whole.</p>\n",
+            drawn->triangles, drawn->all, 1e3 * drawn->cell);
+}
+
 bool sp_page_viewer(const sp_page *page, sp_text *text, sp_error *error)
 {
     bool any = false;
@@ -19,12 +30,14 @@ bool sp_page_viewer(const sp_page *page, sp_text *text, sp_error *error)
         any |= page->result->designs[i].evaluator != NULL;
     if (!any)
         return true;
+    sp_viewer_drawn drawn;
     add_style(text);
-    sp_text_add(text, "<section id=\"viewer\" hidden><h2>Look around</h2></section>\n"
-                      "<script type=\"application/json\" id=\"viewer-model\">");
-    if (!sp_viewer_model(page, text, error))
+    sp_text_add(text, "<script type=\"application/json\" id=\"viewer-model\">");
+    if (!sp_viewer_model(page, text, &drawn, error))
         return false;
-    sp_text_add(text, "</script>\n");
+    sp_text_add(text, "</script>\n<section id=\"viewer\" hidden><h2>Look around</h2>\n");
+    add_drawn(&drawn, text);
+    sp_text_add(text, "</section>\n");
     const char *why = sp_page_not_live(page);
     if (why && *why)
         sp_text_add(text,

@@ -238,6 +238,7 @@ const viewer = (async () => {
 
     /* ---- drawing ---- */
 
+    const TILE = 4096; /* pixels of a texture: larger pages are several */
     const surfaceShaders = [`#version 300 es
         in vec3 place; in vec2 spot;
         uniform mat4 view; uniform vec3 low, extent; uniform float edge;
@@ -247,7 +248,7 @@ const viewer = (async () => {
         precision highp float; precision highp int; precision highp usampler2DArray;
         in vec3 at; in vec2 pixel;
         uniform usampler2DArray patches; uniform sampler2D colours;
-        uniform int page; uniform float edge; uniform vec4 cut; uniform vec3 eye;
+        uniform int page, tiles; uniform float edge; uniform vec4 cut; uniform vec3 eye;
         out vec4 colour;
         void main() {
             if (dot(cut.xyz, at) > cut.w) discard;
@@ -255,7 +256,9 @@ const viewer = (async () => {
             float light = .62 + .38 * abs(dot(normal, normalize(eye - at)));
             vec3 paint = vec3(${about.grey.map((x) => (x / 255).toFixed(4)).join()});
             ivec2 spot = clamp(ivec2(pixel), ivec2(0), ivec2(int(edge) - 1));
-            uint patchNumber = page < 0 ? 0u : texelFetch(patches, ivec3(spot, page), 0).r;
+            ivec2 tile = spot / ${TILE};
+            int sheet = (page * tiles + tile.y) * tiles + tile.x;
+            uint patchNumber = page < 0 ? 0u : texelFetch(patches, ivec3(spot - tile * ${TILE}, sheet), 0).r;
             if (patchNumber > 0u) {
                 int i = int(patchNumber - 1u);
                 vec4 found = texelFetch(colours, ivec2(i % ${WIDE}, i / ${WIDE}), 0);
@@ -316,12 +319,27 @@ const viewer = (async () => {
         });
         gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
         gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, model.corners, gl.STATIC_DRAW);
+        uploadPages(model);
+    }
+
+    function uploadPages(model) {
+        const {edge, pages, layers} = model, tiles = Math.ceil(edge / TILE), most = Math.min(edge, TILE);
+        model.tiles = tiles;
         model.texture = gl.createTexture();
         gl.bindTexture(gl.TEXTURE_2D_ARRAY, model.texture);
-        gl.texStorage3D(gl.TEXTURE_2D_ARRAY, 1, gl.R32UI, edge, edge, pages * layers);
-        model.page.forEach((page, layer) =>
-            gl.texSubImage3D(gl.TEXTURE_2D_ARRAY, 0, 0, 0, layer * pages, edge, edge, pages, gl.RED_INTEGER,
-                             gl.UNSIGNED_INT, spread(page.slice(), edge, pages)));
+        gl.texStorage3D(gl.TEXTURE_2D_ARRAY, 1, gl.R32UI, most, most, pages * layers * tiles * tiles);
+        gl.pixelStorei(gl.UNPACK_ROW_LENGTH, edge);
+        model.page.forEach((page, layer) => {
+            const shown = spread(page.slice(), edge, pages);
+            for (let i = 0; i < pages * tiles * tiles; i++) {
+                const x = (i % tiles) * TILE, y = (Math.floor(i / tiles) % tiles) * TILE;
+                const from = (Math.floor(i / tiles / tiles) * edge + y) * edge + x;
+                gl.texSubImage3D(gl.TEXTURE_2D_ARRAY, 0, 0, 0, layer * pages * tiles * tiles + i,
+                                 Math.min(most, edge - x), Math.min(most, edge - y), 1, gl.RED_INTEGER,
+                                 gl.UNSIGNED_INT, shown, from);
+            }
+        });
+        gl.pixelStorei(gl.UNPACK_ROW_LENGTH, 0);
         gl.texParameteri(gl.TEXTURE_2D_ARRAY, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
         gl.texParameteri(gl.TEXTURE_2D_ARRAY, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
     }
@@ -363,6 +381,7 @@ const viewer = (async () => {
         gl.uniform3fv(surfaceProgram.low, model.low);
         gl.uniform3fv(surfaceProgram.extent, add(model.high, model.low, -1));
         gl.uniform1f(surfaceProgram.edge, model.edge);
+        gl.uniform1i(surfaceProgram.tiles, model.tiles);
         gl.uniform4fv(surfaceProgram.cut, cutPlane());
         gl.uniform3fv(surfaceProgram.eye, view.eye);
         gl.uniform1i(surfaceProgram.patches, 0);

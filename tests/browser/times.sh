@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# live_times.sh REPORT.html: how long the report's page takes to evaluate a layout of which a nozzle was moved, and one
-# of which a nozzle was turned or took another angle or flow, in headless chromium.
+# times.sh live|open REPORT.html: how long the report's page takes in headless chromium to evaluate changed layouts
+# (live_times.js), or until what it shows is drawn and layouts can be changed (open_times.js).
 set -euo pipefail
-[ $# -eq 1 ] || { echo "usage: live_times.sh REPORT.html" >&2; exit 2; }
+[ $# -eq 2 ] || { echo "usage: times.sh live|open REPORT.html" >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)
 folder=$(mktemp -d)
 browser=
@@ -12,9 +12,9 @@ finish() {
 }
 trap finish EXIT
 {
-    cat "$1"
+    cat "$2"
     echo "<script>"
-    cat "$here/live_times.js"
+    cat "$here/$1_times.js"
     echo "</script>"
 } >"$folder/page.html"
 chromium --headless --no-sandbox --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader \
@@ -22,7 +22,7 @@ chromium --headless --no-sandbox --use-gl=angle --use-angle=swiftshader --enable
     >/dev/null 2>"$folder/messages" &
 browser=$!
 for _ in $(seq 240); do
-    if grep -o 'live-times [^"]*' "$folder/messages"; then
+    if grep -o "$1-times [^\"]*" "$folder/messages"; then
         exit 0
     fi
     sleep 1

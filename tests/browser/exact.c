@@ -1,0 +1,114 @@
+/* The surface that a page evaluates layouts on is the program's to the last bit, whatever its coordinates are made of.
+ */
+#include "../report/tank.h"
+#include "browser.h"
+
+#include <sprayplan/sprayplan.h>
+
+#include <math.h>
+
+/* As they were computed, of six digits, or of single precision in mm. */
+typedef enum { ANY, DIGITS, SINGLE, KINDS } kind;
+
+static const char scene_yaml[] = "geometry:\n"
+                                 "  - {file: tank.obj, unit: %s}\n"
+                                 "cavity: [-0.3 m, 0 m, 0.7 m]\n"
+                                 "criterion: {flux: 1 L/min/m2}\n"
+                                 "catalogue: catalogue.yaml\n"
+                                 "nozzles:\n"
+                                 "  - {name: N1, type: cone, position: [0.3 m, -0.25 m, 1.2 m], axis: [0, 0, -1], "
+                                 "pressure: 2 bar}\n"
+                                 "simulate: {texel: 80 mm}\n";
+
+static void write_coordinate(FILE *file, double value, kind of)
+{
+    if (of == DIGITS)
+        fprintf(file, " %.6g", value);
+    else
+        fprintf(file, " %.17g", of == SINGLE ? (double)(float)(1e3 * value) : value);
+}
+
+static void write_tank(kind of)
+{
+    sp_error error = {0};
+    sp_mesh *mesh = tank_mesh(24, &error);
+    assert_non_null(mesh);
+    char path[1024], scene[2048];
+    snprintf(path, sizeof path, "%s/tank.obj", workplace);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        fputs("v", file);
+        for (int k = 0; k < 3; k++)
+            write_coordinate(file, (&mesh->vertices[i].x)[k], of);
+        fputs("\n", file);
+    }
+    for (size_t t = 0; t < mesh->triangle_count; t++)
+        fprintf(file, "f %u %u %u\n", mesh->triangles[t][0] + 1, mesh->triangles[t][1] + 1, mesh->triangles[t][2] + 1);
+    fclose(file);
+    sp_mesh_destroy(mesh);
+    snprintf(scene, sizeof scene, scene_yaml, of == SINGLE ? "mm" : "m");
+    write_file("tank.yaml", scene);
+}
+
+static json_t *read_page(void)
+{
+    outcome result = run_program("simulate tank.yaml -o simulated --quiet");
+    assert_int_equal(result.status, 0);
+    forget(&result);
+    write_page_with_reader("simulated/report.html", "", "exact.js");
+    char *page = browse("read.html", "--virtual-time-budget=60000 --dump-dom");
+    json_t *found = what_was_told(page);
+    free(page);
+    assert_opened(found);
+    return found;
+}
+
+static double number(const json_t *found, const char *list, size_t i)
+{
+    return json_number_value(json_array_get(json_object_get(found, list), i));
+}
+
+/* Corners of charts on which nothing is cleaned may be rounded. */
+static void expect_surface(const json_t *found, const sp_evaluator *evaluator)
+{
+    const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
+    const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
+    size_t exact = 0;
+    assert_int_equal(json_array_size(json_object_get(found, "places")), 3 * mesh->vertex_count);
+    assert_int_equal(json_array_size(json_object_get(found, "triangles")), 3 * mesh->triangle_count);
+    for (size_t i = 0; i < 3 * mesh->vertex_count; i++)
+        assert_true(number(found, "places", i) == (&mesh->vertices[0].x)[i]);
+    for (size_t i = 0; i < 3 * mesh->triangle_count; i++)
+        assert_true(number(found, "triangles", i) == mesh->triangles[0][i]);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++)
+        for (size_t k = 0; k < 6 && sp_evaluator_wet(evaluator, t); k++, exact++)
+            assert_true(number(found, "uv", 6 * t + k) == atlas->uv[t][k / 2][k % 2]);
+    assert_true(exact > 1000);
+}
+
+static void it_is_the_same_to_the_last_bit(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    for (kind of = ANY; of < KINDS; of++) {
+        write_tank(of);
+        json_t *found = read_page();
+        sp_error error = {0};
+        char path[1024];
+        snprintf(path, sizeof path, "%s/tank.yaml", workplace);
+        sp_scene *scene = sp_scene_load(path, &error);
+        sp_evaluator *evaluator = scene ? sp_evaluator_create(sp_scene_setup(scene), &error) : NULL;
+        assert_non_null(evaluator);
+        expect_surface(found, evaluator);
+        sp_evaluator_destroy(evaluator);
+        sp_scene_destroy(scene);
+        json_decref(found);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(it_is_the_same_to_the_last_bit)};
+    return cmocka_run_group_tests(tests, open_workplace, close_workplace);
+}
