@@ -18,12 +18,11 @@ static double hit_share(const sp_coverage *coverage)
     return coverage->area > 0 ? (coverage->covered_area - coverage->film.area) / coverage->area : 0;
 }
 
-/* With drag, where each of them takes long, fewer where there are few patches. */
+/* As many on each patch, so fewer where there are few. */
 static uint64_t jets_for(const sp_evaluator *evaluator, uint64_t jets)
 {
     double share = fmax(SHARE_LEAST, (double)sp_evaluator_patches(evaluator)->count / PATCHES_MOST);
-    bool drag = sp_evaluator_fidelity(evaluator)->trajectory == SP_TRAJECTORY_DRAG;
-    return drag ? (uint64_t)ceil((double)jets * fmin(share, 1)) : jets;
+    return (uint64_t)ceil((double)jets * fmin(share, 1));
 }
 
 static void compare(const sp_evaluator *evaluator, const sp_coverage *inverse, const sp_coverage *forward,

@@ -8,15 +8,12 @@
 
 #ifdef SPRAYPLAN_SANITIZE
 #define SANITIZED true
-#define HALL_TEXEL 1.2
-#define CHAMBER_TEXEL 0.3
-#define SECONDS 0.3
 #else
 #define SANITIZED false
-#define HALL_TEXEL 0.9
-#define CHAMBER_TEXEL 0.22
-#define SECONDS 0.3
 #endif
+#define HALL_TEXEL 0.9
+#define CHAMBER_TEXEL 0.3
+#define SECONDS 0.3
 #define HALL_TEXEL_FULL 0.14 /* where seconds are given */
 #define CHAMBER_TEXEL_FULL 0.04
 #define PLACING_FULL 30 /* s for a proposal and its bounds */
@@ -112,7 +109,7 @@ int main(int argc, char **argv)
     seconds = argc > 1 ? atof(argv[1]) : SECONDS;
     wanted = argc > 2 ? argv[2] : argc > 1 ? "" : NULL;
     for (size_t i = 0; i < RECOUNT_CASES; i++)
-        if (wanted ? strstr(recount_cases[i].name, wanted) != NULL : !SANITIZED || recount_cases[i].sanitized)
+        if (wanted ? strstr(recount_cases[i].name, wanted) != NULL : recount_cases[i].sanitized == SANITIZED)
             tests[count++] = (struct CMUnitTest){.name = recount_cases[i].name,
                                                  .test_func = nothing_found_breaks_a_bound,
                                                  .initial_state = (void *)(uintptr_t)&recount_cases[i]};

@@ -605,7 +605,7 @@ typedef struct {
     const char *name;
     bool hall;
     bool refined;   /* where one look must do */
-    bool sanitized; /* also where each takes minutes */
+    bool sanitized; /* quick enough for a look under the sanitizers, and therefore looked at there alone */
     void (*open)(recount_scene *scene, double texel);
 } recount_case;
 

@@ -152,7 +152,7 @@ static void the_unit_of_length_does_not_matter(void **state)
 #ifdef SPRAYPLAN_SANITIZE
     static const int powers[] = {0, -20};
 #else
-    static const int powers[] = {0, 1, -1, 10, -20};
+    static const int powers[] = {0, 1, -20};
 #endif
     enum { COUNT = sizeof powers / sizeof *powers };
     sp_proposal *first = NULL;
