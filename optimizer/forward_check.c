@@ -8,7 +8,7 @@
 static const uint64_t jets_flown[] = {500000, 2000000};
 #define PATCHES_MOST 20000.0
 #define SHARE_LEAST 0.25 /* of the jets */
-#define MUCH_BETTER 0.5 /* of the tolerance */
+#define MUCH_BETTER 0.5  /* of the tolerance */
 #define TELLS 0.005
 #define SECONDS 1
 

@@ -271,7 +271,7 @@ static void little_memory_is_enough(void **state)
     job_begin(&j, 60 * DEGREE);
     j.mount.from = sp_v(-2, -2, HEIGHT);
     j.mount.to = sp_v(2, 2, HEIGHT);
-    j.mount.spacing = 1;
+    j.mount.spacing = 1.4;
     j.mount.tilt = 20 * DEGREE;
     j.options.max_nozzles = 2;
     j.options.refine = sp_place_options_default().refine;
