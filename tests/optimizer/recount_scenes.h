@@ -34,6 +34,7 @@ static inline void scene_begin(recount_scene *s, room_builder *b, bool hall)
     s->room.setup.cavity = SP_CAVITY_POINT;
     s->room.setup.fidelity.method = SP_METHOD_INVERSE;
     s->room.setup.fidelity.trajectory = SP_TRAJECTORY_LINE;
+    s->room.setup.fidelity.accuracy = 0.2; /* few jets check proposals: they are counted again here in another way */
     s->room.setup.cavity_point = hall ? sp_v(0.3, 0.2, 4.9) : sp_v(0.05, 0.02, 1.1);
     if (hall)
         room_box(b, sp_v(-5, -5, 0), sp_v(5, 5, 6), "walls", "lid");
@@ -592,7 +593,6 @@ static inline void goods_and_drops(recount_scene *s, double texel)
     s->types[0].drop = 2.5e-4;
     s->types[1].drop = 8e-4;
     s->room.setup.fidelity.trajectory = SP_TRAJECTORY_DRAG;
-    s->room.setup.fidelity.accuracy = 0.2; /* few jets check it, each of which takes long */
     s->room.setup.criterion = (sp_criterion){.flux = 1.2 * LITRES_PER_MINUTE, .incidence = 80 * DEGREE};
     s->mounts[0].tilt = 0;
     s->mounts[0].axis = sp_unit(sp_v(0.4, 0.3, -1));
