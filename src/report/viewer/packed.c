@@ -44,6 +44,16 @@ void sp_packed_words(sp_packed *packed, const uint32_t *values, size_t count, bo
         put(packed, differences && i ? values[i] - values[i - 1] : values[i], 4);
 }
 
+void sp_packed_split(sp_packed *packed, const uint32_t *values, size_t count)
+{
+    for (int shift = 0; shift < 32; shift += 8)
+        for (size_t i = 0; i < count; ++i) {
+            uint32_t apart = values[i] - (i ? values[i - 1] : 0);
+            put(packed, (apart << 1 ^ (apart >> 31 ? UINT32_MAX : 0)) >> shift, 1);
+        }
+    align(packed);
+}
+
 static uint64_t unsigned_of(int64_t value)
 {
     return value < 0 ? 2 * (uint64_t) - (value + 1) + 1 : 2 * (uint64_t)value;

@@ -19,6 +19,9 @@ void sp_packed_words(sp_packed *packed, const uint32_t *values, size_t count, bo
 /* Whole numbers that are mostly small: of each, twice its size, plus one where it is below 0, in as few bytes as it
  * takes. How many these are for each of them, then how many in all, then they. */
 void sp_packed_numbers(sp_packed *packed, const int64_t *values, size_t count);
+/* As sp_packed_words with differences, all lowest bytes first, then all second ones and so on, of each difference twice
+ * its size, plus one where it is below 0: what repeats itself stays together. */
+void sp_packed_split(sp_packed *packed, const uint32_t *values, size_t count);
 /* Vertices of triangles, which mostly come one after the other as triangles ask for them: each as what it is less than
  * the next of these, as sp_packed_numbers. False where memory runs out. */
 bool sp_packed_corners(sp_packed *packed, const uint32_t *vertices, size_t count);

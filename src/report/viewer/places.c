@@ -175,7 +175,7 @@ bool sp_places_pack(const sp_mesh *mesh, sp_packed *packed, sp_places_told *told
     if (done) {
         memset(t.first, 0xff, count * sizeof *t.first);
         tell_all(&t);
-        done = sp_packed_corners(packed, mesh->triangles[0], 3 * mesh->triangle_count);
+        sp_packed_split(packed, mesh->triangles[0], 3 * mesh->triangle_count);
         sp_packed_bytes(packed, t.zeros, 3 * count);
         sp_packed_numbers(packed, t.off, 3 * count);
         sp_packed_numbers(packed, t.missed, 3 * count);

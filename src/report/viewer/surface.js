@@ -13,6 +13,15 @@ const surfaces = (() => {
                 values[i] += values[i - 1];
             return values;
         };
+        /* Lowest bytes first, then the next ones. */
+        take.split = (count) => {
+            const bytes = take(Uint8Array, 4 * count), values = new Uint32Array(count);
+            for (let i = 0; i < count; i++) {
+                const told = bytes[i] | bytes[count + i] << 8 | bytes[2 * count + i] << 16 | bytes[3 * count + i] << 24;
+                values[i] = (told >>> 1 ^ -(told & 1)) + (i ? values[i - 1] : 0);
+            }
+            return values;
+        };
         /* Whole numbers of few bytes each. */
         take.numbers = (count) => {
             const lengths = take(Uint8Array, count), [all] = take(Uint32Array, 1), bytes = take(Uint8Array, all);
@@ -241,7 +250,7 @@ const surfaces = (() => {
 
     /* What layouts are evaluated on. */
     function readExact(take, about) {
-        const {triangles, charts, nodes, cuts} = about, surface = {triangles: readTriangles(take, triangles)};
+        const {triangles, charts, nodes, cuts} = about, surface = {triangles: take.split(3 * triangles)};
         surface.places = readVertices(take, surface.triangles, about);
         surface.part = take(Uint32Array, triangles, true);
         surface.chart = take(Uint32Array, triangles, true);
