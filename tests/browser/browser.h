@@ -71,6 +71,16 @@ static inline json_t *what_was_told(char *page)
     return json_loads(text, 0, NULL);
 }
 
+/* What a script of this folder tells of a report, and has the browser's `arguments` for. */
+static inline json_t *read_with(const char *script, const char *report, const char *arguments)
+{
+    write_page_with_reader(report, "", script);
+    char *page = browse("read.html", arguments);
+    json_t *told = what_was_told(page);
+    free(page);
+    return told;
+}
+
 /* What a script found in a page that it opened: nothing went wrong, and nothing was asked for outside of it. */
 static inline void assert_opened(const json_t *found)
 {

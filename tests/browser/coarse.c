@@ -24,10 +24,8 @@ static void write_report(const char *page)
 
 static json_t *read_report(void)
 {
-    write_page_with_reader("report.html", "", "viewer.js");
-    char *page = browse("read.html", "--window-size=1200,900 --virtual-time-budget=60000 --dump-dom");
-    json_t *told = what_was_told(page);
-    free(page);
+    json_t *told =
+        read_with("viewer.js", "report.html", "--window-size=1200,900 --virtual-time-budget=60000 --dump-dom");
     assert_opened(told);
     return told;
 }

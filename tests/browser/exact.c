@@ -56,10 +56,7 @@ static json_t *read_page(void)
     outcome result = run_program("simulate tank.yaml -o simulated --quiet");
     assert_int_equal(result.status, 0);
     forget(&result);
-    write_page_with_reader("simulated/report.html", "", "exact.js");
-    char *page = browse("read.html", "--virtual-time-budget=60000 --dump-dom");
-    json_t *found = what_was_told(page);
-    free(page);
+    json_t *found = read_with("exact.js", "simulated/report.html", "--virtual-time-budget=60000 --dump-dom");
     assert_opened(found);
     return found;
 }

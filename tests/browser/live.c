@@ -20,10 +20,7 @@ static int use_the_page(void **state)
     free(page);
     if (!carried)
         return 0;
-    write_page_with_reader("placed/report.html", "", "live.js");
-    page = browse("read.html", BUDGET);
-    found = what_was_told(page);
-    free(page);
+    found = read_with("live.js", "placed/report.html", BUDGET);
     return found ? 0 : -1;
 }
 

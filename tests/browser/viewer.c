@@ -16,10 +16,8 @@ static int use_the_viewer(void **state)
         return -1;
     if (!has_browser())
         return 0;
-    write_page_with_reader("placed/report.html", "", "viewer.js");
-    char *page = browse("read.html", "--window-size=1200,900 --virtual-time-budget=60000 --dump-dom");
-    found = what_was_told(page);
-    free(page);
+    found =
+        read_with("viewer.js", "placed/report.html", "--window-size=1200,900 --virtual-time-budget=60000 --dump-dom");
     sp_error error = {0};
     char path[1024];
     snprintf(path, sizeof path, "%s/placed/layout.yaml", workplace);

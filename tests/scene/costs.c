@@ -1,5 +1,6 @@
 /* cost of mounts and water_cost: what they come to, and what can be wrong with them, and where. */
 #include "scratch.h"
+#include "written.h"
 
 #include <sprayplan/scene.h>
 
@@ -79,12 +80,7 @@ static void written_and_read_again(void **state)
     sp_error error = {0};
     sp_scene *scene = load("  water_cost: 30 EUR per L/min\n", "900 EUR", &error);
     assert_non_null(scene);
-    sp_fidelity fidelity = sp_scene_setup(scene)->fidelity;
-    fidelity.trajectory = SP_TRAJECTORY_LINE;
-    fidelity.method = SP_METHOD_INVERSE;
-    fidelity.reflections = 0;
-    fidelity.texel = 0.1;
-    char *text = sp_scene_text(scene, sp_scene_layout(scene), &fidelity, ".", &error);
+    char *text = written_text(scene, ".", &error);
     assert_non_null(text);
     scratch_write("again.yaml", text);
     sp_scene *again = sp_scene_load("again.yaml", &error);

@@ -1,5 +1,6 @@
 /* What a scene says becomes plain structs, in SI; what it does not say gets the documented defaults. */
 #include "scratch.h"
+#include "written.h"
 
 #include <sprayplan/scene.h>
 
@@ -382,12 +383,7 @@ static void goods_that_move(void **state)
     near(setup->criterion.flux, 1e-4);
     for (size_t i = 0; i < setup->mesh->part_count; i++)
         assert_int_equal(setup->surfaces[i].moves, setup->mesh->parts[i].geometry == 0);
-    sp_fidelity fidelity = setup->fidelity;
-    fidelity.trajectory = SP_TRAJECTORY_LINE;
-    fidelity.method = SP_METHOD_INVERSE;
-    fidelity.reflections = 0;
-    fidelity.texel = 0.1;
-    char *text = sp_scene_text(scene, sp_scene_layout(scene), &fidelity, ".", &error);
+    char *text = written_text(scene, ".", &error);
     assert_non_null(text);
     assert_non_null(strstr(text, "sweep: {from: [-1, 0, 0], to: [2, 4, 0], speed: 6 m/min}"));
     assert_non_null(strstr(text, "dose: 5 L/m2"));
