@@ -142,8 +142,8 @@ size_t sp_evaluator_positions(const sp_evaluator *evaluator);
 /* True where no surface but that of part `own` (SP_NONE: no exception) comes nearer to the point than `clearance` (m),
  * of goods that move at any time of their pass. */
 bool sp_evaluator_is_clear(const sp_evaluator *evaluator, sp_vec3 point, double clearance, uint32_t own);
-/* g, m/s²; zero for trajectory line. */
-sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator);
+/* What pulls at liquid that leaves so, or (NULL) of a type without a trajectory of its own: m/s², zero along lines. */
+sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator, const sp_launch *launch);
 
 /* Evaluates by the scene's own method. NULL on error. */
 sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);

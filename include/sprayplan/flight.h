@@ -70,8 +70,9 @@ sp_flight_change sp_fronts_change(const sp_fronts *fronts, const sp_flight *flig
 
 /* How liquid leaves a nozzle of one pattern, wherever that is and however it is turned. */
 typedef struct {
-    double speed;            /* m/s */
-    const sp_fronts *fronts; /* borrowed, of what leaves so; NULL: it flies without drag */
+    double speed;             /* m/s */
+    const sp_fronts *fronts;  /* borrowed, of what leaves so; NULL: it flies without drag */
+    sp_trajectory trajectory; /* its type's own; auto: the evaluator's */
 } sp_launch;
 
 /* The flights of what leaves so, low arc first: 0, 1 or 2; `gravity` for those without drag. */

@@ -82,6 +82,10 @@ static inline double sp_step_size(sp_step step)
     return step.count * step.unit;
 }
 
+/* How liquid flies. With drag what leaves a nozzle flies as drops that air at rest holds back (see sp_drag_of): the far
+ * end of a bracket, since a spray carries air along. Auto never takes it. */
+typedef enum { SP_TRAJECTORY_AUTO, SP_TRAJECTORY_LINE, SP_TRAJECTORY_PARABOLA, SP_TRAJECTORY_DRAG } sp_trajectory;
+
 /* A catalogue entry. Plain data; angles are full opening angles. */
 typedef struct {
     char name[SP_NAME];
@@ -95,6 +99,7 @@ typedef struct {
     double exponent;             /* n in Q = K dp^n */
     double cv;                   /* v0 = cv sqrt(2 dp / rho) */
     double drop;                 /* diameter of the drops, m */
+    sp_trajectory trajectory;    /* of its liquid; auto: as the simulation's does. A cluster's members have its own */
     double angle_min, angle_max; /* rad; equal to angle where not adjustable */
     double flow_min, flow_max;   /* m³/s of water at `at`; equal to flow where not adjustable */
     char order_code[SP_NAME];    /* by which its maker sells it; "" where it has none */

@@ -61,9 +61,6 @@ typedef struct {
                   * say. Needs a cavity and gravity */
 } sp_criterion;
 
-/* With drag everything that leaves a nozzle flies as drops that air at rest holds back (see sp_drag_of): the far end of
- * a bracket, since a spray carries air along. Auto never takes it. */
-typedef enum { SP_TRAJECTORY_AUTO, SP_TRAJECTORY_LINE, SP_TRAJECTORY_PARABOLA, SP_TRAJECTORY_DRAG } sp_trajectory;
 typedef enum { SP_METHOD_AUTO, SP_METHOD_FORWARD, SP_METHOD_INVERSE } sp_method;
 typedef enum { SP_SPLAT_NEAREST, SP_SPLAT_LINEAR } sp_splat;
 

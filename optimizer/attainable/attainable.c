@@ -127,7 +127,7 @@ static bool site_offers(const sp_reckoning *reckoning, const sp_site *site, size
         double transfer = 0;
         sp_flight flights[2];
         int count = sp_launch_flights(&launch, site->position, patches->point[patch],
-                                      sp_evaluator_gravity(reckoning->fine), flights);
+                                      sp_evaluator_gravity(reckoning->fine, &launch), flights);
         for (int f = 0; f < count; f++) {
             if (!aimable(reckoning, site, s, flights[f].direction))
                 continue;

@@ -34,7 +34,8 @@ double sp_fed_pressure(const sp_nozzle_type *type, double pressure)
 void sp_flow_range(const sp_place_options *options, const sp_setup *setup, const sp_nozzle_type *type, double pressure,
                    double *low, double *high)
 {
-    bool breaks_up = setup->fidelity.trajectory == SP_TRAJECTORY_DRAG && type->pattern == SP_PATTERN_SOLID_STREAM;
+    sp_trajectory trajectory = type->trajectory == SP_TRAJECTORY_AUTO ? setup->fidelity.trajectory : type->trajectory;
+    bool breaks_up = trajectory == SP_TRAJECTORY_DRAG && type->pattern == SP_PATTERN_SOLID_STREAM;
     double change = sp_type_is_uniform(type) && !breaks_up ? options->refine.flow : 0;
     double least = fmax(type->flow_min, type->flow * (1 - change));
     double most = fmin(type->flow_max, type->flow * (1 + change));
@@ -53,7 +54,7 @@ static size_t rolls_of(const sp_nozzle_type *type)
 
 static bool is_same(const sp_launch *a, const sp_launch *b)
 {
-    return a->speed == b->speed && a->fronts == b->fronts;
+    return a->speed == b->speed && a->fronts == b->fronts && a->trajectory == b->trajectory;
 }
 
 /* False, with an error, where it sprays nothing. */

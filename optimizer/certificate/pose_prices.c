@@ -83,6 +83,14 @@ static uint32_t tier_at(const sp_pose_prices *prices, uint32_t site, uint32_t ma
     return prices->tier_of[prices->search->sites->items[site].mount * prices->search->candidates->make_count + make];
 }
 
+static bool any_bent(const sp_search *search)
+{
+    for (size_t i = 0; i < search->candidates->launch_count; i++)
+        if (sp_length(sp_evaluator_gravity(search->coarse, &search->candidates->launches[i])) > 0)
+            return true;
+    return false;
+}
+
 sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of,
                                       const float *need, const float *film_need, const size_t *ports, sp_error *error)
 {
@@ -96,7 +104,7 @@ sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *c
                                .film_need = film_need,
                                .ports = ports,
                                .upwards = (float)(1 + sp_field_margin(search->kept_count + cover->nozzles)),
-                               .bent = sp_length(sp_evaluator_gravity(search->coarse)) > 0,
+                               .bent = any_bent(search),
                                .threads = sp_sweeper_threads(search)};
     if (allocate(prices))
         return prices;

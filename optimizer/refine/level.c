@@ -133,7 +133,7 @@ static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool sl
  * u'. */
 static double shift(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, sp_vec3 move, sp_vec3 *turn)
 {
-    sp_vec3 g = sp_evaluator_gravity(posed->search->coarse);
+    sp_vec3 g = sp_evaluator_gravity(posed->search->coarse, &posed->sight->launch);
     sp_vec3 r = sp_sub(seen->point, posed->nozzle.position), by = sp_scale(move, -1);
     sp_vec3 u = borne->flight.direction, w = borne->flight.velocity;
     if (posed->sight->launch.fronts) {

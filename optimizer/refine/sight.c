@@ -60,7 +60,7 @@ static bool equal(sp_vec3 a, sp_vec3 b)
 
 static bool is_same(const sp_launch *a, const sp_launch *b)
 {
-    return a->speed == b->speed && a->fronts == b->fronts;
+    return a->speed == b->speed && a->fronts == b->fronts && a->trajectory == b->trajectory;
 }
 
 static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
@@ -140,8 +140,8 @@ bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen 
                   sp_flight *flight, double *transfer)
 {
     sp_flight near = {.direction = seen->direction, .time = seen->time};
-    if (!sp_launch_flight_near(&sight->launch, position, seen->point, sp_evaluator_gravity(search->coarse),
-                               (int)seen->arc, &near, flight))
+    if (!sp_launch_flight_near(&sight->launch, position, seen->point,
+                               sp_evaluator_gravity(search->coarse, &sight->launch), (int)seen->arc, &near, flight))
         return false;
     double against = -sp_dot(flight->velocity, seen->normal);
     if (sp_evaluator_patches(search->coarse)->side[seen->patch] == SP_SIDE_BOTH)

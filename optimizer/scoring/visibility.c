@@ -329,6 +329,14 @@ static double patches_that_pass(const sp_evaluator *fine, double views, double p
     return fmax(PATCHES_LEAST, fmin(fmin(most, PASS_PATCHES_MOST), patches));
 }
 
+static bool any_drops(const sp_candidates *candidates)
+{
+    for (size_t i = 0; i < candidates->launch_count; i++)
+        if (candidates->launches[i].fronts)
+            return true;
+    return false;
+}
+
 bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options, const sp_sites *sites,
                        const sp_candidates *candidates, sp_watch *watch, sp_evaluator **resampled,
                        sp_visibility *visibility, sp_error *error)
@@ -337,7 +345,7 @@ bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options
     double poses = (double)candidates->pose_start[sites->count];
     views += patterns_to_trace(sites, candidates, &footprints);
     const sp_setup *setup = sp_evaluator_setup(fine);
-    bool film = setup->criterion.film > 0, drag = sp_evaluator_fidelity(fine)->trajectory == SP_TRAJECTORY_DRAG;
+    bool film = setup->criterion.film > 0, drag = any_drops(candidates);
     double most = film ? FILM_PATCHES_MOST : PATCHES_MOST, sweeps = film ? FILM_SWEEPS_MOST : SWEEPS_MOST;
     most = fmin(most, PRINTS_SHARE * memory_of(options) / (PRINT * fmax(1, footprints)));
     most = drag ? fmin(most, DRAG_PATCHES_MOST) : most;

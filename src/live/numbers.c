@@ -26,7 +26,8 @@ void sp_live_tell_type(const sp_nozzle_type *type, size_t first_member, double n
                                               turns->gears[0],
                                               turns->gears[1],
                                               (double)first_member,
-                                              (double)type->member_count};
+                                              (double)type->member_count,
+                                              type->trajectory};
     memcpy(numbers, all, sizeof all);
 }
 
@@ -64,7 +65,8 @@ static bool whole(double number, double most)
 bool sp_live_read_type(const double n[SP_LIVE_TYPE_NUMBERS], sp_nozzle_type *type, size_t *first_member)
 {
     if (!whole(n[0], SP_PATTERN_ROTATING) || !whole(n[13], SP_PATTERN_SOLID_STREAM) || !whole(n[16], 1e6) ||
-        !whole(n[17], 1e6) || !whole(n[18], 1e6) || !whole(n[19], 1e9) || !whole(n[20], SP_MEMBERS))
+        !whole(n[17], 1e6) || !whole(n[18], 1e6) || !whole(n[19], 1e9) || !whole(n[20], SP_MEMBERS) ||
+        !whole(n[21], SP_TRAJECTORY_PARABOLA))
         return false;
     *type = (sp_nozzle_type){.pattern = (sp_pattern)n[0],
                              .angle = n[1],
@@ -84,7 +86,8 @@ bool sp_live_read_type(const double n[SP_LIVE_TYPE_NUMBERS], sp_nozzle_type *typ
                                           .roll = n[15],
                                           .jets = (unsigned)n[16],
                                           .gears = {(unsigned)n[17], (unsigned)n[18]}},
-                             .member_count = (size_t)n[20]};
+                             .member_count = (size_t)n[20],
+                             .trajectory = (sp_trajectory)n[21]};
     *first_member = (size_t)n[19];
     return true;
 }

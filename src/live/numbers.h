@@ -4,13 +4,13 @@
 
 #include <sprayplan/nozzle.h>
 
-#define SP_LIVE_TYPE_NUMBERS 21
+#define SP_LIVE_TYPE_NUMBERS 22
 #define SP_LIVE_MEMBER_NUMBERS 10
 #define SP_LIVE_NOZZLE_NUMBERS 13
 
 /* pattern, angle, hollow, thickness, flow, at, exponent, cv, drop, angle_min, angle_max, flow_min, flow_max; of the
  * rotation jet, tilt, roll, jets, gears; of its members the first one's row and how many: a type of a member is
- * a row of the types. */
+ * a row of the types; then its trajectory. */
 void sp_live_tell_type(const sp_nozzle_type *type, size_t first_member, double numbers[SP_LIVE_TYPE_NUMBERS]);
 /* Row of its type, offset, axis, roll, share, speed. */
 void sp_live_tell_member(const sp_member *member, size_t type, double numbers[SP_LIVE_MEMBER_NUMBERS]);

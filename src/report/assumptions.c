@@ -38,14 +38,19 @@ static void add_errors(const sp_page *page, sp_text *text, const sp_evaluator *e
                         : "");
 }
 
-static void add_flight(sp_text *text, const sp_evaluator *evaluator)
+static const char *way_of(sp_trajectory trajectory)
 {
-    const sp_setup *setup = sp_evaluator_setup(evaluator);
-    const sp_fidelity *fidelity = sp_evaluator_fidelity(evaluator);
-    add_item(text, "Flight");
-    if (fidelity->trajectory == SP_TRAJECTORY_LINE)
+    return trajectory == SP_TRAJECTORY_LINE   ? "straight lines"
+           : trajectory == SP_TRAJECTORY_DRAG ? "drops"
+                                              : "parabolas";
+}
+
+/* The scene's way, or a type's own. */
+static void add_way(sp_text *text, const sp_setup *setup, sp_trajectory trajectory)
+{
+    if (trajectory == SP_TRAJECTORY_LINE)
         sp_text_add(text, "straight lines: gravity and air are neglected");
-    else if (fidelity->trajectory == SP_TRAJECTORY_DRAG)
+    else if (trajectory == SP_TRAJECTORY_DRAG)
         sp_text_add(
             text,
             "single drops of the catalogue&#39;s diameters under gravity of %.4g&nbsp;m/s\xc2\xb2, held back by "
@@ -57,6 +62,47 @@ static void add_flight(sp_text *text, const sp_evaluator *evaluator)
     else
         sp_text_add(text, "parabolas under gravity of %.4g&nbsp;m/s\xc2\xb2; the drag of air is neglected",
                     setup->gravity);
+}
+
+/* Whether a nozzle before nozzle `k` of design `i` has its type. */
+static bool is_told(const sp_page *page, const sp_evaluator *evaluator, size_t i, size_t k)
+{
+    const sp_nozzle_type *type = page->result->designs[i].layout->nozzles[k].type;
+    for (size_t d = 0; d <= i; d++) {
+        const sp_layout *layout = page->result->designs[d].layout;
+        for (size_t n = 0; layout && page->result->designs[d].evaluator == evaluator && n < (d < i ? layout->count : k);
+             n++)
+            if (layout->nozzles[n].type == type)
+                return true;
+    }
+    return false;
+}
+
+/* Of the designs' types, each once, in their order. */
+static void add_own_ways(const sp_page *page, sp_text *text, const sp_evaluator *evaluator)
+{
+    bool any = false;
+    for (size_t i = 0; i < page->result->design_count; i++) {
+        const sp_layout *layout = page->result->designs[i].layout;
+        for (size_t k = 0; layout && page->result->designs[i].evaluator == evaluator && k < layout->count; k++) {
+            const sp_nozzle_type *type = layout->nozzles[k].type;
+            if (type->trajectory == SP_TRAJECTORY_AUTO || is_told(page, evaluator, i, k))
+                continue;
+            sp_text_add(text, any ? ", " : ". Types with a way of their own: ");
+            sp_markup_escape(text, type->name);
+            sp_text_add(text, " (%s)", way_of(type->trajectory));
+            any = true;
+        }
+    }
+}
+
+static void add_flight(const sp_page *page, sp_text *text, const sp_evaluator *evaluator)
+{
+    const sp_setup *setup = sp_evaluator_setup(evaluator);
+    const sp_fidelity *fidelity = sp_evaluator_fidelity(evaluator);
+    add_item(text, "Flight");
+    add_way(text, setup, fidelity->trajectory);
+    add_own_ways(page, text, evaluator);
     sp_text_add(text, "</dd>\n");
     add_item(text, "Evaluator");
     if (fidelity->method == SP_METHOD_INVERSE)
@@ -273,7 +319,7 @@ void sp_page_assumptions(const sp_page *page, sp_text *text)
         sp_text_add(text, "<dl>\n");
         add_criterion(text, sp_evaluator_setup(evaluator));
         add_sweep(text, evaluator);
-        add_flight(text, evaluator);
+        add_flight(page, text, evaluator);
         add_choice(text, evaluator);
         add_errors(page, text, evaluator);
         add_scene(page, text, evaluator);

@@ -150,6 +150,7 @@ static bool read_flow(const sp_reader *reader, const sp_yaml *node, sp_nozzle_ty
     if (!sp_scene_read_flow(reader, node, type) ||
         !sp_read_quantity(reader, node, "cv", &sp_ratio_unit, sp_above_to(0, 1), &type->cv) ||
         !sp_read_quantity(reader, node, "drop", &sp_length_unit, sp_above(0), &type->drop) ||
+        !sp_scene_read_trajectory(reader, node, &type->trajectory) ||
         !read_adjustable(reader, node, "flow_range", &sp_flow_unit, sp_above(0), type->flow, limits))
         return false;
     type->flow_min = limits[0];
@@ -209,7 +210,7 @@ static bool read_type(sp_scene *scene, const sp_reader *reader, const sp_yaml *n
         {"flow", true},         {"at", true},          {"exponent", false},   {"cv", false},     {"drop", false},
         {"angle_range", false}, {"flow_range", false}, {"order_code", false}, {"url", false},    {"image", false},
         {"members", false},     {"rotation", false},   {"thread", false},     {"insert", false}, {"body", false},
-        {"step", false},        {NULL, false}};
+        {"step", false},        {"trajectory", false}, {NULL, false}};
     *type = (sp_nozzle_type){0};
     /* Which keys belong to it depends on its pattern. */
     return (node->kind != SP_YAML_MAP || sp_scene_read_pattern(reader, node, type)) &&

@@ -49,8 +49,7 @@ static bool read_member(sp_scene *scene, const sp_reader *reader, const sp_yaml 
         return sp_read_fail(reader, pattern, "pattern",
                             "full_cone, hollow_cone, flat_fan, solid_stream or measured in a cluster");
     return sp_scene_read_pattern(reader, node, &member->type) && sp_scene_read_shape(reader, node, &member->type) &&
-           read_image(scene, reader, node, &member->type) &&
-           sp_read_axis(reader, node, "axis", &member->axis) &&
+           read_image(scene, reader, node, &member->type) && sp_read_axis(reader, node, "axis", &member->axis) &&
            sp_read_vector(reader, node, "offset", &sp_length_unit, &member->offset) &&
            sp_read_quantity(reader, node, "roll", &sp_angle_unit, sp_any(), &member->roll) &&
            sp_read_quantity(reader, node, "share", &sp_ratio_unit, sp_above_to(0, 1e6), &member->share) &&
@@ -81,6 +80,7 @@ static bool add_members(sp_scene *scene, const sp_reader *reader, const sp_yaml 
     type->members = members;
     memcpy(member.type.name, type->name, sizeof member.type.name);
     member.type.drop = type->drop;
+    member.type.trajectory = type->trajectory;
     for (size_t i = 0; i < count; i++) {
         members[type->member_count] = member;
         if (ring.count)

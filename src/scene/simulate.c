@@ -21,27 +21,35 @@ static bool read_sizes(const sp_reader *reader, const sp_yaml *node, sp_fidelity
            sp_read_quantity(reader, node, "texel", &sp_length_unit, sp_above(0), &fidelity->texel);
 }
 
+bool sp_scene_read_trajectory(const sp_reader *reader, const sp_yaml *map, sp_trajectory *trajectory)
+{
+    static const char *const trajectories[] = {"auto", "line", "parabola", "drag", NULL};
+    int choice = *trajectory;
+    if (!sp_read_choice(reader, map, "trajectory", trajectories, &choice))
+        return false;
+    *trajectory = (sp_trajectory)choice;
+    return true;
+}
+
 bool sp_scene_read_simulate(sp_scene *scene, const sp_reader *reader)
 {
     static const sp_key keys[] = {{"trajectory", false}, {"evaluator", false}, {"reflections", false},
                                   {"jets", false},       {"texel", false},     {"splat", false},
                                   {"accuracy", false},   {"seed", false},      {NULL, false}};
-    static const char *const trajectories[] = {"auto", "line", "parabola", "drag", NULL};
     static const char *const methods[] = {"auto", "forward", "inverse", NULL};
     static const char *const splats[] = {"nearest", "linear", NULL};
     const sp_yaml *node = sp_yaml_get(scene->tree, "simulate");
     sp_fidelity *fidelity = &scene->setup.fidelity;
-    int trajectory = fidelity->trajectory, method = fidelity->method, splat = fidelity->splat;
+    int method = fidelity->method, splat = fidelity->splat;
     if (!node)
         return true;
     if (!sp_read_keys(reader, node, "simulate", "the simulation", keys) ||
-        !sp_read_choice(reader, node, "trajectory", trajectories, &trajectory) ||
+        !sp_scene_read_trajectory(reader, node, &fidelity->trajectory) ||
         !sp_read_choice(reader, node, "evaluator", methods, &method) || !read_sizes(reader, node, fidelity) ||
         !sp_read_choice(reader, node, "splat", splats, &splat) ||
         !sp_read_quantity(reader, node, "accuracy", &sp_share_unit, sp_above_to(0, 1), &fidelity->accuracy) ||
         !sp_read_count(reader, node, "seed", 0, UINT64_MAX, &fidelity->seed))
         return false;
-    fidelity->trajectory = (sp_trajectory)trajectory;
     fidelity->method = (sp_method)method;
     fidelity->splat = (sp_splat)splat;
     return true;

@@ -91,6 +91,8 @@ bool sp_scene_read_types_of(sp_scene *scene, const sp_reader *reader, const sp_y
 bool sp_scene_read_pattern(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
 bool sp_scene_read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
 /* flow_points.c: flow, pressure and exponent of a catalogue type. */
+/* `trajectory`: auto, line, parabola or drag; unchanged where it is not there. */
+bool sp_scene_read_trajectory(const sp_reader *reader, const sp_yaml *map, sp_trajectory *trajectory);
 bool sp_scene_read_flow(const sp_reader *reader, const sp_yaml *map, sp_nozzle_type *type);
 /* patternation.c: the image of a measured type, whose angle has been read, into the scene. With speeds it becomes a
  * cluster of patterns in one place, each as fast as its layer, malloc'd into type->members, which no member of one can

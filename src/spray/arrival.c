@@ -10,7 +10,7 @@ static const double ends = 1e-7;
 int sp_source_flights(const sp_source *source, sp_vec3 to, sp_flight flights[2])
 {
     return source->fronts ? sp_fronts_flights(source->fronts, source->position, to, flights)
-                          : sp_flights(source->position, to, source->speed, source->evaluator->gravity, flights);
+                          : sp_flights(source->position, to, source->speed, source->gravity, flights);
 }
 
 sp_target sp_patch_target(const sp_evaluator *evaluator, uint32_t patch)
@@ -65,7 +65,7 @@ static bool pierces(const sp_evaluator *evaluator, const sp_target *target, cons
 bool sp_flight_pierces(const sp_source *source, const sp_target *target, const sp_flight *flight)
 {
     sp_ray ray = {.origin = source->position, .velocity = sp_scale(flight->direction, source->speed)};
-    return pierces(source->evaluator, target, &ray, source->evaluator->gravity, flight->time);
+    return pierces(source->evaluator, target, &ray, source->gravity, flight->time);
 }
 
 /* Nothing blocks the first and last of it, as of parabolas, and the last piece ends on the target's own triangle, which
@@ -98,7 +98,7 @@ bool sp_flight_visit(const sp_source *source, const sp_target *target, const sp_
     if (source->fronts)
         return visit_chain(source, target, flight, visit, user);
     sp_ray ray = sp_flight_ray(source, target, flight);
-    return sp_flight_pierces(source, target, flight) || visit(user, &ray, source->evaluator->gravity);
+    return sp_flight_pierces(source, target, flight) || visit(user, &ray, source->gravity);
 }
 
 static bool meets(void *user, const sp_ray *piece, sp_vec3 pull)
@@ -115,7 +115,7 @@ bool sp_flight_is_blocked(const sp_source *source, const sp_target *target, cons
 bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch,
                               const sp_flight *flight, uint32_t patch)
 {
-    sp_source source = {evaluator, position, launch.speed, launch.fronts};
+    sp_source source = {evaluator, position, launch.speed, launch.fronts, sp_evaluator_gravity(evaluator, &launch)};
     sp_target target = sp_patch_target(evaluator, patch);
     return !sp_flight_is_blocked(&source, &target, flight);
 }

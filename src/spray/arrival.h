@@ -11,6 +11,7 @@ typedef struct {
     sp_vec3 position;        /* m */
     double speed;            /* m/s */
     const sp_fronts *fronts; /* that leave there, with drag; NULL: lines or parabolas */
+    sp_vec3 gravity;         /* m/s²; zero for lines */
 } sp_source;
 
 typedef struct {

@@ -29,7 +29,7 @@ static bool leaving_with_drag(const sp_source *source, sp_vec3 r, double radius,
 /* False where nothing is known. */
 static bool leaving_for(const sp_source *source, sp_vec3 point, double radius, leaving *leaving)
 {
-    sp_vec3 gravity = source->evaluator->gravity, r = sp_sub(point, source->position);
+    sp_vec3 gravity = source->gravity, r = sp_sub(point, source->position);
     if (source->fronts)
         return leaving_with_drag(source, r, radius, leaving);
     double distance = sp_length(r), g = sp_length(gravity), speed = source->speed, far = distance + radius;
@@ -78,7 +78,7 @@ bool sp_spray_is_aside(const sp_source *source, sp_vec3 axis, double half_angle,
 double sp_breadth_most(const sp_source *source, sp_vec3 point, double radius, double length)
 {
     double distance = sp_distance(point, source->position), near = distance - radius;
-    double slow = sp_length(source->evaluator->gravity) * (distance + radius) / (source->speed * source->speed);
+    double slow = sp_length(source->gravity) * (distance + radius) / (source->speed * source->speed);
     if (!(near > 0) || !(slow < 0.5) || source->fronts)
         return SP_BREADTH_MOST;
     return fmin(SP_BREADTH_MOST, length / near * sqrt((1 + 2 * slow) * (1 + slow) / (1 - 2 * slow)));

@@ -1,6 +1,7 @@
 /* Where the liquid ends: on what is to be cleaned, on other surface, outside, or on a way that is not followed. */
 #include "bodies.h"
 #include "emitter.h"
+#include "launch.h"
 #include "movers.h"
 
 #include <stdlib.h>
@@ -44,20 +45,22 @@ typedef struct {
 } jets_room;
 
 /* Where jets of one pattern, or drops, come to. */
-static void fly(const sp_evaluator *evaluator, const sp_nozzle *pattern, size_t jets, const jets_room *room)
+static void fly(const sp_evaluator *evaluator, const sp_nozzle *pattern, sp_vec3 pull, size_t jets,
+                const jets_room *room)
 {
     const sp_setup *setup = &evaluator->setup;
     sp_drag drag = sp_drag_of(pattern, &setup->liquid, &setup->air);
-    if (room->landings)
-        sp_drops_land(evaluator, &drag, room->rays, room->offset, jets, sp_thread_count(setup->run.threads),
+    if (sp_flies_as_drops(evaluator, pattern))
+        sp_drops_land(evaluator, &drag, room->rays, pull, room->offset, jets, sp_thread_count(setup->run.threads),
                       room->landings);
     else
-        sp_jets_hit(evaluator, room->rays, room->offset, jets, setup->run.threads, room->hits);
+        sp_jets_hit(evaluator, room->rays, pull, room->offset, jets, setup->run.threads, room->hits);
 }
 
 static void end_pattern(const sp_evaluator *evaluator, const sp_nozzle *pattern, const jets_room *room,
                         sp_balance *balance)
 {
+    bool drops = sp_flies_as_drops(evaluator, pattern);
     sp_emitter emitter = sp_emitter_of(evaluator, pattern, NULL);
     double flow = sp_nozzle_flow(pattern, &evaluator->setup.liquid);
     size_t jets = (size_t)pattern->jets;
@@ -67,11 +70,12 @@ static void end_pattern(const sp_evaluator *evaluator, const sp_nozzle *pattern,
         room->rays[i] = sp_emitter_jet(&emitter, i, jets);
         room->offset[i] = sp_jet_offset(evaluator, i);
     }
-    fly(evaluator, pattern, jets, room);
+    sp_vec3 pull = emitter.source.gravity;
+    fly(evaluator, pattern, pull, jets, room);
     for (size_t i = 0; i < jets; i++) {
-        const sp_landing *landing = room->landings ? &room->landings[i] : NULL;
+        const sp_landing *landing = drops ? &room->landings[i] : NULL;
         const sp_hit *hit = landing ? &landing->hit : &room->hits[i];
-        sp_vec3 velocity = landing ? landing->velocity : sp_ray_velocity(&room->rays[i], evaluator->gravity, hit->t);
+        sp_vec3 velocity = landing ? landing->velocity : sp_ray_velocity(&room->rays[i], pull, hit->t);
         end_jet(evaluator, hit, velocity, flow / (double)jets, balance);
     }
 }
@@ -83,11 +87,11 @@ bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout,
     if (coverage->balance.known)
         return true;
     sp_bodies bodies;
-    bool drag = evaluator->fidelity.trajectory == SP_TRAJECTORY_DRAG;
+    bool done = sp_bodies_create_with(evaluator, layout, JETS, &bodies, error);
+    bool drag = done && sp_bodies_hold_drops(evaluator, &bodies);
     jets_room room = {malloc(JETS * sizeof *room.rays), malloc(JETS * sizeof *room.offset),
                       malloc(JETS * sizeof *room.hits), drag ? malloc(JETS * sizeof *room.landings) : NULL};
-    bool done = sp_bodies_create_with(evaluator, layout, JETS, &bodies, error) &&
-                ((room.rays && room.offset && room.hits && (room.landings || !drag)) || sp_fail_memory(error));
+    done = done && ((room.rays && room.offset && room.hits && (room.landings || !drag)) || sp_fail_memory(error));
     sp_balance balance = {.known = true};
     for (size_t n = 0; done && n < bodies.patterns->count; n++)
         end_pattern(evaluator, &bodies.patterns->nozzles[n], &room, &balance);

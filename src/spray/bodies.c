@@ -32,10 +32,11 @@ static bool take_apart(const sp_evaluator *evaluator, uint64_t jets, sp_bodies *
     return bodies->patterns != NULL;
 }
 
-static bool are_drops(const sp_layout *patterns, sp_error *error)
+static bool drops_are_sound(const sp_evaluator *evaluator, const sp_layout *patterns, sp_error *error)
 {
     for (size_t i = 0; i < patterns->count; i++)
-        if (!sp_are_drops(&patterns->nozzles[i], error))
+        if (sp_flies_as_drops(evaluator, &patterns->nozzles[i]) &&
+            !sp_are_drops(&evaluator->setup, &patterns->nozzles[i], error))
             return false;
     return true;
 }
@@ -45,13 +46,20 @@ bool sp_bodies_create_with(const sp_evaluator *evaluator, const sp_layout *layou
 {
     *bodies = (sp_bodies){.layout = layout};
     return are_whole(layout, error) && sp_evaluator_takes(evaluator, layout, error) &&
-           take_apart(evaluator, jets, bodies, error) &&
-           (evaluator->fidelity.trajectory != SP_TRAJECTORY_DRAG || are_drops(bodies->patterns, error));
+           take_apart(evaluator, jets, bodies, error) && drops_are_sound(evaluator, bodies->patterns, error);
 }
 
 bool sp_bodies_create(const sp_evaluator *evaluator, const sp_layout *layout, sp_bodies *bodies, sp_error *error)
 {
     return sp_bodies_create_with(evaluator, layout, 0, bodies, error);
+}
+
+bool sp_bodies_hold_drops(const sp_evaluator *evaluator, const sp_bodies *bodies)
+{
+    for (size_t i = 0; i < bodies->patterns->count; i++)
+        if (sp_flies_as_drops(evaluator, &bodies->patterns->nozzles[i]))
+            return true;
+    return false;
 }
 
 /* m, as far as anything of the geometry is from a point, or comes on its pass. */
@@ -67,7 +75,7 @@ bool sp_bodies_fly(const sp_evaluator *evaluator, sp_bodies *bodies, sp_error *e
 {
     const sp_layout *patterns = bodies->patterns;
     double far = 0;
-    if (evaluator->fidelity.trajectory != SP_TRAJECTORY_DRAG)
+    if (!sp_bodies_hold_drops(evaluator, bodies))
         return true;
     for (size_t i = 0; i < patterns->count; i++)
         far = fmax(far, farthest_from(evaluator, patterns->nozzles[i].position));

@@ -21,6 +21,8 @@ bool sp_bodies_create(const sp_evaluator *evaluator, const sp_layout *layout, sp
 bool sp_bodies_create_with(const sp_evaluator *evaluator, const sp_layout *layout, uint64_t jets, sp_bodies *bodies,
                            sp_error *error);
 void sp_bodies_free(sp_bodies *bodies);
+/* Whether any pattern flies with drag. */
+bool sp_bodies_hold_drops(const sp_evaluator *evaluator, const sp_bodies *bodies);
 /* With drag finds the fronts, which emitters need that are asked for flights. */
 bool sp_bodies_fly(const sp_evaluator *evaluator, sp_bodies *bodies, sp_error *error);
 /* Pattern i. */

@@ -427,6 +427,16 @@ static bool decide(const bounding *b, bool *decided)
     return done;
 }
 
+/* What has a trajectory of its own does not change with the simulation's; how it lies between lines and parabolas is
+ * not reckoned. */
+static bool is_own(const sp_layout *patterns)
+{
+    for (size_t i = 0; i < patterns->count; i++)
+        if (patterns->nozzles[i].type->trajectory != SP_TRAJECTORY_AUTO)
+            return true;
+    return false;
+}
+
 bool sp_bound_lines(const sp_evaluator *evaluator, const sp_layout *layout, double *bound, bool *decided,
                     sp_error *error)
 {
@@ -439,7 +449,7 @@ bool sp_bound_lines(const sp_evaluator *evaluator, const sp_layout *layout, doub
     bool done = sp_bodies_create(evaluator, layout, &bodies, error) && (marks || sp_fail_memory(error));
     if (done)
         memset(marks, evaluator->setup.gravity == 0, patches->count);
-    if (done && evaluator->setup.gravity > 0 && !evaluator->movers) {
+    if (done && evaluator->setup.gravity > 0 && !evaluator->movers && !is_own(bodies.patterns)) {
         done = bounding_create(&b, evaluator, &bodies, error) && (decide(&b, marks) || sp_fail_memory(error));
         bounding_free(&b);
     }

@@ -4,7 +4,7 @@
  * off it by its speed or, where that is slow, by falling. */
 static double time_in_mouth(const sp_source *source)
 {
-    double length = sp_stand_off(source->evaluator), g = sp_length(source->evaluator->gravity);
+    double length = sp_stand_off(source->evaluator), g = sp_length(source->gravity);
     double time = length / source->speed;
     return g > 0 ? fmin(time, sqrt(2 * length / g)) : time;
 }
@@ -12,7 +12,8 @@ static double time_in_mouth(const sp_source *source)
 sp_emitter sp_emitter_of(const sp_evaluator *evaluator, const sp_nozzle *nozzle, const sp_fronts *fronts)
 {
     const sp_setup *setup = &evaluator->setup;
-    return (sp_emitter){.source = {evaluator, nozzle->position, sp_nozzle_speed(nozzle, &setup->liquid), fronts},
+    return (sp_emitter){.source = {evaluator, nozzle->position, sp_nozzle_speed(nozzle, &setup->liquid), fronts,
+                                   sp_pull_at(evaluator, nozzle->type->trajectory)},
                         .frame = sp_nozzle_frame(nozzle->axis, nozzle->roll, setup->up),
                         .spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle))};
 }

@@ -65,6 +65,12 @@ static bool check_caps(const sp_setup *setup, sp_error *error)
     return true;
 }
 
+bool sp_air_is_known(const sp_setup *setup)
+{
+    return in_range(setup->air.density, 0, 1e300) && in_range(setup->air.viscosity, 1e-300, 1e300) &&
+           in_range(setup->liquid.surface_tension, 1e-300, 1e300);
+}
+
 static bool check_setup(const sp_setup *setup, sp_error *error)
 {
     const sp_criterion *criterion = &setup->criterion;
@@ -74,9 +80,7 @@ static bool check_setup(const sp_setup *setup, sp_error *error)
         wrong = "a mesh with triangles and a surface for each of its parts";
     else if (!in_range(setup->liquid.density, 1e-300, 1e300))
         wrong = "a positive density of the liquid";
-    else if (fidelity->trajectory == SP_TRAJECTORY_DRAG &&
-             (!in_range(setup->air.density, 0, 1e300) || !in_range(setup->air.viscosity, 1e-300, 1e300) ||
-              !in_range(setup->liquid.surface_tension, 1e-300, 1e300)))
+    else if (fidelity->trajectory == SP_TRAJECTORY_DRAG && !sp_air_is_known(setup))
         wrong = "air with a density of 0 or more and a viscosity, and a surface tension of the liquid, for drag";
     else if (!in_range(setup->gravity, 0, 1e300))
         wrong = "a gravity of 0 or more";
@@ -173,6 +177,16 @@ static bool build(sp_evaluator *evaluator, const sp_layout *layout, sp_error *er
 sp_vec3 sp_gravity_for(const sp_setup *setup, sp_trajectory trajectory)
 {
     return trajectory == SP_TRAJECTORY_LINE ? sp_v(0, 0, 0) : sp_scale(sp_unit(setup->up), -setup->gravity);
+}
+
+sp_trajectory sp_trajectory_of(const sp_evaluator *evaluator, sp_trajectory own)
+{
+    return own == SP_TRAJECTORY_AUTO ? evaluator->fidelity.trajectory : own;
+}
+
+sp_vec3 sp_pull_at(const sp_evaluator *evaluator, sp_trajectory own)
+{
+    return own == SP_TRAJECTORY_AUTO ? evaluator->gravity : sp_gravity_for(&evaluator->setup, own);
 }
 
 sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *layout, sp_error *error)
@@ -334,9 +348,9 @@ const sp_hollow *sp_evaluator_hollows(const sp_evaluator *evaluator, size_t *cou
     return evaluator->rundown ? evaluator->rundown->hollows : NULL;
 }
 
-sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator)
+sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator, const sp_launch *launch)
 {
-    return evaluator->gravity;
+    return sp_pull_at(evaluator, launch ? launch->trajectory : SP_TRAJECTORY_AUTO);
 }
 
 sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)

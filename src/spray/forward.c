@@ -2,6 +2,7 @@
  * patches that they hit (study 3.2.3 and 3.3.1). */
 #include "bodies.h"
 #include "emitter.h"
+#include "launch.h"
 #include "lit.h"
 #include "movers.h"
 #include "splat.h"
@@ -33,13 +34,15 @@ typedef struct {
     sp_balance *balance; /* of all */
     sp_work *work;
     double lowest;        /* g · x, m²/s², of the geometry's lowest point */
+    sp_vec3 gravity;      /* of the pattern in hand; zero for lines */
     double able;          /* m³/s that flies on in the end and may yet be fast enough to count */
     sp_ray *rays;         /* [BATCH] */
     sp_vec3 *offset;      /* [BATCH], m, of goods that move, as they are while the jet flies */
     double *flow;         /* [BATCH], m³/s */
     sp_hit *hits;         /* [BATCH] */
     sp_drag drag;         /* of the pattern in hand */
-    sp_landing *landings; /* [BATCH]; NULL without drag */
+    bool drops;           /* it flies with drag */
+    sp_landing *landings; /* [BATCH]; NULL where none does */
     jet_impact *impacts;  /* [BATCH] */
     int threads;
     int reflections;
@@ -58,14 +61,13 @@ static sp_vec3 before_the_wall(const jet_flight *flight, const sp_landing *landi
 /* Where jet i has come to, which hit something; without drag its flight is all one piece. */
 static sp_landing landing_of(const jet_flight *flight, size_t i)
 {
-    sp_vec3 gravity = flight->evaluator->gravity;
     const sp_ray *ray = &flight->rays[i];
     const sp_hit *hit = &flight->hits[i];
-    if (flight->landings)
+    if (flight->drops)
         return flight->landings[i];
     return (sp_landing){.hit = *hit,
-                        .piece = {.ray = *ray, .pull = gravity, .last = true},
-                        .velocity = sp_ray_velocity(ray, gravity, hit->t),
+                        .piece = {.ray = *ray, .pull = flight->gravity, .last = true},
+                        .velocity = sp_ray_velocity(ray, flight->gravity, hit->t),
                         .time = hit->t};
 }
 
@@ -106,7 +108,7 @@ static void strike(jet_flight *flight, size_t i)
     impact->cell = sp_lit_cell(evaluator, hit->triangle, hit->u, hit->v);
 
     const sp_surface *surface = &evaluator->setup.surfaces[mesh->part[hit->triangle]];
-    double height = height_over(evaluator->gravity, normal, landing.time, along_normal);
+    double height = height_over(flight->gravity, normal, landing.time, along_normal);
     ray->origin = before_the_wall(flight, &landing, along_normal);
     ray->velocity = sp_along(velocity, -(1 + surface->restitution) * along_normal, normal);
     ray->t_min = 0;
@@ -171,9 +173,8 @@ static void keep_balance(jet_flight *flight, size_t count)
 /* Whether liquid that falls all the way down from where it is meets the criterion's speed: it meets no more. */
 static bool may_be_fast(const jet_flight *flight, const sp_ray *ray)
 {
-    const sp_evaluator *evaluator = flight->evaluator;
-    double fall = flight->lowest - sp_dot(ray->origin, evaluator->gravity);
-    double least = evaluator->setup.criterion.impact_speed;
+    double least = flight->evaluator->setup.criterion.impact_speed;
+    double fall = sp_length(flight->gravity) > 0 ? flight->lowest - sp_dot(ray->origin, flight->gravity) : 0;
     return sp_dot(ray->velocity, ray->velocity) + 2 * fmax(fall, 0) >= least * least;
 }
 
@@ -183,11 +184,12 @@ static void fly_on(const jet_flight *flight, size_t count, bool drops)
     const sp_evaluator *evaluator = flight->evaluator;
     sp_drag drag = flight->drag;
     drag.delay = drops ? 0 : drag.delay;
-    if (!flight->landings) {
-        sp_jets_hit(evaluator, flight->rays, flight->offset, count, flight->threads, flight->hits);
+    if (!flight->drops) {
+        sp_jets_hit(evaluator, flight->rays, flight->gravity, flight->offset, count, flight->threads, flight->hits);
         return;
     }
-    sp_drops_land(evaluator, &drag, flight->rays, flight->offset, count, flight->threads, flight->landings);
+    sp_drops_land(evaluator, &drag, flight->rays, flight->gravity, flight->offset, count, flight->threads,
+                  flight->landings);
     for (size_t i = 0; i < count; i++)
         flight->hits[i] = flight->landings[i].hit;
 }
@@ -224,7 +226,9 @@ static void spray_jets(jet_flight *flight, const sp_nozzle *pattern, uint64_t fi
     uint64_t jets = pattern_jets(flight, pattern);
     double flow = sp_nozzle_flow(pattern, &flight->evaluator->setup.liquid);
     sp_emitter emitter = sp_emitter_of(flight->evaluator, pattern, NULL);
+    flight->gravity = emitter.source.gravity;
     flight->drag = sp_drag_of(pattern, &flight->evaluator->setup.liquid, &flight->evaluator->setup.air);
+    flight->drops = sp_flies_as_drops(flight->evaluator, pattern);
 #pragma omp parallel for num_threads(flight->threads)
     for (size_t i = 0; i < count; i++) {
         flight->rays[i] = sp_emitter_jet(&emitter, first + i, jets);
@@ -286,12 +290,14 @@ static bool fly_bodies(jet_flight *flight, const sp_bodies *bodies, sp_error *er
     return true;
 }
 
+/* Of what falls. */
 static double lowest_point(const sp_evaluator *evaluator)
 {
+    sp_vec3 gravity = sp_gravity_for(&evaluator->setup, SP_TRAJECTORY_PARABOLA);
     const sp_mesh *mesh = evaluator->setup.mesh;
     double lowest = -INFINITY;
     for (size_t i = 0; i < mesh->vertex_count; i++)
-        lowest = fmax(lowest, sp_dot(mesh->vertices[i], evaluator->gravity));
+        lowest = fmax(lowest, sp_dot(mesh->vertices[i], gravity));
     return lowest;
 }
 
@@ -325,7 +331,7 @@ static bool evaluate_bodies(const sp_evaluator *evaluator, const sp_bodies *bodi
                          .reflections = reflections,
                          .lowest = lowest_point(evaluator),
                          .per_jet = per_jet};
-    bool drag = evaluator->fidelity.trajectory == SP_TRAJECTORY_DRAG;
+    bool drag = sp_bodies_hold_drops(evaluator, bodies);
     flight.landings = drag ? malloc(BATCH * sizeof *flight.landings) : NULL;
     bool room = (flight.landings || !drag) && flight.rays && flight.offset && flight.flow && flight.hits &&
                 flight.impacts && flight.counted;

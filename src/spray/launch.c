@@ -51,11 +51,6 @@ void sp_launch_table_destroy(sp_launch_table *table)
     free(table);
 }
 
-static bool flies_with_drag(const sp_launch_table *table)
-{
-    return table->evaluator->fidelity.trajectory == SP_TRAJECTORY_DRAG;
-}
-
 /* NULL where there are none yet, or nothing leaves. */
 static const sp_fronts *fronts_of(const sp_launch_table *table, const sp_nozzle *pattern)
 {
@@ -71,8 +66,13 @@ static const sp_fronts *fronts_of(const sp_launch_table *table, const sp_nozzle 
     return NULL;
 }
 
-bool sp_are_drops(const sp_nozzle *pattern, sp_error *error)
+bool sp_are_drops(const sp_setup *setup, const sp_nozzle *pattern, sp_error *error)
 {
+    if (!sp_air_is_known(setup))
+        return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0,
+                       "trajectory: drag found of nozzle %s; expected air with a density of 0 or more and a viscosity, "
+                       "and a surface tension of the liquid",
+                       pattern->name);
     return pattern->type->drop >= DROP_LEAST ||
            sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "trajectory: drag found with drops of %g m from nozzle %s; expected at least %g m",
@@ -96,14 +96,16 @@ static bool add_pattern(sp_launch_table *table, const sp_nozzle *pattern, sp_err
 {
     const sp_setup *setup = &table->evaluator->setup;
     double speed = sp_nozzle_speed(pattern, &setup->liquid);
-    if (!sp_are_drops(pattern, error))
+    if (!sp_flies_as_drops(table->evaluator, pattern))
+        return true;
+    if (!sp_are_drops(setup, pattern, error))
         return false;
     if (!(speed > 0) || fronts_of(table, pattern))
         return true;
     if (!make_room(table, error))
         return false;
     sp_drag drag = sp_drag_of(pattern, &setup->liquid, &setup->air);
-    sp_fronts *fronts = sp_fronts_create(&drag, speed, table->evaluator->gravity, table->far, error);
+    sp_fronts *fronts = sp_fronts_create(&drag, speed, sp_gravity_for(setup, SP_TRAJECTORY_DRAG), table->far, error);
     if (fronts)
         table->fronts[table->count++] = fronts;
     return fronts;
@@ -113,8 +115,6 @@ bool sp_launch_table_add(sp_launch_table *table, const sp_nozzle *nozzle, sp_err
 {
     const sp_setup *setup = &table->evaluator->setup;
     size_t count = sp_nozzle_pattern_count(nozzle);
-    if (!flies_with_drag(table))
-        return true;
     sp_nozzle *patterns = malloc((count + 1) * sizeof *patterns);
     if (!patterns)
         return sp_fail_memory(error);
@@ -128,8 +128,9 @@ bool sp_launch_table_add(sp_launch_table *table, const sp_nozzle *nozzle, sp_err
 
 bool sp_launch_table_find(const sp_launch_table *table, const sp_nozzle *pattern, sp_launch *launch, sp_error *error)
 {
-    *launch = (sp_launch){.speed = sp_nozzle_speed(pattern, &table->evaluator->setup.liquid)};
-    if (!flies_with_drag(table) || !(launch->speed > 0))
+    *launch = (sp_launch){.speed = sp_nozzle_speed(pattern, &table->evaluator->setup.liquid),
+                          .trajectory = pattern->type->trajectory};
+    if (!sp_flies_as_drops(table->evaluator, pattern) || !(launch->speed > 0))
         return true;
     launch->fronts = fronts_of(table, pattern);
     return launch->fronts || sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0,
@@ -142,7 +143,7 @@ static sp_meeting meet_as_drops(const sp_evaluator *evaluator, sp_launch launch,
     sp_drag drag = launch.fronts->drag;
     sp_landing landing;
     drag.delay = drops ? 0 : drag.delay;
-    sp_drag_trace_many(evaluator->tracer, &drag, ray, 1, evaluator->gravity, 1, &landing);
+    sp_drag_trace_many(evaluator->tracer, &drag, ray, 1, sp_evaluator_gravity(evaluator, &launch), 1, &landing);
     return (sp_meeting){landing.hit, sp_ray_point(&landing.piece.ray, landing.piece.pull, landing.hit.t),
                         landing.velocity};
 }
@@ -151,7 +152,7 @@ sp_meeting sp_evaluator_meet(const sp_evaluator *evaluator, sp_launch launch, co
 {
     if (launch.fronts)
         return meet_as_drops(evaluator, launch, ray, drops);
-    sp_hit hit = sp_trace_nearest(evaluator->tracer, ray, evaluator->gravity);
-    return (sp_meeting){hit, sp_ray_point(ray, evaluator->gravity, hit.t),
-                        sp_ray_velocity(ray, evaluator->gravity, hit.t)};
+    sp_vec3 pull = sp_evaluator_gravity(evaluator, &launch);
+    sp_hit hit = sp_trace_nearest(evaluator->tracer, ray, pull);
+    return (sp_meeting){hit, sp_ray_point(ray, pull, hit.t), sp_ray_velocity(ray, pull, hit.t)};
 }

@@ -13,6 +13,16 @@ double sp_farthest_coordinate(sp_vec3 low, sp_vec3 high)
     return fmax(fmax(fmax(-low.x, high.x), fmax(-low.y, high.y)), fmax(-low.z, high.z));
 }
 
+static bool gravity_is_resolved(const sp_setup *setup, double diagonal, sp_error *error)
+{
+    double speed = sqrt(2 * setup->gravity) * sqrt(diagonal);
+    return speed <= MOST_SPEED ||
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "gravity: %g m/s2 found, by which what falls through the geometry gains %g m/s; expected at most "
+                   "%g m/s",
+                   setup->gravity, speed, MOST_SPEED);
+}
+
 bool sp_geometry_is_resolved(const sp_setup *setup, sp_error *error)
 {
     sp_vec3 low, high;
@@ -30,12 +40,7 @@ bool sp_geometry_is_resolved(const sp_setup *setup, sp_error *error)
                        "geometry: coordinates up to %g m found for what is %g m across; there they tell no less than "
                        "%.2g m apart; expected it nearer to the origin, where they tell %.2g m",
                        farthest, diagonal, step, most);
-    double speed = sqrt(2 * setup->gravity) * sqrt(diagonal);
-    return setup->fidelity.trajectory == SP_TRAJECTORY_LINE || speed <= MOST_SPEED ||
-           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                   "gravity: %g m/s2 found, by which what falls through the geometry gains %g m/s; expected at most "
-                   "%g m/s",
-                   setup->gravity, speed, MOST_SPEED);
+    return setup->fidelity.trajectory == SP_TRAJECTORY_LINE || gravity_is_resolved(setup, diagonal, error);
 }
 
 bool sp_texel_is_resolved(const sp_evaluator *evaluator, double texel, sp_error *error)
@@ -45,6 +50,20 @@ bool sp_texel_is_resolved(const sp_evaluator *evaluator, double texel, sp_error 
            sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                    "texel: %g m found, too small for coordinates up to %g m; expected at least %.2g m", texel, farthest,
                    FINEST_TEXEL * farthest);
+}
+
+static bool may_fall(const sp_setup *setup, sp_trajectory own)
+{
+    return (own == SP_TRAJECTORY_AUTO ? setup->fidelity.trajectory : own) != SP_TRAJECTORY_LINE;
+}
+
+/* What a nozzle's liquid, of all its patterns, may be pulled at by, m/s². */
+static double strongest_pull(const sp_setup *setup, const sp_nozzle_type *type)
+{
+    bool falls = may_fall(setup, type->trajectory);
+    for (size_t i = 0; i < type->member_count; i++)
+        falls |= may_fall(setup, type->members[i].type.trajectory);
+    return falls ? setup->gravity : 0;
 }
 
 /* Whether a nozzle's liquid leaves neither so fast nor so slowly that its flights cannot be told. */
@@ -64,11 +83,12 @@ static bool is_flying(const sp_evaluator *evaluator, const sp_nozzle *nozzle, do
 
 bool sp_evaluator_takes(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error)
 {
-    const sp_setup *setup = &evaluator->setup;
-    double gravity = setup->fidelity.trajectory == SP_TRAJECTORY_LINE ? 0 : setup->gravity;
-    double slowest = sqrt(SLOWEST_SQUARE * gravity) * sqrt(sp_distance(evaluator->low, evaluator->high));
-    for (size_t i = 0; i < layout->count; i++)
-        if (!is_flying(evaluator, &layout->nozzles[i], slowest, error))
+    double diagonal = sp_distance(evaluator->low, evaluator->high);
+    for (size_t i = 0; i < layout->count; i++) {
+        double pull = strongest_pull(&evaluator->setup, layout->nozzles[i].type);
+        if ((pull > 0 && !gravity_is_resolved(&evaluator->setup, diagonal, error)) ||
+            !is_flying(evaluator, &layout->nozzles[i], sqrt(SLOWEST_SQUARE * pull) * sqrt(diagonal), error))
             return false;
+    }
     return true;
 }

@@ -43,7 +43,7 @@ typedef struct {
 
 static reserve reserve_by_parabola(const sp_source *source, sp_vec3 r)
 {
-    sp_vec3 gravity = source->evaluator->gravity;
+    sp_vec3 gravity = source->gravity;
     double g = sp_length(gravity), distance = sp_length(r), speed = source->speed, v2 = speed * speed;
     double b = v2 + sp_dot(r, gravity), time = sqrt(2 * distance / g);
     sp_vec3 level = sp_cross(gravity, sp_cross(r, gravity)); /* g² times r's part across gravity */
@@ -88,7 +88,7 @@ static bearing bearing_of(const sp_source *source, sp_vec3 point, double side, d
         return TOO_BROAD;
     if (is_clear(source, point, 2 * radius, flights))
         return sp_flight_breadth(&flights[0], side) >= SP_BREADTH_MOST ? TOO_BROAD : FINE;
-    if (sp_length(source->evaluator->gravity) > 0) {
+    if (sp_length(source->gravity) > 0) {
         reserve own = reserve_at(source, r);
         double change = sp_length(own.slope) * radius + own.bend * radius * radius;
         if (own.value < -change)
@@ -103,7 +103,7 @@ static bearing bearing_of(const sp_source *source, sp_vec3 point, double side, d
 /* The same, without drag, rather too often than not, without roots: most patches are neither. */
 static bool may_be_near(const sp_source *source, const sp_target *target)
 {
-    sp_vec3 gravity = source->evaluator->gravity, r = sp_sub(target->point, source->position);
+    sp_vec3 gravity = source->gravity, r = sp_sub(target->point, source->position);
     double v2 = source->speed * source->speed, r2 = sp_dot(r, r), g2 = sp_dot(gravity, gravity);
     double side2 = target->length * target->length, least = SP_BREADTH_MOST * SP_BREADTH_MOST * r2;
     if (g2 == 0)

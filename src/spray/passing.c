@@ -89,13 +89,14 @@ static bool shade(watch *w, const sp_ray *ray, sp_vec3 pull)
     return w->free == 0;
 }
 
-double sp_ray_free_share(const sp_evaluator *evaluator, sp_flock *flock, uint32_t patch, size_t i)
+double sp_ray_free_share(const sp_source *source, sp_flock *flock, uint32_t patch, size_t i)
 {
+    const sp_evaluator *evaluator = source->evaluator;
     const sp_passing_ray *passing = &flock->passing[i];
     sp_ray ray = flock->rays[i];
     ray.skip = passing->target;
     watch w = watch_for(evaluator, patch, passing->target, passing->position, flock->shaded);
-    shade(&w, &ray, evaluator->gravity);
+    shade(&w, &ray, source->gravity);
     return share_of(&w);
 }
 

@@ -39,15 +39,16 @@ typedef struct harvest {
 } harvest;
 
 /* What is in the way of the flock's rays, of what stands. */
-static void trace(const sp_evaluator *evaluator, sp_flock *flock)
+static void trace(const sp_source *source, sp_flock *flock)
 {
+    const sp_evaluator *evaluator = source->evaluator;
     const sp_movers *movers = evaluator->movers;
     for (size_t i = 0; movers && i < flock->ray_count; i++) {
         uint32_t target = flock->passing[i].target;
         flock->rays[i].skip = sp_motion_of(evaluator, target) == SP_STANDING ? movers->own[target] : SP_NONE;
     }
     sp_trace_occluded_many(movers ? movers->tracer[SP_STANDING] : evaluator->tracer, flock->rays, flock->ray_count,
-                           evaluator->gravity, 1, flock->blocked);
+                           source->gravity, 1, flock->blocked);
 }
 
 /* The arrivals at patches first to end; false where memory ran out. */
@@ -63,13 +64,13 @@ static bool reap(const sp_source *source, const sp_aim *aim, uint32_t first, uin
         gather(source, aim, patch, flock);
     if (flock->failed)
         return false;
-    trace(source->evaluator, flock);
+    trace(source, flock);
     size_t kept = 0;
     for (size_t i = 0, ray = 0; i < flock->count; i++) {
         sp_arrival *arrival = &flock->arrivals[i];
         bool traced = !source->fronts && sp_way_is_traced(source->evaluator, aim, arrival->part);
         if (traced && source->evaluator->movers && !flock->blocked[ray])
-            arrival->part *= sp_ray_free_share(source->evaluator, flock, arrival->patch, ray);
+            arrival->part *= sp_ray_free_share(source, flock, arrival->patch, ray);
         if (traced && (flock->blocked[ray++] || !(arrival->part > 0)))
             arrival->blocked = true;
         if (!arrival->blocked || aim->blocked)
@@ -150,8 +151,8 @@ static bool source_of(const sp_evaluator *evaluator, sp_vec3 position, sp_launch
 {
     if (!evaluator)
         return false;
-    bool drag = evaluator->fidelity.trajectory == SP_TRAJECTORY_DRAG;
-    *source = (sp_source){evaluator, position, launch.speed, launch.fronts};
+    bool drag = sp_trajectory_of(evaluator, launch.trajectory) == SP_TRAJECTORY_DRAG;
+    *source = (sp_source){evaluator, position, launch.speed, launch.fronts, sp_evaluator_gravity(evaluator, &launch)};
     return drag == (launch.fronts != NULL) || !(launch.speed > 0) ||
            sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "trajectory: %s drag found, and a launch %s",
                    drag ? "with" : "without", drag ? "without fronts" : "with fronts");

@@ -35,6 +35,12 @@ static inline int sp_thread_count(int threads)
 }
 /* What pulls at liquid that flies so, m/s²; zero for lines. What is left to auto flies as parabolas. */
 sp_vec3 sp_gravity_for(const sp_setup *setup, sp_trajectory trajectory);
+/* How the liquid of a type, or of a launch, flies whose own trajectory this is; never auto. */
+sp_trajectory sp_trajectory_of(const sp_evaluator *evaluator, sp_trajectory own);
+/* What pulls at it, m/s². */
+sp_vec3 sp_pull_at(const sp_evaluator *evaluator, sp_trajectory own);
+/* Whether air and liquid tell how drops are held back. */
+bool sp_air_is_known(const sp_setup *setup);
 /* Reports progress; false, with the error set, where the caller is to stop. */
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error);
 /* False, with the error that nothing is to be cleaned. */

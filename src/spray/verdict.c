@@ -71,7 +71,7 @@ static void spray(const sp_emitter *emitter, double flow, const sp_point *points
         if (!covered[i])
             gather(emitter, flow, &points[i], (uint32_t)i, f);
     if (!emitter->source.fronts)
-        sp_trace_occluded_many(evaluator->tracer, f->rays, f->count, evaluator->gravity, 1, f->blocked);
+        sp_trace_occluded_many(evaluator->tracer, f->rays, f->count, emitter->source.gravity, 1, f->blocked);
     for (size_t i = 0; i < f->count; i++) {
         double *received = &f->received[f->point[i]];
         *received += f->blocked[i] ? 0 : f->flux[i];

@@ -19,7 +19,7 @@ static void assert_in_order(const sp_evaluator *evaluator, const sp_reach *reach
     for (size_t i = 0; i < reach->count; i++) {
         const sp_arrival *a = &reach->arrivals[i];
         sp_flight flights[2];
-        int count = sp_flights(position, patches->point[a->patch], speed, sp_evaluator_gravity(evaluator), flights);
+        int count = sp_flights(position, patches->point[a->patch], speed, sp_evaluator_gravity(evaluator, NULL), flights);
         bool second = i > 0 && reach->arrivals[i - 1].patch == a->patch, high = false;
         for (int k = 0; k < count; k++)
             high = sp_distance(flights[k].direction, a->direction) == 0 ? k == 1 : high;

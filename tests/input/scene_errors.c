@@ -404,7 +404,9 @@ static const slip catalogue_slips[] = {
     {"drop: 2 mm", "drop: 2 mm, colour: red",
      "catalogue.yaml:4:115: colour: found a key that a catalogue type does not have, expected one of name, pattern, "
      "angle, hollow, thickness, flow, at, exponent, cv, drop, angle_range, flow_range, order_code, url, image, "
-     "members, rotation, thread, insert, body, step"},
+     "members, rotation, thread, insert, body, step, trajectory"},
+    {"trajectory: line", "trajectory: curve",
+     "catalogue.yaml:7:140: trajectory: found 'curve', expected auto, line, parabola or drag"},
     {"https://example.com/r", "javascript:alert(1)//",
      "catalogue.yaml:3:133: url: found 'javascript:alert(1)//?a=x&b=y', expected an address such as "
      "https://example.com/nozzle"},

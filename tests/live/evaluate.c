@@ -145,6 +145,8 @@ static int open_room(void **state)
     for (size_t i = 0; i < 2; i++)
         arms[i] = (sp_member){
             .type = cone, .offset = {i ? 0.05 : -0.05, 0, 0}, .axis = {0, i ? 0.6 : -0.6, 0.8}, .share = 1 + i};
+    for (size_t i = 0; i < 2; i++)
+        arms[i].type.trajectory = SP_TRAJECTORY_LINE;
     sp_setup setup = sp_setup_default();
     setup.mesh = mesh;
     setup.surfaces = surfaces;

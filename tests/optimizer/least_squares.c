@@ -1,4 +1,5 @@
-/* Least squares, by the module of Ceres, on a problem with certified answers: NIST StRD nonlinear regression, Misra1a. */
+/* Least squares, by the module of Ceres, on a problem with certified answers: NIST StRD nonlinear regression, Misra1a.
+ */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -87,7 +87,7 @@ static inline sp_nozzle nozzle_of(const job *j, int pose)
     return (sp_nozzle){.type = j->type_list[pose % 2],
                        .position = sp_v(-0.8 + 0.4 * (pose / 2), 0.1, 1),
                        .axis = sp_v(0, 0, -1),
-                       .pressure = PRESSURE};
+                       .pressure = j->pressure};
 }
 
 /* The most that two of them cover; a place may hold both. */

@@ -140,7 +140,7 @@ static void views_hold_what_single_rays_find(void **state)
     stage s;
     stage_open(&s, criterion_of_all, SP_TRAJECTORY_PARABOLA);
     const sp_patches *patches = sp_evaluator_patches(s.room.evaluator);
-    sp_vec3 gravity = sp_evaluator_gravity(s.room.evaluator);
+    sp_vec3 gravity = sp_evaluator_gravity(s.room.evaluator, NULL);
     double speed = s.candidates.launches[1].speed;
     bool *is_cut = calloc(patches->count, sizeof *is_cut);
     for (uint32_t site = 0; site < s.sites.count; site++) {
@@ -213,7 +213,7 @@ static void fields_are_the_evaluators(void **state)
                 sp_flight flights[2];
                 double speed = sp_nozzle_speed(&nozzle, &s.room.setup.liquid);
                 int count = sp_flights(nozzle.position, patches->point[p], speed,
-                                       sp_evaluator_gravity(s.room.evaluator), flights);
+                                       sp_evaluator_gravity(s.room.evaluator, NULL), flights);
                 bool at_edge = false;
                 for (int k = 0; k < count; k++)
                     at_edge |= fabs(margin_of(&nozzle, up, flights[k].direction)) < 1e-5;

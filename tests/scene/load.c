@@ -284,6 +284,23 @@ static void types(void **state)
     near(jet->angle, M_PI / 180);
     near(place.types[4]->angle_min, M_PI / 3);
     near(place.types[4]->flow_max, 0.5e-3);
+    assert_int_equal(cone->trajectory, SP_TRAJECTORY_AUTO);
+    assert_int_equal(place.types[4]->trajectory, SP_TRAJECTORY_LINE);
+    sp_scene_destroy(scene);
+}
+
+/* A cluster's patterns fly as the cluster says. */
+static void trajectories(void **state)
+{
+    (void)state;
+    scratch_write("ways.yaml", "nozzles:\n"
+                               "  - {name: ball, pattern: cluster, flow: 40 L/min, at: 1.5 bar, trajectory: drag,\n"
+                               "     members: [{pattern: solid_stream}, {pattern: full_cone, angle: 20 deg}]}\n");
+    sp_scene *scene = load("geometry: [{file: tank.obj}]\ncatalogue: ways.yaml\n");
+    const sp_nozzle_type *ball = sp_scene_place_options(scene).types[0];
+    assert_int_equal(ball->trajectory, SP_TRAJECTORY_DRAG);
+    for (size_t i = 0; i < ball->member_count; i++)
+        assert_int_equal(ball->members[i].type.trajectory, SP_TRAJECTORY_DRAG);
     sp_scene_destroy(scene);
 }
 
@@ -403,6 +420,7 @@ int main(void)
         cmocka_unit_test(only_addresses_are_linked),
         cmocka_unit_test(mounts),
         cmocka_unit_test(types),
+        cmocka_unit_test(trajectories),
         cmocka_unit_test(clusters),
         cmocka_unit_test(overrides),
         cmocka_unit_test(goods_that_move),

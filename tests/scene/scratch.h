@@ -37,7 +37,7 @@ static const char catalogue[] =
     "  - {name: jet, pattern: solid_stream, flow: 5 L/min, at: 2 bar, thread: G-1-4, insert: n.7, body: 22 mm}\n"
     "  - {name: set, pattern: full_cone, angle: 90 deg, flow: 20 L/min, at: 2 bar,\n"
     "     angle_range: [60 deg, 120 deg], flow_range: [10 L/min, 30 L/min], "
-    "step: {angle: 5 deg, flow: 2 L/min, pressure: 0.5 bar}}\n"
+    "step: {angle: 5 deg, flow: 2 L/min, pressure: 0.5 bar}, trajectory: line}\n"
     "  - name: ball\n"
     "    pattern: cluster\n"
     "    flow: 40 L/min\n"

@@ -132,7 +132,7 @@ static void lines_where_they_keep_the_accuracy_and_save_work(void **state)
         sp_evaluator *evaluator = chosen_for(&st.s, layout);
         print_message("%s\n", sp_evaluator_choice(evaluator)->trajectory);
         assert_int_equal(sp_evaluator_fidelity(evaluator)->trajectory, k ? SP_TRAJECTORY_LINE : SP_TRAJECTORY_PARABOLA);
-        assert_true((sp_length(sp_evaluator_gravity(evaluator)) > 0) == !k);
+        assert_true((sp_length(sp_evaluator_gravity(evaluator, NULL)) > 0) == !k);
         sp_evaluator *again;
         assert_true(sp_evaluator_again(evaluator, true, &again, &error));
         assert_true((again != NULL) == (k == 1)); /* the texel is the setup's own: only lines can be left */

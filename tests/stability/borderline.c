@@ -125,7 +125,7 @@ static void at_the_edge_of_a_spray(void **state)
         c.type = spray_type(patterns[i], 90);
         sp_flight flight[2];
         assert_true(sp_flights(c.nozzle.position, sp_evaluator_patches(c.evaluator)->point[patch], 6,
-                               sp_evaluator_gravity(c.evaluator), flight) > 0);
+                               sp_evaluator_gravity(c.evaluator, NULL), flight) > 0);
         sp_frame frame = sp_nozzle_frame(c.nozzle.axis, c.nozzle.roll, c.s.setup.up);
         sp_vec3 d = flight[0].direction, own = sp_v(sp_dot(d, frame.x), sp_dot(d, frame.y), sp_dot(d, frame.z));
         double polar = atan2(hypot(own.x, own.y), own.z);
@@ -154,7 +154,7 @@ static void at_the_edge_of_an_occluder(void **state)
     for (int t = SP_TRAJECTORY_LINE; t <= SP_TRAJECTORY_PARABOLA; t++) {
         case_of c;
         cone_over_floor(&c, (sp_trajectory)t);
-        sp_vec3 gravity = sp_evaluator_gravity(c.evaluator);
+        sp_vec3 gravity = sp_evaluator_gravity(c.evaluator, NULL);
         size_t patch = patch_near(c.evaluator, sp_v(0.23, 0.11, 0));
         sp_vec3 target = sp_evaluator_patches(c.evaluator)->point[patch];
         sp_flight flight[2];

@@ -18,20 +18,21 @@ const sp_evaluator *sp_page_live_evaluator(const sp_page *page)
     return page->main == SP_UNKNOWN ? NULL : page->result->designs[page->main].evaluator;
 }
 
-static bool is_measured(const sp_nozzle_type *type)
+/* A measured pattern does not travel with the page, and drops that air holds back are not known to what does. */
+static bool stays_behind(const sp_nozzle_type *type)
 {
-    bool measured = type->pattern == SP_PATTERN_MEASURED;
+    bool stays = type->pattern == SP_PATTERN_MEASURED || type->trajectory == SP_TRAJECTORY_DRAG;
     for (size_t i = 0; i < type->member_count; i++)
-        measured |= type->members[i].type.pattern == SP_PATTERN_MEASURED;
-    return measured;
+        stays |= type->members[i].type.pattern == SP_PATTERN_MEASURED;
+    return stays;
 }
 
-static bool any_measured(const sp_page *page)
+static bool any_stays_behind(const sp_page *page)
 {
     for (size_t i = 0; i < page->result->design_count; i++) {
         const sp_layout *layout = page->result->designs[i].layout;
         for (size_t k = 0; layout && k < layout->count; k++)
-            if (is_measured(layout->nozzles[k].type))
+            if (stays_behind(layout->nozzles[k].type))
                 return true;
     }
     return false;
@@ -61,8 +62,8 @@ const char *sp_page_not_live(const sp_page *page)
         return "";
     if (!sp_live_is_built)
         return "this build of sprayplan has no evaluator for pages";
-    if (any_measured(page))
-        return "a nozzle's measured pattern does not travel with it";
+    if (any_stays_behind(page))
+        return "a nozzle's measured pattern, or drops of its own that air holds back, do not travel with it";
     return too_much(evaluator);
 }
 
@@ -150,11 +151,11 @@ static bool list_types(const sp_page *page, type_rows *rows)
     rows->types = malloc((rows->room + 1) * sizeof *rows->types);
     rows->members = json_array();
     for (size_t i = 0; rows->types && i < options->type_count; i++)
-        if (!is_measured(options->types[i]))
+        if (!stays_behind(options->types[i]))
             row_of(rows, options->types[i]);
     for (size_t i = 0; rows->types && i < options->mount_count; i++)
         for (size_t k = 0; k < options->mounts[i].type_count; k++)
-            if (!is_measured(options->mounts[i].types[k]))
+            if (!stays_behind(options->mounts[i].types[k]))
                 row_of(rows, options->mounts[i].types[k]);
     for (size_t i = 0; rows->types && i < result->design_count; i++)
         for (size_t k = 0; result->designs[i].layout && k < result->designs[i].layout->count; k++)
@@ -215,7 +216,7 @@ static json_t *mount_json(const sp_mount *mount, type_rows *rows)
     static const char *const kinds[] = {"port", "surface", "line", "box"};
     json_t *types = json_array();
     for (size_t i = 0; i < mount->type_count; i++)
-        if (!is_measured(mount->types[i]))
+        if (!stays_behind(mount->types[i]))
             json_array_append_new(types, json_integer((json_int_t)row_of(rows, mount->types[i])));
     return json_pack("{s:s, s:o, s:o, s:o, s:f, s:[ff], s:I, s:I, s:f, s:o, s:o, s:o}", "kind", kinds[mount->kind],
                      "name", text_json(mount->name), "position", vector_json(mount->position), "axis",
