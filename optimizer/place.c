@@ -1,6 +1,7 @@
 #include "attainable/attainable.h"
 #include "certificate/certificate.h"
 #include "forward_check.h"
+#include "remedies.h"
 #include "scoring/footprints.h"
 #include "search/find.h"
 #include "refine/least_squares.h"
@@ -243,6 +244,14 @@ static bool confirm(sp_placement *placement, sp_proposal *proposal, sp_error *er
     return false;
 }
 
+/* What would mend the proposal's shadows. */
+static bool find_remedies(sp_placement *placement, sp_proposal *proposal, sp_error *error)
+{
+    return sp_remedies_find(&placement->search, placement->fine, &placement->front.best, proposal->coverage,
+                            &placement->watch, proposal->remedies, &proposal->remedy_count, error) &&
+           sp_watch_stage(&placement->watch, "remedies", error);
+}
+
 /* Nothing is proved by the one evaluation of which the other was not asked first. */
 static bool check_forward(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
@@ -312,9 +321,9 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
                 sp_set_front(&placement.search, &placement.watch, &placement.front, error) &&
                 is_sound(&placement, error) && propose(&placement, proposal, error) &&
                 sp_watch_stage(&placement.watch, "refine", error) && confirm(&placement, proposal, error) &&
-                check_forward(&placement, proposal, error) && certify(&placement, proposal, error) &&
-                is_sound(&placement, error) && sp_watch_stage(&placement.watch, "certificate", error) &&
-                conclude(&placement, proposal, error);
+                find_remedies(&placement, proposal, error) && check_forward(&placement, proposal, error) &&
+                certify(&placement, proposal, error) && is_sound(&placement, error) &&
+                sp_watch_stage(&placement.watch, "certificate", error) && conclude(&placement, proposal, error);
     placement_free(&placement);
     if (done)
         return proposal;

@@ -144,6 +144,15 @@ typedef struct {
     bool agrees;       /* the difference is no more than that */
 } sp_forward_check;
 
+/* What one more nozzle could do for a shadow of the proposal, whatever the limits on number and water. */
+typedef struct {
+    sp_nozzle nozzle; /* the candidate that covers most of it beside the proposal; type NULL: none covers any */
+    bool in_port;     /* whose name it has */
+    double area;      /* m² of the shadow that it covers, by the scene's own settings; it may be 0 */
+    double flow;      /* m³/s */
+} sp_remedy;
+#define SP_REMEDIES 10
+
 typedef struct {
     char name[32];
     double seconds;
@@ -175,6 +184,9 @@ typedef struct {
     sp_front_point *front; /* best found for rising outlay, both strictly rising */
     size_t by_number_count;
     sp_front_point *by_number; /* best found for rising numbers of nozzles, whatever their outlay; bounds NAN */
+    /* Of its largest shadows, as sp_shadows lists them: as many as there was time for. */
+    size_t remedy_count;
+    sp_remedy remedies[SP_REMEDIES];
     sp_forward_check forward_check;
     sp_certificate certificate;
     size_t stage_count;

@@ -15,6 +15,16 @@ extern "C" {
  * that are not known SP_UNKNOWN, texts "". Texts are valid UTF-8. */
 #define SP_UNKNOWN SIZE_MAX
 
+/* What one more nozzle could do for a shadow, as sp_remedy. */
+typedef struct {
+    bool known;       /* false: it was not looked for, and nothing below means anything */
+    char *type;       /* owned; "" where no candidate covers any of it */
+    char *port;       /* owned; "" where it sits in none */
+    sp_vec3 position; /* m */
+    double area;      /* m² of the shadow */
+    double flow;      /* m³/s */
+} sp_remedy_figures;
+
 typedef struct {
     double area;      /* m² */
     sp_vec3 centroid; /* m */
@@ -23,6 +33,7 @@ typedef struct {
     sp_reason reason; /* where not, of most of what is not attainable of it; else unknown */
     sp_lack lack;     /* what liquid the layout brings there lacks; SP_LACK_NOTHING: not known */
     char *nozzle; /* owned; of the layout, that alone brings it most liquid; "" where none does or it is not known */
+    sp_remedy_figures remedy;
 } sp_shadow_figures;
 
 /* One part that is to be cleaned. */
@@ -121,6 +132,8 @@ typedef struct {
     const sp_mount *mounts;                /* [mount_count], that its nozzles may sit on; NULL for none */
     size_t mount_count;
     const double *costs;            /* [layout->count], m³/s; NULL: those of the mounts that its nozzles lie on */
+    size_t remedy_count;            /* of its shadows, the largest first */
+    const sp_remedy *remedies;      /* [remedy_count] */
     sp_water_cost water_cost;       /* none where a scene tells none */
     const sp_proposal *alternative; /* that it is, where a scene asks for alternatives; NULL elsewhere */
 } sp_design;

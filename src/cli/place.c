@@ -40,6 +40,8 @@ static size_t list_designs(const cli_scene *opened, const placement *found, sp_d
         }
         designs[count] = cli_design(opened, name, evaluator, proposal->layout, proposal->coverage);
         designs[count].costs = proposal->costs;
+        designs[count].remedies = proposal->remedies;
+        designs[count].remedy_count = proposal->remedy_count;
         designs[count++].alternative = alternatives ? proposal : NULL;
     }
     return count;

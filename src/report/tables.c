@@ -274,7 +274,34 @@ static void add_lack(sp_text *text, const sp_shadow_figures *shadow)
     sp_text_add(text, "</td>");
 }
 
-static void add_shadow(sp_text *text, size_t number, const sp_shadow_figures *shadow, double clean_area)
+static bool any_remedy(const sp_figures *figures)
+{
+    return figures->shadow_count && figures->shadows[0].remedy.known;
+}
+
+/* What one more nozzle would do, and where it would sit. */
+static void add_remedy(sp_text *text, const sp_shadow_figures *shadow)
+{
+    const sp_remedy_figures *remedy = &shadow->remedy;
+    sp_text_add(text, "<td class=\"text\">");
+    if (!remedy->known) {
+        sp_text_add(text, "\xe2\x80\x93</td>");
+        return;
+    }
+    if (!remedy->type[0] || !(remedy->area > 0)) {
+        sp_text_add(text, "none</td>");
+        return;
+    }
+    sp_markup_escape(text, remedy->type);
+    if (remedy->port[0]) {
+        sp_text_add(text, " in ");
+        sp_markup_escape(text, remedy->port);
+    }
+    sp_text_add(text, " at %.2f, %.2f, %.2f&nbsp;m: %.0f&nbsp;%% for %.3g&nbsp;L/min</td>", remedy->position.x,
+                remedy->position.y, remedy->position.z, 100 * remedy->area / shadow->area, 6e4 * remedy->flow);
+}
+
+static void add_shadow(sp_text *text, size_t number, const sp_shadow_figures *shadow, double clean_area, bool remedies)
 {
     const double values[] = {shadow->area * 1e4, 100 * shadow->area / clean_area, shadow->centroid.x,
                              shadow->centroid.y, shadow->centroid.z};
@@ -285,7 +312,10 @@ static void add_shadow(sp_text *text, size_t number, const sp_shadow_figures *sh
     add_numbers(text, values, decimals, 5);
     add_lack(text, shadow);
     const char *reason = shadow->reachable == 0 ? sp_reason_text(shadow->reason) : NULL;
-    sp_text_add(text, "<td class=\"text\">%s%s%s</td></tr>\n", reachable, reason ? ": " : "", reason ? reason : "");
+    sp_text_add(text, "<td class=\"text\">%s%s%s</td>", reachable, reason ? ": " : "", reason ? reason : "");
+    if (remedies)
+        add_remedy(text, shadow);
+    sp_text_add(text, "</tr>\n");
 }
 
 static void add_shadows(const sp_page *page, sp_text *text, size_t design)
@@ -304,24 +334,27 @@ static void add_shadows(const sp_page *page, sp_text *text, size_t design)
                 "scope=\"col\">cm\xc2\xb2</th><th scope=\"col\">%% of the surface</th><th scope=\"col\">x&nbsp;m</th>"
                 "<th scope=\"col\">y&nbsp;m</th><th scope=\"col\">z&nbsp;m</th><th scope=\"col\" class=\"text\">"
                 "Lacks</th><th scope=\"col\" class=\"text\">Most from</th><th scope=\"col\" class=\"text\">"
-                "Attainable</th></tr></thead>\n<tbody>\n",
-                shown);
+                "Attainable</th>%s</tr></thead>\n<tbody>\n",
+                shown, any_remedy(figures) ? "<th scope=\"col\" class=\"text\">One more nozzle</th>" : "");
     for (size_t i = 0; i < shown; ++i)
-        add_shadow(text, i + 1, &figures->shadows[i], figures->clean_area);
+        add_shadow(text, i + 1, &figures->shadows[i], figures->clean_area, any_remedy(figures));
     sp_text_add(text, "</tbody></table></div>\n");
 }
 
 void sp_page_shadows(const sp_page *page, sp_text *text)
 {
-    sp_text_add(text,
-                "<section id=\"shadows\"><h2>Spray shadows</h2>\n<p>Connected regions that do not meet the "
-                "criterion, with the middle of each, numbered as in the pictures. What most of a region lacks: a "
-                "nozzle of the layout in "
-                "reach (nothing arrives there), or what arrives is too slow, too slanted or too little. Most from: the "
-                "nozzle that by itself brings the region most liquid, and is nearest to mending it. A region that is "
-                "not attainable is out of reach of every "
-                "allowed nozzle: a matter of the vessel, not of the layout. All that result.json lists are in "
-                "that file.</p>\n");
+    sp_text_add(
+        text,
+        "<section id=\"shadows\"><h2>Spray shadows</h2>\n<p>Connected regions that do not meet the "
+        "criterion, with the middle of each, numbered as in the pictures. What most of a region lacks: a "
+        "nozzle of the layout in "
+        "reach (nothing arrives there), or what arrives is too slow, too slanted or too little. Most from: the "
+        "nozzle that by itself brings the region most liquid, and is nearest to mending it. A region that is "
+        "not attainable is out of reach of every "
+        "allowed nozzle: a matter of the vessel, not of the layout. One more nozzle: the candidate that, beside a "
+        "proposal's own, covers most of the region, how much of it and for how much water, whatever number and "
+        "water are allowed. All that result.json lists are in "
+        "that file.</p>\n");
     for (size_t i = 0; i < page->result->design_count; ++i)
         add_shadows(page, text, i);
     sp_text_add(text, "</section>\n");

@@ -133,6 +133,22 @@ static bool find_nearest(const sp_design *design, const sp_shadow *shadows, size
     return done;
 }
 
+/* Of shadow `i`; false where memory ran out. */
+static bool set_remedy(sp_remedy_figures *figures, const sp_design *design, size_t i)
+{
+    const sp_remedy *remedy = i < design->remedy_count ? &design->remedies[i] : NULL;
+    bool found = remedy && remedy->nozzle.type;
+    *figures = (sp_remedy_figures){.known = remedy,
+                                   .type = sp_text_utf8(found ? remedy->nozzle.type->name : ""),
+                                   .port = sp_text_utf8(found && remedy->in_port ? remedy->nozzle.name : "")};
+    if (found) {
+        figures->position = sp_setup_outside(sp_evaluator_setup(design->evaluator), remedy->nozzle.position);
+        figures->area = remedy->area;
+        figures->flow = remedy->flow;
+    }
+    return figures->type && figures->port;
+}
+
 static bool set_shadows(sp_figures *figures, const sp_design *design, const sp_shadow *shadows)
 {
     const sp_setup *setup = sp_evaluator_setup(design->evaluator);
@@ -151,7 +167,8 @@ static bool set_shadows(sp_figures *figures, const sp_design *design, const sp_s
             .reason = shadow->reason,
             .lack = shadow->lack,
             .nozzle = sp_text_utf8(nozzle)};
-        copied &= figures->shadows[i].part && figures->shadows[i].nozzle;
+        copied &= set_remedy(&figures->shadows[i].remedy, design, i) && figures->shadows[i].part &&
+                  figures->shadows[i].nozzle;
     }
     return copied;
 }

@@ -9,6 +9,8 @@ static void figures_clear(sp_figures *figures)
     for (size_t i = 0; i < figures->shadow_count; ++i) {
         free(figures->shadows[i].part);
         free(figures->shadows[i].nozzle);
+        free(figures->shadows[i].remedy.type);
+        free(figures->shadows[i].remedy.port);
     }
     for (size_t i = 0; i < figures->nozzle_count; ++i) {
         free(figures->nozzles[i].name);
@@ -119,6 +121,8 @@ bool sp_figures_copy(sp_figures *to, const sp_figures *from)
         to->shadows[i] = from->shadows[i];
         copied &= own(&to->shadows[i].part);
         copied &= own(&to->shadows[i].nozzle);
+        copied &= own(&to->shadows[i].remedy.type);
+        copied &= own(&to->shadows[i].remedy.port);
     }
     for (size_t i = 0; i < to->nozzle_count; ++i) {
         to->nozzles[i] = from->nozzles[i];

@@ -360,6 +360,20 @@ static bool read_lack(const reader *in, const json_t *entry, sp_lack *lack)
     return wrong(in, "lack", found, "no_nozzle_in_reach, too_slow, too_slanted or too_little_flux");
 }
 
+static bool read_remedy(const reader *in, const json_t *entry, sp_remedy_figures *remedy)
+{
+    const json_t *found;
+    reader inner = *in;
+    if (!get_part(in, entry, "remedy", JSON_OBJECT, false, &found))
+        return false;
+    remedy->known = found;
+    snprintf(inner.place + strlen(inner.place), sizeof inner.place - strlen(inner.place), "remedy.");
+    return get_text(&inner, found, "type", &remedy->type) && get_text(&inner, found, "port", &remedy->port) &&
+           get_vector(&inner, found, "position_m", &remedy->position) &&
+           get_real(&inner, found, "covers_m2", 0, LARGEST, 1, &remedy->area) &&
+           get_real(&inner, found, "water_l_min", 0, LARGEST, 1 / 6e4, &remedy->flow);
+}
+
 static bool read_shadow(const reader *in, const json_t *entry, sp_shadow_figures *shadow)
 {
     const json_t *reachable = json_object_get(entry, "reachable");
@@ -369,7 +383,8 @@ static bool read_shadow(const reader *in, const json_t *entry, sp_shadow_figures
     return read_reason(in, entry, &shadow->reason) && read_lack(in, entry, &shadow->lack) &&
            get_text(in, entry, "nozzle", &shadow->nozzle) &&
            get_real(in, entry, "area_m2", 0, LARGEST, 1, &shadow->area) &&
-           get_vector(in, entry, "centroid_m", &shadow->centroid) && get_text(in, entry, "part", &shadow->part);
+           get_vector(in, entry, "centroid_m", &shadow->centroid) && get_text(in, entry, "part", &shadow->part) &&
+           read_remedy(in, entry, &shadow->remedy);
 }
 
 /* A page will link it. */

@@ -188,6 +188,19 @@ static bool put_film(json_t *object, const sp_film_balance *balance)
     return put(object, "film", film) && done;
 }
 
+static bool put_remedy(json_t *shadow, const sp_remedy_figures *figures)
+{
+    if (!figures->known)
+        return true;
+    json_t *remedy = json_object();
+    bool done = put_real(remedy, "covers_m2", figures->area);
+    if (done && figures->type[0])
+        done =
+            put_text(remedy, "type", figures->type) && (!figures->port[0] || put_text(remedy, "port", figures->port)) &&
+            put_vector(remedy, "position_m", figures->position) && put_real(remedy, "water_l_min", 6e4 * figures->flow);
+    return put(shadow, "remedy", remedy) && done;
+}
+
 static bool put_shadow(json_t *shadows, const sp_shadow_figures *figures)
 {
     json_t *shadow = json_object();
@@ -197,7 +210,7 @@ static bool put_shadow(json_t *shadows, const sp_shadow_figures *figures)
                 (figures->reachable || !sp_reason_key(figures->reason) ||
                  put_text(shadow, "reason", sp_reason_key(figures->reason))) &&
                 (!sp_lack_key(figures->lack) || put_text(shadow, "lack", sp_lack_key(figures->lack))) &&
-                put_text(shadow, "nozzle", figures->nozzle);
+                put_text(shadow, "nozzle", figures->nozzle) && put_remedy(shadow, &figures->remedy);
     return json_array_append_new(shadows, shadow) == 0 && done;
 }
 

@@ -370,6 +370,36 @@ static double real_of(const json_t *object, const char *key)
     return json_number_value(json_object_get(object, key));
 }
 
+/* One that is looked for and helps, and one of which no candidate covers any. */
+static void remedies_are_told(void **state)
+{
+    const fixture *f = *state;
+    sp_error error = {0};
+    sp_remedy remedies[2] = {{.nozzle = f->layouts[2]->nozzles[0], .in_port = true, .area = 0.01, .flow = 2e-4}};
+    strcpy(remedies[0].nozzle.name, "P<1>");
+    sp_design design = f->designs[0];
+    design.remedies = remedies;
+    design.remedy_count = 2;
+    sp_result result = {.command = "place", .scene = "vessel.yaml", .design_count = 1, .designs = &design};
+    char *html = sp_report_html(&result, &error), *text = sp_result_json(&result, &error);
+    assert_true(html && text);
+    assert_non_null(strstr(html, "One more nozzle</th>"));
+    assert_non_null(strstr(html, " in P&lt;1&gt; at "));
+    assert_non_null(strstr(html, "&nbsp;% for 12&nbsp;L/min</td>"));
+    assert_non_null(strstr(html, "<td class=\"text\">none</td>"));
+    json_t *all = json_loads(text, JSON_REJECT_DUPLICATES, NULL),
+           *layout = json_array_get(json_object_get(all, "layouts"), 0);
+    const json_t *shadows = json_object_get(layout, "shadows");
+    const json_t *first = json_object_get(json_array_get(shadows, 0), "remedy");
+    EXPECT_KEYS(first, "type", "port", "position_m", "covers_m2", "water_l_min");
+    assert_true(fabs(real_of(first, "water_l_min") - 12) < 1e-9 && real_of(first, "covers_m2") == 0.01);
+    EXPECT_KEYS(json_object_get(json_array_get(shadows, 1), "remedy"), "covers_m2");
+    assert_null(json_object_get(json_array_get(shadows, 2), "remedy"));
+    json_decref(all);
+    free(text);
+    free(html);
+}
+
 /* What is out of reach is so for reasons that add up to it; unknown ones are not told. */
 static void reasons_add_up(void **state)
 {
@@ -639,6 +669,7 @@ int main(void)
         cmocka_unit_test(names_from_strangers_stay_text),
         cmocka_unit_test(result_json_has_the_keys_of_the_contract),
         cmocka_unit_test(reasons_add_up),
+        cmocka_unit_test(remedies_are_told),
         cmocka_unit_test(flux_is_told_as_it_is),
         cmocka_unit_test(figures_survive_the_file),
         cmocka_unit_test(what_is_out_of_reach_is_said_first),

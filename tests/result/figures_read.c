@@ -41,7 +41,10 @@ static void reads_what_design_says(void **state)
         "}, {\"name\": \"b\\u00e4d\\u0007\", \"water_l_min\": 30, \"coverage\": 0.9, \"covered_area_m2\": 4.5,"
         " \"error_estimate\": 0.01, \"borderline_m2\": 0.04,"
         " \"coverage_of_attainable\": 0.95, \"flux_l_min_m2\": {\"min\": 0, \"mean\": 6},"
-        " \"shadows\": [{\"area_m2\": 0.5, \"centroid_m\": [1, 2, 3], \"part\": \"lid\", \"reachable\": false}, {}],"
+        " \"shadows\": [{\"area_m2\": 0.5, \"centroid_m\": [1, 2, 3], \"part\": \"lid\", \"reachable\": false,"
+        " \"remedy\": {\"type\": \"cone\", \"port\": \"P1\", \"position_m\": [0, 1, 2], \"covers_m2\": 0.25, "
+        "\"water_l_min\": 12}},"
+        " {}],"
         " \"nozzles\": [{\"name\": \"N1\", \"type\": \"t\", \"order_code\": \"c\", \"url\": \"http://u\","
         " \"position_m\": [0, 0, 1.5], \"axis\": [0, 0, -1],"
         " \"roll_rad\": -0.5, \"pressure_pa\": 200000, \"flow_l_min\": 30}]}]}",
@@ -63,6 +66,11 @@ static void reads_what_design_says(void **state)
     assert_int_equal(figures[1].shadows[0].reachable, 0);
     assert_int_equal(figures[1].shadows[1].reachable, -1);
     assert_true(figures[1].shadows[0].centroid.z == 3);
+    const sp_remedy_figures *remedy = &figures[1].shadows[0].remedy;
+    assert_true(remedy->known && !figures[1].shadows[1].remedy.known);
+    assert_string_equal(remedy->type, "cone");
+    assert_string_equal(remedy->port, "P1");
+    assert_true(remedy->position.y == 1 && remedy->area == 0.25 && fabs(remedy->flow - 2e-4) < 1e-18);
     assert_string_equal(figures[1].nozzles[0].type, "t");
     assert_string_equal(figures[1].nozzles[0].order_code, "c");
     assert_string_equal(figures[1].nozzles[0].url, "http://u");
@@ -114,6 +122,8 @@ static void rejects_bad_input(void **state)
     rejects(HEAD "[{" LAYOUT ", \"shadows\": [{}, 4]}]}", "layouts[0].shadows[1]: found 4");
     rejects(HEAD "[{" LAYOUT ", \"shadows\": [{\"centroid_m\": [1, 2]}]}]}", "shadows[0].centroid_m");
     rejects(HEAD "[{" LAYOUT ", \"shadows\": [{\"reachable\": 1}]}]}", "shadows[0].reachable");
+    rejects(HEAD "[{" LAYOUT ", \"shadows\": [{\"remedy\": 1}]}]}", "shadows[0].remedy");
+    rejects(HEAD "[{" LAYOUT ", \"shadows\": [{\"remedy\": {\"covers_m2\": -1}}]}]}", "shadows[0].remedy.covers_m2");
     rejects(HEAD "[{" LAYOUT ", \"flux_l_min_m2\": {\"p05\": -2}}]}", "flux_l_min_m2.p05");
     rejects(HEAD "[{" LAYOUT ", \"geometry\": {\"triangles\": 0.5}}]}", "layouts[0].geometry.triangles");
     rejects(HEAD "[{\"name\": \"a\", \"water_l_min\": 1, \"coverage\": 1, \"error_estimate\": 2, \"nozzles\": []}]}",

@@ -1,0 +1,192 @@
+#include "remedies.h"
+
+#include "attainable/coarse_patch.h"
+
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A site's best pose for the shadow in hand. */
+typedef struct {
+    sp_pose pose;
+    double gain; /* m²; 0: none */
+} site_best;
+
+typedef struct {
+    const sp_search *search;
+    const sp_evaluator *fine;
+    sp_watch *watch;
+    const sp_coverage *coverage;
+    uint32_t *number;         /* [fine patches], of the shadow that each lies in, from 1 */
+    uint32_t *coarse_of;      /* [fine patches], the search's patch of those that lie in a shadow */
+    sp_place_options options; /* without limits */
+    sp_search masked;         /* to which nothing but the shadow in hand is worth anything */
+    site_best *best;          /* [sites] */
+    int threads;
+    sp_sweeper *sweepers; /* [threads] */
+} remedying;
+
+static void remedying_free(remedying *r)
+{
+    free(r->number);
+    free(r->coarse_of);
+    free(r->masked.area);
+    free(r->best);
+    sp_sweepers_destroy(r->sweepers, r->threads);
+}
+
+static bool remedying_create(remedying *r, const sp_shadow *shadows, size_t count, sp_error *error)
+{
+    size_t patches = sp_evaluator_patches(r->fine)->count;
+    r->options = *r->search->options;
+    r->options.max_nozzles = 0;
+    r->masked = *r->search;
+    r->masked.options = &r->options;
+    r->masked.credit = 0;
+    r->masked.area = malloc((r->search->patch_count + 1) * sizeof *r->masked.area);
+    r->number = malloc((patches + 1) * sizeof *r->number);
+    r->coarse_of = malloc((patches + 1) * sizeof *r->coarse_of);
+    r->best = malloc((r->search->sites->count + 1) * sizeof *r->best);
+    if (!r->masked.area || !r->number || !r->coarse_of || !r->best)
+        return sp_fail_memory(error);
+    if (!sp_shadow_numbers(r->fine, r->coverage, shadows, count, r->number, error))
+        return false;
+    for (size_t p = 0; p < patches; p++)
+        r->coarse_of[p] = r->number[p] ? sp_coarse_patch(r->fine, r->search->coarse, p) : SP_NONE;
+    r->threads = sp_sweeper_threads(&r->masked);
+    r->sweepers = sp_sweepers_create(&r->masked, r->threads, error);
+    return r->sweepers != NULL;
+}
+
+/* Leaves the shadow alone worth something. What the search's patches, which may be coarser, see as covered of it is dry
+ * to begin with. */
+static void mask(remedying *r, uint32_t shadow, sp_draft *draft)
+{
+    const sp_patches *patches = sp_evaluator_patches(r->fine);
+    const sp_deposits *deposits = &r->coverage->deposits;
+    memset(r->masked.area, 0, r->search->patch_count * sizeof *r->masked.area);
+    for (size_t p = 0; p < patches->count; p++) {
+        uint32_t coarse = r->coarse_of[p];
+        if (r->number[p] != shadow || coarse == SP_NONE)
+            continue;
+        r->masked.area[coarse] += (float)((1 - deposits->share[p]) * patches->area[p] / r->search->all);
+        if (draft->wet[coarse] < SP_ENOUGH)
+            continue;
+        draft->hit[coarse] = draft->wet[coarse] = 0;
+        if (draft->film)
+            draft->film[coarse] = 0;
+        draft->dry[coarse] = 1;
+    }
+}
+
+/* The first of the equally good. */
+static void scan_make(const remedying *r, sp_sweeper *sweeper, uint32_t make, site_best *best)
+{
+    const sp_candidates *candidates = r->search->candidates;
+    uint32_t mount = r->search->sites->items[sweeper->site].mount;
+    size_t axes = sp_candidates_axes(candidates, mount, make)->count;
+    double tie = SP_SCORE_TIE * r->search->all;
+    sp_sweeper_take(sweeper, make);
+    for (uint32_t a = 0; a < axes; a++)
+        for (uint32_t roll = 0; roll < candidates->makes[make].roll_count; roll++) {
+            double gain = sp_sweeper_score(sweeper, a, roll, best->gain + tie).gain;
+            if (gain > best->gain + tie)
+                *best = (site_best){{sweeper->site, make, a, roll}, gain};
+        }
+}
+
+static void scan_site(remedying *r, const sp_draft *draft, uint32_t site)
+{
+    const sp_candidates *candidates = r->search->candidates;
+    sp_sweeper *sweeper = &r->sweepers[omp_get_thread_num()];
+    r->best[site] = (site_best){.gain = 0};
+    if (!sp_draft_has_place(&r->masked, draft, r->search->sites->items[site].mount))
+        return;
+    for (size_t s = 0; s < candidates->launch_count; s++) {
+        sp_sweeper_look(sweeper, &r->masked, draft, site, s);
+        for (uint32_t k = 0; k < candidates->make_count; k++)
+            if (candidates->makes[k].launch == s && sp_search_knows(&r->masked, site, k))
+                scan_make(r, sweeper, k, &r->best[site]);
+    }
+}
+
+/* The best of all candidates, the first of equals; gain 0 where none brings anything. */
+static site_best scan(remedying *r, const sp_draft *draft)
+{
+    size_t sites = r->search->sites->count;
+    site_best best = {.gain = 0};
+#pragma omp parallel for num_threads(r->threads) schedule(dynamic, 1)
+    for (size_t i = 0; i < sites; i++)
+        scan_site(r, draft, (uint32_t)i);
+    sp_sweepers_forget(r->sweepers, r->threads);
+    for (size_t i = 0; i < sites; i++)
+        if (r->best[i].gain > best.gain + SP_SCORE_TIE * r->search->all)
+            best = r->best[i];
+    return best;
+}
+
+/* m² that a layout covers of the shadow and the proposal does not. */
+static double newly_covered(const remedying *r, uint32_t shadow, const sp_coverage *coverage)
+{
+    const sp_patches *patches = sp_evaluator_patches(r->fine);
+    double area = 0;
+    for (size_t p = 0; p < patches->count; p++)
+        if (r->number[p] == shadow)
+            area += patches->area[p] * (coverage->deposits.share[p] - r->coverage->deposits.share[p]);
+    return fmax(0, area);
+}
+
+/* The layout with that nozzle, by the scene's own count. */
+static bool measure(const remedying *r, const sp_draft *draft, sp_pose pose, uint32_t shadow, sp_remedy *remedy,
+                    sp_error *error)
+{
+    sp_draft more;
+    if (!sp_draft_copy(r->search, draft, &more, error))
+        return false;
+    sp_layout *layout =
+        sp_draft_add_pose(r->search, &more, pose, error) ? sp_draft_layout(r->search, &more, error) : NULL;
+    sp_coverage *coverage = layout ? sp_evaluate(r->fine, layout, error) : NULL;
+    const sp_mount *mount = &r->search->options->mounts[r->search->sites->items[pose.site].mount];
+    bool done = coverage != NULL;
+    if (done)
+        *remedy = (sp_remedy){.nozzle = layout->nozzles[layout->count - 1],
+                              .in_port = mount->kind == SP_MOUNT_PORT,
+                              .area = newly_covered(r, shadow, coverage),
+                              .flow = coverage->flow - r->coverage->flow};
+    sp_coverage_destroy(coverage);
+    sp_layout_destroy(layout);
+    sp_draft_free(&more);
+    return done;
+}
+
+static bool find_one(remedying *r, const sp_draft *draft, uint32_t shadow, sp_remedy *remedy, sp_error *error)
+{
+    sp_draft dry;
+    *remedy = (sp_remedy){.area = 0};
+    if (!sp_draft_copy(r->search, draft, &dry, error))
+        return false;
+    mask(r, shadow, &dry);
+    site_best best = scan(r, &dry);
+    sp_draft_free(&dry);
+    return !(best.gain > 0) || measure(r, draft, best.pose, shadow, remedy, error);
+}
+
+bool sp_remedies_find(const sp_search *search, const sp_evaluator *fine, const sp_draft *draft,
+                      const sp_coverage *coverage, sp_watch *watch, sp_remedy *remedies, size_t *count, sp_error *error)
+{
+    remedying r = {.search = search, .fine = fine, .watch = watch, .coverage = coverage};
+    sp_shadow *shadows = NULL;
+    size_t found = 0;
+    *count = 0;
+    if (!sp_shadows(fine, coverage, NULL, &shadows, &found, error))
+        return false;
+    found = found < SP_REMEDIES ? found : SP_REMEDIES;
+    bool done = remedying_create(&r, shadows, found, error);
+    while (done && *count < found && sp_watch_has_time(watch, "remedies", (double)*count / (double)found)) {
+        done = find_one(&r, draft, (uint32_t)*count + 1, &remedies[*count], error);
+        *count += done;
+    }
+    remedying_free(&r);
+    free(shadows);
+    return done;
+}
