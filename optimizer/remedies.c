@@ -15,7 +15,6 @@ typedef struct {
 typedef struct {
     const sp_search *search;
     const sp_evaluator *fine;
-    sp_watch *watch;
     const sp_coverage *coverage;
     uint32_t *number;         /* [fine patches], of the shadow that each lies in, from 1 */
     uint32_t *coarse_of;      /* [fine patches], the search's patch of those that lie in a shadow */
@@ -174,7 +173,7 @@ static bool find_one(remedying *r, const sp_draft *draft, uint32_t shadow, sp_re
 bool sp_remedies_find(const sp_search *search, const sp_evaluator *fine, const sp_draft *draft,
                       const sp_coverage *coverage, sp_watch *watch, sp_remedy *remedies, size_t *count, sp_error *error)
 {
-    remedying r = {.search = search, .fine = fine, .watch = watch, .coverage = coverage};
+    remedying r = {.search = search, .fine = fine, .coverage = coverage};
     sp_shadow *shadows = NULL;
     size_t found = 0;
     *count = 0;
