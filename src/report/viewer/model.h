@@ -1,4 +1,4 @@
-/* What the viewer shows, as JSON and packed arrays: viewer.js reads it. */
+/* What the viewer shows, as JSON and packed arrays: data.js reads it. */
 #ifndef REPORT_VIEWER_MODEL_H
 #define REPORT_VIEWER_MODEL_H
 

@@ -8,20 +8,28 @@
 #define SECTION ".section .rodata"
 #define SYMBOL(name) name
 #endif
-#define EMBED(name, file)                                                                                              \
-    __asm__(SECTION "\n.globl " SYMBOL(name) "\n" SYMBOL(name) ":\n.incbin \"" file "\"\n.globl " SYMBOL(              \
+/* `files`: one after the other. */
+#define EMBED(name, files)                                                                                             \
+    __asm__(SECTION "\n.globl " SYMBOL(name) "\n" SYMBOL(name) ":\n" files "\n.globl " SYMBOL(                         \
         name "_end") "\n" SYMBOL(name "_end") ":\n.byte 0\n.text\n")
+#define FILE(path) ".incbin \"" path "\"\n"
+#define VIEWER(file) FILE(SPRAYPLAN_VIEWER "/" file)
+#define LIVE(file) FILE(SPRAYPLAN_VIEWER "/live/" file)
 
-EMBED("sp_viewer_script", SPRAYPLAN_VIEWER "/viewer.js");
-EMBED("sp_surface_script", SPRAYPLAN_VIEWER "/surface.js");
-EMBED("sp_geometry_script", SPRAYPLAN_VIEWER "/geometry.js");
-EMBED("sp_live_script", SPRAYPLAN_VIEWER "/live.js");
-EMBED("sp_live_worker", SPRAYPLAN_VIEWER "/worker.js");
+/* The last of each puts together what is in those before it. */
+EMBED("sp_viewer_script",
+      VIEWER("geometry.js") VIEWER("surface.js") VIEWER("data.js") VIEWER("widgets.js") VIEWER("scales.js")
+          VIEWER("colours.js") VIEWER("camera.js") VIEWER("shaders.js") VIEWER("upload.js") VIEWER("drawing.js")
+              VIEWER("pick.js") VIEWER("labels.js") VIEWER("choosing.js") VIEWER("bar.js") VIEWER("controls.js")
+                  VIEWER("pointer.js") VIEWER("keyboard.js") VIEWER("viewer.js"));
+EMBED("sp_live_script", LIVE("evaluator.js") LIVE("layout.js") LIVE("telling.js") LIVE("evaluating.js") LIVE("scene.js")
+                            LIVE("changes.js") LIVE("sliders.js") LIVE("controls.js") LIVE("live.js"));
+EMBED("sp_live_worker", LIVE("worker.js"));
 #ifdef SPRAYPLAN_LIVE
-EMBED("sp_live_module", SPRAYPLAN_LIVE);
+EMBED("sp_live_module", FILE(SPRAYPLAN_LIVE));
 const bool sp_live_is_built = true;
 #else
 const char sp_live_module[] = "", sp_live_module_end[] = "";
 const bool sp_live_is_built = false;
 #endif
-EMBED("sp_viewer_style", SPRAYPLAN_VIEWER "/viewer.css");
+EMBED("sp_viewer_style", VIEWER("viewer.css"));

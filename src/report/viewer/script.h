@@ -10,8 +10,6 @@
 void sp_page_script(sp_text *text, const char *script, const char *end);
 
 extern const char sp_viewer_script[], sp_viewer_script_end[];
-extern const char sp_geometry_script[], sp_geometry_script_end[]; /* of places and directions */
-extern const char sp_surface_script[], sp_surface_script_end[];   /* what the viewer reads surfaces with */
 extern const char sp_live_script[], sp_live_script_end[];
 extern const char sp_live_worker[], sp_live_worker_end[];
 extern const bool sp_live_is_built; /* else the module is empty */

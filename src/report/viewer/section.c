@@ -60,8 +60,6 @@ void sp_page_script(sp_text *text, const char *script, const char *end)
 void sp_page_viewer_script(const sp_page *page, sp_text *text)
 {
     sp_text_add(text, "<script>\n");
-    sp_page_script(text, sp_geometry_script, sp_geometry_script_end);
-    sp_page_script(text, sp_surface_script, sp_surface_script_end);
     sp_page_script(text, sp_viewer_script, sp_viewer_script_end);
     if (page->live)
         sp_page_script(text, sp_live_script, sp_live_script_end);

@@ -1,0 +1,75 @@
+/* The data that model.c and design.c write into the page. */
+async function readData() {
+    "use strict";
+    const about = JSON.parse(document.getElementById("viewer-model").textContent);
+
+    /* Two letters of 91 are 13 bits, the least first; what they hold is deflated. */
+    const letters = "!#$%&'()*+,-./0123456789:;=>?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[]^_`abcdefghijklmnopqrstuvwxyz{|}~";
+    const digits = new Uint8Array(128);
+    [...letters].forEach((letter, value) => (digits[letter.charCodeAt(0)] = value));
+    async function inflated(text) {
+        const from = text.indexOf(" ") + 1, bytes = new Uint8Array(Number(text.slice(0, from)));
+        for (let i = from, held = 0, bits = 0, at = 0; i < text.length; i += 2) {
+            held |= (digits[text.charCodeAt(i)] + 91 * digits[text.charCodeAt(i + 1)]) << bits;
+            for (bits += 13; bits >= 8; bits -= 8, held >>>= 8)
+                bytes[at++] = held;
+        }
+        const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+        return new Response(stream).arrayBuffer();
+    }
+
+    /* For each layer a picture of the pages, a patch's number + 1 in every pixel that it has, 0 elsewhere. */
+    function readPages(model, take) {
+        const rows = take(Uint32Array, model.runs, true);
+        const starts = take(Uint16Array, model.runs, false);
+        const counts = take(Uint16Array, model.runs, false);
+        return Array.from({length: model.layers}, () => {
+            const patches = take(Uint32Array, model.pixels, true);
+            const page = new Uint32Array(model.pages * model.edge * model.edge);
+            for (let run = 0, pixel = 0; run < model.runs; run++)
+                for (let k = 0; k < counts[run]; k++)
+                    page[rows[run] * model.edge + starts[run] + k] = patches[pixel++];
+            return page;
+        });
+    }
+
+    /* Of each patch the one above it on its page, or else left of it, -1 for none: design.c. */
+    function patchesBeside(model) {
+        const beside = new Int32Array(model.patches).fill(-1), {edge} = model;
+        for (const page of model.page)
+            for (let i = 0; i < page.length; i++)
+                if (page[i]) {
+                    const above = Math.floor(i / edge) % edge && page[i - edge], left = i % edge && page[i - 1];
+                    beside[page[i] - 1] = (above || left || 0) - 1;
+                }
+        return beside;
+    }
+
+    function readDesign(design, model, take) {
+        const bytes = () => {
+            const values = take(Uint8Array, model.patches, false);
+            for (let i = 0; i < values.length; i++)
+                values[i] += model.beside[i] < 0 ? 0 : values[model.beside[i]];
+            return values;
+        };
+        design.values = Object.fromEntries(about.quantities.map((quantity) => [quantity.key, bytes()]));
+        design.share = bytes();
+        design.film = bytes();
+        design.shadowOf = bytes();
+        design.nozzles.forEach((nozzle) => (nozzle.flux = nozzle.known ? bytes() : null));
+        design.model = model;
+    }
+
+    async function readModel(model) {
+        const take = surfaces.reader(await inflated(model.data));
+        delete model.data;
+        surfaces.read(model, take);
+        model.page = readPages(model, take);
+        model.beside = patchesBeside(model);
+        model.designs.forEach((design) => readDesign(design, model, take));
+    }
+
+    await Promise.all(about.models.map(readModel));
+    const designs = about.models.flatMap((model) => model.designs).sort((a, b) => a.index - b.index);
+    return {about, designs, inflated};
+}

@@ -1,0 +1,39 @@
+/* The worker that evaluates layouts (worker.js). */
+function makeEvaluator(live) {
+    "use strict";
+    const {view, editing, model} = live, {types} = editing;
+
+    async function startWorker() {
+        const script = new Blob([document.getElementById("live-worker").textContent], {type: "text/javascript"});
+        const address = URL.createObjectURL(script), worker = new Worker(address), waiting = new Map();
+        let number = 0;
+        worker.addEventListener("message", ({data: {id, answer, error}}) => {
+            const {done, failed} = waiting.get(id);
+            waiting.delete(id);
+            error === undefined ? done(answer) : failed(new Error(error));
+        });
+        worker.addEventListener("error", (event) => {
+            event.preventDefault();
+            waiting.forEach(({failed}) => failed(new Error(event.message || "no worker")));
+            waiting.clear();
+        });
+        return (act, more) => new Promise((done, failed) => {
+            waiting.set(++number, {done, failed});
+            worker.postMessage({id: number, act, ...more});
+        });
+    }
+
+    async function open() {
+        const ask = await startWorker(), {surface} = model;
+        const zero = String.fromCharCode(0);
+        const arrays = {...surface, settings: Float64Array.from(editing.settings),
+            clean: Uint8Array.from(editing.parts, (part) => part.clean),
+            names: new TextEncoder().encode(editing.parts.map((part) => part.name + zero).join("")),
+            types: Float64Array.from(types.flatMap((type) => type.numbers)),
+            members: Float64Array.from(editing.members.flat())};
+        const module = await view.inflated(document.getElementById("live-module").textContent);
+        await ask("open", {module, arrays, shown: view.about.quantities});
+        live.ask = ask;
+    }
+    return {open};
+}

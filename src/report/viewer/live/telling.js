@@ -1,0 +1,46 @@
+/* What a layout comes to, in words and as a table. */
+function makeTelling(live) {
+    "use strict";
+    const {editing, figures, answer, mountOf, LITRES} = live, {mounts} = editing, {element} = widgets;
+
+    const short = (value, digits = 4) => String(Number(value.toPrecision(digits)));
+    const percent = (share) => `${(100 * share).toFixed(2)} %`;
+    const litres = (flow) => `${(LITRES * flow).toFixed(1)} L/min`;
+
+    function tellFigures() {
+        const [area] = [live.start, live.last].filter((one) => one && one.coverage > 0)
+            .map((one) => one.covered / one.coverage);
+        const row = (name, of) => element("tr", {}, element("th", {scope: "row"}, name),
+            ...[live.start, live.last].map((one) => element("td", {}, one ? of(one) : "")));
+        figures.replaceChildren(element("table", {class: "numbers narrow"},
+            element("thead", {}, element("tr", {}, ...["", live.start.name, "Yours"].map((name) =>
+                element("th", {scope: "col"}, name)))),
+            element("tbody", {}, row("Coverage", (one) => percent(one.coverage)),
+                row("Water", (one) => litres(one.flow)), row("Area per water, m² per L/min", (one) =>
+                    (one.flow > 0 ? short(one.covered / one.flow / LITRES) : "none")),
+                row("Not covered, m²", (one) => (area ? short(area - one.covered, 3) : "all")))));
+    }
+
+    function tell(stride, finished) {
+        const texel = 1e3 * editing.settings[8];
+        const how = stride > 1
+            ? ` counted on one texel of ${stride * stride} (every ${short(stride * texel, 3)} mm); ` +
+                "the figure on all of them follows" : ` on texels of ${short(texel, 3)} mm`;
+        const words = [`Coverage ${percent(live.last.coverage)} with ${litres(live.last.flow)},${how}.`];
+        if (finished) {
+            const [largest] = finished.shadows;
+            if (largest)
+                words.push(`Largest region that is not covered: ${short(largest.area, 3)} m² on ` +
+                    `${editing.parts[largest.part].name}, ${editing.lacks[largest.lack]}.`);
+            finished.stands.forEach((wrong, i) => wrong && live.nozzles[i].on &&
+                words.push(`This layout cannot be built: ${wrong.replace("nozzles: ", live.nozzles[i].name)}.`));
+        }
+        const ports = live.nozzles.filter((nozzle) => nozzle.on && mountOf(nozzle).kind === "port")
+            .map((nozzle) => nozzle.mount);
+        const twice = ports.find((port, i) => ports.indexOf(port) < i);
+        if (twice !== undefined)
+            words.push(`Port ${mounts[twice].name} holds two nozzles.`);
+        answer.replaceChildren(...words.map((line) => element("p", {}, line)));
+    }
+    return {percent, litres, tellFigures, tell};
+}
