@@ -1,6 +1,7 @@
 /* The forward evaluator: jets are traced from the nozzles through their reflections, and leave their liquid on the
  * patches that they hit (study 3.2.3 and 3.3.1). */
 #include "bodies.h"
+#include "bounce.h"
 #include "emitter.h"
 #include "launch.h"
 #include "lit.h"
@@ -11,9 +12,6 @@
 #include <stdlib.h>
 
 #define BATCH 65536 /* jets in flight at once */
-/* Of the geometry's farthest coordinate. What comes no higher over a wall stays there: what hops ever lower, or is
- * caught in an edge, would go on for ever and get nowhere. */
-#define LOWEST_HOP 0x1p-30
 
 /* What one jet does where it hits. */
 typedef struct {
@@ -49,42 +47,18 @@ typedef struct {
     double per_jet; /* m³/s that a jet carries; 0: each pattern has jets of its own number */
 } jet_flight;
 
-/* What flies on starts a little before the wall, on the way that has been free so far: the impact itself may be rounded
- * to beyond the wall. `across`: the speed at which the flight arrives, across the wall. */
-static sp_vec3 before_the_wall(const jet_flight *flight, const sp_landing *landing, double across)
-{
-    double back = sp_stand_off(flight->evaluator) / fabs(across);
-    const sp_ray *ray = &landing->piece.ray;
-    return sp_ray_point(ray, landing->piece.pull, fmax(ray->t_min, landing->hit.t - back));
-}
-
-/* Where jet i has come to, which hit something; without drag its flight is all one piece. */
+/* Where jet i has come to, which hit something. */
 static sp_landing landing_of(const jet_flight *flight, size_t i)
 {
-    const sp_ray *ray = &flight->rays[i];
-    const sp_hit *hit = &flight->hits[i];
-    if (flight->drops)
-        return flight->landings[i];
-    return (sp_landing){.hit = *hit,
-                        .piece = {.ray = *ray, .pull = flight->gravity, .last = true},
-                        .velocity = sp_ray_velocity(ray, flight->gravity, hit->t),
-                        .time = hit->t};
+    return flight->drops ? flight->landings[i] : sp_landing_of(&flight->rays[i], &flight->hits[i], flight->gravity);
 }
 
-/* How high over the wall a flight of duration t comes (m) that meets it at the speed `across` it. */
-static double height_over(sp_vec3 gravity, sp_vec3 normal, double t, double across)
-{
-    double pull = sp_dot(gravity, normal) * copysign(1, across), speed = fabs(across);
-    return speed < pull * t ? 0.5 * speed * speed / pull : (speed - 0.5 * pull * t) * t;
-}
-
-/* Turns a hit into an impact, and the ray and its flow into what flies on: v' = v_t - e v_n (DESIGN §2). */
+/* Turns a hit into an impact, and the ray and its flow into what flies on. */
 static void strike(jet_flight *flight, size_t i)
 {
     const sp_evaluator *evaluator = flight->evaluator;
     const sp_mesh *mesh = evaluator->setup.mesh;
     const sp_criterion *criterion = &evaluator->setup.criterion;
-    sp_ray *ray = &flight->rays[i];
     sp_hit *hit = &flight->hits[i];
     jet_impact *impact = &flight->impacts[i];
     impact->shares.count = 0;
@@ -107,14 +81,7 @@ static void strike(jet_flight *flight, size_t i)
         impact->shares = (sp_shares){.patch = {patch}, .share = {1}, .count = 1};
     impact->cell = sp_lit_cell(evaluator, hit->triangle, hit->u, hit->v);
 
-    const sp_surface *surface = &evaluator->setup.surfaces[mesh->part[hit->triangle]];
-    double height = height_over(flight->gravity, normal, landing.time, along_normal);
-    ray->origin = before_the_wall(flight, &landing, along_normal);
-    ray->velocity = sp_along(velocity, -(1 + surface->restitution) * along_normal, normal);
-    ray->t_min = 0;
-    flight->flow[i] *= surface->rebound;
-    impact->goes_on = surface->restitution > 0 && flight->flow[i] > 0 && sp_length(ray->velocity) > 0 &&
-                      height >= LOWEST_HOP * evaluator->farthest;
+    impact->goes_on = sp_bounce(evaluator, &landing, flight->gravity, &flight->rays[i], &flight->flow[i]);
 }
 
 /* Adds the impacts up. Each thread sees all of them but owns a range of the patches, so that every patch adds up in the

@@ -1,0 +1,14 @@
+/* What becomes of a jet at the wall that it meets. */
+#ifndef SPRAY_BOUNCE_H
+#define SPRAY_BOUNCE_H
+
+#include "drag/chain.h"
+#include "state.h"
+
+/* Where a ray without drag, whose flight is all one piece, has come to: its hit, of something. `pull`: m/s². */
+sp_landing sp_landing_of(const sp_ray *ray, const sp_hit *hit, sp_vec3 pull);
+/* Turns the ray and its flow (m³/s) into what flies on from where it has landed: v' = v_t - e v_n (DESIGN §2). False
+ * where it stays on the wall. */
+bool sp_bounce(const sp_evaluator *evaluator, const sp_landing *landing, sp_vec3 pull, sp_ray *ray, double *flow);
+
+#endif
