@@ -171,6 +171,8 @@ const void *sp_live_tell(sp_live *live, sp_live_result what)
         return live->shadow_list;
     case SP_LIVE_SHADOW_OF:
         return live->shadow_of;
+    case SP_LIVE_BOXES:
+        return live->boxes;
     }
     return NULL;
 }

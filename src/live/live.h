@@ -67,6 +67,7 @@ typedef enum {
     SP_LIVE_PATCH_SHARE,     /* double [patches] */
     SP_LIVE_SHADOW_LIST,     /* double [shadows][SP_LIVE_SHADOW_NUMBERS]: area, place, part, lack */
     SP_LIVE_SHADOW_OF,       /* uint32_t [patches], as sp_shadow_numbers */
+    SP_LIVE_BOXES,           /* double [sp_live_boxes][6], as sp_tracer_leaves */
 } sp_live_result;
 #define SP_LIVE_SHADOW_NUMBERS 6
 #define SP_LIVE_SHADOWS 10 /* the largest are told */
@@ -102,6 +103,8 @@ bool SP_LIVE(sp_live_admits)(sp_live *live, size_t index);
 /* The point of a part's surface (SP_NONE: of any) nearest to one: its place and its normal towards the liquid, double
  * [6], the handle's. NULL where the part has no triangle. */
 const double *SP_LIVE(sp_live_foot)(sp_live *live, uint32_t part, double x, double y, double z);
+/* Finds the boxes of the accelerator's leaves; how many there are, 0 where memory runs out. */
+size_t SP_LIVE(sp_live_boxes)(sp_live *live);
 const void *SP_LIVE(sp_live_tell)(sp_live *live, sp_live_result what);
 /* What nozzle `index` brings by itself to each patch, m/s. NULL while it is off or new. */
 const double *SP_LIVE(sp_live_alone)(sp_live *live, size_t index);

@@ -4,6 +4,7 @@
 #include "mesh/distance.h"
 #include "spray/restore.h"
 #include "spray/wet/told.h"
+#include "trace/visit.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -24,6 +25,7 @@ void sp_live_destroy(sp_live *live)
     free(live->nozzles);
     sp_coverage_destroy(live->coverage);
     free(live->shadow_of);
+    free(live->boxes);
     sp_live_free_sample(&live->sample);
     sp_evaluator_destroy(live->evaluator);
     sp_live_free_types(live);
@@ -170,6 +172,18 @@ bool sp_live_open(sp_live *live)
     sp_setup setup = make_setup(live, settings);
     live->evaluator = sp_evaluator_restore(&setup, atlas, wet, &live->error);
     return live->evaluator != NULL;
+}
+
+size_t sp_live_boxes(sp_live *live)
+{
+    const sp_tracer *tracer = sp_evaluator_tracer(live->evaluator);
+    size_t count = sp_tracer_leaves(tracer, NULL);
+    free(live->boxes);
+    live->boxes = malloc((count + 1) * sizeof *live->boxes);
+    if (!live->boxes)
+        return 0;
+    sp_tracer_leaves(tracer, live->boxes);
+    return count;
 }
 
 const double *sp_live_foot(sp_live *live, uint32_t part, double x, double y, double z)

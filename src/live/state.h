@@ -40,6 +40,7 @@ struct sp_live {
     double figures[SP_LIVE_FIGURE_COUNT];
     double shadow_list[SP_LIVE_SHADOWS][SP_LIVE_SHADOW_NUMBERS];
     uint32_t *shadow_of; /* [patches] */
+    double (*boxes)[6];  /* of the accelerator's leaves; NULL: nobody asked */
     double foot[6];
     sp_error error;
     char text[1400];

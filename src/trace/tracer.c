@@ -98,6 +98,15 @@ bool sp_tracer_visit(const sp_tracer *tracer, sp_box_test *test, sp_triangle_vis
     return true;
 }
 
+size_t sp_tracer_leaves(const sp_tracer *tracer, double (*boxes)[6])
+{
+    if (tracer->accelerator != SP_ACCELERATOR_BVH)
+        return 0;
+    if (boxes)
+        sp_bvh_leaves(&tracer->bvh, boxes);
+    return tracer->bvh.block_count;
+}
+
 void sp_tracer_use(sp_tracer *tracer, sp_instructions instructions)
 {
     tracer->instructions = instructions;

@@ -12,4 +12,9 @@ typedef bool sp_triangle_visitor(const void *region, uint32_t triangle);
 /* Calls `visit` with every triangle that lies in the region in part, and with others. False where it was ended. */
 bool sp_tracer_visit(const sp_tracer *tracer, sp_box_test *test, sp_triangle_visitor *visit, const void *region);
 
+/* The boxes of the hierarchy's leaves, low x, y, z and high x, y, z in m, as they are looked into: wider by rounding
+ * than what they hold. boxes: [count], the caller's, NULL to be told the count alone, which is 0 of other accelerators.
+ */
+size_t sp_tracer_leaves(const sp_tracer *tracer, double (*boxes)[6]);
+
 #endif

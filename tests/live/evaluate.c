@@ -9,6 +9,7 @@
 #include "live/live.h"
 #include "live/numbers.h"
 #include "spray/restore.h"
+#include "trace/visit.h"
 
 #include <sprayplan/sprayplan.h>
 
@@ -310,6 +311,21 @@ static void a_foot_lies_on_its_part(void **state)
 }
 
 /* What is told wrongly is no evaluator, and no crash. */
+static void boxes_are_those_of_the_tree(void **state)
+{
+    (void)state;
+    const sp_tracer *tracer = sp_evaluator_tracer(evaluator);
+    size_t count = sp_tracer_leaves(tracer, NULL);
+    double(*boxes)[6] = malloc(count * sizeof *boxes);
+    assert_true(count > 1 && boxes);
+    sp_tracer_leaves(tracer, boxes);
+    for (int twice = 0; twice < 2; twice++) {
+        assert_int_equal(sp_live_boxes(live), count);
+        assert_memory_equal(sp_live_tell(live, SP_LIVE_BOXES), boxes, count * sizeof *boxes);
+    }
+    free(boxes);
+}
+
 static void what_does_not_belong_together_is_refused(void **state)
 {
     (void)state;
@@ -335,6 +351,7 @@ int main(void)
         cmocka_unit_test(one_that_is_off_brings_nothing),  cmocka_unit_test(a_sample_comes_near),
         cmocka_unit_test(shadows_are_those_of_the_layout), cmocka_unit_test(a_nozzle_in_steel_cannot_stand),
         cmocka_unit_test(a_foot_lies_on_its_part),         cmocka_unit_test(what_does_not_belong_together_is_refused),
+        cmocka_unit_test(boxes_are_those_of_the_tree),
     };
     return cmocka_run_group_tests_name("live evaluate", tests, open_room, close_room);
 }

@@ -130,12 +130,41 @@ static void threads_build_the_same_tree(void **state)
     sp_mesh_destroy(mesh);
 }
 
+static void boxes_of_leaves_hold_their_triangles(void **state)
+{
+    (void)state;
+    sp_mesh *mesh = make_ball(60, sp_v(1, 2, 3), 4, 0.3);
+    sp_bvh bvh = build(mesh, 1);
+    double(*boxes)[6] = malloc(bvh.block_count * sizeof *boxes);
+    assert_non_null(boxes);
+    sp_bvh_leaves(&bvh, boxes);
+    for (size_t i = 0; i < bvh.block_count; i++) {
+        double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+        for (int k = 0; k < SP_BVH_WIDTH && bvh.blocks[i].triangle[k] != SP_NONE; k++) {
+            sp_corners corners;
+            sp_bvh_corners(&bvh, bvh.blocks[i].triangle[k], corners);
+            for (int n = 0; n < 9; n++) {
+                low[n % 3] = fmin(low[n % 3], corners[n / 3][n % 3]);
+                high[n % 3] = fmax(high[n % 3], corners[n / 3][n % 3]);
+            }
+        }
+        for (int axis = 0; axis < 3; axis++) { /* tightly: a node's boxes are told in 255 steps of its own */
+            assert_true(boxes[i][axis] <= low[axis] && boxes[i][axis] >= low[axis] - 0.1);
+            assert_true(boxes[i][3 + axis] >= high[axis] && boxes[i][3 + axis] <= high[axis] + 0.1);
+        }
+    }
+    free(boxes);
+    sp_bvh_clear(&bvh);
+    sp_mesh_destroy(mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_triangle_is_in_its_boxes),
         cmocka_unit_test(trees_do_not_grow_deep),
         cmocka_unit_test(threads_build_the_same_tree),
+        cmocka_unit_test(boxes_of_leaves_hold_their_triangles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -54,6 +54,9 @@ void sp_bvh_clear(sp_bvh *bvh);
 /* sp_tracer_visit. */
 bool sp_bvh_visit(const sp_bvh *bvh, sp_box_test *test, sp_triangle_visitor *visit, const void *region);
 
+/* sp_tracer_leaves. */
+void sp_bvh_leaves(const sp_bvh *bvh, double (*boxes)[6]);
+
 /* The corners of a triangle, m. */
 static inline void sp_bvh_corners(const sp_bvh *bvh, uint32_t triangle, sp_corners corners)
 {

@@ -31,3 +31,15 @@ bool sp_bvh_visit(const sp_bvh *bvh, sp_box_test *test, sp_triangle_visitor *vis
     }
     return true;
 }
+
+void sp_bvh_leaves(const sp_bvh *bvh, double (*boxes)[6])
+{
+    for (size_t n = 0; n < bvh->node_count; n++) {
+        const sp_bvh_node *node = &bvh->nodes[n];
+        for (uint32_t i = 0; i < node->count; i++)
+            if (node->child[i] & SP_BVH_LEAF) {
+                double *box = boxes[node->child[i] - SP_BVH_LEAF];
+                sp_bvh_child_box(bvh, node, i, &box[0], &box[3]);
+            }
+    }
+}
