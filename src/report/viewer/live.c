@@ -184,16 +184,18 @@ static json_t *types_json(type_rows *rows)
     return list;
 }
 
-static json_t *layout_json(const sp_layout *layout, type_rows *rows)
+static json_t *layout_json(const sp_page *page, size_t design, type_rows *rows)
 {
+    const sp_layout *layout = page->result->designs[design].layout;
     json_t *list = json_array();
     for (size_t i = 0; i < layout->count; i++) {
         const sp_nozzle *nozzle = &layout->nozzles[i];
         double numbers[SP_LIVE_NOZZLE_NUMBERS];
         sp_live_tell_nozzle(nozzle, row_of(rows, nozzle->type), numbers);
-        json_array_append_new(list, json_pack("{s:o, s:o, s:b, s:I}", "name", text_json(nozzle->name), "numbers",
+        double cost = page->figures[design].nozzles[i].cost;
+        json_array_append_new(list, json_pack("{s:o, s:o, s:b, s:I, s:f}", "name", text_json(nozzle->name), "numbers",
                                               numbers_json(numbers, SP_LIVE_NOZZLE_NUMBERS), "keep", (int)nozzle->keep,
-                                              "jets", (json_int_t)nozzle->jets));
+                                              "jets", (json_int_t)nozzle->jets, "cost", isfinite(cost) ? cost : 0.0));
     }
     return list;
 }
@@ -206,7 +208,7 @@ static json_t *designs_json(const sp_page *page, type_rows *rows)
         if (design->evaluator == sp_page_live_evaluator(page))
             json_array_append_new(list, json_pack("{s:I, s:f, s:b, s:o}", "index", (json_int_t)i, "coverage",
                                                   design->coverage->fraction, "main", (int)(i == page->main), "nozzles",
-                                                  layout_json(design->layout, rows)));
+                                                  layout_json(page, i, rows)));
     }
     return list;
 }
@@ -218,12 +220,12 @@ static json_t *mount_json(const sp_mount *mount, type_rows *rows)
     for (size_t i = 0; i < mount->type_count; i++)
         if (!stays_behind(mount->types[i]))
             json_array_append_new(types, json_integer((json_int_t)row_of(rows, mount->types[i])));
-    return json_pack("{s:s, s:o, s:o, s:o, s:f, s:[ff], s:I, s:I, s:f, s:o, s:o, s:o}", "kind", kinds[mount->kind],
-                     "name", text_json(mount->name), "position", vector_json(mount->position), "axis",
-                     vector_json(mount->axis), "tilt", mount->tilt, "depth", mount->depth_from, mount->depth_to,
-                     "geometry", (json_int_t)mount->geometry, "part",
-                     mount->part == SP_NONE ? (json_int_t)-1 : (json_int_t)mount->part, "standoff", mount->standoff,
-                     "from", vector_json(mount->from), "to", vector_json(mount->to), "types", types);
+    return json_pack(
+        "{s:s, s:o, s:o, s:o, s:f, s:[ff], s:I, s:I, s:f, s:f, s:o, s:o, s:o}", "kind", kinds[mount->kind], "name",
+        text_json(mount->name), "position", vector_json(mount->position), "axis", vector_json(mount->axis), "tilt",
+        mount->tilt, "depth", mount->depth_from, mount->depth_to, "geometry", (json_int_t)mount->geometry, "part",
+        mount->part == SP_NONE ? (json_int_t)-1 : (json_int_t)mount->part, "standoff", mount->standoff, "cost",
+        mount->cost, "from", vector_json(mount->from), "to", vector_json(mount->to), "types", types);
 }
 
 static json_t *parts_json(const sp_setup *setup)
@@ -234,6 +236,19 @@ static json_t *parts_json(const sp_setup *setup)
                                               (int)setup->surfaces[i].clean, "geometry",
                                               (json_int_t)setup->mesh->parts[i].geometry));
     return list;
+}
+
+/* "costly" where prices are told, and what water is worth, per m³/s, where money is. */
+static void add_price(const sp_page *page, json_t *all)
+{
+    const sp_figures *main = &page->figures[page->main];
+    if (!isfinite(main->mount_cost))
+        return;
+    json_object_set_new(all, "costly", json_true());
+    if (main->water_cost.money > 0) {
+        json_object_set_new(all, "money", json_real(main->water_cost.money));
+        json_object_set_new(all, "currency", json_string(main->water_cost.currency));
+    }
 }
 
 static json_t *editing_json(const sp_page *page, type_rows *rows)
@@ -253,6 +268,8 @@ static json_t *editing_json(const sp_page *page, type_rows *rows)
         json_object_set_new(all, "types", types_json(rows));
     if (all)
         json_object_set(all, "members", rows->members);
+    if (all)
+        add_price(page, all);
     return all;
 }
 

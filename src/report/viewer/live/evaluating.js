@@ -1,13 +1,14 @@
 /* Layouts are evaluated one at a time, of several that are asked for the latest. */
 function makeEvaluating(live) {
     "use strict";
-    const {view, design, section, answer, empty, numbersOf, litres, tellFigures, tell} = live, {element} = widgets;
+    const {view, design, section, answer, empty, numbersOf, litres, priceOf, tellFigures, tell} = live;
+    const {element} = widgets;
     const QUICK = 100, IDLE = 150; /* ms */
     const MOST_STRIDE = 8;
 
     let wanted = false, busy = false, stride = 1, idle = 0;
     function show({figures: found, values, share}) {
-        live.last = found;
+        live.last = {...found, price: priceOf(found.flow)};
         view.about.quantities.forEach(({key}, k) => (design.values[key] = values[k]));
         design.share = share;
         design.quote = `${(100 * found.coverage).toFixed(1)} % with ${litres(found.flow)}`;
@@ -38,7 +39,7 @@ function makeEvaluating(live) {
         tell(1, finished);
         await live.ask("prepare", {chosen: live.chosen});
         section.dataset.settled = JSON.stringify(rows);
-        if (view.state.nozzle && view.state.nozzle.design === design)
+        if (view.state.quantity === view.reached || (view.state.nozzle && view.state.nozzle.design === design))
             view.recolour();
         return true;
     }

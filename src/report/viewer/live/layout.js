@@ -14,10 +14,10 @@ function makeLayout(live) {
     const partsOf = (mount) => (mount.part >= 0 ? [mount.part]
         : editing.parts.flatMap((part, i) => (part.geometry === mount.geometry ? [i] : [])));
 
-    function nozzleOf({name, numbers, keep, jets}) {
+    function nozzleOf({name, numbers, keep, jets, cost}) {
         const [type, x, y, z, ax, ay, az, roll, pressure, angle, flow, speed] = numbers;
         return {name, type, place: [x, y, z], axis: [ax, ay, az], roll, pressure, angle, flow, speed, on: true, keep,
-                jets, mount: -1, reference: downwards};
+                jets, cost, mount: -1, reference: downwards};
     }
     const numbersOf = (nozzle) => [nozzle.type, ...nozzle.place, ...nozzle.axis, nozzle.roll, nozzle.pressure,
                                    nozzle.angle, nozzle.flow, nozzle.speed, nozzle.on ? 1 : 0];
@@ -81,6 +81,7 @@ function makeLayout(live) {
             : mount.kind === "line" || mount.kind === "box" ? scaled(add(mount.from, mount.to), 0.5) : nozzle.place;
         if (mount.types.length && !mount.types.includes(nozzle.type))
             nozzle.type = mount.types[0];
+        nozzle.cost = nozzle.keep ? 0 : mount.cost || 0;
         fitType(nozzle);
     }
 

@@ -7,18 +7,26 @@ function makeTelling(live) {
     const percent = (share) => `${(100 * share).toFixed(2)} %`;
     const litres = (flow) => `${(LITRES * flow).toFixed(1)} L/min`;
 
+    /* Water, and what the mounts of the nozzles that are on cost, in m³/s. */
+    const priceOf = (flow) => live.nozzles.reduce((sum, {on, cost}) => sum + (on && cost || 0), flow);
+    const priceText = (price) => `${litres(price)}${editing.currency ? `, ${Math.round(price * editing.money)} ` +
+        editing.currency : ""}`;
+
     function tellFigures() {
         const [area] = [live.start, live.last].filter((one) => one && one.coverage > 0)
             .map((one) => one.covered / one.coverage);
         const row = (name, of) => element("tr", {}, element("th", {scope: "row"}, name),
             ...[live.start, live.last].map((one) => element("td", {}, one ? of(one) : "")));
+        const rows = [row("Coverage", (one) => percent(one.coverage)), row("Water", (one) => litres(one.flow)),
+            row("Area per water, m² per L/min", (one) =>
+                (one.flow > 0 ? short(one.covered / one.flow / LITRES) : "none")),
+            row("Not covered, m²", (one) => (area ? short(area - one.covered, 3) : "all"))];
+        if (editing.costly)
+            rows.splice(2, 0, row("Price: water and mounts", (one) => priceText(one.price)));
         figures.replaceChildren(element("table", {class: "numbers narrow"},
             element("thead", {}, element("tr", {}, ...["", live.start.name, "Yours"].map((name) =>
                 element("th", {scope: "col"}, name)))),
-            element("tbody", {}, row("Coverage", (one) => percent(one.coverage)),
-                row("Water", (one) => litres(one.flow)), row("Area per water, m² per L/min", (one) =>
-                    (one.flow > 0 ? short(one.covered / one.flow / LITRES) : "none")),
-                row("Not covered, m²", (one) => (area ? short(area - one.covered, 3) : "all")))));
+            element("tbody", {}, ...rows)));
     }
 
     function tell(stride, finished) {
@@ -27,6 +35,8 @@ function makeTelling(live) {
             ? ` counted on one texel of ${stride * stride} (every ${short(stride * texel, 3)} mm); ` +
                 "the figure on all of them follows" : ` on texels of ${short(texel, 3)} mm`;
         const words = [`Coverage ${percent(live.last.coverage)} with ${litres(live.last.flow)},${how}.`];
+        if (editing.costly)
+            words.push(`Water and mounts cost ${priceText(live.last.price)}.`);
         if (finished) {
             const [largest] = finished.shadows;
             if (largest)
@@ -42,5 +52,5 @@ function makeTelling(live) {
             words.push(`Port ${mounts[twice].name} holds two nozzles.`);
         answer.replaceChildren(...words.map((line) => element("p", {}, line)));
     }
-    return {percent, litres, tellFigures, tell};
+    return {percent, litres, priceOf, tellFigures, tell};
 }
