@@ -138,6 +138,17 @@ static void it_says_what_comes_of_it(void **state)
     assert_int_equal(json_integer_value(json_object_get(found, "shown")), 3);
 }
 
+static void boxes_come_and_go(void **state)
+{
+    (void)state;
+    skip_without_module();
+    const json_t *boxes = json_object_get(found, "boxes");
+    assert_int_equal(json_array_size(boxes), 3);
+    assert_false(json_equal(json_array_get(boxes, 0), json_array_get(boxes, 1)));
+    assert_true(json_equal(json_array_get(boxes, 0), json_array_get(boxes, 2)));
+    assert_non_null(strstr(json_string_value(json_object_get(found, "said")), "Boxes"));
+}
+
 /* A layout without nozzles is evaluated, and is no scene. */
 static void without_nozzles_nothing_is_saved(void **state)
 {
@@ -204,6 +215,7 @@ int main(void)
         cmocka_unit_test(only_what_moved_is_traced),
         cmocka_unit_test(undo_brings_back_what_was),
         cmocka_unit_test(it_says_what_comes_of_it),
+        cmocka_unit_test(boxes_come_and_go),
         cmocka_unit_test(without_nozzles_nothing_is_saved),
         cmocka_unit_test(without_webassembly_it_is_a_viewer),
         cmocka_unit_test(without_it_the_page_is_smaller),

@@ -40,7 +40,26 @@
         list.dispatchEvent(new Event("change"));
     }
 
+    /* Of the canvas, by its context's pixels. */
+    function look() {
+        dispatchEvent(new Event("resize"));
+        const canvas = document.querySelector("#viewer canvas"), gl = canvas.getContext("webgl2");
+        const {width, height} = canvas, pixels = new Uint8Array(4 * width * height);
+        gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        return pixels.reduce((sum, byte) => (sum * 31 + byte) % 2147483647, 0);
+    }
+    const boxes = () => [...document.querySelectorAll("#viewer .switches label")]
+        .find((label) => label.textContent.includes("Boxes")).querySelector("input");
+
     if (live().dataset.ready) {
+        found.boxes = [look()];
+        document.querySelector("#viewer canvas").dispatchEvent(new KeyboardEvent("keydown", {key: "b"}));
+        await until(() => boxes().checked);
+        found.boxes.push(look());
+        found.said = document.querySelector("#viewer > .answer").textContent;
+        boxes().click();
+        await until(() => !boxes().checked);
+        found.boxes.push(look());
         await step("start");
         await step("moved", () => set("Depth", 0.7));
         await step("turned", () => set("Tilt", 0.5));
@@ -55,7 +74,7 @@
         await step("placed", () => set("x, m", 0.31));
         found.reachable = [...live().querySelectorAll("button, input, select, textarea, summary")].every((one) =>
             one.tabIndex >= 0 && (one.textContent || one.ariaLabel || one.labels.length));
-        found.shown = document.querySelectorAll("#viewer .switches input:checked").length;
+        found.shown = document.querySelectorAll("#viewer .switches:first-child input:checked").length;
     }
     found.requests = performance.getEntriesByType("resource").map((entry) => entry.name)
         .filter((name) => !name.startsWith("blob:"));

@@ -67,7 +67,7 @@ static void another_quantity_changes_pixels_and_bar(void **state)
     skip_without_browser();
     json_t *quantities = json_object_get(found, "quantities");
     size_t count = json_array_size(quantities);
-    assert_int_equal(count, 6);
+    assert_int_equal(count, 8);
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < i; k++) {
             const json_t *one = json_array_get(quantities, i), *other = json_array_get(quantities, k);
@@ -75,6 +75,104 @@ static void another_quantity_changes_pixels_and_bar(void **state)
             assert_string_not_equal(json_string_value(json_object_get(one, "bar")),
                                     json_string_value(json_object_get(other, "bar")));
         }
+}
+
+static bool says(const json_t *of, const char *what)
+{
+    const char *said = json_string_value(json_object_get(of, "said"));
+    return said && strstr(said, what);
+}
+
+static void scales_change_pixels_ticks_and_words(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    static const char *const words[] = {"logarithmic", "linear", "stepped at 1 L/min per m\xc2\xb2"};
+    const json_t *scales = json_object_get(found, "scales");
+    assert_int_equal(json_array_size(scales), 3);
+    for (size_t i = 0; i < 3; i++) {
+        const json_t *scale = json_array_get(scales, i), *ticks = json_object_get(scale, "ticks");
+        assert_false(json_is_true(json_object_get(scale, "disabled")));
+        if (!says(scale, words[i]))
+            fail_msg("said %s", json_string_value(json_object_get(scale, "said")));
+        for (size_t k = 0; k < i; k++) {
+            assert_false(
+                looks_alike(json_object_get(scale, "seen"), json_object_get(json_array_get(scales, k), "seen")));
+            assert_false(json_equal(ticks, json_object_get(json_array_get(scales, k), "ticks")));
+        }
+    }
+    const json_t *step = json_object_get(json_array_get(scales, 2), "ticks");
+    assert_int_equal(json_array_size(step), 1);
+    assert_string_equal(json_string_value(json_array_get(step, 0)), "1"); /* as the scene asks */
+    assert_true(json_is_true(json_object_get(found, "unasked")));
+}
+
+static void other_colours_change_pixels_and_bar(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    const json_t *plain = json_array_get(json_object_get(found, "scales"), 0);
+    const json_t *other = json_object_get(found, "cividis");
+    assert_true(says(other, "in cividis"));
+    assert_false(looks_alike(json_object_get(plain, "seen"), json_object_get(other, "seen")));
+    assert_true(json_equal(json_object_get(plain, "ticks"), json_object_get(other, "ticks")));
+    const char *ramp = json_string_value(json_object_get(other, "ramp"));
+    assert_non_null(strstr(ramp, "rgb(0, 34, 78)")); /* its ends, as its authors print them */
+    assert_non_null(strstr(ramp, "rgb(254, 232, 56)"));
+}
+
+static void layers_come_and_go(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    static const char *const names[] = {"Wireframe", "Jets"};
+    const json_t *first = json_object_get(found, "first");
+    for (size_t i = 0; i < 2; i++) {
+        const json_t *layer = json_object_get(json_object_get(found, "layers"), names[i]);
+        const json_t *on = json_object_get(layer, "on"), *off = json_object_get(layer, "off");
+        const json_t *by_key = json_object_get(layer, "byKey");
+        for (size_t side = 0; side < 2; side++)
+            assert_false(looks_alike(json_array_get(json_object_get(on, "seen"), side), json_array_get(first, side)));
+        assert_true(looks_alike(json_object_get(off, "seen"), first));
+        assert_true(looks_alike(json_object_get(by_key, "seen"), json_object_get(on, "seen")));
+        assert_true(json_is_true(json_object_get(layer, "checked")));
+        assert_true(says(on, names[i]) && says(off, "off"));
+    }
+}
+
+static void a_chosen_nozzle_shows_its_jets(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    const json_t *jets = json_object_get(found, "jets");
+    assert_false(looks_alike(json_array_get(jets, 0), json_array_get(jets, 1)));
+    assert_true(looks_alike(json_array_get(jets, 1), json_array_get(jets, 2)));
+}
+
+static void keys_reach_lists_and_say_what_they_chose(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    static const char *const words[] = {"linear", "in cividis", "Impact speed"};
+    const json_t *chosen = json_object_get(found, "byKeys");
+    for (size_t i = 0; i < 3; i++) {
+        const char *said = json_string_value(json_array_get(chosen, i));
+        if (!said || !strstr(said, words[i]))
+            fail_msg("key %zu said %s", i, said ? said : "nothing");
+    }
+    assert_true(json_is_true(json_object_get(found, "named")));
+}
+
+static void the_corner_tells_axes_and_length(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    const json_t *corner = json_object_get(found, "corner");
+    const char *far = json_string_value(json_array_get(corner, 0)),
+               *near = json_string_value(json_array_get(corner, 1));
+    assert_true(strchr(far, 'x') && strchr(far, 'y') && strchr(far, 'z') && strstr(far, "mm"));
+    if (!(strtod(near + strcspn(near, "0123456789"), NULL) < strtod(far + strcspn(far, "0123456789"), NULL)))
+        fail_msg("from afar %s, from near %s", far, near);
 }
 
 /* "12.3 L/min per m²"; 0 for "none". */
@@ -164,6 +262,12 @@ int main(void)
         cmocka_unit_test(it_opens_without_requests_or_messages),
         cmocka_unit_test(both_designs_are_drawn),
         cmocka_unit_test(another_quantity_changes_pixels_and_bar),
+        cmocka_unit_test(scales_change_pixels_ticks_and_words),
+        cmocka_unit_test(other_colours_change_pixels_and_bar),
+        cmocka_unit_test(layers_come_and_go),
+        cmocka_unit_test(a_chosen_nozzle_shows_its_jets),
+        cmocka_unit_test(keys_reach_lists_and_say_what_they_chose),
+        cmocka_unit_test(the_corner_tells_axes_and_length),
         cmocka_unit_test(a_point_is_told_as_it_is),
         cmocka_unit_test(keys_turn_and_fit),
         cmocka_unit_test(rows_of_the_tables_act),

@@ -42,6 +42,74 @@
         found.quantities.push({text, seen: look(), bar: bar.textContent});
     }
     choose(show, "Liquid flux");
+
+    const labelled = (name) => [...viewer.querySelectorAll(".controls label")]
+        .find((label) => label.textContent.trim().startsWith(name)).querySelector("input, select");
+    const toldOf = () => ({seen: look(), said: answer.textContent, ramp: bar.querySelector(".ramp").style.background,
+                            ticks: [...bar.querySelectorAll(".ramp i")].map((tick) => tick.textContent)});
+    const scale = labelled("Scale"), colours = labelled("Colours");
+    found.scales = [...scale.options].map(({text, disabled}) => {
+        choose(scale, text);
+        return {text, disabled, ...toldOf()};
+    });
+    choose(show, "Impact pressure");
+    found.unasked = scale.options[2].disabled; /* of which the criterion asks nothing */
+    choose(show, "Liquid flux");
+    choose(scale, "logarithmic");
+    choose(colours, "cividis");
+    found.cividis = toldOf();
+    choose(colours, "viridis");
+
+    found.layers = {};
+    for (const [name, key] of [["Wireframe", "w"], ["Jets", "j"]]) {
+        const box = labelled(name);
+        box.click();
+        await wait(0);
+        const on = toldOf();
+        box.click();
+        await wait(0);
+        const off = toldOf();
+        press(key);
+        await wait(0);
+        found.layers[name] = {on, off, byKey: toldOf(), checked: box.checked};
+        press(key);
+        await wait(0);
+    }
+    found.byKeys = [];
+    for (const [key, list] of [["l", scale], ["c", colours], ["q", show]]) {
+        const before = list.value;
+        press(key);
+        found.byKeys.push(list.value !== before && answer.textContent);
+    }
+    choose(show, "Liquid flux");
+    choose(scale, "logarithmic");
+    choose(colours, "viridis");
+
+    /* One design, one nozzle: its jets are drawn whether all are or not. */
+    const others = [...viewer.querySelectorAll(".switches input")].slice(1, 3).filter((box) => box.checked);
+    const chosen = document.querySelector('#nozzles table[data-design="0"] tbody button');
+    others.forEach((box) => box.click());
+    found.jets = [look()];
+    chosen.click();
+    found.jets.push(look());
+    press("j");
+    await wait(0);
+    found.jets.push(look());
+    press("j");
+    await wait(0);
+    chosen.click();
+    others.forEach((box) => box.click());
+
+    const corner = viewer.querySelector(".stage > svg");
+    look();
+    found.corner = [corner.textContent];
+    for (let i = 0; i < 8; i++)
+        press("+");
+    look();
+    found.corner.push(corner.textContent);
+    press("f");
+    found.named = [...viewer.querySelectorAll(".controls button, .controls input, .controls select, summary, canvas")]
+        .every((one) => one.tabIndex >= 0 && (one.textContent || one.ariaLabel || one.labels.length));
     canvas.focus();
     found.focused = document.activeElement === canvas;
     for (let i = 0; i < 24; i++) {

@@ -10,8 +10,8 @@ function makeChoosing(view) {
         const same = state.nozzle && state.nozzle.design === design && state.nozzle.index === index;
         state.nozzle = same ? null : {design, index};
         show(design);
-        const name = design.nozzles[index].name;
-        tell(same ? "All nozzles." : `${design.name}: what ${name} does alone, as liquid flux.`, null, -1);
+        const {name, direct} = design.nozzles[index], jets = direct.length ? ", and a few of its jets" : "";
+        tell(same ? "All nozzles." : `${design.name}: what ${name} does alone, as liquid flux${jets}.`, null, -1);
     }
 
     function chooseShadow(design, index) {

@@ -1,7 +1,7 @@
 /* What colour each patch has. */
 function makeColours(view) {
     "use strict";
-    const {about, state, flux, coverage, difference, palette, valueOf, shade} = view;
+    const {about, state, flux, coverage, difference, reached, palette, valueOf, shade} = view;
 
     function setColour(colours, i, red, green, blue, kind) {
         colours.set([red, green, blue, kind], 4 * i);
@@ -9,8 +9,8 @@ function makeColours(view) {
     const PLAIN = 255, UNCOVERED = 0, MARKED = 128; /* kinds, as the fragment shader tells them */
 
     function setShade(colours, i, t, kind) {
-        const k = Math.round(255 * t);
-        setColour(colours, i, palette[3 * k], palette[3 * k + 1], palette[3 * k + 2], kind);
+        const at = 3 * Math.round(255 * t), map = palette();
+        setColour(colours, i, map[at], map[at + 1], map[at + 2], kind);
     }
 
     const coloured = () => (state.nozzle ? flux : state.quantity);
@@ -43,6 +43,12 @@ function makeColours(view) {
         }
     }
 
+    function nozzlesOf(design) {
+        const counts = new Uint8ClampedArray(design.share.length);
+        design.nozzles.forEach((nozzle) => nozzle.flux.forEach((byte, i) => (counts[i] += byte > 0)));
+        return counts;
+    }
+
     /* A colour for each patch of a design, RGBA, of a texture WIDE pixels wide. */
     const WIDE = 2048;
     function coloursOf(design) {
@@ -54,7 +60,9 @@ function makeColours(view) {
             colourDifference(colours, design, base());
         else if (quantity === coverage || quantity === difference)
             design.share.forEach((share, i) => setColour(colours, i, 70, 130, 180, share >= HALF ? PLAIN : UNCOVERED));
-        else
+        else if (quantity === reached)
+            colourQuantity(colours, design, quantity, nozzlesOf(design), false);
+        else if (quantity.shown)
             colourQuantity(colours, design, quantity, design.values[quantity.key], true);
         if (state.shadow && state.shadow.design === design)
             design.shadowOf.forEach((number, i) => {

@@ -1,8 +1,8 @@
 /* What is shown, cut and looked at from where, chosen from lists and by buttons. */
 function makeControls(view) {
     "use strict";
-    const {about, state, designs, controls, flux, coverage, difference, SCALES, coloured, fit, uploadLines, redraw,
-           recolour, partKey} = view;
+    const {about, state, designs, controls, flux, coverage, difference, reached, chartHues, SCALES, MAPS, coloured, fit,
+           uploadLines, redraw, recolour, partKey, tell, barText} = view;
     const {element, option, button, checkbox} = widgets;
 
     function choice(name, texts, chosen, act) {
@@ -10,6 +10,16 @@ function makeControls(view) {
         list.addEventListener("change", () => act(list.selectedIndex));
         controls.append(element("label", {}, `${name} `, list));
         return list;
+    }
+
+    /* By a key: the next that may be chosen. */
+    function nextOf(list) {
+        const free = [...list.options].filter((one) => !one.disabled);
+        const at = free.indexOf(list.options[list.selectedIndex]);
+        if (list.disabled)
+            return;
+        list.selectedIndex = free[(at + 1) % free.length].index;
+        list.dispatchEvent(new Event("change"));
     }
 
     const switches = [];
@@ -38,15 +48,25 @@ function makeControls(view) {
     }
 
     function addQuantities() {
-        const quantities = [...about.quantities, coverage, ...(designs.length > 1 ? [difference] : [])];
-        choice("Show", quantities.map((quantity) => quantity.name), quantities.indexOf(flux), (i) => {
+        const known = designs.every((design) => design.nozzles.every((nozzle) => nozzle.known));
+        const quantities = [...about.quantities, ...(known ? [reached] : []), coverage,
+                            ...(designs.length > 1 ? [difference] : []), chartHues];
+        const say = () => {
+            recolour();
+            tell(barText(), null, -1);
+        };
+        view.quantityList = choice("Show", quantities.map(({name}) => name), quantities.indexOf(flux), (i) => {
             state.quantity = quantities[i];
             state.nozzle = null;
-            recolour();
+            say();
         });
         view.scaleList = choice("Scale", ["logarithmic", "linear", "stepped at the criterion"], 0, (i) => {
             state.scales[coloured().key] = SCALES[i];
-            recolour();
+            say();
+        });
+        view.mapList = choice("Colours", MAPS, 0, (i) => {
+            state.map = MAPS[i];
+            say();
         });
     }
 
@@ -92,5 +112,5 @@ function makeControls(view) {
         controls.append(element("details", {}, element("summary", {}, "Parts"), all(true), all(false),
                                 element("div", {class: "parts"}, ...boxes.map(([, label]) => label))));
     }
-    return {views, switches, addDesign, addDesigns, addQuantities, addViews, addCut, addParts};
+    return {views, nextOf, switches, addDesign, addDesigns, addQuantities, addViews, addCut, addParts};
 }

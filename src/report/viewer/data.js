@@ -56,7 +56,10 @@ async function readData() {
         design.share = bytes();
         design.film = bytes();
         design.shadowOf = bytes();
-        design.nozzles.forEach((nozzle) => (nozzle.flux = nozzle.known ? bytes() : null));
+        design.nozzles.forEach((nozzle) => {
+            nozzle.flux = nozzle.known ? bytes() : null;
+            sprays.read(nozzle, about.up, take);
+        });
         design.model = model;
     }
 

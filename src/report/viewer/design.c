@@ -1,7 +1,7 @@
 #include "design.h"
 
 #include "report/listed_shadows.h"
-#include "report/overlay.h"
+#include "sprays.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -74,31 +74,9 @@ static json_t *pack_shadows(const sp_design *design, uint8_t *bytes, const uint3
     return list;
 }
 
-static json_t *sprays_json(const sp_evaluator *evaluator, const sp_nozzle *nozzle)
-{
-    const sp_setup *setup = sp_evaluator_setup(evaluator);
-    sp_vec3 low, high;
-    double size = sp_mesh_box(setup->mesh, &low, &high);
-    size_t count = sp_nozzle_pattern_count(nozzle);
-    sp_nozzle *patterns = malloc(count * sizeof *patterns);
-    json_t *list = patterns ? json_array() : NULL;
-    if (patterns)
-        sp_nozzle_patterns(nozzle, &setup->liquid, setup->up, patterns);
-    for (size_t i = 0; list && i < count; ++i) {
-        sp_vec3 rim[SP_OUTLINE];
-        sp_overlay_outline(evaluator, &patterns[i], size, rim);
-        json_t *points = json_array();
-        for (int k = 0; k < SP_OUTLINE; ++k)
-            json_array_append_new(points, vector_json(rim[k]));
-        json_array_append_new(list, json_pack("{s:o, s:o}", "from", vector_json(patterns[i].position), "rim", points));
-    }
-    free(patterns);
-    return list;
-}
-
-/* What one nozzle brings by itself, where that is known. */
+/* What one nozzle brings by itself, where that is known, and its sprays. */
 static json_t *pack_nozzle(const sp_design *design, size_t index, const sp_shown_quantity *flux, uint8_t *bytes,
-                           const uint32_t *beside, sp_packed *packed)
+                           const uint32_t *beside, sp_packed *packed, sp_error *error)
 {
     const sp_nozzle *nozzle = &design->layout->nozzles[index];
     const sp_contributions *does = design->contributions;
@@ -109,11 +87,16 @@ static json_t *pack_nozzle(const sp_design *design, size_t index, const sp_shown
     if (does)
         sp_packed_beside(packed, bytes, beside, does->patches);
     char *name = sp_text_utf8(nozzle->name);
-    json_t *object = name ? json_pack("{s:s, s:b, s:o, s:o}", "name", name, "known", (int)(does != NULL), "at",
-                                      vector_json(nozzle->position), "sprays", sprays_json(design->evaluator, nozzle))
+    json_t *object = name ? json_pack("{s:s, s:b, s:o}", "name", name, "known", (int)(does != NULL), "at",
+                                      vector_json(nozzle->position))
                           : NULL;
     free(name);
-    return object;
+    if (!object)
+        return sp_fail_memory(error);
+    if (sp_viewer_sprays(design->evaluator, nozzle, object, packed, error))
+        return object;
+    json_decref(object);
+    return NULL;
 }
 
 static json_t *pack_nozzles(const sp_design *design, const sp_shown_quantity *flux, uint8_t *bytes,
@@ -121,10 +104,10 @@ static json_t *pack_nozzles(const sp_design *design, const sp_shown_quantity *fl
 {
     json_t *list = json_array();
     for (size_t i = 0; list && i < design->layout->count; ++i) {
-        json_t *nozzle = pack_nozzle(design, i, flux, bytes, beside, packed);
+        json_t *nozzle = pack_nozzle(design, i, flux, bytes, beside, packed, error);
         if (!nozzle || json_array_append_new(list, nozzle) != 0) {
             json_decref(list);
-            return sp_fail_memory(error);
+            return nozzle ? sp_fail_memory(error) : NULL;
         }
     }
     return list;

@@ -10,6 +10,12 @@ const geometry = (() => {
     const distance = (a, b) => Math.hypot(...add(a, b, -1));
     const limited = (x, low, high) => Math.min(Math.max(x, low), high);
 
+    /* 1, 2 or 5 of a power of ten: the largest that is no more. */
+    function roundStep(most) {
+        const power = 10 ** Math.floor(Math.log10(most));
+        return power * [5, 2, 1].find((step) => step * power <= most || step === 1);
+    }
+
     /* Two directions across one, of which a tilt's azimuth is counted from the first to the second. */
     function across(axis) {
         const other = Math.abs(axis[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0];
@@ -35,5 +41,5 @@ const geometry = (() => {
             : mount.kind === "line" ? distance(add(mount.from, way, along), place) < near
             : mount.kind === "box" && place.every((x, k) => x > mount.from[k] - near && x < mount.to[k] + near);
     }
-    return {add, dot, cross, scaled, unit, limited, tiltOf, leaning, lies};
+    return {add, dot, cross, scaled, unit, limited, roundStep, tiltOf, leaning, lies};
 })();

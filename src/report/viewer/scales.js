@@ -1,16 +1,35 @@
-/* What a byte of a quantity means, and where on the colour bar that is. */
+/* What a byte of a quantity means, where on the colour bar that is, and what colour. */
 function makeScales(view) {
     "use strict";
     const {about, state} = view;
 
-    const palette = Uint8Array.from(about.palette.match(/../g), (digits) => parseInt(digits, 16));
-
     const SCALES = ["log", "linear", "stepped"];
+
+    /* All 256 colours, three bytes each. Cividis (Nuñez, Anderton and Renslow, PLoS ONE 13(7), 2018, under CC0) is for
+     * who sees no red or no green: knots, each its number and its red, green and blue; straight lines between them stay
+     * within 2/255 of it. */
+    const bytesOf = (text) => Uint8Array.from(text.match(/../g), (digits) => parseInt(digits, 16));
+    function fromKnots(knots) {
+        const colours = new Uint8Array(3 * 256);
+        for (let i = 0, knot = 0; i < 256; i++) {
+            while (knots[knot + 4] < i)
+                knot += 4;
+            const share = (i - knots[knot]) / (knots[knot + 4] - knots[knot]);
+            for (let k = 1; k < 4; k++)
+                colours[3 * i + k - 1] = Math.round((1 - share) * knots[knot + k] + share * knots[knot + 4 + k]);
+        }
+        return colours;
+    }
+    const maps = {viridis: bytesOf(about.palette), cividis: fromKnots(bytesOf("0000224e1300306f1500317017013271" +
+        "1c123570221e3a6f3436466c54565c6d7e7b7a78938f8a78b3aea371cdc9b965e8e7d150f3f3db42fbfde334fffee838"))};
+    const palette = () => maps[state.map];
 
     /* The value that a byte stands for, NaN for none; the ends of the scale mean that or beyond. */
     function valueOf(quantity, byte) {
         if (byte === 0)
             return NaN;
+        if (quantity.counts)
+            return byte;
         const t = (byte - 1) / 254;
         return quantity.log ? quantity.low * (quantity.high / quantity.low) ** t
                             : quantity.low + t * (quantity.high - quantity.low);
@@ -21,7 +40,7 @@ function makeScales(view) {
         const [low, high] = quantity.shown;
         const scale = state.scales[quantity.key];
         if (scale === "stepped")
-            return value < (quantity.step || low) ? 0.15 : 0.85;
+            return value < quantity.step ? 0.15 : 0.85;
         const t = scale === "log" && low > 0 ? Math.log(value / low) / Math.log(high / low)
                                              : (value - low) / (high - low);
         return Math.min(Math.max(t, 0), 1);
@@ -29,11 +48,21 @@ function makeScales(view) {
 
     function ticksOf(quantity) {
         const [from, to] = quantity.shown;
+        if (quantity.counts)
+            return Array.from({length: to}, (_, i) => i + 1).filter((i) => i % Math.ceil(to / 8) === 0 || i === 1);
+        if (state.scales[quantity.key] === "stepped")
+            return [quantity.step];
         if (state.scales[quantity.key] === "log" && from > 0)
             return [...Array(25).keys()].flatMap((power) => [1, 2, 5].map((step) => step * 10 ** (power - 12)))
                 .filter((value) => value >= from * (1 - 1e-9) && value <= to * (1 + 1e-9));
-        return [0, 0.25, 0.5, 0.75, 1].map((t) => from + t * (to - from));
+        const step = geometry.roundStep((to - from) / 4), first = Math.ceil(from / step - 1e-9);
+        const whole = Array.from({length: Math.floor(to / step + 1e-9) - first + 1}, (_, i) => (first + i) * step);
+        return first * step - from > step / 2 ? [from, ...whole] : whole;
     }
+
+    /* Scales that a quantity may have: by ratios where it does not begin at 0, stepped where something is asked. */
+    const admits = (quantity, scale) => quantity.key in state.scales &&
+        (scale === "linear" || (scale === "log" ? quantity.shown[0] > 0 || quantity.log : quantity.step > 0));
 
     /* The same byte in words. */
     function figure(quantity, byte) {
@@ -43,5 +72,5 @@ function makeScales(view) {
         const beyond = byte === 1 && quantity.log ? "at most " : byte === 255 ? "at least " : "";
         return `${beyond}${Number(value.toPrecision(3))} ${quantity.unit}`;
     }
-    return {SCALES, palette, valueOf, shade, ticksOf, figure};
+    return {SCALES, MAPS: Object.keys(maps), palette, valueOf, shade, ticksOf, admits, figure};
 }

@@ -1,7 +1,7 @@
 /* Surfaces, sprays and colours on their way to the graphics unit. */
 function makeUploads(view) {
     "use strict";
-    const {gl, TILE, WIDE, surfaceProgram, lineProgram, coloursOf} = view;
+    const {gl, TILE, WIDE, chartHues, surfaceProgram, lineProgram, coloursOf} = view;
 
     /* Triangles' rims may come to lie in the pixel beside theirs by rounding: it gets their patch. */
     function spread(page, edge, pages) {
@@ -17,20 +17,49 @@ function makeUploads(view) {
         return page;
     }
 
-    function uploadModel(model) {
-        const {edge, pages, layers} = model;
-        model.buffer = gl.createVertexArray();
-        gl.bindVertexArray(model.buffer);
-        gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-        gl.bufferData(gl.ARRAY_BUFFER, model.vertex.packed, gl.STATIC_DRAW);
-        [["place", 3, 0], ["spot", 2, 6]].forEach(([name, width, offset]) => {
+    const ATTRIBUTES = [["place", 3, 0, true], ["spot", 2, 6, true], ["hue", 1, 10, false]];
+    function uploadVertices(packed) {
+        const made = gl.createVertexArray(), buffer = gl.createBuffer();
+        gl.bindVertexArray(made);
+        gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+        gl.bufferData(gl.ARRAY_BUFFER, packed, gl.STATIC_DRAW);
+        ATTRIBUTES.forEach(([name, width, offset, parts]) => {
             const slot = gl.getAttribLocation(surfaceProgram.made, name);
             gl.enableVertexAttribArray(slot);
-            gl.vertexAttribPointer(slot, width, gl.UNSIGNED_SHORT, true, 12, offset);
+            gl.vertexAttribPointer(slot, width, gl.UNSIGNED_SHORT, parts, 12, offset);
         });
+        return [made, buffer];
+    }
+
+    function uploadModel(model) {
+        [model.buffer, model.filled] = uploadVertices(model.vertex.packed);
         gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
         gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, model.corners, gl.STATIC_DRAW);
         uploadPages(model);
+    }
+
+    /* The corners one after the other, so that each knows which of its triangle it is. */
+    function uploadWires(model) {
+        const {packed} = model.vertex, all = new Uint16Array(6 * model.corners.length);
+        model.corners.forEach((vertex, i) => {
+            for (let k = 0; k < 6; k++)
+                all[6 * i + k] = packed[6 * vertex + k];
+        });
+        if (model.wires)
+            gl.deleteVertexArray(model.wires);
+        [model.wires] = uploadVertices(all);
+    }
+
+    function uploadHues(model) {
+        if (model.hued)
+            return;
+        model.hued = true;
+        charts.choose(model, chartHues.hues.length);
+        gl.bindVertexArray(null);
+        gl.bindBuffer(gl.ARRAY_BUFFER, model.filled);
+        gl.bufferSubData(gl.ARRAY_BUFFER, 0, model.vertex.packed);
+        if (model.wires)
+            uploadWires(model);
     }
 
     function uploadPages(model) {
@@ -55,9 +84,19 @@ function makeUploads(view) {
         gl.texParameteri(gl.TEXTURE_2D_ARRAY, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
     }
 
-    /* The rims of all sprays, and lines to them from their nozzles. */
+    function uploadPoints(points) {
+        const made = gl.createVertexArray(), slot = gl.getAttribLocation(lineProgram.made, "place");
+        gl.bindVertexArray(made);
+        gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+        gl.bufferData(gl.ARRAY_BUFFER, Float32Array.from(points), gl.STATIC_DRAW);
+        gl.enableVertexAttribArray(slot);
+        gl.vertexAttribPointer(slot, 3, gl.FLOAT, false, 0, 0);
+        return made;
+    }
+
+    /* The rims of all sprays, lines to them from their nozzles, and jets nozzle by nozzle. */
     function uploadLines(design) {
-        const points = [];
+        let points = [];
         design.nozzles.forEach((nozzle) => nozzle.sprays.forEach(({from, rim}) => {
             for (let i = 0; i < rim.length; i++) {
                 points.push(...rim[i], ...rim[(i + 1) % rim.length]);
@@ -65,14 +104,29 @@ function makeUploads(view) {
                     points.push(...from, ...rim[i]);
             }
         }));
-        design.linePoints = points.length / 3;
-        design.lines = gl.createVertexArray();
-        gl.bindVertexArray(design.lines);
-        gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-        gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(points), gl.STATIC_DRAW);
-        const slot = gl.getAttribLocation(lineProgram.made, "place");
-        gl.enableVertexAttribArray(slot);
-        gl.vertexAttribPointer(slot, 3, gl.FLOAT, false, 0, 0);
+        design.rimPoints = points.length / 3;
+        design.jets = design.nozzles.map(({direct, bounced}) => {
+            const first = points.length / 3;
+            points = points.concat(direct, bounced);
+            return {first, direct: direct.length / 3, bounced: bounced.length / 3};
+        });
+        design.lines = uploadPoints(points);
+    }
+
+    /* The edges of boxes: low and high x, y, z of each. */
+    function uploadBoxes(model, boxes) {
+        const points = new Float32Array(boxes.length * 12);
+        let at = 0;
+        for (let box = 0; box < boxes.length; box += 6)
+            for (let axis = 0; axis < 3; axis++)
+                for (let side = 0; side < 8; side++) { /* both ends of four edges along the axis */
+                    const [i, j] = [(axis + 1) % 3, (axis + 2) % 3];
+                    points[at + axis] = boxes[box + axis + 3 * (side & 1)];
+                    points[at + i] = boxes[box + i + 3 * (side >> 1 & 1)];
+                    points[at + j] = boxes[box + j + 3 * (side >> 2)];
+                    at += 3;
+                }
+        model.boxes = {lines: uploadPoints(points), points: at / 3};
     }
 
     function uploadColours(design) {
@@ -84,5 +138,5 @@ function makeUploads(view) {
         gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
         gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
     }
-    return {uploadModel, uploadLines, uploadColours};
+    return {uploadModel, uploadWires, uploadHues, uploadLines, uploadBoxes, uploadColours};
 }

@@ -12,9 +12,16 @@ const viewer = (async () => {
     const flux = about.quantities.find((quantity) => quantity.key === "flux");
     const coverage = {key: "covered", name: "Covered"};
     const difference = {key: "difference", name: "Difference"};
+    const most = Math.max(2, ...designs.map((design) => design.nozzles.length));
+    const reached = {key: "reached", name: "Nozzles that reach it", unit: "", counts: true, shown: [1, most]};
+    /* Okabe and Ito's colours, which everybody tells apart (2008, jfly.uni-koeln.de/color), but black. */
+    const chartHues = {key: "charts", name: "Charts of the atlas", hues: [[86, 180, 233], [230, 159, 0], [0, 158, 115],
+        [240, 228, 66], [0, 114, 178], [213, 94, 0], [204, 121, 167]]};
     const state = {
         quantity: flux,
         scales: Object.fromEntries(about.quantities.map(({key, log}) => [key, log ? "log" : "linear"])),
+        map: "viridis",
+        layers: {wires: false, jets: false, boxes: false},
         shown: designs.filter((design) => design.first),
         hidden: new Set(),
         cut: {axis: about.models[0].cut ? 1 : -1, place: 0, turned: false},
@@ -23,24 +30,25 @@ const viewer = (async () => {
         camera: null,
     };
     const labels = element("div", {class: "labels"});
-    const view = {section, gl, canvas, about, designs, inflated, flux, coverage, difference, state, labels,
-        stage: element("div", {class: "stage"}, canvas, labels),
+    const axes = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    axes.setAttribute("aria-hidden", "true");
+    const view = {section, gl, canvas, about, designs, inflated, flux, coverage, difference, reached, chartHues, state,
+        labels, axes, layers: element("span", {class: "switches"}),
+        stage: element("div", {class: "stage"}, canvas, labels, axes),
         answer: element("div", {class: "answer", role: "status", "aria-live": "polite"}),
         bar: element("div", {class: "scale"}),
         controls: element("div", {class: "controls"})};
-    for (const make of [makeScales, makeColours, makeCamera, makeShaders, makeUploads, makeDrawing, makePick, makeLabels,
-                        makeChoosing, makeBar, makeControls, makePointer, makeKeyboard])
+    for (const make of [makeScales, makeColours, makeCamera, makeShaders, makeUploads, makeDrawing, makePick,
+                        makeLabels, makeAxes, makeChoosing, makeBar, makeControls, makeLayers, makePointer,
+                        makeKeyboard])
         Object.assign(view, make(view));
 
-    canvas.tabIndex = 0;
-    canvas.setAttribute("role", "application");
-    canvas.setAttribute("aria-label", "The surface in colours, designs side by side. Arrow keys turn, with shift they " +
-        "move, plus and minus zoom, f fits, 1, 2 and 3 look from front, side and top, Enter asks the point in the middle " +
-        "of the first design.");
     view.addDesigns();
     view.addQuantities();
     view.addViews();
     view.addCut();
+    view.addLayers();
+    view.controls.append(view.layers);
     view.addParts();
     view.bindPointer();
     view.bindKeys();

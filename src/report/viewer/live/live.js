@@ -11,7 +11,7 @@
     const empty = new Uint8Array(model.patches);
     const design = {index: view.about.models.length + 1e6, name: "Yours", quote: "", manual: false, first: false, model,
                     values: Object.fromEntries(view.about.quantities.map(({key}) => [key, empty])), share: empty,
-                    film: empty, shadowOf: empty, shadows: [], nozzles: []};
+                    film: empty, shadowOf: empty, shadows: [], nozzles: [], jets: []};
     const live = {view, editing, model, empty, design, origin: editing.settings.slice(13, 16), LITRES: 6e4,
         nozzles: [], chosen: 0, start: null, last: null, syncs: [],
         section: element("section", {id: "live"}), figures: element("div", {class: "wide"}),
@@ -33,7 +33,7 @@
         live.chosen = 0;
         live.start = {name: view.designs.find((other) => other.index === from.index).name};
         const found = await live.ask("evaluate", {nozzles: live.nozzles.map(numbersOf), stride: 1});
-        Object.assign(live.start, found.figures);
+        Object.assign(live.start, found.figures, {price: live.priceOf(found.figures.flow)});
         return found;
     }
 
@@ -67,6 +67,8 @@
             live.refresh(true);
         });
     });
+    view.addLayer("boxes", {name: "Boxes", told: "the leaves of the hierarchy that finds what a jet meets, each of " +
+        "eight triangles at most", prepare: async () => view.uploadBoxes(model, await live.ask("boxes"))});
     live.drawNozzles();
     view.addDesign(design);
     live.build();

@@ -4,7 +4,7 @@
 (() => {
     const ARRAYS = ["settings", "places", "triangles", "part", "clean", "names", "chart", "uv", "chartPage",
                     "chartTexel", "sides", "nodes", "cuts", "types", "members"];
-    const NOZZLES = 15, FIGURES = 0, SHARE = 5, SHADOW_LIST = 6, SHADOW_OF = 7, SHADOW_NUMBERS = 6;
+    const NOZZLES = 15, FIGURES = 0, SHARE = 5, SHADOW_LIST = 6, SHADOW_OF = 7, BOXES = 8, SHADOW_NUMBERS = 6;
     let wasm, live, count = 0, quantities = [];
 
     const bytesAt = (at, bytes) => new Uint8Array(wasm.memory.buffer, at, bytes);
@@ -112,7 +112,13 @@
         return {place: nearest && nearest.slice(0, 3), normal: nearest && nearest.slice(3), far: least};
     }
 
-    const acts = {open, evaluate, finish, prepare, foot};
+    /* Those of the accelerator's leaves. */
+    function boxes() {
+        const found = wasm.sp_live_boxes(live);
+        return doublesAt(wasm.sp_live_tell(live, BOXES), 6 * found).slice();
+    }
+
+    const acts = {open, evaluate, finish, prepare, foot, boxes};
     addEventListener("message", async ({data}) => {
         try {
             postMessage({id: data.id, answer: await acts[data.act](data)});
