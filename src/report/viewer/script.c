@@ -12,9 +12,9 @@
 #define EMBED(name, files)                                                                                             \
     __asm__(SECTION "\n.globl " SYMBOL(name) "\n" SYMBOL(name) ":\n" files "\n.globl " SYMBOL(                         \
         name "_end") "\n" SYMBOL(name "_end") ":\n.byte 0\n.text\n")
-#define FILE(path) ".incbin \"" path "\"\n"
-#define VIEWER(file) FILE(SPRAYPLAN_VIEWER "/" file)
-#define LIVE(file) FILE(SPRAYPLAN_VIEWER "/live/" file)
+#define TAKEN(path) ".incbin \"" path "\"\n"
+#define VIEWER(file) TAKEN(SPRAYPLAN_VIEWER "/" file)
+#define LIVE(file) TAKEN(SPRAYPLAN_VIEWER "/live/" file)
 
 /* The last of each puts together what is in those before it. */
 EMBED("sp_viewer_script",
@@ -27,7 +27,7 @@ EMBED("sp_live_script", LIVE("evaluator.js") LIVE("layout.js") LIVE("telling.js"
                             LIVE("changes.js") LIVE("sliders.js") LIVE("controls.js") LIVE("live.js"));
 EMBED("sp_live_worker", LIVE("worker.js"));
 #ifdef SPRAYPLAN_LIVE
-EMBED("sp_live_module", FILE(SPRAYPLAN_LIVE));
+EMBED("sp_live_module", TAKEN(SPRAYPLAN_LIVE));
 const bool sp_live_is_built = true;
 #else
 const char sp_live_module[] = "", sp_live_module_end[] = "";
