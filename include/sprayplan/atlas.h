@@ -104,6 +104,29 @@ sp_atlas *sp_atlas_create(const sp_mesh *mesh, const sp_charts *charts, const sp
  * page, triangles that are turned over, overlaps, lengths (more than 5 % of the area strained by more than 5 %), charts
  * without a pixel between them. */
 sp_atlas *sp_atlas_reuse(const sp_mesh *mesh, const char *path, double texel, sp_error *error);
+
+/* How an OBJ file lays its triangles flat, polygons as fans and in the file's order. Nothing of it has been checked. */
+typedef struct {
+    char *path; /* as it was read */
+    size_t triangle_count;
+    double (*uv)[3][2];      /* [triangle_count], in units of a page's edge, NAN at a corner without */
+    uint32_t *page;          /* [triangle_count], of usemtl page_0, ... */
+    int *line;               /* [triangle_count], of the face */
+    double page_edge, texel; /* as sp_atlas_obj noted them: texels, m; 0 where it did not */
+} sp_unfolding;
+
+/* Reads a file that sp_mesh_load reads; `unit`: m per unit of the file's coordinates, as the mesh has it. */
+sp_unfolding *sp_unfolding_read(const char *path, double unit, sp_error *error);
+void sp_unfolding_destroy(sp_unfolding *unfolding);
+/* As sp_atlas_reuse, of a mesh that several files make up, in the order of its source triangles; their pages follow one
+ * another, each in the lower left of pages of one size, on texels of its own that are no longer than `texel`. Errors
+ * name file and line. */
+sp_atlas *sp_atlas_of_files(const sp_mesh *mesh, const sp_unfolding *const *files, size_t count, double texel,
+                            sp_error *error);
+/* The texel (m) where none is asked for: the shortest that the files have themselves, or as sp_atlas_reuse has it. */
+double sp_unfolding_texel(const sp_unfolding *const *files, size_t count, const sp_mesh *mesh);
+/* The charts of an atlas as they lie on its pages, no edge cut anew; the caller destroys. */
+sp_charts *sp_charts_of_atlas(const sp_atlas *atlas, sp_error *error);
 void sp_atlas_destroy(sp_atlas *atlas);
 
 /* The texel that holds the point (1-u-v, u, v) of a triangle; always one that the triangle has a part in. */

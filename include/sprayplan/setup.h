@@ -2,6 +2,7 @@
 #ifndef SPRAYPLAN_SETUP_H
 #define SPRAYPLAN_SETUP_H
 
+#include <sprayplan/atlas.h>
 #include <sprayplan/cad.h>
 #include <sprayplan/mesh.h>
 #include <sprayplan/nozzle.h>
@@ -100,6 +101,10 @@ typedef struct {
     sp_datum datum;     /* default the origin, z and x; of a scene its up in place of z */
     const sp_cap *caps; /* borrowed: [cap_count]; NULL for none */
     size_t cap_count;
+    /* borrowed: [unfolded_count], what files make up the mesh, each as it lays its triangles flat: the atlas on texels
+     * of the length that fidelity asks for, which must be given. NULL: the surface is unfolded here. */
+    const sp_unfolding *const *unfolded;
+    size_t unfolded_count;
     sp_sweep sweep;  /* speed 0: nothing moves */
     sp_fluid liquid; /* default water: 1000 kg/m³, 1 mPa s */
     sp_fluid air;    /* 1.2 kg/m³, 18 µPa s */

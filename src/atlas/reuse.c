@@ -1,13 +1,8 @@
-/* Takes an atlas from a file, and believes nothing of it. */
-#include "atlas/reuse.h"
-
+/* Makes an atlas of what files lay flat, and believes nothing of it. */
 #include "atlas/adjacent.h"
 #include "atlas/overlap.h"
 #include "atlas/texels/texels.h"
-#include "mesh/file.h"
-#include "mesh/texture.h"
 
-#include <locale.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,25 +13,56 @@
 #define EMPTIEST 64.0  /* pixels for every texel of surface */
 #define SMALL 16777216 /* pixels that are no matter */
 
+/* What is known of one file. */
+typedef struct {
+    const sp_unfolding *from;
+    size_t first;       /* of its triangles, in the mesh's source */
+    uint32_t page;      /* its first, of the atlas */
+    double area, flat;  /* m²; square edges of a page */
+    double edge, texel; /* of its pages, which fill the lower left of the atlas's: texels; m */
+} sheet;
+
 typedef struct {
     const sp_mesh *mesh;
-    const char *path, *text;
-    sp_texture texture;
+    size_t sheet_count;
+    sheet *sheets;   /* [sheet_count] */
+    uint32_t *sheet; /* [triangle_count], of each triangle of the mesh */
     sp_atlas *atlas;
     sp_error *error;
 } reuse;
 
+static const sheet *sheet_of(const reuse *r, uint32_t triangle)
+{
+    return &r->sheets[r->sheet[triangle]];
+}
+
+static size_t in_file(const reuse *r, uint32_t triangle)
+{
+    return r->mesh->source[triangle] - sheet_of(r, triangle)->first;
+}
+
+static const double (*uv_of(const reuse *r, uint32_t triangle))[2]
+{
+    return (const double(*)[2])sheet_of(r, triangle)->from->uv[in_file(r, triangle)];
+}
+
 static bool refuse(const reuse *r, uint32_t triangle, const char *found)
 {
-    return sp_fail(r->error, SP_ERROR_INPUT, r->path, r->texture.line[r->mesh->source[triangle]], 0,
+    const sp_unfolding *from = sheet_of(r, triangle)->from;
+    return sp_fail(r->error, SP_ERROR_INPUT, from->path, from->line[in_file(r, triangle)], 0,
                    "found %s; expected texture coordinates as atlas writes them", found);
+}
+
+static double twice_flat(const double uv[3][2])
+{
+    return (uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) - (uv[1][1] - uv[0][1]) * (uv[2][0] - uv[0][0]);
 }
 
 /* Finite, on the page, and not turned over. */
 static bool check_corners(const reuse *r)
 {
     for (uint32_t t = 0; t < r->mesh->triangle_count; t++) {
-        const double(*uv)[2] = (const double(*)[2])r->texture.uv[r->mesh->source[t]];
+        const double(*uv)[2] = uv_of(r, t);
         for (int i = 0; i < 3; i++)
             for (int k = 0; k < 2; k++) {
                 if (isnan(uv[i][k]))
@@ -44,54 +70,64 @@ static bool check_corners(const reuse *r)
                 if (!(uv[i][k] >= 0 && uv[i][k] <= 1))
                     return refuse(r, t, "a texture coordinate off the page, which is from 0 to 1");
             }
-        double twice = (uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) - (uv[1][1] - uv[0][1]) * (uv[2][0] - uv[0][0]);
-        if (twice < 0)
+        if (twice_flat(uv) < 0)
             return refuse(r, t, "a triangle that is turned over on the page");
     }
     return true;
 }
 
-/* How many metres a page's edge spans, so that the area is kept. */
-static double scale_of(const reuse *r)
+static void measure_sheets(reuse *r)
 {
-    double flat = 0;
     for (uint32_t t = 0; t < r->mesh->triangle_count; t++) {
-        const double(*uv)[2] = (const double(*)[2])r->texture.uv[r->mesh->source[t]];
-        flat += 0.5 * ((uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) - (uv[1][1] - uv[0][1]) * (uv[2][0] - uv[0][0]));
+        sheet *s = &r->sheets[r->sheet[t]];
+        s->area += sp_triangle_area(r->mesh, t);
+        s->flat += 0.5 * twice_flat(uv_of(r, t));
     }
-    return sqrt(sp_mesh_area(r->mesh) / flat);
 }
 
-/* What sp_atlas_obj noted in the file's first line; false where it did not. */
-static bool read_mark(const reuse *r, double *page_edge, double *texel)
+static bool is_marked(const sp_unfolding *from)
 {
-    const char *text = r->text;
-    if (strncmp(text, SP_ATLAS_MARK, sizeof SP_ATLAS_MARK - 1) != 0)
-        return false;
-    char *end;
-    *page_edge = strtod(text + sizeof SP_ATLAS_MARK - 1, &end);
-    *texel = strtod(end, &end);
-    return *page_edge >= 1 && *page_edge <= LARGEST_PAGE && *page_edge == floor(*page_edge) && *texel > 0 &&
-           isfinite(*texel);
+    return from->page_edge >= 1 && from->page_edge <= LARGEST_PAGE && from->page_edge == floor(from->page_edge) &&
+           from->texel > 0 && isfinite(from->texel);
+}
+
+double sp_unfolding_texel(const sp_unfolding *const *files, size_t count, const sp_mesh *mesh)
+{
+    double texel = INFINITY;
+    for (size_t i = 0; i < count; i++)
+        texel = fmin(texel, is_marked(files[i]) ? files[i]->texel : sqrt(sp_mesh_area(mesh) / USUAL_TEXELS));
+    return texel;
 }
 
 /* A texel asked for is not enlarged, and whole texels go into a page. */
-static bool choose_texel(const reuse *r, double asked)
+static bool choose_texel(const reuse *r, sheet *s, double asked)
 {
-    double page_edge, texel;
-    bool marked = read_mark(r, &page_edge, &texel);
+    bool marked = is_marked(s->from);
+    s->edge = s->from->page_edge;
+    s->texel = s->from->texel;
     if (!marked || asked > 0) {
-        double scale = marked ? page_edge * texel : scale_of(r);
+        /* how many metres a page's edge spans, so that the area is kept */
+        double scale = marked ? s->edge * s->texel : sqrt(s->area / s->flat);
         double wanted = asked > 0 ? asked : sqrt(sp_mesh_area(r->mesh) / USUAL_TEXELS);
-        page_edge = fmax(1, ceil(scale / wanted * (1 - 1e-12)));
-        texel = scale / page_edge;
-        if (!isfinite(scale) || !(texel > 0) || !(page_edge <= LARGEST_PAGE))
-            return sp_fail(r->error, SP_ERROR_INPUT, r->path, 0, 0,
+        s->edge = fmax(1, ceil(scale / wanted * (1 - 1e-12)));
+        s->texel = scale / s->edge;
+        if (!isfinite(scale) || !(s->texel > 0) || !(s->edge <= LARGEST_PAGE))
+            return sp_fail(r->error, SP_ERROR_INPUT, s->from->path, 0, 0,
                            "found a page of %g m, expected one of at most %g texels of %g m", scale, LARGEST_PAGE,
                            wanted);
     }
-    r->atlas->page_edge = (uint32_t)page_edge;
-    r->atlas->texel = texel;
+    return true;
+}
+
+static bool choose_texels(const reuse *r, double asked)
+{
+    for (size_t i = 0; i < r->sheet_count; i++) {
+        sheet *s = &r->sheets[i];
+        if (s->area > 0 && !choose_texel(r, s, asked)) /* a file may hold nothing that has an area */
+            return false;
+        r->atlas->page_edge = (uint32_t)fmax(r->atlas->page_edge, s->edge);
+        r->atlas->texel = fmax(r->atlas->texel, s->texel);
+    }
     return true;
 }
 
@@ -114,7 +150,7 @@ static void take_coordinates(reuse *r)
         atlas->chart[t] = t;
         for (int i = 0; i < 3; i++)
             for (int k = 0; k < 2; k++)
-                atlas->uv[t][i][k] = in_pixels(r->texture.uv[r->mesh->source[t]][i][k], atlas->page_edge);
+                atlas->uv[t][i][k] = in_pixels(uv_of(r, t)[i][k], sheet_of(r, t)->edge);
     }
 }
 
@@ -135,7 +171,8 @@ static bool find_charts(reuse *r)
     bool done = root ? sp_adjacent_create(mesh, &edges, r->error) : (bool)sp_fail_memory(r->error);
     for (uint32_t t = 0; done && t < atlas->triangle_count; t++) {
         root[t] = t;
-        atlas->chart[t] = r->texture.page[mesh->source[t]]; /* only what lies on one page can be joined */
+        /* only what lies on one page can be joined */
+        atlas->chart[t] = sheet_of(r, t)->page + sheet_of(r, t)->from->page[in_file(r, t)];
     }
     for (uint32_t h = 0; done && h < 3 * atlas->triangle_count; h++) {
         uint32_t other = edges.opposite[h];
@@ -149,7 +186,7 @@ static bool find_charts(reuse *r)
         if (root_of(root, t) == t) { /* the lowest of its chart, so that the chart's others come later */
             size_t page = atlas->chart[t];
             atlas->chart_page[atlas->chart_count] = (uint32_t)page;
-            atlas->chart_texel[atlas->chart_count] = atlas->texel;
+            atlas->chart_texel[atlas->chart_count] = sheet_of(r, t)->texel;
             atlas->page_count = page >= atlas->page_count ? page + 1 : atlas->page_count;
             atlas->chart[t] = (uint32_t)atlas->chart_count++;
         } else {
@@ -235,67 +272,98 @@ static bool check_gaps(const reuse *r)
 static bool check_pages(const reuse *r)
 {
     const sp_atlas *atlas = r->atlas;
-    double pixels = (double)atlas->page_edge * atlas->page_edge * (double)atlas->page_count;
-    double texels = sp_mesh_area(r->mesh) / (atlas->texel * atlas->texel);
+    double pixels = (double)atlas->page_edge * atlas->page_edge * (double)atlas->page_count, texels = 0;
+    for (size_t i = 0; i < r->sheet_count; i++)
+        texels += r->sheets[i].area > 0 ? r->sheets[i].area / (r->sheets[i].texel * r->sheets[i].texel) : 0;
     if (atlas->page_count <= atlas->chart_count && pixels <= EMPTIEST * texels + SMALL)
         return true;
-    return sp_fail(r->error, SP_ERROR_INPUT, r->path, 0, 0,
+    return sp_fail(r->error, SP_ERROR_INPUT, r->sheets[0].from->path, 0, 0,
                    "found %zu pages of %u texels for %g texels of surface; expected fewer", atlas->page_count,
                    atlas->page_edge, texels);
 }
 
-static bool build(reuse *r, double texel)
+/* Which file each triangle is of, and where its pages are. */
+static bool find_sheets(reuse *r, const sp_unfolding *const *files)
 {
     const sp_mesh *mesh = r->mesh;
+    size_t first = 0, i = 0;
+    uint32_t page = 0;
+    for (size_t k = 0; k < r->sheet_count; k++) {
+        r->sheets[k] = (sheet){.from = files[k], .first = first, .page = page};
+        for (size_t t = 0; t < files[k]->triangle_count; t++)
+            page = (uint32_t)fmax(page, r->sheets[k].page + files[k]->page[t] + 1.0);
+        first += files[k]->triangle_count;
+    }
+    if (first != mesh->source_triangle_count)
+        return sp_fail(r->error, SP_ERROR_ARGUMENT, files[0]->path, 0, 0,
+                       "found %zu triangles, expected the mesh's %zu", first, mesh->source_triangle_count);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        while (i + 1 < r->sheet_count && mesh->source[t] >= r->sheets[i + 1].first)
+            i++;
+        r->sheet[t] = (uint32_t)i;
+    }
+    return true;
+}
+
+static bool make_room(reuse *r)
+{
+    size_t count = r->mesh->triangle_count + 1;
     sp_atlas *atlas = r->atlas;
-    if (r->texture.triangle_count != mesh->source_triangle_count)
-        return sp_fail(r->error, SP_ERROR_ARGUMENT, r->path, 0, 0, "found %zu triangles, expected the mesh's %zu",
-                       r->texture.triangle_count, mesh->source_triangle_count);
-    atlas->triangle_count = mesh->triangle_count;
-    atlas->chart = malloc((mesh->triangle_count + 1) * sizeof *atlas->chart);
-    atlas->uv = malloc((mesh->triangle_count + 1) * sizeof *atlas->uv);
-    atlas->chart_page = malloc((mesh->triangle_count + 1) * sizeof *atlas->chart_page);
-    atlas->chart_texel = malloc((mesh->triangle_count + 1) * sizeof *atlas->chart_texel);
-    if (!atlas->chart || !atlas->uv || !atlas->chart_page || !atlas->chart_texel)
-        return sp_fail_memory(r->error);
-    if (!check_corners(r) || !choose_texel(r, texel))
+    atlas->triangle_count = r->mesh->triangle_count;
+    atlas->chart = malloc(count * sizeof *atlas->chart);
+    atlas->uv = malloc(count * sizeof *atlas->uv);
+    atlas->chart_page = malloc(count * sizeof *atlas->chart_page);
+    atlas->chart_texel = malloc(count * sizeof *atlas->chart_texel);
+    return (atlas->chart && atlas->uv && atlas->chart_page && atlas->chart_texel) || sp_fail_memory(r->error);
+}
+
+static bool build(reuse *r, const sp_unfolding *const *files, double texel)
+{
+    if (!find_sheets(r, files) || !make_room(r) || !check_corners(r))
+        return false;
+    measure_sheets(r);
+    if (!choose_texels(r, texel))
         return false;
     take_coordinates(r);
     return find_charts(r) && check_pages(r) && check_lengths(r) && check_gaps(r) && check_overlaps(r) &&
-           sp_atlas_cut(atlas, mesh, r->error);
+           sp_atlas_cut(r->atlas, r->mesh, r->error);
 }
 
-sp_atlas *sp_atlas_read(const sp_mesh *mesh, const char *path, const char *text, size_t size, double texel,
-                        sp_error *error)
+sp_atlas *sp_atlas_of_files(const sp_mesh *mesh, const sp_unfolding *const *files, size_t count, double texel,
+                            sp_error *error)
 {
-    reuse r = {.mesh = mesh, .path = path, .text = text, .error = error};
-    if (!sp_texture_read(path, text, size, &r.texture, error))
-        return NULL;
+    reuse r = {.mesh = mesh, .sheet_count = count, .error = error};
     r.atlas = calloc(1, sizeof *r.atlas);
-    bool done = r.atlas ? build(&r, texel) : (bool)sp_fail_memory(error);
-    sp_texture_free(&r.texture);
+    r.sheets = calloc(count + 1, sizeof *r.sheets);
+    r.sheet = malloc((mesh->triangle_count + 1) * sizeof *r.sheet);
+    bool done = (r.atlas && r.sheets && r.sheet) || sp_fail_memory(error);
+    done = done && build(&r, files, texel);
+    free(r.sheets);
+    free(r.sheet);
     if (done)
         return r.atlas;
     sp_atlas_destroy(r.atlas);
     return NULL;
 }
 
-sp_atlas *sp_atlas_reuse(const sp_mesh *mesh, const char *path, double texel, sp_error *error)
+sp_charts *sp_charts_of_atlas(const sp_atlas *atlas, sp_error *error)
 {
-    size_t size;
-    if (!mesh)
-        return NULL;
-    char *text = sp_read_file(path, &size, error);
-    locale_t c = text ? newlocale(LC_ALL_MASK, "C", (locale_t)0) : (locale_t)0;
-    sp_atlas *atlas = NULL;
-    if (c != (locale_t)0) {
-        locale_t before = uselocale(c);
-        atlas = sp_atlas_read(mesh, path, text, size, texel, error);
-        uselocale(before);
-        freelocale(c);
-    } else if (text) {
-        sp_fail_memory(error);
+    sp_charts *charts = calloc(1, sizeof *charts);
+    if (!charts)
+        return sp_fail_memory(error);
+    charts->triangle_count = atlas->triangle_count;
+    charts->chart_count = atlas->chart_count;
+    charts->chart = malloc((atlas->triangle_count + 1) * sizeof *charts->chart);
+    charts->flat = malloc((atlas->triangle_count + 1) * sizeof *charts->flat);
+    charts->extent = INFINITY;
+    if (!charts->chart || !charts->flat) {
+        sp_charts_destroy(charts);
+        return sp_fail_memory(error);
     }
-    free(text);
-    return atlas;
+    for (uint32_t t = 0; t < atlas->triangle_count; t++) {
+        charts->chart[t] = atlas->chart[t];
+        for (int i = 0; i < 6; i++)
+            charts->flat[t][i / 2][i % 2] = atlas->uv[t][i / 2][i % 2] * sp_atlas_texel_length(atlas, t);
+    }
+    return charts;
 }

@@ -109,6 +109,22 @@ static bool read_piece(sp_scene *scene, const sp_reader *reader, const sp_yaml *
     return true;
 }
 
+/* The file's own texture coordinates, once it has been read as a mesh. */
+static bool read_unfolding(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, const piece *p, size_t index)
+{
+    const sp_yaml *file = sp_yaml_get(node, "file");
+    const char *dot = strrchr(file->text, '.');
+    if (!scene->reuse)
+        return true;
+    if (!dot || strcasecmp(dot, ".obj") != 0)
+        return sp_read_fail(reader, file, "file", "an OBJ file, as simulate has atlas: reuse");
+    char *path = sp_scene_file(scene->directory, "the scene", reader, file, "file");
+    if (path)
+        scene->unfolded[index] = sp_unfolding_read(path, p->unit * p->transform.scale, reader->error);
+    free(path);
+    return scene->unfolded[index] != NULL;
+}
+
 static sp_mesh *load_piece(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, const piece *p,
                            sp_cad_account *account)
 {
@@ -245,12 +261,24 @@ static void sum_cads(sp_scene *scene)
     }
 }
 
+static void settle_unfolded(sp_scene *scene)
+{
+    sp_setup *setup = &scene->setup;
+    if (!scene->reuse)
+        return;
+    setup->unfolded = (const sp_unfolding *const *)scene->unfolded;
+    setup->unfolded_count = scene->cad_count;
+    if (!(setup->fidelity.texel > 0))
+        setup->fidelity.texel = sp_unfolding_texel(setup->unfolded, setup->unfolded_count, scene->mesh);
+}
+
 static bool read_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml *list, sp_mesh **meshes, piece *pieces)
 {
     size_t count = 0;
     for (const sp_yaml *node = list->first; node; node = node->next, count++)
         if (!read_piece(scene, reader, node, &pieces[count]) ||
-            !(meshes[count] = load_piece(scene, reader, node, &pieces[count], &scene->cads[count])))
+            !(meshes[count] = load_piece(scene, reader, node, &pieces[count], &scene->cads[count])) ||
+            !read_unfolding(scene, reader, node, &pieces[count], count))
             return false;
     if (!join_pieces(scene, reader, list, (const sp_mesh *const *)meshes, pieces))
         return false;
@@ -262,6 +290,7 @@ static bool read_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml 
     for (size_t i = 0; i < count; i++)
         scene->file_units[i] = pieces[i].cad == SP_CAD_STEP || pieces[i].cad == SP_CAD_IGES ? 0 : pieces[i].unit;
     sum_cads(scene);
+    settle_unfolded(scene);
     return sp_scene_settle_dose(scene, reader);
 }
 
@@ -274,8 +303,9 @@ bool sp_scene_read_geometry(sp_scene *scene, const sp_reader *reader)
     piece *pieces = calloc(list->count, sizeof *pieces);
     scene->cads = calloc(list->count, sizeof *scene->cads);
     scene->file_units = calloc(list->count, sizeof *scene->file_units);
+    scene->unfolded = scene->reuse ? calloc(list->count, sizeof(sp_unfolding *)) : NULL;
     scene->cad_count = list->count;
-    bool room = meshes && pieces && scene->cads && scene->file_units;
+    bool room = meshes && pieces && scene->cads && scene->file_units && (scene->unfolded || !scene->reuse);
     bool good = room ? read_pieces(scene, reader, list, meshes, pieces) : sp_fail_memory(reader->error) != NULL;
     for (size_t i = 0; meshes && i < list->count; i++)
         sp_mesh_destroy(meshes[i]);

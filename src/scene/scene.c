@@ -99,6 +99,9 @@ void sp_scene_destroy(sp_scene *scene)
     free(scene->surfaces);
     free(scene->cads);
     free(scene->file_units);
+    for (size_t i = 0; scene->unfolded && i < scene->cad_count; i++)
+        sp_unfolding_destroy(scene->unfolded[i]);
+    free(scene->unfolded);
     sp_yaml_destroy(scene->tree);
     free(scene->directory);
     free(scene->path);

@@ -33,24 +33,27 @@ bool sp_scene_read_trajectory(const sp_reader *reader, const sp_yaml *map, sp_tr
 
 bool sp_scene_read_simulate(sp_scene *scene, const sp_reader *reader)
 {
-    static const sp_key keys[] = {{"trajectory", false}, {"evaluator", false}, {"reflections", false},
-                                  {"jets", false},       {"texel", false},     {"splat", false},
-                                  {"accuracy", false},   {"seed", false},      {NULL, false}};
+    static const sp_key keys[] = {{"trajectory", false}, {"evaluator", false}, {"reflections", false}, {"jets", false},
+                                  {"texel", false},      {"splat", false},     {"accuracy", false},    {"seed", false},
+                                  {"atlas", false},      {NULL, false}};
     static const char *const methods[] = {"auto", "forward", "inverse", NULL};
     static const char *const splats[] = {"nearest", "linear", NULL};
+    static const char *const atlases[] = {"unfold", "reuse", NULL};
     const sp_yaml *node = sp_yaml_get(scene->tree, "simulate");
     sp_fidelity *fidelity = &scene->setup.fidelity;
-    int method = fidelity->method, splat = fidelity->splat;
+    int method = fidelity->method, splat = fidelity->splat, atlas = 0;
     if (!node)
         return true;
     if (!sp_read_keys(reader, node, "simulate", "the simulation", keys) ||
         !sp_scene_read_trajectory(reader, node, &fidelity->trajectory) ||
         !sp_read_choice(reader, node, "evaluator", methods, &method) || !read_sizes(reader, node, fidelity) ||
         !sp_read_choice(reader, node, "splat", splats, &splat) ||
+        !sp_read_choice(reader, node, "atlas", atlases, &atlas) ||
         !sp_read_quantity(reader, node, "accuracy", &sp_share_unit, sp_above_to(0, 1), &fidelity->accuracy) ||
         !sp_read_count(reader, node, "seed", 0, UINT64_MAX, &fidelity->seed))
         return false;
     fidelity->method = (sp_method)method;
     fidelity->splat = (sp_splat)splat;
+    scene->reuse = atlas == 1;
     return true;
 }

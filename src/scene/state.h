@@ -35,10 +35,12 @@ struct sp_scene {
     sp_surface *surfaces; /* [mesh->part_count] */
     sp_run run;           /* while it is read */
     size_t cad_count;
-    sp_cad_account *cads; /* [cad_count], one for each geometry entry; all zeros where that is no CAD file */
-    double *file_units;   /* [cad_count], m per unit of the file as the scene has it; 0: the file knows its own */
-    sp_cap *caps;         /* [setup.cap_count] */
-    double dose;          /* m³/m², of the criterion; 0: none */
+    sp_cad_account *cads;    /* [cad_count], one for each geometry entry; all zeros where that is no CAD file */
+    double *file_units;      /* [cad_count], m per unit of the file as the scene has it; 0: the file knows its own */
+    bool reuse;              /* of the files' own texture coordinates */
+    sp_unfolding **unfolded; /* [cad_count] where reused, else NULL */
+    sp_cap *caps;            /* [setup.cap_count] */
+    double dose;             /* m³/m², of the criterion; 0: none */
     size_t type_count;
     sp_nozzle_type *types;
     size_t image_count;

@@ -112,8 +112,9 @@ static const char *trajectory_text(const sp_fidelity *asked, const sp_fidelity *
 }
 
 /* `jets` may stay 0 where no jets are traced. */
-static sp_yaml *simulate_node(writer *w, const sp_fidelity *asked, const sp_fidelity *fidelity)
+static sp_yaml *simulate_node(writer *w, const sp_scene *scene, const sp_fidelity *fidelity)
 {
+    const sp_fidelity *asked = &scene->setup.fidelity;
     bool inverse = fidelity->method == SP_METHOD_INVERSE;
     sp_yaml *map = put(w, NULL, SP_YAML_MAP, "simulate", NULL);
     put(w, map, SP_YAML_SCALAR, "trajectory", trajectory_text(asked, fidelity));
@@ -125,6 +126,8 @@ static sp_yaml *simulate_node(writer *w, const sp_fidelity *asked, const sp_fide
     put(w, map, SP_YAML_SCALAR, "splat", fidelity->splat == SP_SPLAT_LINEAR ? "linear" : "nearest");
     put_quantity(w, map, "accuracy", fidelity->accuracy, &sp_share_unit, "");
     put_count(w, map, "seed", fidelity->seed);
+    if (scene->reuse)
+        put(w, map, SP_YAML_SCALAR, "atlas", "reuse");
     return map;
 }
 
@@ -181,7 +184,7 @@ static char *write_tree(const sp_scene *scene, sp_yaml *tree, const sp_layout *l
 {
     writer w = {.units = units, .error = error};
     sp_yaml *nozzles = nozzles_node(&w, layout, &scene->setup);
-    sp_yaml *simulate = simulate_node(&w, &scene->setup.fidelity, fidelity);
+    sp_yaml *simulate = simulate_node(&w, scene, fidelity);
     if (nozzles)
         sp_yaml_replace(tree, nozzles);
     if (simulate)

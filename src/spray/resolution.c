@@ -98,6 +98,14 @@ static bool set_positions(sp_evaluator *evaluator, double texel, sp_error *error
     return true;
 }
 
+/* What is left to do once there is an atlas. */
+static bool cut_patches(sp_evaluator *evaluator, sp_error *error)
+{
+    return evaluator->atlas &&
+           sp_fragments_create(&evaluator->fragments, evaluator->atlas, evaluator->setup.mesh, error) &&
+           sp_patches_create(evaluator, error) && (evaluator->patches.total_area > 0 || sp_fail_nothing(error));
+}
+
 /* The atlas on pages of the usual size, or larger ones where a single triangle must have them. */
 static bool build_atlas(sp_evaluator *evaluator, const sp_charts *charts, const sp_density *density, sp_error *error)
 {
@@ -107,9 +115,7 @@ static bool build_atlas(sp_evaluator *evaluator, const sp_charts *charts, const 
     if (sp_texel_is_resolved(evaluator, texel, error) && check_number(texel, density->texels, error) &&
         set_positions(evaluator, texel, error))
         evaluator->atlas = sp_atlas_create(evaluator->setup.mesh, charts, &options, error);
-    return evaluator->atlas &&
-           sp_fragments_create(&evaluator->fragments, evaluator->atlas, evaluator->setup.mesh, error) &&
-           sp_patches_create(evaluator, error) && (evaluator->patches.total_area > 0 || sp_fail_nothing(error));
+    return cut_patches(evaluator, error);
 }
 
 /* True where charts made for pages of one length (m) are those of the other too: none comes near either. */
@@ -139,12 +145,38 @@ static bool serve_both(const sp_charts *charts, double one, double other)
 static bool make_charts(sp_evaluator *evaluator, sp_error *error)
 {
     double extent = (PAGE_EDGE - PAGE_MARGIN) * evaluator->fidelity.texel;
-    if (evaluator->charts && (evaluator->extent == extent || serve_both(evaluator->charts, evaluator->extent, extent)))
+    if (evaluator->charts && (evaluator->setup.unfolded || evaluator->extent == extent ||
+                              serve_both(evaluator->charts, evaluator->extent, extent)))
         return true;
     sp_charts_destroy(evaluator->charts);
     evaluator->extent = extent;
     evaluator->charts = sp_charts_create(evaluator->setup.mesh, extent, error);
     return evaluator->charts != NULL;
+}
+
+/* As the files lie; on texels of any other length their charts would not keep apart, and are packed anew. */
+static bool is_laid(const sp_evaluator *evaluator)
+{
+    return evaluator->setup.unfolded && evaluator->fidelity.texel == evaluator->setup.fidelity.texel;
+}
+
+static bool lay(sp_evaluator *evaluator, sp_error *error)
+{
+    const sp_setup *setup = &evaluator->setup;
+    sp_fidelity *fidelity = &evaluator->fidelity;
+    double texel = fidelity->texel, finest = INFINITY;
+    if (!sp_texel_is_resolved(evaluator, texel, error) ||
+        !check_number(texel, sp_mesh_area(setup->mesh) / (texel * texel), error) ||
+        !set_positions(evaluator, texel, error) ||
+        !(evaluator->atlas = sp_atlas_of_files(setup->mesh, setup->unfolded, setup->unfolded_count, texel, error)))
+        return false;
+    for (size_t c = 0; c < evaluator->atlas->chart_count; c++)
+        finest = fmin(finest, evaluator->atlas->chart_texel[c]);
+    if (fidelity->jets == 0)
+        fidelity->jets = sp_jets_for(evaluator, fidelity->method == SP_METHOD_INVERSE ? texel : finest);
+    if (!evaluator->charts)
+        evaluator->charts = sp_charts_of_atlas(evaluator->atlas, error);
+    return evaluator->charts && cut_patches(evaluator, error);
 }
 
 bool sp_texels_create(sp_evaluator *evaluator, const sp_evaluator *fine, sp_error *error)
@@ -153,6 +185,8 @@ bool sp_texels_create(sp_evaluator *evaluator, const sp_evaluator *fine, sp_erro
     sp_fidelity *fidelity = &evaluator->fidelity;
     sp_density_limits limits = density_limits(evaluator);
     sp_texels_free(evaluator);
+    if (is_laid(evaluator))
+        return lay(evaluator, error);
     if (!evaluator->origin && !make_charts(evaluator, error))
         return false;
     if (!(fine ? sp_density_like(evaluator, evaluator->charts, fine, &density, error)
