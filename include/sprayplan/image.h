@@ -11,8 +11,37 @@
 extern "C" {
 #endif
 
-/* Colour (sRGB) for a value from 0 to 1 (clamped), viridis: perceptually uniform, readable without colour vision. */
-void sp_viridis(double value, uint8_t rgb[3]);
+/* Perceptually uniform maps, readable without colour vision; cividis looks nearly the same without red or green. */
+typedef enum { SP_COLOURS_VIRIDIS, SP_COLOURS_CIVIDIS } sp_colours;
+/* Colour (sRGB) for a value from 0 to 1 (clamped; not a number: 0). */
+void sp_colour_of(sp_colours colours, double value, uint8_t rgb[3]);
+
+/* What pictures and model show. All zeros: liquid flux, on a logarithmic scale, in viridis. */
+typedef enum {
+    SP_QUANTITY_FLUX,
+    SP_QUANTITY_SPEED,
+    SP_QUANTITY_SPEED_MAX,
+    SP_QUANTITY_INCIDENCE,
+    SP_QUANTITY_INCIDENCE_MIN,
+    SP_QUANTITY_IMPACT,
+    SP_QUANTITY_IMPACT_MAX,
+    SP_QUANTITY_JETS,
+    SP_QUANTITY_COVERED, /* share of a patch that is */
+    SP_QUANTITY_CHARTS,  /* of the atlas, each in a colour unlike its neighbours' */
+    SP_QUANTITIES,
+} sp_quantity;
+typedef enum {
+    SP_SHADES_AUTO, /* logarithmic of flux, impact and jets, else linear */
+    SP_SHADES_LINEAR,
+    SP_SHADES_LOG,
+    SP_SHADES_STEPPED, /* two colours, parted where the criterion is met; as AUTO where it does not ask */
+} sp_shades;
+typedef struct {
+    sp_quantity quantity;
+    sp_shades shades;
+    sp_colours colours;
+    bool wireframe; /* pictures show the edges of all triangles */
+} sp_picture_style;
 
 /* 8 bits a channel, row by row from the top, no padding; 3 or 4 channels. */
 bool sp_image_write_png(const char *path, const uint8_t *pixels, int width, int height, int channels, sp_error *error);

@@ -2,6 +2,7 @@
 #ifndef SPRAYPLAN_RESULT_H
 #define SPRAYPLAN_RESULT_H
 
+#include <sprayplan/image.h>
 #include <sprayplan/fitting.h>
 #include <sprayplan/place.h>
 #include <sprayplan/scene.h>
@@ -168,6 +169,7 @@ typedef struct {
     /* For the page's foot alone, so that result.json is the same of the same scene: the command as it was given, and
      * when. NULL where that is not told. */
     const char *command_line, *date;
+    sp_picture_style style;    /* of the pictures and models of all designs */
     const sp_editing *editing; /* NULL: the page evaluates no other layouts */
 } sp_result;
 

@@ -3,6 +3,7 @@
 #define SPRAYPLAN_SCENE_H
 
 #include <sprayplan/cad.h>
+#include <sprayplan/image.h>
 #include <sprayplan/place.h>
 
 #ifdef __cplusplus
@@ -17,9 +18,9 @@ typedef struct sp_scene sp_scene;
  * moved to a local origin (see sp_setup): setup, layout and mounts are all in the setup's coordinates. Every error
  * names file, line, column and key, what was found and what was expected. */
 sp_scene *sp_scene_load(const char *path, sp_error *error);
-/* The same with settings of `simulate:` and `place:` overridden, each "simulate.jets=20000" or "place.refine=none"; the
- * value is YAML as it would stand in the file. Errors in an override name it in place of the file. `run`: who is told
- * how far CAD files have been read, and may cancel; NULL for nobody. */
+/* The same with settings of `simulate:`, `place:` and `report:` overridden, each "simulate.jets=20000" or
+ * "place.refine=none"; the value is YAML as it would stand in the file. Errors in an override name it in place of the
+ * file. `run`: who is told how far CAD files have been read, and may cancel; NULL for nobody. */
 sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, size_t count, const sp_run *run,
                              sp_error *error);
 /* Accepts NULL. Everything that the functions below return belongs to the scene. */
@@ -29,6 +30,7 @@ const char *sp_scene_path(const sp_scene *scene);
 const sp_setup *sp_scene_setup(const sp_scene *scene);          /* NULL for NULL */
 const sp_layout *sp_scene_layout(const sp_scene *scene);        /* the engineer's own, may have no nozzles */
 sp_place_options sp_scene_place_options(const sp_scene *scene); /* defaults for NULL */
+sp_picture_style sp_scene_picture_style(const sp_scene *scene); /* what `report:` asks for; default for NULL */
 bool sp_scene_has_place(const sp_scene *scene);                 /* the file has a `place:` block with mounts */
 
 /* What water is worth, `water_cost` of `place:`. */

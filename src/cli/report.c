@@ -72,6 +72,15 @@ static void tell_date(char *text, size_t size)
         strftime(text, size, "%Y-%m-%d %H:%M UTC", &parts);
 }
 
+/* What the first of the scenes asks for: all pictures of a report compare. */
+static sp_picture_style picture_style(const cli_options *options, const sp_scene *const *scenes)
+{
+    for (int i = 0; i < options->input_count; i++)
+        if (scenes[i])
+            return sp_scene_picture_style(scenes[i]);
+    return (sp_picture_style){0};
+}
+
 bool cli_report(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
                 const cli_inputs *inputs, const sp_layout *layout, sp_error *error)
 {
@@ -85,6 +94,7 @@ bool cli_report(const cli_options *options, const sp_result *result, const sp_sc
     tell_date(told.date, sizeof told.date);
     sp_result full = *result;
     full.designs = told.designs;
+    full.style = picture_style(options, scenes);
     full.inputs = inputs->list;
     full.input_count = inputs->count;
     full.command_line = told.command_line;

@@ -14,7 +14,7 @@
 static const uint8_t white[3] = {255, 255, 255};
 
 /* Pages side by side in as square a block as they make; fronts first, then backs. */
-static bool tile(const sp_layers *layers, const sp_coverage *coverage, sp_flux_scale scale, const char *path,
+static bool tile(const sp_layers *layers, const sp_coverage *coverage, const sp_colour_scale *scale, const char *path,
                  sp_error *error)
 {
     const sp_atlas *atlas = sp_evaluator_atlas(layers->evaluator);
@@ -44,10 +44,10 @@ static bool tile(const sp_layers *layers, const sp_coverage *coverage, sp_flux_s
     return done;
 }
 
-bool sp_coverage_png(const sp_design *design, sp_flux_scale scale, const char *path, sp_error *error)
+bool sp_coverage_png(const sp_design *design, const sp_colour_scale *scale, const char *path, sp_error *error)
 {
     sp_layers layers;
-    if (!sp_layers_create(&layers, design->evaluator, error))
+    if (!sp_layers_create_for(&layers, design->evaluator, scale, error))
         return false;
     bool done = tile(&layers, design->coverage, scale, path, error);
     sp_layers_free(&layers);
@@ -56,7 +56,8 @@ bool sp_coverage_png(const sp_design *design, sp_flux_scale scale, const char *p
 
 bool sp_report_coverage_png(const sp_design *design, const char *path, sp_error *error)
 {
-    return sp_coverage_png(design, sp_flux_scale_of(design, 1), path, error);
+    sp_colour_scale scale = sp_colour_scale_of(design, 1, (sp_picture_style){0});
+    return sp_coverage_png(design, &scale, path, error);
 }
 
 static void fill_part(const sp_layers *layers, const sp_design *design, size_t page, int layer, float *pixels)

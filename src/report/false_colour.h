@@ -1,26 +1,41 @@
-/* What colour a patch has: viridis by flux where it is covered, hatched where not. */
+/* What colour a patch has: by a quantity and its scale, hatched where it is not covered. */
 #ifndef REPORT_FALSE_COLOUR_H
 #define REPORT_FALSE_COLOUR_H
 
 #include <sprayplan/result.h>
 
-/* Flux (m³/s per m²) at the two ends of the colour map; logarithmic between. */
+/* What readers see of a quantity. */
 typedef struct {
-    double low, high;
-} sp_flux_scale;
+    const char *name, *unit; /* plain text; "" */
+    double to_unit;          /* times a value in SI */
+} sp_quantity_words;
+extern const sp_quantity_words sp_quantity_words_of[SP_QUANTITIES];
 
-/* One scale for all designs, so that their pictures compare: from the criterion's flux, or the 1st percentile of
- * covered area where there is none, to the 99th; rounded outwards to 1, 2 or 5 L/min/m² times a power of ten. */
-sp_flux_scale sp_flux_scale_of(const sp_design *designs, size_t count);
-/* Where on the scale, 0 to 1. */
-double sp_flux_scale_place(sp_flux_scale scale, double flux);
+/* How a quantity is shown; SI. */
+typedef struct {
+    sp_picture_style style; /* its shades are not left to auto */
+    double low, high;       /* at the ends of the colour map; all 0 of charts */
+    double threshold;       /* that the criterion asks for; 0: none */
+} sp_colour_scale;
 
-/* Uncovered patches are hatched white and red: told from viridis by any eye, and in black and white. */
+/* One scale for all designs, so that their pictures compare. Logarithmic: from the criterion's flux, or the 1st
+ * percentile of the area, to the 99th, rounded outwards to 1, 2 or 5 times a power of ten, of three decades at most.
+ * Linear: from 0 to the 99th percentile, rounded up; angles to 90 degrees, shares to 1. The area is that which is
+ * covered by impact for flux, else that where liquid arrives. */
+sp_colour_scale sp_colour_scale_of(const sp_design *designs, size_t count, sp_picture_style style);
+/* Where on the colour map, 0 to 1. */
+double sp_colour_scale_place(const sp_colour_scale *scale, double value);
+/* A patch's value; 0 of charts. */
+double sp_quantity_value(const sp_deposits *deposits, sp_quantity quantity, size_t patch);
+
+/* Uncovered patches are hatched white and red: told from the colour maps by any eye, and in black and white. */
 extern const uint8_t sp_colour_hatch[2][3];
 extern const uint8_t sp_colour_obstacle[3];
 extern const uint8_t sp_colour_film[3]; /* covered by film and not by impact */
 
-/* `stripe` picks the hatch's colour, 0 or 1. */
-void sp_false_colour(sp_flux_scale scale, const sp_deposits *deposits, uint32_t patch, int stripe, uint8_t rgb[3]);
+/* `stripe` picks the hatch's colour, 0 or 1. Flux is shown where it covers; other quantities wherever liquid arrives,
+ * with the hatch's stripes where it does not cover. Not of charts. */
+void sp_false_colour(const sp_colour_scale *scale, const sp_deposits *deposits, uint32_t patch, int stripe,
+                     uint8_t rgb[3]);
 
 #endif

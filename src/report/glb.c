@@ -15,7 +15,7 @@ static const uint8_t nozzle_colour[3] = {16, 32, 42};
 
 typedef struct {
     const sp_design *design;
-    sp_flux_scale scale;
+    const sp_colour_scale *scale;
     sp_layers layers;
     sp_drawn_surface surface;
     uint32_t edge;         /* of the textures: a power of two, of which a page fills the upper left */
@@ -222,11 +222,11 @@ static bool prepare(model *m)
         return sp_fail_memory(m->error);
     for (size_t i = 0; i <= 2 * atlas->page_count; ++i)
         m->materials[i] = -1;
-    return sp_layers_create(&m->layers, m->design->evaluator, m->error) &&
+    return sp_layers_create_for(&m->layers, m->design->evaluator, m->scale, m->error) &&
            sp_drawn_surface_create(&m->surface, &m->layers, m->error) && add_root(m);
 }
 
-bool sp_model_glb(const sp_design *design, sp_flux_scale scale, const char *path, sp_error *error)
+bool sp_model_glb(const sp_design *design, const sp_colour_scale *scale, const char *path, sp_error *error)
 {
     model m = {.design = design, .scale = scale, .error = error};
     bool done = prepare(&m);
@@ -243,5 +243,6 @@ bool sp_model_glb(const sp_design *design, sp_flux_scale scale, const char *path
 
 bool sp_report_model_glb(const sp_design *design, const char *path, sp_error *error)
 {
-    return sp_model_glb(design, sp_flux_scale_of(design, 1), path, error);
+    sp_colour_scale scale = sp_colour_scale_of(design, 1, (sp_picture_style){0});
+    return sp_model_glb(design, &scale, path, error);
 }

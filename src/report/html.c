@@ -263,8 +263,10 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
 
 char *sp_page_html(const sp_result *result, size_t most_drawn, sp_error *error)
 {
-    sp_page page = {
-        .result = result, .scale = sp_flux_scale_of(result->designs, result->design_count), .most_drawn = most_drawn};
+    sp_page page = {.result = result,
+                    .scale = sp_colour_scale_of(result->designs, result->design_count, result->style),
+                    .flux = sp_colour_scale_of(result->designs, result->design_count, (sp_picture_style){0}),
+                    .most_drawn = most_drawn};
     sp_figures *figures = sp_result_figures(result, error);
     char *scene = sp_text_utf8(result->scene), *html = NULL;
     page.figures = figures;

@@ -24,8 +24,35 @@ bool sp_layers_create(sp_layers *layers, const sp_evaluator *evaluator, sp_error
     return true;
 }
 
+bool sp_layers_create_for(sp_layers *layers, const sp_evaluator *evaluator, const sp_colour_scale *scale,
+                          sp_error *error)
+{
+    if (!sp_layers_create(layers, evaluator, error))
+        return false;
+    if (scale->style.quantity != SP_QUANTITY_CHARTS)
+        return true;
+    layers->chart_colour = sp_chart_colours(sp_evaluator_atlas(evaluator), error);
+    if (!layers->chart_colour)
+        sp_layers_free(layers);
+    return layers->chart_colour != NULL;
+}
+
+void sp_layers_colour(const sp_layers *layers, const sp_colour_scale *scale, const sp_deposits *deposits,
+                      uint32_t patch, int stripe, uint8_t rgb[3])
+{
+    uint32_t texel = sp_evaluator_patches(layers->evaluator)->texel[patch];
+    if (layers->chart_colour)
+        memcpy(
+            rgb,
+            sp_chart_palette[layers->chart_colour[sp_atlas_place(sp_evaluator_atlas(layers->evaluator), texel).chart]],
+            3);
+    else
+        sp_false_colour(scale, deposits, patch, stripe, rgb);
+}
+
 void sp_layers_free(sp_layers *layers)
 {
+    free(layers->chart_colour);
     free(layers->patch[0]);
     free(layers->patch[1]);
     *layers = (sp_layers){0};
@@ -78,8 +105,8 @@ static void spread_rims(uint8_t *pixels, uint8_t *filled, size_t edge)
         }
 }
 
-uint8_t *sp_layers_picture(const sp_layers *layers, const sp_coverage *coverage, sp_flux_scale scale, size_t page,
-                           int layer, const uint8_t background[3], bool spread, sp_error *error)
+uint8_t *sp_layers_picture(const sp_layers *layers, const sp_coverage *coverage, const sp_colour_scale *scale,
+                           size_t page, int layer, const uint8_t background[3], bool spread, sp_error *error)
 {
     const sp_atlas *atlas = sp_evaluator_atlas(layers->evaluator);
     size_t edge = atlas->page_edge;
@@ -101,7 +128,7 @@ uint8_t *sp_layers_picture(const sp_layers *layers, const sp_coverage *coverage,
         if (patch == SP_NONE)
             memcpy(pixels + 3 * pixel, sp_colour_obstacle, 3);
         else
-            sp_false_colour(scale, &coverage->deposits, patch, stripe, pixels + 3 * pixel);
+            sp_layers_colour(layers, scale, &coverage->deposits, patch, stripe, pixels + 3 * pixel);
         filled[pixel] = 1;
     }
     if (spread)

@@ -15,9 +15,10 @@ typedef struct {
     bool alternatives;         /* designs with an `alternative` are what it was chosen from */
     bool costly;               /* mounts cost something: layouts are held against each other by price, not by water */
     size_t manual, greedy;
-    sp_flux_scale scale;
-    bool live;         /* it evaluates other layouts itself */
-    size_t most_drawn; /* triangles in all pictures that can be turned: of more the pictures are coarser */
+    sp_colour_scale scale; /* of the pictures */
+    sp_colour_scale flux;  /* as they have it where no scene asks for another */
+    bool live;             /* it evaluates other layouts itself */
+    size_t most_drawn;     /* triangles in all pictures that can be turned: of more the pictures are coarser */
 } sp_page;
 
 #define SP_PAGE_MOST_DRAWN 2500000 /* about 19 MB; two million triangles, a quarter of them wet on both sides */
@@ -90,6 +91,8 @@ void sp_page_front_chart(const sp_page *page, sp_text *text);
 void sp_page_nozzle_counts(const sp_page *page, sp_text *text);
 /* certificate.c: what is proved about how good any layout could be; nothing where nothing is. */
 void sp_page_certificate(const sp_page *page, sp_text *text);
+/* colour_bar.c: what the pictures' colours mean, as a drawing. */
+void sp_page_colour_bar(const sp_page *page, sp_text *text);
 /* pictures.c: three views of every design, with the colour bar. */
 bool sp_page_pictures(const sp_page *page, sp_text *text, sp_error *error);
 /* viewer/section.c: the surface to be turned and asked, its data, its script at the page's end. */

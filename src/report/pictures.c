@@ -12,76 +12,6 @@
 
 #define PIXELS 900
 #define PIXELS_OF_MANY 600 /* each, from the fifth design on */
-#define STOPS 16
-
-static void add_gradient(sp_text *text)
-{
-    sp_text_add(text, "<defs><linearGradient id=\"viridis\">");
-    for (int i = 0; i <= STOPS; ++i) {
-        uint8_t rgb[3];
-        sp_viridis((double)i / STOPS, rgb);
-        sp_text_add(text, "<stop offset=\"%g\" stop-color=\"#%02x%02x%02x\"/>", (double)i / STOPS, rgb[0], rgb[1],
-                    rgb[2]);
-    }
-    sp_text_add(
-        text,
-        "</linearGradient><pattern id=\"hatch\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\" "
-        "patternTransform=\"rotate(45)\"><rect width=\"8\" height=\"8\" fill=\"#%02x%02x%02x\"/><rect width=\"2.2\" "
-        "height=\"8\" fill=\"#%02x%02x%02x\"/></pattern></defs>\n",
-        sp_colour_hatch[0][0], sp_colour_hatch[0][1], sp_colour_hatch[0][2], sp_colour_hatch[1][0],
-        sp_colour_hatch[1][1], sp_colour_hatch[1][2]);
-}
-
-static void add_ticks(sp_text *text, sp_flux_scale scale)
-{
-    const double steps[] = {1, 2, 5};
-    double low = 6e4 * scale.low, high = 6e4 * scale.high;
-    for (int power = (int)floor(log10(low)) - 1; power <= (int)ceil(log10(high)); ++power)
-        for (int k = 0; k < 3; ++k) {
-            double value = steps[k] * pow(10, power);
-            if (value < low * (1 - 1e-9) || value > high * (1 + 1e-9))
-                continue;
-            double x = 10 + 400 * sp_flux_scale_place(scale, value / 6e4);
-            sp_text_add(
-                text,
-                "<path class=\"tick\" d=\"M%.1f 38v6\"/><text x=\"%.1f\" y=\"58\" text-anchor=\"middle\">%g</text>", x,
-                x, value);
-        }
-}
-
-static bool shows_film(const sp_page *page)
-{
-    for (size_t i = 0; i < page->result->design_count; ++i)
-        if (page->result->designs[i].evaluator && page->figures[i].film.known)
-            return true;
-    return false;
-}
-
-static void add_colour_bar(const sp_page *page, sp_text *text)
-{
-    sp_text_add(
-        text,
-        "<svg class=\"bar\" viewBox=\"0 0 760 64\" role=\"img\" aria-label=\"Colour bar: liquid flux in litres a "
-        "minute per square metre, from dark violet for little to yellow for much; hatched red: not covered; grey: "
-        "needs no cleaning\">\n");
-    add_gradient(text);
-    sp_text_add(text,
-                "<text x=\"10\" y=\"13\">Liquid flux, L/min per m\xc2\xb2</text><rect x=\"10\" y=\"20\" width=\"400\" "
-                "height=\"18\" fill=\"url(#viridis)\"/>");
-    add_ticks(text, page->scale);
-    sp_text_add(
-        text,
-        "<rect class=\"swatch\" x=\"450\" y=\"20\" width=\"36\" height=\"18\" fill=\"url(#hatch)\"/><text x=\"494\" "
-        "y=\"34\">not covered</text><rect class=\"swatch\" x=\"600\" y=\"20\" width=\"36\" height=\"18\" "
-        "fill=\"#%02x%02x%02x\"/><text x=\"644\" y=\"34\">no cleaning asked</text>\n",
-        sp_colour_obstacle[0], sp_colour_obstacle[1], sp_colour_obstacle[2]);
-    if (shows_film(page))
-        sp_text_add(text,
-                    "<rect class=\"swatch\" x=\"450\" y=\"44\" width=\"36\" height=\"18\" "
-                    "fill=\"#%02x%02x%02x\"/><text x=\"494\" y=\"58\">covered by film alone</text>\n",
-                    sp_colour_film[0], sp_colour_film[1], sp_colour_film[2]);
-    sp_text_add(text, "</svg>\n");
-}
 
 #define LOOK_GREY (SP_LOOK_NOTHING - 1)
 
@@ -97,8 +27,9 @@ static uint32_t look_at_patch(const void *user, uint32_t triangle, double u, dou
 
 /* What the colours of one design's patches come from. */
 typedef struct {
+    const sp_layers *layers;
+    const sp_colour_scale *scale;
     const sp_deposits *deposits;
-    sp_flux_scale scale;
 } colouring;
 
 static void colour_patch(const void *user, uint32_t look, int stripe, uint8_t rgb[3])
@@ -107,14 +38,14 @@ static void colour_patch(const void *user, uint32_t look, int stripe, uint8_t rg
     if (look == LOOK_GREY)
         memcpy(rgb, sp_colour_obstacle, 3);
     else
-        sp_false_colour(by->scale, by->deposits, look, stripe, rgb);
+        sp_layers_colour(by->layers, by->scale, by->deposits, look, stripe, rgb);
 }
 
 static bool add_picture(const sp_page *page, sp_text *text, size_t design, const sp_view *view, const sp_camera *camera,
-                        const sp_shot *shot, const sp_listed_shadows *shadows, sp_error *error)
+                        const sp_layers *layers, const sp_shot *shot, const sp_listed_shadows *shadows, sp_error *error)
 {
     const sp_design *shown = &page->result->designs[design];
-    const colouring by = {&shown->coverage->deposits, page->scale};
+    const colouring by = {layers, &page->scale, &shown->coverage->deposits};
     uint8_t *pixels = sp_shot_picture(shot, colour_patch, &by, error);
     size_t size = 0;
     uint8_t *bytes = pixels ? sp_image_encode_webp(pixels, shot->width, shot->height, &size, error) : NULL;
@@ -125,9 +56,12 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
                 shot->height);
     sp_page_name(page, text, design);
     sp_text_add(text,
-                ", %s: coverage in false colour with %zu nozzles\"><image width=\"%d\" height=\"%d\" "
+                ", %s: %s in false colour with %zu nozzles\"><image width=\"%d\" height=\"%d\" "
                 "href=\"data:image/webp;base64,",
-                view->caption, shown->layout->count, shot->width, shot->height);
+                view->caption,
+                page->scale.style.quantity == SP_QUANTITY_FLUX ? "coverage"
+                                                               : sp_quantity_words_of[page->scale.style.quantity].name,
+                shown->layout->count, shot->width, shot->height);
     sp_markup_base64(text, bytes, size);
     sp_text_add(text, "\"/>\n");
     free(bytes);
@@ -161,10 +95,11 @@ static bool add_view(const sp_page *page, sp_text *text, const sp_view *view, in
             sp_layers_free(&layers);
             sp_shot_free(&shot);
             camera = sp_camera_create(evaluator, page->result, view, pixels);
-            done = sp_layers_create(&layers, evaluator, error) &&
-                   sp_shot_create(&shot, evaluator, &camera, look_at_patch, &layers, error);
+            done =
+                sp_layers_create_for(&layers, evaluator, &page->scale, error) &&
+                sp_shot_create(&shot, evaluator, &camera, page->scale.style.wireframe, look_at_patch, &layers, error);
         }
-        done = done && add_picture(page, text, i, view, &camera, &shot, &shadows[i], error);
+        done = done && add_picture(page, text, i, view, &camera, &layers, &shot, &shadows[i], error);
     }
     sp_shot_free(&shot);
     sp_layers_free(&layers);
@@ -236,7 +171,7 @@ bool sp_page_pictures(const sp_page *page, sp_text *text, sp_error *error)
     if (drawn == 0)
         return true;
     sp_text_add(text, "<section id=\"pictures\"><h2>Coverage in pictures</h2>\n");
-    add_colour_bar(page, text);
+    sp_page_colour_bar(page, text);
     add_note(page, text, first);
     bool done = add_views(page, text, drawn, error);
     sp_text_add(text, "</section>\n");

@@ -9,6 +9,7 @@
 #define CREASE 0.906           /* cosine of 25 degrees: a sharper edge is drawn */
 #define STEP 0.008             /* of the box's diagonal: a jump in depth that is drawn */
 #define INK 0.45f
+#define FAINT_INK 0.72f /* of triangles */
 
 /* Needed only to find edges. */
 typedef struct {
@@ -103,7 +104,14 @@ static bool is_edge(const sp_mesh *mesh, const sp_camera *camera, int x, int y, 
     return fmin(fabs(sp_dot(between, n)), fabs(sp_dot(between, m))) > STEP * camera->size;
 }
 
-static void ink_edges(sp_shot *shot, const sp_mesh *mesh, const sp_camera *camera, const sighting *seen, int threads)
+/* True where the edge of a triangle does, on one surface. */
+static bool is_wire(const sighting *a, const sighting *b)
+{
+    return a->triangle != b->triangle && a->triangle != SP_NONE && b->triangle != SP_NONE;
+}
+
+static void ink_edges(sp_shot *shot, const sp_mesh *mesh, const sp_camera *camera, const sighting *seen, bool wireframe,
+                      int threads)
 {
     int columns = 2 * shot->width, rows = 2 * shot->height;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 16)
@@ -113,8 +121,10 @@ static void ink_edges(sp_shot *shot, const sp_mesh *mesh, const sp_camera *camer
             bool edge =
                 (x + 1 < columns && is_edge(mesh, camera, x, y, &seen[here], x + 1, y, &seen[here + 1])) ||
                 (y + 1 < rows && is_edge(mesh, camera, x, y, &seen[here], x, y + 1, &seen[here + (size_t)columns]));
-            if (edge)
-                shot->samples[here].shade *= INK;
+            bool wire = wireframe && ((x + 1 < columns && is_wire(&seen[here], &seen[here + 1])) ||
+                                      (y + 1 < rows && is_wire(&seen[here], &seen[here + (size_t)columns])));
+            if (edge || wire)
+                shot->samples[here].shade *= edge ? INK : FAINT_INK;
         }
 }
 
@@ -147,8 +157,8 @@ static bool look_at_all(sp_shot *shot, const band *common, sighting *seen, int t
     return done;
 }
 
-bool sp_shot_create(sp_shot *shot, const sp_evaluator *evaluator, const sp_camera *camera, sp_look_at *look,
-                    const void *user, sp_error *error)
+bool sp_shot_create(sp_shot *shot, const sp_evaluator *evaluator, const sp_camera *camera, bool wireframe,
+                    sp_look_at *look, const void *user, sp_error *error)
 {
     int threads = sp_evaluator_setup(evaluator)->run.threads;
     const band common = {.evaluator = evaluator, .camera = camera, .look = look, .user = user};
@@ -158,7 +168,7 @@ bool sp_shot_create(sp_shot *shot, const sp_evaluator *evaluator, const sp_camer
     sighting *seen = malloc(count * sizeof *seen);
     bool done = shot->samples && seen && look_at_all(shot, &common, seen, team);
     if (done)
-        ink_edges(shot, sp_evaluator_setup(evaluator)->mesh, camera, seen, team);
+        ink_edges(shot, sp_evaluator_setup(evaluator)->mesh, camera, seen, wireframe, team);
     free(seen);
     if (done)
         return true;

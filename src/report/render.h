@@ -21,8 +21,9 @@ typedef struct {
 } sp_shot;
 
 /* Same samples whatever the number of threads, which are the evaluator's setup's. `look` is called from all of them. */
-bool sp_shot_create(sp_shot *shot, const sp_evaluator *evaluator, const sp_camera *camera, sp_look_at *look,
-                    const void *user, sp_error *error);
+/* With `wireframe` the edges of all triangles are drawn, fainter than those of the body. */
+bool sp_shot_create(sp_shot *shot, const sp_evaluator *evaluator, const sp_camera *camera, bool wireframe,
+                    sp_look_at *look, const void *user, sp_error *error);
 void sp_shot_free(sp_shot *shot);
 
 /* The colour of a look but for nothing, which is white. `stripe` picks a hatch's colour, 0 or 1. */

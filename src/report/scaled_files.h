@@ -4,7 +4,7 @@
 
 #include "false_colour.h"
 
-bool sp_model_glb(const sp_design *design, sp_flux_scale scale, const char *path, sp_error *error);
-bool sp_coverage_png(const sp_design *design, sp_flux_scale scale, const char *path, sp_error *error);
+bool sp_model_glb(const sp_design *design, const sp_colour_scale *scale, const char *path, sp_error *error);
+bool sp_coverage_png(const sp_design *design, const sp_colour_scale *scale, const char *path, sp_error *error);
 
 #endif

@@ -46,7 +46,7 @@ static bool add_tile(const sp_evaluator *evaluator, int column, int row, int wid
     sp_camera camera = sp_camera_create(evaluator, NULL, &sp_views[column], TILE);
     sp_shot shot = {0};
     camera.cut = row == 0;
-    uint8_t *tile = sp_shot_create(&shot, evaluator, &camera, look_at_side, evaluator, error)
+    uint8_t *tile = sp_shot_create(&shot, evaluator, &camera, false, look_at_side, evaluator, error)
                         ? sp_shot_picture(&shot, colour_side, NULL, error)
                         : NULL;
     if (tile)

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef bool writer(const sp_design *design, sp_flux_scale scale, const char *path, sp_error *error);
+typedef bool writer(const sp_design *design, const sp_colour_scale *scale, const char *path, sp_error *error);
 
-static bool deposits(const sp_design *design, sp_flux_scale scale, const char *path, sp_error *error)
+static bool deposits(const sp_design *design, const sp_colour_scale *scale, const char *path, sp_error *error)
 {
     (void)scale;
     return sp_report_deposits_exr(design, path, error);
@@ -34,7 +34,7 @@ static bool write_main(const sp_design *design, sp_output *output, sp_error *err
     return true;
 }
 
-static bool write_design(const sp_design *design, sp_flux_scale scale, const char *suffix, sp_output *output,
+static bool write_design(const sp_design *design, const sp_colour_scale *scale, const char *suffix, sp_output *output,
                          sp_error *error)
 {
     const struct {
@@ -84,14 +84,14 @@ static char *nozzles_csv(const sp_design *design, sp_error *error)
 
 static bool write_designs(const sp_result *result, const sp_design *main, sp_output *output, sp_error *error)
 {
-    sp_flux_scale scale = sp_flux_scale_of(result->designs, result->design_count);
+    sp_colour_scale scale = sp_colour_scale_of(result->designs, result->design_count, result->style);
     for (size_t i = 0; i < result->design_count; ++i) {
         const sp_design *design = &result->designs[i];
         const char *suffix = design == main                        ? ""
                              : strcmp(design->name, "manual") == 0 ? "-manual"
                              : strcmp(design->name, "greedy") == 0 ? "-greedy"
                                                                    : NULL;
-        if (design->evaluator && suffix && !write_design(design, scale, suffix, output, error))
+        if (design->evaluator && suffix && !write_design(design, &scale, suffix, output, error))
             return false;
     }
     if (!main || !main->evaluator)

@@ -54,13 +54,15 @@ static bool put(sp_yaml *map, char *path, sp_yaml *value, const char *setting, s
 bool sp_scene_override(sp_yaml *tree, const char *setting, sp_error *error)
 {
     const char *equals = strchr(setting, '=');
-    bool known = strncmp(setting, "simulate.", 9) == 0 || strncmp(setting, "place.", 6) == 0;
+    bool known = strncmp(setting, "simulate.", 9) == 0 || strncmp(setting, "place.", 6) == 0 ||
+                 strncmp(setting, "report.", 7) == 0;
     if (!equals)
         return fail(setting, "found no '=', expected a setting such as simulate.jets=20000", error);
     size_t size = (size_t)(equals - setting);
     const char *gap = strstr(setting, "..");
     if (!known || setting[size - 1] == '.' || (gap && gap < equals))
-        return fail(setting, "found another key, expected one of simulate or place, such as simulate.jets", error);
+        return fail(setting, "found another key, expected one of simulate, place or report, such as simulate.jets",
+                    error);
     char *path = strndup(setting, size);
     if (!path)
         return sp_fail_memory(error);

@@ -10,11 +10,12 @@ bool sp_scene_read(sp_scene *scene, const sp_reader *reader)
     static const sp_key keys[] = {{"up", false},        {"geometry", true}, {"cavity", false},   {"caps", false},
                                   {"liquid", false},    {"air", false},     {"gravity", false},  {"criterion", false},
                                   {"catalogue", false}, {"nozzles", false}, {"simulate", false}, {"place", false},
-                                  {"datum", false},     {NULL, false}};
+                                  {"datum", false},     {"report", false},  {NULL, false}};
     bool good = sp_read_keys(reader, scene->tree, "scene", "a scene", keys) && sp_scene_read_physics(scene, reader) &&
                 sp_scene_read_datum(scene, reader) && sp_scene_read_catalogue(scene, reader) &&
                 sp_scene_read_nozzles(scene, reader) && sp_scene_read_simulate(scene, reader) &&
-                sp_scene_read_geometry(scene, reader) && sp_scene_read_place(scene, reader);
+                sp_scene_read_geometry(scene, reader) && sp_scene_read_place(scene, reader) &&
+                sp_scene_read_report(scene, reader);
     scene->setup.mesh = scene->mesh;
     scene->setup.surfaces = scene->surfaces;
     scene->setup.caps = scene->caps;
@@ -133,6 +134,11 @@ double sp_scene_file_unit(const sp_scene *scene, size_t geometry)
 {
     return scene && geometry < scene->cad_count ? scene->file_units[geometry] : 0;
 }
+sp_picture_style sp_scene_picture_style(const sp_scene *scene)
+{
+    return scene ? scene->style : (sp_picture_style){0};
+}
+
 bool sp_scene_has_place(const sp_scene *scene)
 {
     return scene && scene->mount_count > 0;

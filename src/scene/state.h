@@ -46,6 +46,7 @@ struct sp_scene {
     size_t image_count;
     sp_scene_image *images; /* [image_count] */
     sp_setup setup;
+    sp_picture_style style;
     sp_layout *layout;
     sp_place_options place;
     sp_water_cost water_cost;
@@ -69,6 +70,7 @@ bool sp_scene_read_catalogue(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_nozzles(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_simulate(sp_scene *scene, const sp_reader *reader);
 bool sp_scene_read_place(sp_scene *scene, const sp_reader *reader);
+bool sp_scene_read_report(sp_scene *scene, const sp_reader *reader);
 
 /* cost.c: `water_cost` of place, before mounts; and `cost` of a mount, m³/s. Absent: none. */
 bool sp_scene_read_water_cost(sp_scene *scene, const sp_reader *reader, const sp_yaml *place);

@@ -47,18 +47,18 @@ static void viridis_known_colours(void **state)
                                    {0.993248, 0.906157, 0.143936}};
     for (int i = 0; i < 5; ++i) {
         uint8_t rgb[3];
-        sp_viridis(where[i], rgb);
+        sp_colour_of(SP_COLOURS_VIRIDIS, where[i], rgb);
         for (int k = 0; k < 3; ++k)
             assert_true(fabs(rgb[k] - 255 * expected[i][k]) <= 2);
     }
     uint8_t low[3], high[3], clamped[3];
-    sp_viridis(0, low);
-    sp_viridis(1, high);
-    sp_viridis(-3, clamped);
+    sp_colour_of(SP_COLOURS_VIRIDIS, 0, low);
+    sp_colour_of(SP_COLOURS_VIRIDIS, 1, high);
+    sp_colour_of(SP_COLOURS_VIRIDIS, -3, clamped);
     assert_memory_equal(low, clamped, 3);
-    sp_viridis(NAN, clamped);
+    sp_colour_of(SP_COLOURS_VIRIDIS, NAN, clamped);
     assert_memory_equal(low, clamped, 3);
-    sp_viridis(7, clamped);
+    sp_colour_of(SP_COLOURS_VIRIDIS, 7, clamped);
     assert_memory_equal(high, clamped, 3);
 }
 
@@ -68,7 +68,7 @@ static void viridis_grows_lighter(void **state)
     double before = -1;
     for (int i = 0; i <= 100; ++i) {
         uint8_t rgb[3];
-        sp_viridis(i / 100., rgb);
+        sp_colour_of(SP_COLOURS_VIRIDIS, i / 100., rgb);
         double light = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
         assert_true(light >= before);
         before = light;
@@ -111,7 +111,7 @@ static void webp_keeps_a_hatch(void **state)
             if (x < EDGE / 2)
                 memcpy(pixel, (x + y) % 9 < 3 ? red : white, 3);
             else
-                sp_viridis(y / (double)EDGE, pixel);
+                sp_colour_of(SP_COLOURS_VIRIDIS, y / (double)EDGE, pixel);
         }
     size_t size = 0, again_size = 0, off = 0;
     sp_error error = {0};

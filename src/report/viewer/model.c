@@ -23,12 +23,12 @@ static json_t *colour_json(const uint8_t rgb[3])
 }
 
 /* All 256 colours of the bar, six hexadecimal digits each. */
-static json_t *palette_json(void)
+static json_t *palette_json(sp_colours colours)
 {
     char digits[6 * 256 + 1];
     for (int i = 0; i < 256; ++i) {
         uint8_t rgb[3];
-        sp_viridis(i / 255.0, rgb);
+        sp_colour_of(colours, i / 255.0, rgb);
         snprintf(digits + 6 * i, 7, "%02x%02x%02x", rgb[0], rgb[1], rgb[2]);
     }
     return json_string(digits);
@@ -299,9 +299,9 @@ bool sp_viewer_model(const sp_page *page, sp_text *text, sp_viewer_drawn *drawn,
     for (size_t i = page->result->design_count; i-- > 0;)
         if (page->result->designs[i].evaluator)
             up = sp_evaluator_setup(page->result->designs[i].evaluator)->up;
-    json_t *all = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "up", vector_json(up), "palette", palette_json(), "grey",
-                            colour_json(sp_colour_obstacle), "film", colour_json(sp_colour_film), "quantities",
-                            quantities_json(quantities), "models", models);
+    json_t *all = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "up", vector_json(up), "palette",
+                            palette_json(page->scale.style.colours), "grey", colour_json(sp_colour_obstacle), "film",
+                            colour_json(sp_colour_film), "quantities", quantities_json(quantities), "models", models);
     char *json = all ? json_dumps(all, JSON_COMPACT | JSON_REAL_PRECISION(7)) : NULL;
     if (json)
         sp_markup_json(text, json);

@@ -58,8 +58,8 @@ void sp_shown_quantities(const sp_page *page, sp_shown_quantity quantities[SP_SH
     for (int k = 0; k < SP_SHOWN_QUANTITIES; ++k)
         quantities[k] = all[k];
     scale_by_ratios(&quantities[SP_SHOWN_FLUX], 6e4 * most(page, SP_SHOWN_FLUX));
-    quantities[SP_SHOWN_FLUX].shown[0] = 6e4 * page->scale.low;
-    quantities[SP_SHOWN_FLUX].shown[1] = 6e4 * page->scale.high;
+    quantities[SP_SHOWN_FLUX].shown[0] = 6e4 * page->flux.low;
+    quantities[SP_SHOWN_FLUX].shown[1] = 6e4 * page->flux.high;
     scale_evenly(&quantities[SP_SHOWN_SPEED], most(page, SP_SHOWN_SPEED));
     scale_by_ratios(&quantities[SP_SHOWN_IMPACT], most(page, SP_SHOWN_IMPACT));
     quantities[SP_SHOWN_INCIDENCE].high = quantities[SP_SHOWN_INCIDENCE].shown[1] = 90;
