@@ -62,16 +62,36 @@ static void viridis_known_colours(void **state)
     assert_memory_equal(high, clamped, 3);
 }
 
-static void viridis_grows_lighter(void **state)
+static void cividis_known_colours(void **state)
 {
     (void)state;
-    double before = -1;
-    for (int i = 0; i <= 100; ++i) {
+    /* entries 0, 63, 120, 191 and 255 of the published table */
+    const double where[5] = {0, 63 / 255., 120 / 255., 191 / 255., 1};
+    const double expected[5][3] = {{0.000000, 0.135112, 0.304751},
+                                   {0.259740, 0.305120, 0.422810},
+                                   {0.461616, 0.462405, 0.461969},
+                                   {0.732422, 0.677364, 0.425717},
+                                   {0.995737, 0.909344, 0.217772}};
+    for (int i = 0; i < 5; ++i) {
         uint8_t rgb[3];
-        sp_colour_of(SP_COLOURS_VIRIDIS, i / 100., rgb);
-        double light = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-        assert_true(light >= before);
-        before = light;
+        sp_colour_of(SP_COLOURS_CIVIDIS, where[i], rgb);
+        for (int k = 0; k < 3; ++k)
+            assert_true(fabs(rgb[k] - 255 * expected[i][k]) <= 2);
+    }
+}
+
+static void colours_grow_lighter(void **state)
+{
+    (void)state;
+    for (int map = SP_COLOURS_VIRIDIS; map <= SP_COLOURS_CIVIDIS; ++map) {
+        double before = -1;
+        for (int i = 0; i <= 100; ++i) {
+            uint8_t rgb[3];
+            sp_colour_of((sp_colours)map, i / 100., rgb);
+            double light = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+            assert_true(light >= before);
+            before = light;
+        }
     }
 }
 
@@ -214,10 +234,10 @@ static void exr_refuses_nonsense(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(viridis_known_colours),     cmocka_unit_test(viridis_grows_lighter),
-        cmocka_unit_test(png_in_memory_is_the_file), cmocka_unit_test(webp_keeps_a_hatch),
-        cmocka_unit_test(png_refuses_nonsense),      cmocka_unit_test(exr_holds_its_parts),
-        cmocka_unit_test(exr_refuses_nonsense),
+        cmocka_unit_test(viridis_known_colours), cmocka_unit_test(cividis_known_colours),
+        cmocka_unit_test(colours_grow_lighter),  cmocka_unit_test(png_in_memory_is_the_file),
+        cmocka_unit_test(webp_keeps_a_hatch),    cmocka_unit_test(png_refuses_nonsense),
+        cmocka_unit_test(exr_holds_its_parts),   cmocka_unit_test(exr_refuses_nonsense),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -137,7 +137,7 @@ static const slip keys[] = {
     {"gravity:", "color:",
      "scene.yaml:15:1: color: found a key that a scene does not have, expected one of up, geometry, cavity, caps, "
      "liquid, "
-     "air, gravity, criterion, catalogue, nozzles, simulate, place, datum"},
+     "air, gravity, criterion, catalogue, nozzles, simulate, place, datum, report"},
     {"unit: mm", "units: mm", "scene.yaml:4:5: units: found a key that a geometry file does not have, expected 'unit'"},
     {"density: 1.1", "densty: 1.1",
      "scene.yaml:13:10: densty: found a key that the liquid does not have, expected 'density'"},
@@ -358,7 +358,7 @@ static const slip syntax[] = {
     {"up: y", "up: y\n<<: {up: z}",
      "scene.yaml:2:1: <<: found a key that a scene does not have, expected one of up, geometry, cavity, caps, liquid, "
      "air, "
-     "gravity, criterion, catalogue, nozzles, simulate, place, datum"},
+     "gravity, criterion, catalogue, nozzles, simulate, place, datum, report"},
     {"up: y\ngeometry:", "geometry", "scene.yaml:1:1: YAML: ..."},
     {"up: y", "- up: y", "scene.yaml:2:1: YAML: ..."},
 };
@@ -814,6 +814,13 @@ static const override overrides[] = {
     {"=3", "=3: found another key, expected one of simulate, place or report, such as simulate.jets"},
     {"simulate..jets=3",
      "simulate..jets=3: found another key, expected one of simulate, place or report, such as simulate.jets"},
+    {"report.quantity=speeds", "report.quantity=speeds: quantity: found 'speeds', expected flux, speed, speed_max, "
+                               "incidence, incidence_min, impact, impact_max, jets, covered or charts"},
+    {"report.scale=even", "report.scale=even: scale: found 'even', expected auto, linear, log or stepped"},
+    {"report.colours=jet", "report.colours=jet: colours: found 'jet', expected viridis or cividis"},
+    {"report.wireframe=yes", "report.wireframe=yes: wireframe: found 'yes', expected true or false"},
+    {"report.colors=jet", "report.colors=jet: colors: found a key that what a report shows does not have, expected "
+                          "'colours'"},
     {"simulate.jets", "simulate.jets: found no '=', expected a setting such as simulate.jets=20000"},
     {"simulate.jets=", "simulate.jets=: YAML: found nothing, expected a value"},
     {"simulate.jets=*a", "simulate.jets=*a: YAML: found an alias, expected its value written out"},

@@ -338,6 +338,30 @@ static void clusters(void **state)
     sp_scene_destroy(scene);
 }
 
+static void what_reports_show(void **state)
+{
+    (void)state;
+    sp_error error = {0};
+    scratch_write("scene.yaml", full_scene);
+    sp_scene *scene = sp_scene_load("scene.yaml", &error);
+    sp_picture_style style = sp_scene_picture_style(scene);
+    assert_true(style.quantity == SP_QUANTITY_FLUX && style.shades == SP_SHADES_AUTO &&
+                style.colours == SP_COLOURS_VIRIDIS && !style.wireframe);
+    sp_scene_destroy(scene);
+    const char *const settings[] = {"report.quantity=incidence_min", "report.scale=stepped", "report.colours=cividis",
+                                    "report.wireframe=true"};
+    scene = sp_scene_load_with("scene.yaml", settings, 4, NULL, &error);
+    assert_non_null(scene);
+    style = sp_scene_picture_style(scene);
+    assert_true(style.quantity == SP_QUANTITY_INCIDENCE_MIN && style.shades == SP_SHADES_STEPPED &&
+                style.colours == SP_COLOURS_CIVIDIS && style.wireframe);
+    sp_scene_destroy(scene);
+    const char *const unasked[] = {"report.quantity=jets", "report.scale=stepped"};
+    assert_null(sp_scene_load_with("scene.yaml", unasked, 2, NULL, &error));
+    assert_string_equal(error.message, "scale: found 'stepped', expected auto, linear or log, as the criterion asks "
+                                       "nothing of jets");
+}
+
 static void overrides(void **state)
 {
     (void)state;
@@ -422,6 +446,7 @@ int main(void)
         cmocka_unit_test(types),
         cmocka_unit_test(trajectories),
         cmocka_unit_test(clusters),
+        cmocka_unit_test(what_reports_show),
         cmocka_unit_test(overrides),
         cmocka_unit_test(goods_that_move),
         cmocka_unit_test(nothing),
