@@ -14,7 +14,9 @@ const sp_view sp_views[SP_VIEWS] = {
 
 static bool is_shown(const sp_evaluator *evaluator, const sp_result *result, uint32_t triangle)
 {
-    return !result || sp_evaluator_wet(evaluator, triangle) != 0;
+    const sp_setup *setup = sp_evaluator_setup(evaluator);
+    return !result ||
+           (sp_evaluator_wet(evaluator, triangle) != 0 && setup->surfaces[setup->mesh->part[triangle]].clean);
 }
 
 static void shown_box(const sp_evaluator *evaluator, const sp_result *result, sp_vec3 *low, sp_vec3 *high)
@@ -59,22 +61,24 @@ static void set_axes(sp_camera *camera, const sp_view *view, sp_vec3 up)
  * looks. */
 typedef struct {
     const sp_camera *camera;
-    bool placed;     /* the distance is known */
-    double distance; /* m, of the eye from the camera's centre */
-    double reach_x, reach_y;
+    bool placed;            /* the distance is known */
+    double distance;        /* m, of the eye from the camera's centre */
+    double low[2], high[2]; /* to the right and upwards, where the forward component is 1 */
 } frame;
 
 static void take_in(frame *f, sp_vec3 point, double margin)
 {
     sp_vec3 p = sp_sub(point, f->camera->centre);
-    double x = fabs(sp_dot(p, f->camera->right)), y = fabs(sp_dot(p, f->camera->up));
+    const double at[2] = {margin * sp_dot(p, f->camera->right), margin * sp_dot(p, f->camera->up)};
     double depth = sp_dot(p, f->camera->forward);
-    if (!f->placed) {
-        f->distance = fmax(f->distance, fmax(x, y) * margin / REACH - depth);
-        return;
+    for (int k = 0; k < 2; ++k) {
+        if (!f->placed) {
+            f->distance = fmax(f->distance, fabs(at[k]) / REACH - depth);
+            continue;
+        }
+        f->low[k] = fmin(f->low[k], at[k] / (f->distance + depth));
+        f->high[k] = fmax(f->high[k], at[k] / (f->distance + depth));
     }
-    f->reach_x = fmax(f->reach_x, margin * x / (f->distance + depth));
-    f->reach_y = fmax(f->reach_y, margin * y / (f->distance + depth));
 }
 
 /* Where a machine is washed from outside, its nozzles stand around it; one that is lost far away is not gone after. */
@@ -85,11 +89,28 @@ static void take_in_nozzles(frame *f, const sp_layout *layout)
             take_in(f, layout->nozzles[i].position, MARGIN_OF_NOZZLES);
 }
 
-/* The picture is trimmed to what it shows. */
+/* The picture is trimmed to what it shows, on the scale of one about `centre` whose longer side is `pixels`. */
+static void trim(sp_camera *camera, const frame *f, int pixels)
+{
+    bool any = f->low[0] <= f->high[0];
+    double half[2] = {1e-6, 1e-6}, middle[2] = {0, 0}, widest = 1e-6;
+    for (int k = 0; any && k < 2; ++k) {
+        half[k] = fmax(0.5 * (f->high[k] - f->low[k]), 1e-6);
+        middle[k] = 0.5 * (f->low[k] + f->high[k]);
+        widest = fmax(widest, fmax(-f->low[k], f->high[k]));
+    }
+    camera->reach_x = fmax(half[0], 0.5 * half[1]);
+    camera->reach_y = fmax(half[1], 0.5 * half[0]);
+    camera->shift_x = middle[0];
+    camera->shift_y = middle[1];
+    camera->width = (int)ceil(pixels * camera->reach_x / widest);
+    camera->height = (int)ceil(pixels * camera->reach_y / widest);
+}
+
 static void frame_all(sp_camera *camera, const sp_evaluator *evaluator, const sp_result *result, int pixels)
 {
     const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
-    frame f = {camera, false, camera->size * 1e-3, 1e-6, 1e-6};
+    frame f = {camera, false, camera->size * 1e-3, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     for (int pass = 0; pass < 2; ++pass) {
         for (uint32_t t = 0; t < mesh->triangle_count; ++t)
             for (int k = 0; k < 3 && is_shown(evaluator, result, t); ++k)
@@ -99,11 +120,8 @@ static void frame_all(sp_camera *camera, const sp_evaluator *evaluator, const sp
                 take_in_nozzles(&f, result->designs[i].layout);
         f.placed = true;
     }
-    double longest = fmax(f.reach_x, f.reach_y);
-    camera->reach_x = fmax(f.reach_x, 0.5 * longest);
-    camera->reach_y = fmax(f.reach_y, 0.5 * longest);
-    camera->width = (int)ceil(pixels * camera->reach_x / longest);
-    camera->height = (int)ceil(pixels * camera->reach_y / longest);
+    trim(camera, &f, pixels);
+    camera->distance = f.distance;
     camera->eye = sp_along(camera->centre, -f.distance, camera->forward);
 }
 
@@ -125,7 +143,8 @@ sp_camera sp_camera_create(const sp_evaluator *evaluator, const sp_result *resul
 
 sp_vec3 sp_camera_direction(const sp_camera *camera, double x, double y)
 {
-    double right = (2 * x / camera->width - 1) * camera->reach_x, up = (1 - 2 * y / camera->height) * camera->reach_y;
+    double right = camera->shift_x + (2 * x / camera->width - 1) * camera->reach_x;
+    double up = camera->shift_y + (1 - 2 * y / camera->height) * camera->reach_y;
     return sp_along(sp_along(camera->forward, right, camera->right), up, camera->up);
 }
 
@@ -135,8 +154,8 @@ bool sp_camera_project(const sp_camera *camera, sp_vec3 point, double xy[2])
     double depth = sp_dot(p, camera->forward);
     if (depth < 1e-6 * camera->size)
         return false;
-    xy[0] = 0.5 * camera->width * (1 + sp_dot(p, camera->right) / (depth * camera->reach_x));
-    xy[1] = 0.5 * camera->height * (1 - sp_dot(p, camera->up) / (depth * camera->reach_y));
+    xy[0] = 0.5 * camera->width * (1 + (sp_dot(p, camera->right) / depth - camera->shift_x) / camera->reach_x);
+    xy[1] = 0.5 * camera->height * (1 - (sp_dot(p, camera->up) / depth - camera->shift_y) / camera->reach_y);
     return true;
 }
 

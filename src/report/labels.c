@@ -33,20 +33,52 @@ static double text_width(const char *name)
     return LETTER_WIDTH * letters;
 }
 
-/* Where a name begins beside its dot: on the first side that has room, else the first. */
-static void place_name(sp_labels *labels, const char *name, const double dot[2], double at[2])
+#define WAYS 16
+#define RINGS 6
+#define RING 26.0 /* pixels */
+
+/* Farther and farther around a spot until a box of that size has room, as its middle; false where none has. */
+static bool find_room(const sp_labels *labels, const double spot[2], double width, double height, double at[2])
 {
-    double width = text_width(name), box[4];
-    const double sides[][2] = {{12, -8}, {12, 26}, {-12 - width, -8}, {-12 - width, 26}, {-width / 2, -16}, {12, -8}};
-    size_t last = sizeof sides / sizeof *sides - 1;
-    for (size_t i = 0; i <= last; ++i) {
+    for (int ring = 1; ring <= RINGS; ++ring)
+        for (int k = 0; k < WAYS; ++k) {
+            double turn = 2 * M_PI * k / WAYS - 0.25 * M_PI; /* to the upper right first */
+            at[0] = spot[0] + (0.5 * width + RING * ring) * cos(turn);
+            at[1] = spot[1] + (0.5 * height + RING * ring) * sin(turn);
+            const double box[4] = {at[0] - width / 2, at[1] - height / 2, at[0] + width / 2, at[1] + height / 2};
+            if (is_free(labels, box))
+                return true;
+        }
+    return false;
+}
+
+/* From a spot to what is said of it elsewhere. */
+static void add_lead(sp_text *text, const double spot[2], const double at[2])
+{
+    sp_text_add(text, "<path class=\"lead\" d=\"M%.1f %.1fL%.1f %.1f\"/>", spot[0], spot[1], at[0], at[1]);
+}
+
+/* Where a name begins beside its dot: on the first side that has room, else where there is some, else on the first. */
+static void place_name(sp_labels *labels, sp_text *text, const char *name, const double dot[2], double at[2])
+{
+    double width = text_width(name), height = LETTER_HEIGHT + 4, middle[2], box[4];
+    const double sides[][2] = {{12, -8}, {12, 26}, {-12 - width, -8}, {-12 - width, 26}, {-width / 2, -16}};
+    size_t count = sizeof sides / sizeof *sides, i = 0;
+    for (bool room = false; !room && i < count; i += !room) {
         at[0] = dot[0] + sides[i][0];
         at[1] = dot[1] + sides[i][1];
         memcpy(box, (const double[4]){at[0], at[1] - LETTER_HEIGHT, at[0] + width, at[1] + 4}, sizeof box);
-        if (is_free(labels, box))
-            break;
+        room = is_free(labels, box);
     }
-    take(labels, box);
+    if (i == count && find_room(labels, dot, width, height, middle)) {
+        at[0] = middle[0] - width / 2;
+        at[1] = middle[1] + height / 2 - 4;
+        add_lead(text, dot, middle);
+    } else if (i == count) {
+        at[0] = dot[0] + sides[0][0];
+        at[1] = dot[1] + sides[0][1];
+    }
+    take(labels, (const double[4]){at[0], at[1] - LETTER_HEIGHT, at[0] + width, at[1] + 4});
 }
 
 static void add_name(sp_labels *labels, sp_text *text, const char *bytes, const double dot[2])
@@ -54,7 +86,7 @@ static void add_name(sp_labels *labels, sp_text *text, const char *bytes, const 
     char *name = sp_text_utf8(bytes);
     double at[2] = {0, 0};
     if (name)
-        place_name(labels, name, dot, at);
+        place_name(labels, text, name, dot, at);
     sp_text_add(text,
                 "<circle class=\"nozzle\" cx=\"%.1f\" cy=\"%.1f\" r=\"7\"/><text class=\"name\" x=\"%.1f\" "
                 "y=\"%.1f\">",
@@ -124,9 +156,9 @@ static void box_around(const double at[2], double box[4])
     box[3] = at[1] + NUMBER_RADIUS;
 }
 
-/* The spot of a shadow that is nearest to its middle; where there is room, if there is any. */
-static void place_number(sp_labels *labels, const sp_shot *shot, const sp_listed_shadows *shadows, size_t number,
-                         const sight *seen, double at[2])
+/* The spot of a shadow that is nearest to its middle; where there is room, if there is any, else beside it. */
+static void place_number(sp_labels *labels, sp_text *text, const sp_shot *shot, const sp_listed_shadows *shadows,
+                         size_t number, const sight *seen, double at[2])
 {
     double best[2] = {INFINITY, INFINITY}, box[4]; /* how far from the middle: without room, with room */
     for (size_t row = seen->top; row <= seen->bottom; ++row)
@@ -142,6 +174,11 @@ static void place_number(sp_labels *labels, const sp_shot *shot, const sp_listed
             best[room] = far;
             memcpy(at, spot, sizeof spot);
         }
+    const double spot[2] = {at[0], at[1]};
+    if (!isfinite(best[1]) && find_room(labels, spot, 2 * NUMBER_RADIUS, 2 * NUMBER_RADIUS, at))
+        add_lead(text, spot, at);
+    else if (!isfinite(best[1]))
+        memcpy(at, spot, sizeof spot);
     box_around(at, box);
     take(labels, box);
 }
@@ -154,7 +191,7 @@ void sp_labels_shadows(sp_labels *labels, sp_text *text, const sp_shot *shot, co
     for (size_t i = 0; i < shadows->count; ++i) {
         if (sights[i].samples == 0)
             continue;
-        place_number(labels, shot, shadows, i + 1, &sights[i], at);
+        place_number(labels, text, shot, shadows, i + 1, &sights[i], at);
         sp_text_add(text,
                     "<circle class=\"shadow\" cx=\"%.1f\" cy=\"%.1f\" r=\"%d\"/><text class=\"number\" x=\"%.1f\" "
                     "y=\"%.1f\">%zu</text>\n",

@@ -13,4 +13,8 @@ void sp_overlay_outline(const sp_evaluator *evaluator, const sp_nozzle *pattern,
 /* The outline of every nozzle's spray, a little way along; of a cluster that of each pattern. */
 void sp_overlay_sprays(sp_text *text, const sp_camera *camera, const sp_evaluator *evaluator, const sp_layout *layout);
 
+#define SP_SCALE_STRIP 92 /* pixels below the picture */
+/* scale_bar.c: a bar of a round length at the depth of the camera's centre, and the axes x, y, z, in that strip. */
+void sp_overlay_scale(sp_text *text, const sp_camera *camera);
+
 #endif

@@ -53,7 +53,7 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
     if (!bytes)
         return false;
     sp_text_add(text, "<figure><svg class=\"view\" viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"", shot->width,
-                shot->height);
+                shot->height + SP_SCALE_STRIP);
     sp_page_name(page, text, design);
     sp_text_add(text,
                 ", %s: %s in false colour with %zu nozzles\"><image width=\"%d\" height=\"%d\" "
@@ -69,6 +69,7 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
     sp_labels labels = {0};
     sp_labels_nozzles(&labels, text, camera, shown->layout);
     sp_labels_shadows(&labels, text, shot, shadows);
+    sp_overlay_scale(text, camera);
     sp_text_add(text, "</svg><figcaption>");
     sp_page_name(page, text, design);
     sp_text_add(text, "<br><span class=\"unit\">");
@@ -114,7 +115,9 @@ static void add_note(const sp_page *page, sp_text *text, const sp_evaluator *fir
     sp_text_add(
         text,
         "<p class=\"note\">One colour scale for all pictures. %s Dots are nozzles; the outlines show where and how "
-        "wide they spray, not how far. Numbers are those of the <a href=\"#shadows\">spray shadows</a>.",
+        "wide they spray, not how far. Numbers are those of the <a href=\"#shadows\">spray shadows</a>. What lies "
+        "behind a nearer "
+        "edge is shaded along it. The bar's length is to scale at the middle's depth; x, y, z are the geometry's.",
         cavity == SP_CAVITY_POINT ? "Walls are looked through from outside, so that their wet inner sides show."
         : camera.cut              ? "The geometry is cut open across the line of sight at its middle."
                                   : "");

@@ -9,6 +9,9 @@
 #define CREASE 0.906           /* cosine of 25 degrees: a sharper edge is drawn */
 #define STEP 0.008             /* of the box's diagonal: a jump in depth that is drawn */
 #define INK 0.45f
+#define NEARER 0.03 /* of the box's diagonal: so much nearer throws a shadow on what is beside it in the picture */
+#define SHADOW 0.75f
+#define SHADOW_REACH 5  /* samples */
 #define FAINT_INK 0.72f /* of triangles */
 
 /* Needed only to find edges. */
@@ -104,6 +107,27 @@ static bool is_edge(const sp_mesh *mesh, const sp_camera *camera, int x, int y, 
     return fmin(fabs(sp_dot(between, n)), fabs(sp_dot(between, m))) > STEP * camera->size;
 }
 
+/* How dark the shadow is that nearer surface throws on what lies behind it, 1 for none: tells near from far where
+ * colours do not. */
+static float shadow_at(const sp_shot *shot, const sighting *seen, double nearer, int x, int y)
+{
+    static const int ways[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+    int columns = 2 * shot->width, rows = 2 * shot->height;
+    const sighting *here = &seen[(size_t)y * (size_t)columns + (size_t)x];
+    if (here->triangle == SP_NONE)
+        return 1;
+    for (int reach = 1; reach <= SHADOW_REACH; reach += 2)
+        for (int k = 0; k < 8; ++k) {
+            int i = x + reach * ways[k][0], j = y + reach * ways[k][1];
+            if (i < 0 || j < 0 || i >= columns || j >= rows)
+                continue;
+            const sighting *there = &seen[(size_t)j * (size_t)columns + (size_t)i];
+            if (there->triangle != SP_NONE && (double)there->depth < (double)here->depth - nearer)
+                return SHADOW + (1 - SHADOW) * (float)(reach - 1) / SHADOW_REACH;
+        }
+    return 1;
+}
+
 /* True where the edge of a triangle does, on one surface. */
 static bool is_wire(const sighting *a, const sighting *b)
 {
@@ -123,6 +147,7 @@ static void ink_edges(sp_shot *shot, const sp_mesh *mesh, const sp_camera *camer
                 (y + 1 < rows && is_edge(mesh, camera, x, y, &seen[here], x, y + 1, &seen[here + (size_t)columns]));
             bool wire = wireframe && ((x + 1 < columns && is_wire(&seen[here], &seen[here + 1])) ||
                                       (y + 1 < rows && is_wire(&seen[here], &seen[here + (size_t)columns])));
+            shot->samples[here].shade *= shadow_at(shot, seen, NEARER * camera->size, x, y);
             if (edge || wire)
                 shot->samples[here].shade *= edge ? INK : FAINT_INK;
         }

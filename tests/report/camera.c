@@ -88,11 +88,112 @@ static void a_cluster_is_one_nozzle_that_sprays_several_ways(void **state)
     sp_mesh_destroy(mesh);
 }
 
+static bool overlap(const double a[4], const double b[4])
+{
+    return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+}
+
+/* Nozzles so close together that names cannot all stand beside their dots. */
+static void names_stand_clear_of_each_other(void **state)
+{
+    (void)state;
+    enum { NOZZLES = 14 };
+    sp_error error = {0};
+    sp_mesh *mesh = tank_mesh(24, &error);
+    sp_setup setup = tank_setup(mesh, 0.05);
+    sp_evaluator *evaluator = sp_evaluator_create(&setup, &error);
+    sp_nozzle nozzles[NOZZLES];
+    for (int i = 0; i < NOZZLES; i++) {
+        nozzles[i] = tank_manual[0];
+        snprintf(nozzles[i].name, sizeof nozzles[i].name, "Nozzle %d", i);
+        nozzles[i].position = sp_v(0.01 * (i % 4), 0, 1 + 0.01 * (i / 4));
+    }
+    sp_layout layout = {NOZZLES, nozzles};
+    for (int view = 0; view < SP_VIEWS; view++) {
+        sp_camera camera = sp_camera_create(evaluator, &(sp_result){0}, &sp_views[view], 900);
+        sp_text text = {0};
+        sp_labels labels = {0};
+        sp_labels_nozzles(&labels, &text, &camera, &layout);
+        assert_int_equal(labels.count, 2 * NOZZLES);
+        for (size_t i = NOZZLES; i < labels.count; i++) /* names come after the dots */
+            for (size_t k = 0; k < labels.count; k++)
+                assert_true(i == k || !overlap(labels.box[i], labels.box[k]));
+        assert_true(count(text.text, "class=\"lead\"") > 0);
+        free(text.text);
+    }
+    sp_evaluator_destroy(evaluator);
+    sp_mesh_destroy(mesh);
+}
+
+/* On every side what is to be cleaned comes near the picture's rim; what only blocks is not made room for. */
+static void pictures_are_cropped_to_what_is_cleaned(void **state)
+{
+    (void)state;
+    sp_error error = {0};
+    sp_mesh *mesh = tank_mesh(24, &error);
+    sp_setup setup = tank_setup(mesh, 0.05);
+    sp_evaluator *evaluator = sp_evaluator_create(&setup, &error);
+    sp_result result = {0};
+    for (int view = 0; view < SP_VIEWS; view++) {
+        sp_camera camera = sp_camera_create(evaluator, &result, &sp_views[view], 900);
+        double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, xy[2];
+        for (uint32_t t = 0; t < mesh->triangle_count; t++)
+            for (int k = 0; k < 3 && setup.surfaces[mesh->part[t]].clean; k++) {
+                assert_true(sp_camera_shows(&camera, mesh->vertices[mesh->triangles[t][k]], xy));
+                for (int i = 0; i < 2; i++) {
+                    low[i] = fmin(low[i], xy[i]);
+                    high[i] = fmax(high[i], xy[i]);
+                }
+            }
+        const double size[2] = {camera.width, camera.height};
+        assert_true(fmax(size[0], size[1]) <= 900);
+        for (int i = 0; i < 2; i++) {
+            assert_true(low[i] < 0.05 * size[i] && high[i] > 0.95 * size[i]);
+            assert_true(fabs(low[i] - (size[i] - high[i])) < 0.02 * size[i]);
+        }
+    }
+    sp_evaluator_destroy(evaluator);
+    sp_mesh_destroy(mesh);
+}
+
+/* The bar is as long as what it says, at the depth of the middle. */
+static void the_bar_is_to_scale(void **state)
+{
+    (void)state;
+    sp_error error = {0};
+    sp_mesh *mesh = tank_mesh(24, &error);
+    sp_setup setup = tank_setup(mesh, 0.05);
+    sp_evaluator *evaluator = sp_evaluator_create(&setup, &error);
+    for (int view = 0; view < SP_VIEWS; view++) {
+        sp_camera camera = sp_camera_create(evaluator, &(sp_result){0}, &sp_views[view], 900);
+        sp_text text = {0};
+        sp_overlay_scale(&text, &camera);
+        double left, right, length, from[2], to[2];
+        assert_int_equal(sscanf(strstr(text.text, "v12M"), "v12M%lf %*fH%lf", &left, &right), 2);
+        const char *told = strstr(text.text, "\"middle\">") + 9;
+        assert_int_equal(sscanf(told, "%lf mm<", &length), 1);
+        assert_non_null(strstr(told, " mm</text>"));
+        sp_camera_project(&camera, camera.centre, from);
+        sp_camera_project(&camera, sp_along(camera.centre, length / 1000, camera.right), to);
+        assert_true(fabs((to[0] - from[0]) - (right - left)) < 0.2);
+        assert_int_equal(count(text.text, ">x</text>") + count(text.text, ">y</text>") + count(text.text, ">z</text>"),
+                         view == 0   ? 2
+                         : view == 1 ? 3
+                                     : 3);
+        free(text.text);
+    }
+    sp_evaluator_destroy(evaluator);
+    sp_mesh_destroy(mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nozzles_around_a_machine_are_in_the_picture),
         cmocka_unit_test(a_cluster_is_one_nozzle_that_sprays_several_ways),
+        cmocka_unit_test(names_stand_clear_of_each_other),
+        cmocka_unit_test(pictures_are_cropped_to_what_is_cleaned),
+        cmocka_unit_test(the_bar_is_to_scale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
