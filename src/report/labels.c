@@ -11,7 +11,8 @@
 
 static bool is_free(const sp_labels *labels, const double box[4])
 {
-    bool room = true;
+    bool room =
+        !(labels->width > 0) || (box[0] >= 0 && box[1] >= 0 && box[2] <= labels->width && box[3] <= labels->height);
     for (size_t i = 0; room && i < labels->count; ++i) {
         const double *other = labels->box[i];
         room = box[0] >= other[2] || box[2] <= other[0] || box[1] >= other[3] || box[3] <= other[1];

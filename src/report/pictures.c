@@ -66,7 +66,7 @@ static bool add_picture(const sp_page *page, sp_text *text, size_t design, const
     sp_text_add(text, "\"/>\n");
     free(bytes);
     sp_overlay_sprays(text, camera, shown->evaluator, shown->layout);
-    sp_labels labels = {0};
+    sp_labels labels = {.width = shot->width, .height = shot->height};
     sp_labels_nozzles(&labels, text, camera, shown->layout);
     sp_labels_shadows(&labels, text, shot, shadows);
     sp_overlay_scale(text, camera);

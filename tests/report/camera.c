@@ -112,12 +112,15 @@ static void names_stand_clear_of_each_other(void **state)
     for (int view = 0; view < SP_VIEWS; view++) {
         sp_camera camera = sp_camera_create(evaluator, &(sp_result){0}, &sp_views[view], 900);
         sp_text text = {0};
-        sp_labels labels = {0};
+        sp_labels labels = {.width = camera.width, .height = camera.height};
         sp_labels_nozzles(&labels, &text, &camera, &layout);
         assert_int_equal(labels.count, 2 * NOZZLES);
-        for (size_t i = NOZZLES; i < labels.count; i++) /* names come after the dots */
+        for (size_t i = NOZZLES; i < labels.count; i++) { /* names come after the dots */
+            const double *box = labels.box[i];
+            assert_true(box[0] >= 0 && box[1] >= 0 && box[2] <= camera.width && box[3] <= camera.height);
             for (size_t k = 0; k < labels.count; k++)
                 assert_true(i == k || !overlap(labels.box[i], labels.box[k]));
+        }
         assert_true(count(text.text, "class=\"lead\"") > 0);
         free(text.text);
     }

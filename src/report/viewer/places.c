@@ -1,6 +1,8 @@
 /* surface.js does the same the other way round, operation by operation: whatever is changed here is changed there. */
 #include "places.h"
 
+#include "faces.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -175,7 +177,7 @@ bool sp_places_pack(const sp_mesh *mesh, sp_packed *packed, sp_places_told *told
     if (done) {
         memset(t.first, 0xff, count * sizeof *t.first);
         tell_all(&t);
-        sp_packed_split(packed, mesh->triangles[0], 3 * mesh->triangle_count);
+        done = sp_faces_pack(mesh, packed);
         sp_packed_bytes(packed, t.zeros, 3 * count);
         sp_packed_numbers(packed, t.off, 3 * count);
         sp_packed_numbers(packed, t.missed, 3 * count);

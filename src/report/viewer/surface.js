@@ -97,6 +97,31 @@ const surfaces = (() => {
         return triangles;
     }
 
+    /* As faces.c tells them: each by a neighbour so many triangles back and the edges on which they meet, or by itself. */
+    function readFaces(take, count) {
+        if (!take(Uint32Array, 1)[0])
+            return take.split(3 * count);
+        const lags = take(Uint8Array, count), turned = lags.reduce((sum, lag) => sum + (lag > 0), 0);
+        const turns = take(Uint8Array, turned), before = take.small(3 * count - 2 * turned);
+        const triangles = new Uint32Array(3 * count);
+        let told = 0, turn = 0, fresh = 0;
+        const tell = (corner) => {
+            triangles[corner] = fresh - before[told++];
+            fresh = Math.max(fresh, triangles[corner] + 1);
+        };
+        for (let i = 0; i < count; i++) {
+            if (!lags[i]) {
+                [0, 1, 2].forEach((k) => tell(3 * i + k));
+                continue;
+            }
+            const other = 3 * (i - lags[i]), its = Math.floor(turns[turn] / 3), own = turns[turn++] % 3;
+            triangles[3 * i + own] = triangles[other + ((its + 1) % 3)];
+            triangles[3 * i + ((own + 1) % 3)] = triangles[other + its];
+            tell(3 * i + ((own + 2) % 3));
+        }
+        return triangles;
+    }
+
     /* As places.c tells them. */
     function readNumbers(take, triangles, {vertices, base, digits}) {
         const more = take(Int8Array, 3 * vertices), off = take.small(3 * vertices);
@@ -250,7 +275,7 @@ const surfaces = (() => {
 
     /* What layouts are evaluated on. */
     function readExact(take, about) {
-        const {triangles, charts, nodes, cuts} = about, surface = {triangles: take.split(3 * triangles)};
+        const {triangles, charts, nodes, cuts} = about, surface = {triangles: readFaces(take, triangles)};
         surface.places = readVertices(take, surface.triangles, about);
         surface.part = take(Uint32Array, triangles, true);
         surface.chart = take(Uint32Array, triangles, true);
