@@ -7,7 +7,8 @@
 
 #include <math.h>
 
-/* As they were computed, of six digits, or of single precision in mm. */
+/* As they were computed, of six digits, or of single precision in mm; triangles begin at any of their corners in the
+ * first, so that nothing repeats itself and they are told by edges (report-faces sees to that). */
 typedef enum { ANY, DIGITS, SINGLE, KINDS } kind;
 
 static const char scene_yaml[] = "geometry:\n"
@@ -43,8 +44,11 @@ static void write_tank(kind of)
             write_coordinate(file, (&mesh->vertices[i].x)[k], of);
         fputs("\n", file);
     }
-    for (size_t t = 0; t < mesh->triangle_count; t++)
-        fprintf(file, "f %u %u %u\n", mesh->triangles[t][0] + 1, mesh->triangles[t][1] + 1, mesh->triangles[t][2] + 1);
+    for (size_t t = 0; t < mesh->triangle_count; t++) {
+        const uint32_t *v = mesh->triangles[t];
+        int from = of == ANY ? tank_turn(t) : 0;
+        fprintf(file, "f %u %u %u\n", v[from] + 1, v[(from + 1) % 3] + 1, v[(from + 2) % 3] + 1);
+    }
     fclose(file);
     sp_mesh_destroy(mesh);
     snprintf(scene, sizeof scene, scene_yaml, of == SINGLE ? "mm" : "m");

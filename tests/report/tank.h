@@ -48,6 +48,12 @@ static void tank_revolve(tank_builder *b, double x, double y, const double (*pro
         }
 }
 
+/* At which of its corners a triangle begins where that is to follow no rule. */
+static inline int tank_turn(size_t triangle)
+{
+    return (int)((uint32_t)triangle * 2654435761u >> 16) % 3;
+}
+
 /* Parts: shell, "dip <tube>" and motor, the last an obstacle outside of what is cleaned. */
 static sp_mesh *tank_mesh(int around, sp_error *error)
 {
