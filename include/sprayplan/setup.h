@@ -101,15 +101,17 @@ typedef struct {
     sp_datum datum;     /* default the origin, z and x; of a scene its up in place of z */
     const sp_cap *caps; /* borrowed: [cap_count]; NULL for none */
     size_t cap_count;
-    /* borrowed: [unfolded_count], what files make up the mesh, each as it lays its triangles flat: the atlas on texels
-     * of the length that fidelity asks for, which must be given. NULL: the surface is unfolded here. */
+    /* borrowed: [unfolded_count], the files that make up the mesh, each as it lays its triangles flat. NULL: the
+     * surface is unfolded here. */
     const sp_unfolding *const *unfolded;
     size_t unfolded_count;
-    sp_sweep sweep;  /* speed 0: nothing moves */
-    sp_fluid liquid; /* default water: 1000 kg/m³, 1 mPa s */
-    sp_fluid air;    /* 1.2 kg/m³, 18 µPa s */
-    sp_vec3 up;      /* (0,0,1) or (0,1,0) */
-    double gravity;  /* m/s², along -up */
+    double unfolded_texel; /* m, > 0 where there are any: on texels so long the atlas is as they have it, on others
+                            * their charts are packed anew */
+    sp_sweep sweep;        /* speed 0: nothing moves */
+    sp_fluid liquid;       /* default water: 1000 kg/m³, 1 mPa s */
+    sp_fluid air;          /* 1.2 kg/m³, 18 µPa s */
+    sp_vec3 up;            /* (0,0,1) or (0,1,0) */
+    double gravity;        /* m/s², along -up */
     sp_criterion criterion;
     sp_fidelity fidelity;
     sp_run run;

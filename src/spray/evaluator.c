@@ -89,7 +89,7 @@ static bool check_setup(const sp_setup *setup, sp_error *error)
         wrong = "a criterion with flux and impact speed of 0 or more and incidence of 0 to 90 deg";
     else if (!in_range(fidelity->texel, 0, 1e300) || fidelity->reflections < -1)
         wrong = "a texel of 0 (auto) or more and reflections of -1 (auto) or more";
-    else if (setup->unfolded && !(fidelity->texel > 0))
+    else if (setup->unfolded && !in_range(setup->unfolded_texel, 1e-300, 1e300))
         wrong = "a texel with files that lay the surface flat";
     else if (!in_range(criterion->film, 0, 1e300))
         wrong = "a criterion with a film of 0 or more";

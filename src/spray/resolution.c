@@ -141,23 +141,33 @@ static bool serve_both(const sp_charts *charts, double one, double other)
     return serve;
 }
 
-/* Charts that fit on pages of the usual size. */
+static sp_charts *charts_of_files(const sp_setup *setup, sp_error *error)
+{
+    sp_atlas *atlas =
+        sp_atlas_of_files(setup->mesh, setup->unfolded, setup->unfolded_count, setup->unfolded_texel, error);
+    sp_charts *charts = atlas ? sp_charts_of_atlas(atlas, error) : NULL;
+    sp_atlas_destroy(atlas);
+    return charts;
+}
+
+/* The files' own, or such that fit on pages of the usual size. */
 static bool make_charts(sp_evaluator *evaluator, sp_error *error)
 {
+    const sp_setup *setup = &evaluator->setup;
     double extent = (PAGE_EDGE - PAGE_MARGIN) * evaluator->fidelity.texel;
-    if (evaluator->charts && (evaluator->setup.unfolded || evaluator->extent == extent ||
-                              serve_both(evaluator->charts, evaluator->extent, extent)))
+    if (evaluator->charts &&
+        (setup->unfolded || evaluator->extent == extent || serve_both(evaluator->charts, evaluator->extent, extent)))
         return true;
     sp_charts_destroy(evaluator->charts);
     evaluator->extent = extent;
-    evaluator->charts = sp_charts_create(evaluator->setup.mesh, extent, error);
+    evaluator->charts = setup->unfolded ? charts_of_files(setup, error) : sp_charts_create(setup->mesh, extent, error);
     return evaluator->charts != NULL;
 }
 
-/* As the files lie; on texels of any other length their charts would not keep apart, and are packed anew. */
+/* On texels of any other length the files' charts might not keep a pixel apart. */
 static bool is_laid(const sp_evaluator *evaluator)
 {
-    return evaluator->setup.unfolded && evaluator->fidelity.texel == evaluator->setup.fidelity.texel;
+    return evaluator->setup.unfolded && evaluator->fidelity.texel == evaluator->setup.unfolded_texel;
 }
 
 static bool lay(sp_evaluator *evaluator, sp_error *error)

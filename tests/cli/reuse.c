@@ -1,6 +1,8 @@
 /* simulate: {atlas: reuse}: the texture coordinates that the scene's own files have. */
 #include "results.h"
 
+#include <sprayplan/sprayplan.h>
+
 #include <math.h>
 
 /* The room on pages of its own, and a plate in it of which a page is a fifth as wide. */
@@ -97,6 +99,31 @@ static void place_reuses_too(void **state)
     free(layout);
 }
 
+/* A little longer than the file's, as `study` tries them, charts need not keep apart: they are packed anew. */
+static void other_texels_pack_the_charts_anew(void **state)
+{
+    (void)state;
+    write_flat_room("flat.yaml", "  - file: flat.obj\n");
+    char path[1024];
+    snprintf(path, sizeof path, "%s/flat.yaml", workplace);
+    sp_error error = {0};
+    const char *const settings[] = {"simulate.atlas=reuse", "simulate.texel=auto"};
+    sp_scene *scene = sp_scene_load_with(path, settings, 2, NULL, &error);
+    assert_non_null(scene);
+    sp_setup setup = *sp_scene_setup(scene);
+    sp_evaluator *own = sp_evaluator_create(&setup, &error);
+    setup.fidelity.texel *= 1.03;
+    sp_evaluator *longer = sp_evaluator_create(&setup, &error);
+    if (!own || !longer)
+        fail_msg("%s", error.message);
+    assert_int_equal(sp_evaluator_atlas(longer)->chart_count, sp_evaluator_atlas(own)->chart_count);
+    assert_true(sp_evaluator_patches(longer)->count < sp_evaluator_patches(own)->count);
+    assert_true(fabs(sp_evaluator_patches(longer)->total_area - 6) < 1e-9);
+    sp_evaluator_destroy(longer);
+    sp_evaluator_destroy(own);
+    sp_scene_destroy(scene);
+}
+
 static void what_is_unsound_is_told_where(void **state)
 {
     (void)state;
@@ -123,9 +150,9 @@ static void what_is_unsound_is_told_where(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coverage_is_that_of_an_own_atlas), cmocka_unit_test(pages_are_those_of_the_file),
-        cmocka_unit_test(files_have_pages_of_their_own),    cmocka_unit_test(place_reuses_too),
-        cmocka_unit_test(what_is_unsound_is_told_where),
+        cmocka_unit_test(coverage_is_that_of_an_own_atlas),  cmocka_unit_test(pages_are_those_of_the_file),
+        cmocka_unit_test(files_have_pages_of_their_own),     cmocka_unit_test(place_reuses_too),
+        cmocka_unit_test(other_texels_pack_the_charts_anew), cmocka_unit_test(what_is_unsound_is_told_where),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }
