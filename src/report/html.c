@@ -53,7 +53,7 @@ static const char *const style[] = {
     ".nozzle{fill:#fff;stroke:#10202a;stroke-width:4}\n"
     ".name{font-size:26px;font-weight:600;fill:#10202a;stroke:#fff;stroke-width:6;stroke-linejoin:round;paint-order:"
     "stroke}\n"
-    ".axis{fill:none;stroke:var(--ink);stroke-width:2.5}.length{font-size:22px;fill:var(--ink)}"
+    "path.axis{fill:none;stroke:var(--ink);stroke-width:2.5}.length{font-size:22px;fill:var(--ink)}"
     ".lead{stroke:#10202a;stroke-width:1.5}\n"
     ".shadow{fill:#fff;stroke:#c42636;stroke-width:2.5}\n.number{font-size:20px;font-weight:700;fill:#a51526;"
     "text-anchor:middle}\n"
