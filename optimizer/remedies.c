@@ -6,6 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Mounting points, those that promise most, of which it is counted what they do: the search's patches may see more of
+ * what is thin than there is. Jets are too dear for it. */
+#define TRIALS 5
+
 /* A site's best pose for the shadow in hand. */
 typedef struct {
     sp_pose pose;
@@ -109,18 +113,22 @@ static void scan_site(remedying *r, const sp_draft *draft, uint32_t site)
     }
 }
 
-/* The best of all candidates, the first of equals; gain 0 where none brings anything. */
-static site_best scan(remedying *r, const sp_draft *draft)
+static void scan(remedying *r, const sp_draft *draft)
 {
     size_t sites = r->search->sites->count;
-    site_best best = {.gain = 0};
 #pragma omp parallel for num_threads(r->threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
         scan_site(r, draft, (uint32_t)i);
     sp_sweepers_forget(r->sweepers, r->threads);
-    for (size_t i = 0; i < sites; i++)
-        if (r->best[i].gain > best.gain + SP_SCORE_TIE * r->search->all)
-            best = r->best[i];
+}
+
+/* Takes the site that promises most, the first of equals; NULL where none promises anything. */
+static site_best *take_best(remedying *r)
+{
+    site_best *best = NULL;
+    for (size_t i = 0; i < r->search->sites->count; i++)
+        if (r->best[i].gain > (best ? best->gain : 0) + SP_SCORE_TIE * r->search->all)
+            best = &r->best[i];
     return best;
 }
 
@@ -135,7 +143,7 @@ static double newly_covered(const remedying *r, uint32_t shadow, const sp_covera
     return fmax(0, area);
 }
 
-/* The layout with that nozzle, by the scene's own count. */
+/* The layout with that nozzle, by the scene's own count: *remedy becomes it where it covers more. */
 static bool measure(const remedying *r, const sp_draft *draft, sp_pose pose, uint32_t shadow, sp_remedy *remedy,
                     sp_error *error)
 {
@@ -147,10 +155,11 @@ static bool measure(const remedying *r, const sp_draft *draft, sp_pose pose, uin
     sp_coverage *coverage = layout ? sp_evaluate(r->fine, layout, error) : NULL;
     const sp_mount *mount = &r->search->options->mounts[r->search->sites->items[pose.site].mount];
     bool done = coverage != NULL;
-    if (done)
+    double area = done ? newly_covered(r, shadow, coverage) : 0;
+    if (done && (!remedy->nozzle.type || area > remedy->area))
         *remedy = (sp_remedy){.nozzle = layout->nozzles[layout->count - 1],
                               .in_port = mount->kind == SP_MOUNT_PORT,
-                              .area = newly_covered(r, shadow, coverage),
+                              .area = area,
                               .flow = coverage->flow - r->coverage->flow};
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
@@ -165,9 +174,18 @@ static bool find_one(remedying *r, const sp_draft *draft, uint32_t shadow, sp_re
     if (!sp_draft_copy(r->search, draft, &dry, error))
         return false;
     mask(r, shadow, &dry);
-    site_best best = scan(r, &dry);
+    scan(r, &dry);
     sp_draft_free(&dry);
-    return !(best.gain > 0) || measure(r, draft, best.pose, shadow, remedy, error);
+    bool done = true;
+    size_t trials = sp_evaluator_fidelity(r->fine)->method == SP_METHOD_INVERSE ? TRIALS : 1;
+    for (size_t i = 0; done && i < trials; i++) {
+        site_best *best = take_best(r);
+        if (!best || (remedy->nozzle.type && remedy->area >= best->gain))
+            break; /* what it promises is rarely too little */
+        done = measure(r, draft, best->pose, shadow, remedy, error);
+        best->gain = 0;
+    }
+    return done;
 }
 
 bool sp_remedies_find(const sp_search *search, const sp_evaluator *fine, const sp_draft *draft,

@@ -297,8 +297,13 @@ static void add_remedy(sp_text *text, const sp_shadow_figures *shadow)
         sp_text_add(text, " in ");
         sp_markup_escape(text, remedy->port);
     }
-    sp_text_add(text, " at %.2f, %.2f, %.2f&nbsp;m: %.0f&nbsp;%% for %.3g&nbsp;L/min</td>", remedy->position.x,
-                remedy->position.y, remedy->position.z, 100 * remedy->area / shadow->area, 6e4 * remedy->flow);
+    const double place[] = {remedy->position.x, remedy->position.y, remedy->position.z};
+    for (int k = 0; k < 3; k++) {
+        sp_text_add(text, k ? ", " : " at ");
+        sp_markup_decimals(text, place[k], 2);
+    }
+    sp_text_add(text, "&nbsp;m: %.0f&nbsp;%% for %.3g&nbsp;L/min</td>", 100 * remedy->area / shadow->area,
+                6e4 * remedy->flow);
 }
 
 static void add_shadow(sp_text *text, size_t number, const sp_shadow_figures *shadow, double clean_area, bool remedies)
