@@ -144,9 +144,11 @@ typedef struct {
     bool agrees;       /* the difference is no more than that */
 } sp_forward_check;
 
-/* What one more nozzle could do for a shadow of the proposal, whatever the limits on number and water. */
+/* What one more nozzle could do for a shadow of the proposal, whatever the limits on number and water: the most that
+ * was found, not a bound. Which places promise most is told by the search's patches, of which the report's may be
+ * finer. */
 typedef struct {
-    sp_nozzle nozzle; /* the candidate that covers most of it beside the proposal; type NULL: none covers any */
+    sp_nozzle nozzle; /* the candidate found that covers most of it beside the proposal; type NULL: none covers any */
     bool in_port;     /* whose name it has */
     double area;      /* m² of the shadow that it covers, by the scene's own settings; it may be 0 */
     double flow;      /* m³/s */

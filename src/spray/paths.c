@@ -3,6 +3,7 @@
 #include "bounce.h"
 #include "emitter.h"
 #include "launch.h"
+#include "mesh/grow.h"
 
 #include <stdlib.h>
 
@@ -20,28 +21,16 @@ typedef struct {
 
 static bool add_jet(sp_paths *paths, size_t pattern)
 {
-    if (paths->jet_count == paths->jet_room) {
-        size_t room = 2 * paths->jet_room + SP_PATH_JETS;
-        size_t *grown = realloc(paths->pattern, room * sizeof *grown);
-        if (!grown)
-            return false;
-        paths->pattern = grown;
-        paths->jet_room = room;
-    }
+    if (!sp_grow(&paths->pattern, &paths->jet_room, paths->jet_count + 1, sizeof *paths->pattern))
+        return false;
     paths->pattern[paths->jet_count++] = pattern;
     return true;
 }
 
 static bool add_leg(sp_paths *paths, sp_vec3 end, double rise, unsigned bounce)
 {
-    if (paths->leg_count == paths->leg_room) {
-        size_t room = 2 * paths->leg_room + SP_PATH_JETS;
-        sp_path_leg *grown = realloc(paths->legs, room * sizeof *grown);
-        if (!grown)
-            return false;
-        paths->legs = grown;
-        paths->leg_room = room;
-    }
+    if (!sp_grow(&paths->legs, &paths->leg_room, paths->leg_count + 1, sizeof *paths->legs))
+        return false;
     paths->legs[paths->leg_count++] = (sp_path_leg){end, rise, (unsigned)paths->jet_count - 1, bounce};
     return true;
 }
