@@ -55,6 +55,10 @@ typedef struct {
     float length;          /* m on the surface, along all edges */
 } sp_seam;
 
+/* Corners of an unfolded surface are whole in so many parts of a pixel, a power of two: what flattening and placing round
+ * off lies far below that, and a report's page is told fewer digits. */
+#define SP_ATLAS_PARTS 268435456.0 /* 2^28 */
+
 /* A texel is one connected patch of one chart inside one pixel of a page. Nearly always it is all that the pixel holds;
  * where the two lips of a cut or of a fold cross a pixel, each has a texel of its own. Texels [0, pixel_count) are the
  * largest patch of every used pixel, ordered by page, then y, then x; further patches follow in the order of their
@@ -67,7 +71,7 @@ typedef struct {
     uint32_t *chart;      /* [triangle_count] */
     uint32_t *chart_page; /* [chart_count] */
     double *chart_texel;  /* [chart_count], edge length of the pixels of each chart, m */
-    double (*uv)[3][2];   /* [triangle_count], corners on the page, in pixels */
+    double (*uv)[3][2];   /* [triangle_count], corners on the page, in pixels, see SP_ATLAS_PARTS */
     size_t texel_count, pixel_count;
     double *texel_area; /* [texel_count], m², on the surface; sums to the surface's area */
     uint32_t *behind;   /* [texel_count - pixel_count], ascending: the pixel (its first texel) of each further texel */

@@ -31,7 +31,7 @@ static void place_point(const sp_shape *shape, const sp_spot *spot, const double
     const double size[2] = {spot->turns % 2 ? height : width, spot->turns % 2 ? width : height};
     const double corner[2] = {spot->x, spot->y};
     for (int k = 0; k < 2; k++) /* just inside the far sides, where round-off may have left no pixel */
-        uv[k] = fmin(corner[k] + turned[spot->turns][k], nextafter(corner[k] + size[k], 0));
+        uv[k] = fmin(rint((corner[k] + turned[spot->turns][k]) * SP_ATLAS_PARTS), (corner[k] + size[k]) * SP_ATLAS_PARTS - 1) / SP_ATLAS_PARTS;
 }
 
 static void place_triangles(sp_atlas *atlas, const sp_charts *charts, const sp_shape *shapes, const sp_spot *spots)

@@ -7,13 +7,17 @@ async function readData() {
     const letters = "!#$%&'()*+,-./0123456789:;=>?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[]^_`abcdefghijklmnopqrstuvwxyz{|}~";
     const digits = new Uint8Array(128);
     [...letters].forEach((letter, value) => (digits[letter.charCodeAt(0)] = value));
-    async function inflated(text) {
+    function bytesOf(text) {
         const from = text.indexOf(" ") + 1, bytes = new Uint8Array(Number(text.slice(0, from)));
         for (let i = from, held = 0, bits = 0, at = 0; i < text.length; i += 2) {
             held |= (digits[text.charCodeAt(i)] + 91 * digits[text.charCodeAt(i + 1)]) << bits;
             for (bits += 13; bits >= 8; bits -= 8, held >>>= 8)
                 bytes[at++] = held;
         }
+        return bytes;
+    }
+    async function inflated(text) {
+        const bytes = bytesOf(text);
         const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
         return new Response(stream).arrayBuffer();
     }
@@ -33,43 +37,18 @@ async function readData() {
         });
     }
 
-    /* Of each patch the one above it on its page, or else left of it, -1 for none: design.c. */
-    function patchesBeside(model) {
-        const beside = new Int32Array(model.patches).fill(-1), {edge} = model;
-        for (const page of model.page)
-            for (let i = 0; i < page.length; i++)
-                if (page[i]) {
-                    const above = Math.floor(i / edge) % edge && page[i - edge], left = i % edge && page[i - 1];
-                    beside[page[i] - 1] = (above || left || 0) - 1;
-                }
-        return beside;
-    }
-
-    function readDesign(design, model, take) {
-        const bytes = () => {
-            const values = take(Uint8Array, model.patches, false);
-            for (let i = 0; i < values.length; i++)
-                values[i] += model.beside[i] < 0 ? 0 : values[model.beside[i]];
-            return values;
-        };
-        design.values = Object.fromEntries(about.quantities.map((quantity) => [quantity.key, bytes()]));
-        design.share = bytes();
-        design.film = bytes();
-        design.shadowOf = bytes();
-        design.nozzles.forEach((nozzle) => {
-            nozzle.flux = nozzle.known ? bytes() : null;
-            sprays.read(nozzle, about.up, take);
-        });
-        design.model = model;
-    }
-
     async function readModel(model) {
-        const take = surfaces.reader(await inflated(model.data));
+        const take = surfaces.reader(await inflated(model.data)), coder = makeCoder(bytesOf(model.coded));
         delete model.data;
-        surfaces.read(model, take);
+        delete model.coded;
+        surfaces.read(model, take, coder);
         model.page = readPages(model, take);
-        model.beside = patchesBeside(model);
-        model.designs.forEach((design) => readDesign(design, model, take));
+        const patches = makePatches(model);
+        for (const design of model.designs) {
+            patches.readDesign(design, coder);
+            design.nozzles.forEach((nozzle) => sprays.read(nozzle, about.up, take));
+            design.model = model;
+        }
     }
 
     await Promise.all(about.models.map(readModel));

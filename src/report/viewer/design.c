@@ -13,24 +13,119 @@ static json_t *vector_json(sp_vec3 v)
     return json_pack("[fff]", v.x, v.y, v.z);
 }
 
-static void pack_quantity(const sp_deposits *deposits, const sp_shown_quantity *quantity, const double *values,
-                          uint8_t *bytes, const uint32_t *beside, sp_packed *packed)
+/* A design while it is told: what its nozzles bring by themselves, then what they bring together. */
+typedef struct {
+    const sp_design *design;
+    const sp_neighbours *neighbours;
+    const sp_shown_quantity *quantities;
+    sp_coder *coder;
+    uint8_t *bytes, *off;                /* [patches], of what is in hand */
+    uint8_t *flux, *speed, *incidence;   /* [patches], told */
+    uint8_t *most, *second;              /* [patches], the largest of what nozzles bring */
+    sp_patch_guess guess;                /* [patches] */
+} teller;
+
+static bool make_room(teller *t, size_t patches)
 {
-    for (size_t i = 0; i < deposits->count; ++i)
-        bytes[i] = deposits->flux[i] > 0 ? sp_shown_byte(quantity, values[i]) : 0;
-    sp_packed_beside(packed, bytes, beside, deposits->count);
+    uint8_t **all[] = {&t->bytes, &t->off, &t->flux, &t->speed, &t->incidence, &t->most, &t->second,
+                       &t->guess.expected, &t->guess.hint};
+    bool done = true;
+    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
+        *all[i] = calloc(patches + 1, 1);
+        done = done && *all[i];
+    }
+    return done;
 }
 
-static void pack_covered(const sp_deposits *deposits, uint8_t *bytes, const uint32_t *beside, sp_packed *packed)
+static void free_room(teller *t)
 {
+    uint8_t *all[] = {t->bytes, t->off, t->flux, t->speed, t->incidence, t->most, t->second, t->guess.expected,
+                      t->guess.hint};
+    for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
+        free(all[i]);
+}
+
+static bool tell(teller *t, const uint8_t *values)
+{
+    return sp_patches_tell(t->neighbours, values, &t->guess, t->off, t->coder);
+}
+
+/* By neighbours alone. */
+static bool tell_alone(teller *t, const uint8_t *values)
+{
+    for (size_t i = 0; i < t->neighbours->count; ++i) {
+        t->guess.expected[i] = sp_patch_expected(t->neighbours, values, NULL, i);
+        t->guess.hint[i] = 0;
+    }
+    return tell(t, values);
+}
+
+/* Of patches that liquid reaches, by those that it reaches too, and by how far off what was told before is. */
+static bool tell_reached(teller *t, const uint8_t *values)
+{
+    for (size_t i = 0; i < t->neighbours->count; ++i) {
+        bool reached = t->flux[i] > 0;
+        t->guess.expected[i] = reached ? sp_patch_expected(t->neighbours, values, t->flux, i) : 0;
+        t->guess.hint[i] = (uint8_t)(reached ? 1 + sp_patch_size(t->off[i]) : 0);
+    }
+    return tell(t, values);
+}
+
+static void take_bytes(teller *t, int quantity, uint8_t *bytes)
+{
+    const sp_deposits *deposits = &t->design->coverage->deposits;
+    const double *values = sp_shown_values(deposits, quantity);
+    for (size_t i = 0; i < deposits->count; ++i)
+        bytes[i] = deposits->flux[i] > 0 ? sp_shown_byte(&t->quantities[quantity], values[i]) : 0;
+}
+
+#define APART 4 /* steps between the two largest that are told from each other */
+
+/* All that nozzles bring is the most that one does, or little more. */
+static bool tell_flux(teller *t)
+{
+    take_bytes(t, SP_SHOWN_FLUX, t->flux);
+    if (!t->design->contributions)
+        return tell_alone(t, t->flux);
+    for (size_t i = 0; i < t->neighbours->count; ++i) {
+        int apart = (t->most[i] - t->second[i]) / APART;
+        t->guess.expected[i] = t->most[i];
+        t->guess.hint[i] = (uint8_t)(!t->most[i] ? 0 : !t->second[i] ? 1 : apart < SP_HINTS - 3 ? 2 + apart : SP_HINTS - 1);
+    }
+    return tell(t, t->flux);
+}
+
+/* The pressure follows the flux, where speed and incidence stay. */
+static bool tell_impact(teller *t)
+{
+    take_bytes(t, SP_SHOWN_IMPACT, t->bytes);
+    for (size_t i = 0; i < t->neighbours->count; ++i)
+        t->bytes[i] = (uint8_t)(t->bytes[i] - t->flux[i]);
+    return tell_reached(t, t->bytes);
+}
+
+static bool tell_covered(teller *t)
+{
+    const sp_deposits *deposits = &t->design->coverage->deposits;
     for (size_t i = 0; i < deposits->count; ++i) {
         long share = lrint(255 * fmin(fmax(deposits->share[i], 0), 1));
-        bytes[i] = (uint8_t)(deposits->covered[i] ? (share < HALF ? HALF : share) : (share < HALF ? share : HALF - 1));
+        t->bytes[i] =
+            (uint8_t)(deposits->covered[i] ? (share < HALF ? HALF : share) : (share < HALF ? share : HALF - 1));
     }
-    sp_packed_beside(packed, bytes, beside, deposits->count);
+    if (!tell_reached(t, t->bytes))
+        return false;
     for (size_t i = 0; i < deposits->count; ++i)
-        bytes[i] = deposits->by_film[i];
-    sp_packed_beside(packed, bytes, beside, deposits->count);
+        t->bytes[i] = deposits->by_film[i];
+    return tell_alone(t, t->bytes);
+}
+
+static bool tell_deposits(teller *t)
+{
+    if (!tell_flux(t))
+        return false;
+    take_bytes(t, SP_SHOWN_SPEED, t->speed);
+    take_bytes(t, SP_SHOWN_INCIDENCE, t->incidence);
+    return tell_reached(t, t->speed) && tell_reached(t, t->incidence) && tell_impact(t) && tell_covered(t);
 }
 
 /* The way that a shadow faces, and the box around its points. */
@@ -47,20 +142,19 @@ static void look_at(outlook *shadow, const sp_patches *patches, uint32_t patch)
 }
 
 /* The shadows that the page's table lists. */
-static json_t *pack_shadows(const sp_design *design, uint8_t *bytes, const uint32_t *beside, sp_packed *packed,
-                            sp_error *error)
+static json_t *tell_shadows(teller *t, sp_error *error)
 {
-    const sp_patches *patches = sp_evaluator_patches(design->evaluator);
+    const sp_patches *patches = sp_evaluator_patches(t->design->evaluator);
     sp_listed_shadows listed = {0};
-    if (!sp_listed_shadows_find(&listed, design, error))
+    if (!sp_listed_shadows_find(&listed, t->design, error))
         return NULL;
     outlook seen[SP_PAGE_SHADOWS];
     for (size_t i = 0; i < listed.count; ++i)
         seen[i] = (outlook){{0}, sp_v(INFINITY, INFINITY, INFINITY), sp_v(-INFINITY, -INFINITY, -INFINITY)};
     for (uint32_t k = 0; k < patches->count; ++k) {
-        bytes[k] = (uint8_t)listed.number[k];
-        if (bytes[k])
-            look_at(&seen[bytes[k] - 1], patches, k);
+        t->bytes[k] = (uint8_t)listed.number[k];
+        if (t->bytes[k])
+            look_at(&seen[t->bytes[k] - 1], patches, k);
     }
     json_t *list = json_array();
     for (size_t i = 0; i < listed.count; ++i) {
@@ -69,42 +163,52 @@ static json_t *pack_shadows(const sp_design *design, uint8_t *bytes, const uint3
                               json_pack("{s:o, s:o, s:f}", "at", vector_json(listed.shadow[i].centroid), "towards",
                                         vector_json(facing), "extent", sp_distance(seen[i].low, seen[i].high)));
     }
-    sp_packed_beside(packed, bytes, beside, patches->count);
     sp_listed_shadows_free(&listed);
-    return list;
+    if (tell_alone(t, t->bytes))
+        return list;
+    json_decref(list);
+    return sp_fail_memory(error);
 }
 
-/* What one nozzle brings by itself, where that is known, and its sprays. */
-static json_t *pack_nozzle(const sp_design *design, size_t index, const sp_shown_quantity *flux, uint8_t *bytes,
-                           const uint32_t *beside, sp_packed *packed, sp_error *error)
+/* What one nozzle brings by itself. */
+static bool tell_brought(teller *t, size_t index)
 {
-    const sp_nozzle *nozzle = &design->layout->nozzles[index];
-    const sp_contributions *does = design->contributions;
-    for (size_t i = 0; does && i < does->patches; ++i) {
+    const sp_contributions *does = t->design->contributions;
+    for (size_t i = 0; i < does->patches; ++i) {
         double brought = (double)does->flux[index * does->patches + i];
-        bytes[i] = brought > 0 ? sp_shown_byte(flux, brought) : 0;
+        uint8_t byte = brought > 0 ? sp_shown_byte(&t->quantities[SP_SHOWN_FLUX], brought) : 0;
+        t->bytes[i] = byte;
+        t->second[i] = byte > t->most[i] ? t->most[i] : byte > t->second[i] ? byte : t->second[i];
+        t->most[i] = byte > t->most[i] ? byte : t->most[i];
     }
-    if (does)
-        sp_packed_beside(packed, bytes, beside, does->patches);
+    return tell_alone(t, t->bytes);
+}
+
+/* What one nozzle brings where that is known, and its sprays. */
+static json_t *tell_nozzle(teller *t, size_t index, sp_packed *packed, sp_error *error)
+{
+    const sp_nozzle *nozzle = &t->design->layout->nozzles[index];
+    bool known = t->design->contributions != NULL;
+    if (known && !tell_brought(t, index))
+        return sp_fail_memory(error);
     char *name = sp_text_utf8(nozzle->name);
-    json_t *object = name ? json_pack("{s:s, s:b, s:o}", "name", name, "known", (int)(does != NULL), "at",
+    json_t *object = name ? json_pack("{s:s, s:b, s:o}", "name", name, "known", (int)known, "at",
                                       vector_json(nozzle->position))
                           : NULL;
     free(name);
     if (!object)
         return sp_fail_memory(error);
-    if (sp_viewer_sprays(design->evaluator, nozzle, object, packed, error))
+    if (sp_viewer_sprays(t->design->evaluator, nozzle, object, packed, error))
         return object;
     json_decref(object);
     return NULL;
 }
 
-static json_t *pack_nozzles(const sp_design *design, const sp_shown_quantity *flux, uint8_t *bytes,
-                            const uint32_t *beside, sp_packed *packed, sp_error *error)
+static json_t *tell_nozzles(teller *t, sp_packed *packed, sp_error *error)
 {
     json_t *list = json_array();
-    for (size_t i = 0; list && i < design->layout->count; ++i) {
-        json_t *nozzle = pack_nozzle(design, i, flux, bytes, beside, packed, error);
+    for (size_t i = 0; list && i < t->design->layout->count; ++i) {
+        json_t *nozzle = tell_nozzle(t, i, packed, error);
         if (!nozzle || json_array_append_new(list, nozzle) != 0) {
             json_decref(list);
             return nozzle ? sp_fail_memory(error) : NULL;
@@ -128,48 +232,33 @@ static json_t *head_json(const sp_page *page, size_t design)
     return object;
 }
 
-uint32_t *sp_viewer_beside(const sp_layers *layers)
+/* Into the design's JSON; false on error. */
+static bool tell_all(teller *t, json_t *object, sp_packed *packed, sp_error *error)
 {
-    const sp_atlas *atlas = sp_evaluator_atlas(layers->evaluator);
-    const sp_patches *patches = sp_evaluator_patches(layers->evaluator);
-    uint32_t *beside = malloc((patches->count + 1) * sizeof *beside);
-    for (size_t i = 0; beside && i < patches->count; ++i) {
-        uint32_t texel = patches->texel[i];
-        const uint32_t *layer = layers->patch[patches->side[i] == SP_SIDE_BACK];
-        beside[i] = SP_NONE;
-        if (texel >= atlas->pixel_count)
-            continue;
-        sp_texel_place at = sp_atlas_place(atlas, texel);
-        uint32_t above = at.y ? sp_atlas_pixel(atlas, at.page, at.x, at.y - 1) : SP_NONE;
-        uint32_t left = at.x ? sp_atlas_pixel(atlas, at.page, at.x - 1, at.y) : SP_NONE;
-        beside[i] = above == SP_NONE ? SP_NONE : layer[above];
-        if (beside[i] == SP_NONE && left != SP_NONE)
-            beside[i] = layer[left];
-    }
-    return beside;
+    json_t *nozzles = tell_nozzles(t, packed, error);
+    if (!nozzles || json_object_set_new(object, "nozzles", nozzles) != 0)
+        return nozzles ? sp_fail_memory(error) != NULL : false;
+    if (!tell_deposits(t))
+        return sp_fail_memory(error) != NULL;
+    json_t *shadows = tell_shadows(t, error);
+    return shadows && (json_object_set_new(object, "shadows", shadows) == 0 || sp_fail_memory(error));
 }
 
 json_t *sp_viewer_design(const sp_page *page, size_t index, const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES],
-                         const uint32_t *beside, sp_packed *packed, sp_error *error)
+                         const sp_neighbours *neighbours, sp_coder *coder, sp_packed *packed, sp_error *error)
 {
-    const sp_design *design = &page->result->designs[index];
-    const sp_deposits *deposits = &design->coverage->deposits;
-    uint8_t *bytes = malloc(deposits->count + 1);
-    json_t *object = bytes ? head_json(page, index) : NULL;
-    if (!object) {
-        free(bytes);
-        return sp_fail_memory(error);
+    teller t = {.design = &page->result->designs[index],
+                .neighbours = neighbours,
+                .quantities = quantities,
+                .coder = coder};
+    json_t *object = head_json(page, index);
+    bool room = make_room(&t, neighbours->count) && object;
+    if (!room)
+        sp_fail_memory(error);
+    if (!room || !tell_all(&t, object, packed, error)) {
+        json_decref(object);
+        object = NULL;
     }
-    for (int k = 0; k < SP_SHOWN_QUANTITIES; ++k)
-        pack_quantity(deposits, &quantities[k], sp_shown_values(deposits, k), bytes, beside, packed);
-    pack_covered(deposits, bytes, beside, packed);
-    json_t *shadows = pack_shadows(design, bytes, beside, packed, error);
-    json_t *nozzles = shadows ? pack_nozzles(design, &quantities[SP_SHOWN_FLUX], bytes, beside, packed, error) : NULL;
-    bool good =
-        json_object_set_new(object, "shadows", shadows) == 0 && json_object_set_new(object, "nozzles", nozzles) == 0;
-    free(bytes);
-    if (good)
-        return object;
-    json_decref(object);
-    return sp_fail_memory(error);
+    free_room(&t);
+    return object;
 }

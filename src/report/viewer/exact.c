@@ -1,5 +1,7 @@
+/* exact.js does the same the other way round: whatever is changed here is changed there. */
 #include "exact.h"
 
+#include "packed.h"
 #include "places.h"
 #include "spray/restore.h"
 #include "unfolded.h"
@@ -7,61 +9,149 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool pack_doubles(const double *values, size_t count, sp_packed *packed)
+/* Each as what it is more than the one before, in the order of the walk or as they stand; false where memory runs out. */
+static bool tell_words(const uint32_t *values, const uint32_t *order, size_t count, sp_coder *coder)
 {
-    int64_t *apart = malloc((count + 1) * sizeof *apart);
-    for (size_t i = 0; apart && i < count; i++)
-        apart[i] = sp_packed_apart(values[i], i ? values[i - 1] : 0);
-    if (apart)
-        sp_packed_numbers(packed, apart, count);
-    free(apart);
-    return apart != NULL;
+    sp_number_model *model = calloc(1, sizeof *model);
+    for (size_t i = 0; model && i < count; i++) {
+        int64_t before = !i ? 0 : order ? values[order[i - 1]] : values[i - 1];
+        sp_code_number(coder, model, (order ? values[order[i]] : values[i]) - before);
+    }
+    free(model);
+    return model != NULL;
 }
 
-static bool pack_unfolded(const sp_evaluator *evaluator, sp_packed *packed)
+static bool tell_doubles(const double *values, size_t count, sp_coder *coder)
 {
-    sp_unfolded unfolded;
-    bool done = sp_unfolded_create(&unfolded, evaluator);
-    if (done) {
-        sp_packed_bytes(packed, unfolded.rounded, sp_evaluator_atlas(evaluator)->chart_count);
-        sp_packed_numbers(packed, unfolded.apart, unfolded.count);
+    sp_number_model *model = calloc(1, sizeof *model);
+    for (size_t i = 0; model && i < count; i++)
+        sp_code_number(coder, model, sp_packed_apart(values[i], i ? values[i - 1] : 0));
+    free(model);
+    return model != NULL;
+}
+
+/* The first of a triangle's nodes and cuts. */
+typedef struct {
+    size_t node, cut;
+} place;
+
+static bool is_partly(uint8_t sides)
+{
+    return (sides & 3) != sides >> 2;
+}
+
+/* How many nodes a triangle has from the first on, and cuts among them. */
+static place count_nodes(const sp_wet_told *wet, size_t first)
+{
+    place found = {0, 0};
+    for (size_t open = 1; open; open--, found.node++)
+        if (wet->nodes[first + found.node] == SP_TOLD_CUT) {
+            found.cut++;
+            open += 2;
+        }
+    return found;
+}
+
+static place *find_places(const sp_wet_told *wet, size_t triangles)
+{
+    place *places = malloc((triangles + 1) * sizeof *places), next = {0, 0};
+    for (size_t t = 0; places && t < triangles; t++) {
+        places[t] = next;
+        if (!is_partly(wet->sides[t]))
+            continue;
+        place own = count_nodes(wet, next.node);
+        next.node += own.node;
+        next.cut += own.cut;
     }
-    sp_unfolded_free(&unfolded);
+    return places;
+}
+
+typedef struct {
+    sp_byte_model sides, nodes;
+    sp_number_model cuts[3];
+} wet_models;
+
+static void tell_nodes(const sp_wet_told *wet, place first, wet_models *models, sp_coder *coder)
+{
+    place count = count_nodes(wet, first.node);
+    for (size_t i = 0; i < count.node; i++)
+        sp_code_byte(coder, &models->nodes, wet->nodes[first.node + i]);
+    for (size_t i = 0; i < 3 * count.cut; i++)
+        sp_code_number(coder, &models->cuts[i % 3], sp_packed_apart(wet->cuts[first.cut + i / 3][i % 3], 0));
+}
+
+/* Triangle by triangle: its sides, and how it is cut. */
+static bool tell_wet(const sp_evaluator *evaluator, const sp_walk *walk, sp_coder *coder, sp_wet_told *wet,
+                     sp_error *error)
+{
+    if (!sp_evaluator_tell_wet(evaluator, wet, error))
+        return false;
+    place *places = find_places(wet, walk->count);
+    wet_models *models = calloc(1, sizeof *models);
+    bool done = places && models;
+    for (size_t i = 0; done && i < walk->count; i++) {
+        uint32_t triangle = walk->triangle[i];
+        sp_code_byte(coder, &models->sides, wet->sides[triangle]);
+        if (is_partly(wet->sides[triangle]))
+            tell_nodes(wet, places[triangle], models, coder);
+    }
+    free(places);
+    free(models);
+    return done || sp_fail_memory(error);
+}
+
+static int ascending(const void *a, const void *b)
+{
+    uint32_t one = *(const uint32_t *)a, two = *(const uint32_t *)b;
+    return one < two ? -1 : one > two;
+}
+
+/* Which triangles are drawn, by their told numbers, ascending in each range. */
+static bool tell_drawn(const sp_drawn_surface *surface, const sp_walk *walk, sp_coder *coder)
+{
+    uint32_t *number = malloc((walk->count + 1) * sizeof *number);
+    uint32_t *drawn = malloc((surface->triangle_count + 1) * sizeof *drawn);
+    bool done = number && drawn;
+    for (uint32_t i = 0; done && i < walk->count; i++)
+        number[walk->triangle[i]] = i;
+    for (size_t i = 0; done && i < surface->triangle_count; i++)
+        drawn[i] = number[surface->triangles[i]];
+    for (size_t i = 0; done && i < surface->range_count; i++)
+        qsort(drawn + surface->ranges[i].first, surface->ranges[i].count, sizeof *drawn, ascending);
+    done = done && tell_words(drawn, NULL, surface->triangle_count, coder);
+    free(number);
+    free(drawn);
     return done;
 }
 
-static bool pack_wet(const sp_evaluator *evaluator, sp_packed *packed, sp_wet_told *told, sp_error *error)
+static bool tell_surface(const sp_evaluator *evaluator, const sp_walk *walk, sp_coder *coder, sp_places_told *told)
 {
-    size_t triangles = sp_evaluator_setup(evaluator)->mesh->triangle_count;
-    if (!sp_evaluator_tell_wet(evaluator, told, error))
-        return false;
-    sp_packed_bytes(packed, told->sides, triangles);
-    sp_packed_bytes(packed, told->nodes, told->node_count);
-    return pack_doubles(told->cut_count ? told->cuts[0] : NULL, 3 * told->cut_count, packed) || sp_fail_memory(error);
+    const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
+    const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
+    return sp_places_tell(mesh, walk, coder, told) && tell_words(mesh->part, walk->triangle, walk->count, coder) &&
+           tell_words(atlas->chart_page, NULL, atlas->chart_count, coder) &&
+           tell_doubles(atlas->chart_texel, atlas->chart_count, coder) && sp_unfolded_tell(evaluator, walk, coder);
 }
 
-json_t *sp_viewer_exact(const sp_evaluator *evaluator, const sp_drawn_surface *surface, sp_packed *packed,
+json_t *sp_viewer_exact(const sp_evaluator *evaluator, const sp_drawn_surface *surface, sp_coder *coder,
                         sp_error *error)
 {
     const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
     const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
+    sp_walk walk;
     sp_places_told told;
-    bool done = sp_places_pack(mesh, packed, &told);
-    sp_packed_words(packed, mesh->part, mesh->triangle_count, true);
-    sp_packed_words(packed, atlas->chart, mesh->triangle_count, true);
-    sp_packed_words(packed, atlas->chart_page, atlas->chart_count, true);
-    done = done && pack_doubles(atlas->chart_texel, atlas->chart_count, packed) && pack_unfolded(evaluator, packed);
-    sp_packed_words(packed, surface->triangles, surface->triangle_count, true);
     sp_wet_told wet = {0};
     json_t *about = NULL;
-    if (!done)
+    if (!sp_walk_create(&walk, mesh, atlas, coder) || !tell_surface(evaluator, &walk, coder, &told) ||
+        !tell_drawn(surface, &walk, coder))
         sp_fail_memory(error);
-    else if (pack_wet(evaluator, packed, &wet, error))
+    else if (tell_wet(evaluator, &walk, coder, &wet, error))
         about = json_pack("{s:I, s:f, s:I, s:i, s:I, s:I, s:I, s:I, s:I}", "parts", (json_int_t)told.parts, "unit",
                           told.unit, "base", (json_int_t)told.base, "digits", told.digits, "vertices",
                           (json_int_t)mesh->vertex_count, "triangles", (json_int_t)mesh->triangle_count, "charts",
                           (json_int_t)atlas->chart_count, "nodes", (json_int_t)wet.node_count, "cuts",
                           (json_int_t)wet.cut_count);
     sp_wet_told_free(&wet);
+    sp_walk_free(&walk);
     return about;
 }

@@ -3,13 +3,13 @@
 #ifndef REPORT_VIEWER_EXACT_H
 #define REPORT_VIEWER_EXACT_H
 
-#include "packed.h"
+#include "coder.h"
 #include "report/surface.h"
 
 #include <jansson.h>
 
-/* Adds the arrays that surface.js reads. Returns their JSON, NULL on error. */
-json_t *sp_viewer_exact(const sp_evaluator *evaluator, const sp_drawn_surface *surface, sp_packed *packed,
+/* Tells what exact.js reads. Returns its JSON, NULL on error. */
+json_t *sp_viewer_exact(const sp_evaluator *evaluator, const sp_drawn_surface *surface, sp_coder *coder,
                         sp_error *error);
 
 #endif

@@ -155,14 +155,14 @@ static bool pack_pages(const sp_layers *layers, sp_packed *packed, sp_error *err
 
 /* The designs of one evaluator, their arrays behind those of its surface. */
 static json_t *designs_json(const sp_page *page, const sp_evaluator *evaluator,
-                            const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], const uint32_t *beside,
-                            sp_packed *packed, sp_error *error)
+                            const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], const sp_neighbours *neighbours,
+                            sp_coder *coder, sp_packed *packed, sp_error *error)
 {
     json_t *list = json_array();
     for (size_t i = 0; list && i < page->result->design_count; ++i) {
         if (sp_viewer_evaluator(page, i) != evaluator)
             continue;
-        json_t *design = sp_viewer_design(page, i, quantities, beside, packed, error);
+        json_t *design = sp_viewer_design(page, i, quantities, neighbours, coder, packed, error);
         if (!design || json_array_append_new(list, design) != 0) {
             json_decref(list);
             list = NULL;
@@ -173,12 +173,12 @@ static json_t *designs_json(const sp_page *page, const sp_evaluator *evaluator,
 
 /* The surface as it is drawn, or to the last bit where layouts are evaluated on it; *about of the latter alone. */
 static bool pack_either(const sp_page *page, const sp_evaluator *evaluator, const sp_drawn_surface *surface,
-                        const box *around, sp_packed *packed, json_t **about, sp_error *error)
+                        const box *around, sp_coder *coder, sp_packed *packed, json_t **about, sp_error *error)
 {
     *about = NULL;
     if (!page->live || evaluator != sp_page_live_evaluator(page))
         return pack_surface(evaluator, surface, around, packed, error);
-    *about = sp_viewer_exact(evaluator, surface, packed, error);
+    *about = sp_viewer_exact(evaluator, surface, coder, error);
     return *about != NULL;
 }
 
@@ -199,12 +199,14 @@ static json_t *surface_json(const sp_layers *layers, const sp_drawn_surface *sur
 }
 
 static json_t *described(const sp_page *page, const sp_layers *layers,
-                         const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], sp_packed *packed, sp_error *error)
+                         const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], sp_coder *coder, sp_packed *packed,
+                         sp_error *error)
 {
-    uint32_t *beside = sp_viewer_beside(layers);
-    json_t *designs =
-        beside ? designs_json(page, layers->evaluator, quantities, beside, packed, error) : sp_fail_memory(error);
-    free(beside);
+    sp_neighbours neighbours;
+    json_t *designs = sp_neighbours_find(&neighbours, layers)
+                          ? designs_json(page, layers->evaluator, quantities, &neighbours, coder, packed, error)
+                          : sp_fail_memory(error);
+    sp_neighbours_free(&neighbours);
     return designs;
 }
 
@@ -225,6 +227,21 @@ static bool make_surface(const sp_page *page, const sp_layers *layers, sp_drawn_
     return true;
 }
 
+/* What the page has besides its JSON: deflated, and coded. */
+static bool add_data(json_t *object, const sp_packed *packed, sp_coder *coder, sp_error *error)
+{
+    sp_coder_end(coder);
+    char *data = sp_packed_finish(packed, error);
+    char *coded = !data || coder->bytes.failed
+                      ? NULL
+                      : sp_packed_letters((const uint8_t *)coder->bytes.text, coder->bytes.length, error);
+    bool done = coded && json_object_set_new(object, "data", json_string_nocheck(data)) == 0 &&
+                json_object_set_new(object, "coded", json_string_nocheck(coded)) == 0;
+    free(data);
+    free(coded);
+    return done;
+}
+
 static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator,
                           const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], sp_viewer_drawn *drawn,
                           sp_error *error)
@@ -232,27 +249,27 @@ static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator,
     sp_layers layers = {0};
     sp_drawn_surface surface = {0};
     sp_packed packed = {0};
+    sp_coder coder;
     json_t *object = NULL, *designs = NULL, *exact = NULL;
+    sp_coder_start(&coder);
     if (sp_layers_create(&layers, evaluator, error) && make_surface(page, &layers, &surface, drawn, error)) {
         box around = box_of(evaluator, &surface);
-        if (pack_either(page, evaluator, &surface, &around, &packed, &exact, error) &&
+        if (pack_either(page, evaluator, &surface, &around, &coder, &packed, &exact, error) &&
             pack_pages(&layers, &packed, error))
-            designs = described(page, &layers, quantities, &packed, error);
-        char *data = designs ? sp_packed_finish(&packed, error) : NULL;
-        object = data ? surface_json(&layers, &surface, &around) : NULL;
+            designs = described(page, &layers, quantities, &coder, &packed, error);
+        object = designs ? surface_json(&layers, &surface, &around) : NULL;
         sp_camera camera = sp_camera_create(evaluator, page->result, &sp_views[0], 1);
         if (!object || json_object_set(object, "designs", designs) != 0 ||
             json_object_set_new(object, "cut", json_boolean(camera.cut)) != 0 ||
-            (exact && json_object_set(object, "exact", exact) != 0) ||
-            json_object_set_new(object, "data", json_string_nocheck(data)) != 0) {
+            (exact && json_object_set(object, "exact", exact) != 0) || !add_data(object, &packed, &coder, error)) {
             json_decref(object);
             object = sp_fail_memory(error);
         }
-        free(data);
     }
     json_decref(designs);
     json_decref(exact);
     free(packed.text);
+    free(coder.bytes.text);
     sp_drawn_surface_free(&surface);
     sp_layers_free(&layers);
     return object;

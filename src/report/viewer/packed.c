@@ -24,13 +24,6 @@ void sp_packed_bytes(sp_packed *packed, const uint8_t *values, size_t count)
     align(packed);
 }
 
-void sp_packed_beside(sp_packed *packed, const uint8_t *values, const uint32_t *beside, size_t count)
-{
-    for (size_t i = 0; i < count; ++i)
-        put(packed, (uint32_t)values[i] - (beside[i] == SP_NONE ? 0 : values[beside[i]]), 1);
-    align(packed);
-}
-
 void sp_packed_shorts(sp_packed *packed, const uint16_t *values, size_t count, bool differences)
 {
     for (size_t i = 0; i < count; ++i)
@@ -42,16 +35,6 @@ void sp_packed_words(sp_packed *packed, const uint32_t *values, size_t count, bo
 {
     for (size_t i = 0; i < count; ++i)
         put(packed, differences && i ? values[i] - values[i - 1] : values[i], 4);
-}
-
-void sp_packed_split(sp_packed *packed, const uint32_t *values, size_t count)
-{
-    for (int shift = 0; shift < 32; shift += 8)
-        for (size_t i = 0; i < count; ++i) {
-            uint32_t apart = values[i] - (i ? values[i - 1] : 0);
-            put(packed, (apart << 1 ^ (apart >> 31 ? UINT32_MAX : 0)) >> shift, 1);
-        }
-    align(packed);
 }
 
 static uint64_t unsigned_of(int64_t value)
@@ -111,19 +94,21 @@ static void add_letters(sp_text *text, const uint8_t *bytes, size_t count)
     }
 }
 
+char *sp_packed_letters(const uint8_t *bytes, size_t count, sp_error *error)
+{
+    sp_text text = {0};
+    sp_text_add(&text, "%zu ", count);
+    add_letters(&text, bytes, count);
+    return sp_text_finish(&text, error);
+}
+
 char *sp_packed_finish(const sp_packed *packed, sp_error *error)
 {
     uLongf size = compressBound(packed->length);
     uint8_t *deflated = packed->failed ? NULL : malloc(size);
-    if (!deflated)
-        return sp_fail_memory(error);
-    sp_text text = {0};
-    bool done = compress2(deflated, &size, (const Bytef *)packed->text, packed->length, Z_BEST_COMPRESSION) == Z_OK;
-    if (done) {
-        sp_text_add(&text, "%lu ", size);
-        add_letters(&text, deflated, size);
-    }
-    text.failed |= !done;
+    bool done = deflated && compress2(deflated, &size, (const Bytef *)packed->text, packed->length,
+                                      Z_BEST_COMPRESSION) == Z_OK;
+    char *text = done ? sp_packed_letters(deflated, size, error) : sp_fail_memory(error);
     free(deflated);
-    return sp_text_finish(&text, error);
+    return text;
 }

@@ -11,17 +11,12 @@
 typedef sp_text sp_packed;
 
 void sp_packed_bytes(sp_packed *packed, const uint8_t *values, size_t count);
-/* Each as what it is more, modulo 2^8, than the one of a lower number that `beside` [count] names, SP_NONE: than 0. */
-void sp_packed_beside(sp_packed *packed, const uint8_t *values, const uint32_t *beside, size_t count);
 /* With `differences` each as what it is more than the value before, modulo 2^16 and 2^32: such deflate better. */
 void sp_packed_shorts(sp_packed *packed, const uint16_t *values, size_t count, bool differences);
 void sp_packed_words(sp_packed *packed, const uint32_t *values, size_t count, bool differences);
 /* Whole numbers that are mostly small: of each, twice its size, plus one where it is below 0, in as few bytes as it
  * takes. How many these are for each of them, then how many in all, then they. */
 void sp_packed_numbers(sp_packed *packed, const int64_t *values, size_t count);
-/* As sp_packed_words with differences, all lowest bytes first, then all second ones and so on, of each difference twice
- * its size, plus one where it is below 0: what repeats itself stays together. */
-void sp_packed_split(sp_packed *packed, const uint32_t *values, size_t count);
 /* Vertices of triangles, which mostly come one after the other as triangles ask for them: each as what it is less than
  * the next of these, as sp_packed_numbers. False where memory runs out. */
 bool sp_packed_corners(sp_packed *packed, const uint32_t *vertices, size_t count);
@@ -36,7 +31,9 @@ static inline int64_t sp_packed_apart(double value, double from)
     memcpy(&apart, bits, sizeof apart);
     return apart;
 }
-/* As text that neither JSON nor HTML has to escape, malloc'd; NULL on error. */
+/* Deflated, as text that neither JSON nor HTML has to escape, malloc'd; NULL on error. */
 char *sp_packed_finish(const sp_packed *packed, sp_error *error);
+/* The same of bytes that nothing makes fewer. */
+char *sp_packed_letters(const uint8_t *bytes, size_t count, sp_error *error);
 
 #endif

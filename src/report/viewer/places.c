@@ -1,7 +1,7 @@
 /* surface.js does the same the other way round, operation by operation: whatever is changed here is changed there. */
 #include "places.h"
 
-#include "faces.h"
+#include "packed.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,7 +10,6 @@
 #define MOST 0x1p49 /* of a number: sums of three, and twice that, are whole */
 #define MOST_DIGITS 60
 #define NEARLY_ALL 0.99
-#define STEPS 32 /* around a vertex, in search of a triangle */
 
 static double read_back(const sp_places_told *told, double number)
 {
@@ -84,110 +83,78 @@ static sp_places_told told_of(const sp_mesh *mesh)
     return best;
 }
 
+/* What is learnt of numbers along each axis: how far they are off, by about the size of that of the axis before. */
 typedef struct {
-    const sp_mesh *mesh;
+    sp_number_model zeros[3], off[3][17], missed;
+} models;
+
+/* The numbers that vertices become when they are read back, as they are told. */
+typedef struct {
     const sp_places_told *told;
-    double (*number)[3];    /* [vertices], of those that are known */
-    bool *known;            /* [vertices] */
-    uint32_t *first, *next; /* [vertices], [3 triangles]: corners at each vertex of the triangles before */
-    uint32_t last;          /* vertex told before, SP_NONE: none */
-    size_t count;           /* of numbers told */
-    uint8_t *zeros;         /* [3 vertices], more than expected */
-    int64_t *off;           /* [3 vertices] */
-    int64_t *missed;        /* [3 vertices], by vertex */
+    double (*number)[3]; /* [vertices told], those that are known */
+    sp_coder *coder;
+    models *models;
 } teller;
 
-/* The third corner of the latest triangle on the edge from a to b, SP_NONE for none. */
-static uint32_t beyond(const teller *t, uint32_t a, uint32_t b)
+static void tell(const teller *t, sp_vec3 place, const double expected[3], double number[3])
 {
-    uint32_t corner = t->first[a];
-    for (int steps = 0; corner != SP_NONE && steps < STEPS; steps++, corner = t->next[corner]) {
-        const uint32_t *v = t->mesh->triangles[corner / 3];
-        uint32_t i = corner % 3;
-        if (v[(i + 1) % 3] == b || v[(i + 2) % 3] == b)
-            return v[(i + 1) % 3] == b ? v[(i + 2) % 3] : v[(i + 1) % 3];
+    const double value[3] = {place.x, place.y, place.z};
+    int before = 0;
+    for (int k = 0; k < 3; k++) {
+        double whole = number_of(t->told, value[k]);
+        int zeros = zeros_of(t->told, whole);
+        double step = step_of(t->told, zeros), near = floor(expected[k] / step + 0.5);
+        double off = rint(whole / step) - near;
+        sp_code_number(t->coder, &t->models->zeros[k], zeros - zeros_of(t->told, expected[k]));
+        before = sp_code_number(t->coder, &t->models->off[k][(before + 3) / 4], (int64_t)off);
+        number[k] = (near + off) * step;
+        sp_code_number(t->coder, &t->models->missed, sp_packed_apart(value[k], read_back(t->told, number[k])));
     }
-    return SP_NONE;
 }
 
-/* Over the edge from a to b as far as the triangle on its other side, or else where a neighbour is. */
-static void expect(const teller *t, uint32_t a, uint32_t b, double number[3])
+/* Over the edge that its triangle was reached over as far as the triangle on its other side, or else where the vertex
+ * told before is. */
+static void expect(const teller *t, const sp_walk *walk, uint32_t triangle, uint32_t vertex, double number[3])
 {
-    bool both = a != SP_NONE && b != SP_NONE && t->known[a] && t->known[b];
-    uint32_t other = both ? beyond(t, a, b) : SP_NONE;
-    uint32_t near = a != SP_NONE && t->known[a] ? a : b != SP_NONE && t->known[b] ? b : t->last;
+    uint32_t gate = triangle == SP_NONE ? SP_NONE : walk->gate[triangle];
+    if (gate == SP_NONE) {
+        memcpy(number, vertex ? t->number[vertex - 1] : (double[]){0, 0, 0}, sizeof *t->number);
+        return;
+    }
+    const uint32_t *v = walk->corners[gate / 3];
+    uint32_t a = v[gate % 3], b = v[(gate % 3 + 1) % 3], other = v[(gate % 3 + 2) % 3];
     for (int k = 0; k < 3; k++)
-        number[k] = other != SP_NONE  ? t->number[a][k] + t->number[b][k] - t->number[other][k]
-                    : near != SP_NONE ? t->number[near][k]
-                                      : 0;
+        number[k] = t->number[a][k] + t->number[b][k] - t->number[other][k];
 }
 
-static void tell(teller *t, uint32_t vertex, uint32_t a, uint32_t b)
+static void tell_all(const teller *t, const sp_mesh *mesh, const sp_walk *walk)
 {
-    const double *value = &t->mesh->vertices[vertex].x;
     double expected[3];
-    expect(t, a, b, expected);
-    for (int k = 0; k < 3; k++, t->count++) {
-        double number = number_of(t->told, value[k]);
-        int zeros = zeros_of(t->told, number);
-        double step = step_of(t->told, zeros), off = rint(number / step) - floor(expected[k] / step + 0.5);
-        t->zeros[t->count] = (uint8_t)(zeros - zeros_of(t->told, expected[k]));
-        t->off[t->count] = (int64_t)off;
-        t->number[vertex][k] = (floor(expected[k] / step + 0.5) + off) * step;
-        t->missed[3 * (size_t)vertex + (size_t)k] = sp_packed_apart(value[k], read_back(t->told, t->number[vertex][k]));
-    }
-    t->known[vertex] = true;
-    t->last = vertex;
-}
-
-static void tell_all(teller *t)
-{
-    const sp_mesh *mesh = t->mesh;
-    for (size_t i = 0; i < mesh->triangle_count; i++) {
-        const uint32_t *v = mesh->triangles[i];
+    uint32_t fresh = 0;
+    for (uint32_t i = 0; i < walk->count; i++)
         for (int k = 0; k < 3; k++)
-            if (!t->known[v[k]])
-                tell(t, v[k], v[(k + 1) % 3], v[(k + 2) % 3]);
-        for (uint32_t k = 0; k < 3; k++) {
-            uint32_t corner = 3 * (uint32_t)i + k;
-            t->next[corner] = t->first[v[k]];
-            t->first[v[k]] = corner;
-        }
+            if (walk->corners[i][k] == fresh) {
+                expect(t, walk, i, fresh, expected);
+                tell(t, mesh->vertices[walk->vertex[fresh]], expected, t->number[fresh]);
+                fresh++;
+            }
+    for (; fresh < walk->vertex_count; fresh++) {
+        expect(t, walk, SP_NONE, fresh, expected);
+        tell(t, mesh->vertices[walk->vertex[fresh]], expected, t->number[fresh]);
     }
-    for (uint32_t i = 0; i < mesh->vertex_count; i++)
-        if (!t->known[i])
-            tell(t, i, SP_NONE, SP_NONE);
 }
 
-bool sp_places_pack(const sp_mesh *mesh, sp_packed *packed, sp_places_told *told)
+bool sp_places_tell(const sp_mesh *mesh, const sp_walk *walk, sp_coder *coder, sp_places_told *told)
 {
-    size_t count = mesh->vertex_count;
     *told = told_of(mesh);
-    teller t = {.mesh = mesh,
-                .told = told,
-                .number = malloc((count + 1) * sizeof *t.number),
-                .known = calloc(count + 1, sizeof *t.known),
-                .first = malloc((count + 1) * sizeof *t.first),
-                .next = malloc((3 * mesh->triangle_count + 1) * sizeof *t.next),
-                .last = SP_NONE,
-                .zeros = malloc(3 * count + 1),
-                .off = malloc((3 * count + 1) * sizeof *t.off),
-                .missed = malloc((3 * count + 1) * sizeof *t.missed)};
-    bool done = t.number && t.known && t.first && t.next && t.zeros && t.off && t.missed;
-    if (done) {
-        memset(t.first, 0xff, count * sizeof *t.first);
-        tell_all(&t);
-        done = sp_faces_pack(mesh, packed);
-        sp_packed_bytes(packed, t.zeros, 3 * count);
-        sp_packed_numbers(packed, t.off, 3 * count);
-        sp_packed_numbers(packed, t.missed, 3 * count);
-    }
+    teller t = {.told = told,
+                .number = malloc((walk->vertex_count + 1) * sizeof *t.number),
+                .coder = coder,
+                .models = calloc(1, sizeof *t.models)};
+    bool done = t.number && t.models;
+    if (done)
+        tell_all(&t, mesh, walk);
     free(t.number);
-    free(t.known);
-    free(t.first);
-    free(t.next);
-    free(t.zeros);
-    free(t.off);
-    free(t.missed);
+    free(t.models);
     return done;
 }

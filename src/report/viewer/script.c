@@ -18,7 +18,8 @@
 
 /* The last of each puts together what is in those before it. */
 EMBED("sp_viewer_script",
-      VIEWER("geometry.js") VIEWER("surface.js") VIEWER("sprays.js") VIEWER("charts.js") VIEWER("data.js")
+      VIEWER("geometry.js") VIEWER("coder.js") VIEWER("walk.js") VIEWER("places.js") VIEWER("unfolded.js")
+          VIEWER("exact.js") VIEWER("patches.js") VIEWER("surface.js") VIEWER("sprays.js") VIEWER("charts.js") VIEWER("data.js")
           VIEWER("widgets.js") VIEWER("scales.js") VIEWER("colours.js") VIEWER("camera.js") VIEWER("shaders.js")
               VIEWER("upload.js") VIEWER("drawing.js") VIEWER("pick.js") VIEWER("labels.js") VIEWER("axes.js")
                   VIEWER("choosing.js") VIEWER("bar.js") VIEWER("controls.js") VIEWER("layers.js") VIEWER("pointer.js")

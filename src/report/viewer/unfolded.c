@@ -1,7 +1,6 @@
-/* surface.js does the same the other way round, operation by operation: whatever is changed here is changed there. */
+/* unfolded.js does the same the other way round, operation by operation: whatever is changed here is changed there. */
 #include "unfolded.h"
 
-#include "mesh/grow.h"
 #include "packed.h"
 
 #include <stdlib.h>
@@ -9,50 +8,31 @@
 
 #define FARTHEST 1e6 /* pixels: what is found farther off is no place */
 
-/* The latest place of a vertex in a chart. */
+/* The latest place of a vertex, and in which chart that was. */
 typedef struct {
-    uint32_t chart, next;
+    uint32_t chart;
     double uv[2];
-} corner;
+} spot;
+
+typedef struct {
+    sp_number_model parts, own[2], off[2][64]; /* by the size of x's, of y; x's own is the first */
+} models;
 
 typedef struct {
     const sp_mesh *mesh;
     const sp_atlas *atlas;
-    sp_unfolded *out;
-    uint32_t *first; /* [vertices], of the corners at each, SP_NONE: none */
-    corner *corners;
-    size_t count, room;
-    bool *told; /* [triangles] */
+    const sp_walk *walk;
+    sp_coder *coder;
+    models *models;
+    double *parts; /* [charts], of a pixel, that corners are told in; 0: bits */
+    spot *spots;   /* [vertices told] */
+    double (*uv)[3][2]; /* [triangles told], as they are read */
 } teller;
 
-static corner *find(const teller *t, uint32_t chart, uint32_t vertex)
-{
-    for (uint32_t i = t->first[vertex]; i != SP_NONE; i = t->corners[i].next)
-        if (t->corners[i].chart == chart)
-            return &t->corners[i];
-    return NULL;
-}
-
-static bool remember(teller *t, uint32_t chart, uint32_t vertex, const double uv[2])
-{
-    corner *known = find(t, chart, vertex);
-    if (!known) {
-        if (!sp_grow(&t->corners, &t->room, t->count + 1, sizeof *t->corners))
-            return false;
-        known = &t->corners[t->count];
-        known->chart = chart;
-        known->next = t->first[vertex];
-        t->first[vertex] = (uint32_t)t->count++;
-    }
-    memcpy(known->uv, uv, sizeof known->uv);
-    return true;
-}
-
 /* Where the corner opposite to the edge from a to b lies if the triangle keeps its shape. */
-static void turn_in(const sp_mesh *mesh, const uint32_t vertex[3], const double a[2], const double b[2], double uv[2])
+static void turn_in(const sp_vec3 place[3], const double a[2], const double b[2], double uv[2])
 {
-    sp_vec3 from = mesh->vertices[vertex[0]];
-    sp_vec3 e = sp_sub(mesh->vertices[vertex[1]], from), f = sp_sub(mesh->vertices[vertex[2]], from);
+    sp_vec3 e = sp_sub(place[1], place[0]), f = sp_sub(place[2], place[0]);
     double length2 = e.x * e.x + e.y * e.y + e.z * e.z, along = (e.x * f.x + e.y * f.y + e.z * f.z) / length2;
     double x = e.y * f.z - e.z * f.y, y = e.z * f.x - e.x * f.z, z = e.x * f.y - e.y * f.x;
     double across = sqrt(x * x + y * y + z * z) / length2, gx = b[0] - a[0], gy = b[1] - a[1];
@@ -62,120 +42,105 @@ static void turn_in(const sp_mesh *mesh, const uint32_t vertex[3], const double 
         memcpy(uv, a, 2 * sizeof *uv);
 }
 
-/* Where corner i is looked for; `last`: the corner told before. */
-static void expect(const teller *t, uint32_t triangle, int i, const double last[2], double uv[2])
+static sp_vec3 place_of(const teller *t, uint32_t vertex)
 {
-    const uint32_t *v = t->mesh->triangles[triangle];
-    uint32_t chart = t->atlas->chart[triangle], a = v[(i + 1) % 3], b = v[(i + 2) % 3];
-    const corner *own = find(t, chart, v[i]), *from = find(t, chart, a), *to = find(t, chart, b);
-    if (own)
-        memcpy(uv, own->uv, sizeof own->uv);
-    else if (from && to)
-        turn_in(t->mesh, (uint32_t[]){a, b, v[i]}, from->uv, to->uv, uv);
+    return t->mesh->vertices[t->walk->vertex[vertex]];
+}
+
+/* Where corner i of a triangle is looked for, from where the others are. */
+static void expect(const teller *t, uint32_t triangle, uint32_t i, double uv[2])
+{
+    const uint32_t *v = t->walk->corners[triangle];
+    double (*own)[2] = t->uv[triangle];
+    if (t->walk->gate[triangle] == SP_NONE) {
+        memcpy(uv, i ? own[i - 1] : (double[]){0, 0}, sizeof *own);
+        return;
+    }
+    uint32_t a = (i + 1) % 3, b = (i + 2) % 3;
+    turn_in((sp_vec3[]){place_of(t, v[a]), place_of(t, v[b]), place_of(t, v[i])}, own[a], own[b], uv);
+}
+
+static void tell(const teller *t, uint32_t triangle, uint32_t i)
+{
+    uint32_t chart = t->walk->chart[triangle], vertex = t->walk->corners[triangle][i];
+    const double *value = t->atlas->uv[t->walk->triangle[triangle]][i];
+    double parts = t->parts[chart], *uv = t->uv[triangle][i], expected[2];
+    spot *known = &t->spots[vertex];
+    bool seen = known->chart == chart;
+    if (seen)
+        memcpy(expected, known->uv, sizeof expected);
     else
-        memcpy(uv, last, 2 * sizeof *uv);
-}
-
-static bool tell(teller *t, uint32_t triangle)
-{
-    sp_unfolded *out = t->out;
-    uint32_t chart = t->atlas->chart[triangle];
-    double last[2] = {0, 0};
-    t->told[triangle] = true;
-    for (int i = 0; i < 3; i++) {
-        double expected[2], uv[2];
-        expect(t, triangle, i, last, expected);
-        for (int k = 0; k < 2; k++) {
-            double parts = SP_UNFOLDED_PARTS, value = t->atlas->uv[triangle][i][k];
-            uv[k] = out->rounded[chart] ? floor(value * parts) / parts : value;
-            out->apart[out->count++] = out->rounded[chart]
-                                           ? (int64_t)(uv[k] * parts) - (int64_t)floor(expected[k] * parts)
-                                           : sp_packed_apart(uv[k], expected[k]);
-        }
-        if (!remember(t, chart, t->mesh->triangles[triangle][i], uv))
-            return false;
-        memcpy(last, uv, sizeof last);
+        expect(t, triangle, i, expected);
+    int before = 0;
+    for (int k = 0; k < 2; k++) {
+        double whole = floor(value[k] * parts), near = floor(expected[k] * parts);
+        int64_t off = parts > 0 ? (int64_t)(whole - near) : sp_packed_apart(value[k], expected[k]);
+        before = sp_code_number(t->coder, seen ? &t->models->own[k] : &t->models->off[k][before], off);
+        uv[k] = parts > 0 ? (near + (double)off) / parts : value[k];
     }
-    return true;
+    known->chart = chart;
+    memcpy(known->uv, uv, sizeof known->uv);
 }
 
-static int known_corners(const teller *t, uint32_t triangle)
+static void tell_all(const teller *t)
 {
-    int known = 0;
-    for (int i = 0; i < 3; i++)
-        known += find(t, t->atlas->chart[triangle], t->mesh->triangles[triangle][i]) != NULL;
-    return known;
-}
-
-/* Of what is not told yet all where `least` is 0. *any where something was. */
-static bool sweep(teller *t, bool down, int least, bool *any)
-{
-    size_t count = t->mesh->triangle_count;
-    *any = false;
-    for (size_t i = 0; i < count; i++) {
-        uint32_t triangle = (uint32_t)(down ? count - 1 - i : i);
-        if (t->told[triangle] || known_corners(t, triangle) < least)
+    const sp_walk *walk = t->walk;
+    for (uint32_t i = 0; i < walk->count; i++) {
+        uint32_t gate = walk->gate[i], far = walk->far[i];
+        if (gate != SP_NONE) {
+            memcpy(t->uv[i][(far + 1) % 3], t->uv[gate / 3][(gate % 3 + 1) % 3], sizeof t->uv[i][0]);
+            memcpy(t->uv[i][(far + 2) % 3], t->uv[gate / 3][gate % 3], sizeof t->uv[i][0]);
+            tell(t, i, far);
             continue;
-        *any = true;
-        if (!tell(t, triangle))
-            return false;
-    }
-    return true;
-}
-
-static bool tell_all(teller *t)
-{
-    size_t count = t->mesh->triangle_count;
-    uint32_t first = 0;
-    for (int sweeps = 0;; sweeps++) {
-        bool any;
-        if (!sweep(t, sweeps % 2, sweeps < SP_UNFOLDED_SWEEPS ? 2 : 0, &any))
-            return false;
-        while (first < count && t->told[first])
-            first++;
-        if (first == count)
-            return true;
-        if (!any && !tell(t, first))
-            return false;
+        }
+        for (uint32_t k = 0; k < 3; k++)
+            tell(t, i, k);
     }
 }
 
-static void find_rounded(const sp_evaluator *evaluator, uint8_t *rounded)
+/* The fewest parts that all corners of a chart are whole in, 0 where there are none such; few of one that is not
+ * cleaned. */
+static void find_parts(const sp_evaluator *evaluator, double *parts)
 {
     const sp_setup *setup = sp_evaluator_setup(evaluator);
     const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
-    memset(rounded, 1, atlas->chart_count);
-    for (uint32_t t = 0; t < setup->mesh->triangle_count; t++)
-        if (setup->surfaces[setup->mesh->part[t]].clean && sp_evaluator_wet(evaluator, t))
-            rounded[atlas->chart[t]] = 0;
-}
-
-bool sp_unfolded_create(sp_unfolded *unfolded, const sp_evaluator *evaluator)
-{
-    const sp_mesh *mesh = sp_evaluator_setup(evaluator)->mesh;
-    const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
-    *unfolded = (sp_unfolded){.rounded = malloc(atlas->chart_count + 1),
-                              .apart = malloc((6 * mesh->triangle_count + 1) * sizeof *unfolded->apart)};
-    teller t = {.mesh = mesh,
-                .atlas = atlas,
-                .out = unfolded,
-                .first = malloc((mesh->vertex_count + 1) * sizeof *t.first),
-                .told = calloc(mesh->triangle_count + 1, sizeof *t.told)};
-    bool done = unfolded->rounded && unfolded->apart && t.first && t.told;
-    if (done) {
-        memset(t.first, 0xff, mesh->vertex_count * sizeof *t.first);
-        find_rounded(evaluator, unfolded->rounded);
-        done = tell_all(&t);
+    for (size_t c = 0; c < atlas->chart_count; c++)
+        parts[c] = SP_UNFOLDED_PARTS;
+    for (uint32_t t = 0; t < setup->mesh->triangle_count; t++) {
+        double *own = &parts[atlas->chart[t]];
+        if (!setup->surfaces[setup->mesh->part[t]].clean || !sp_evaluator_wet(evaluator, t))
+            continue;
+        if (*own == SP_UNFOLDED_PARTS)
+            *own = SP_ATLAS_PARTS;
+        for (int k = 0; k < 6 && *own > 0; k++)
+            if (fmod(atlas->uv[t][k / 2][k % 2] * SP_ATLAS_PARTS, 1) != 0)
+                *own = 0;
     }
-    free(t.first);
-    free(t.corners);
-    free(t.told);
-    return done;
 }
 
-void sp_unfolded_free(sp_unfolded *unfolded)
+bool sp_unfolded_tell(const sp_evaluator *evaluator, const sp_walk *walk, sp_coder *coder)
 {
-    free(unfolded->rounded);
-    free(unfolded->apart);
-    *unfolded = (sp_unfolded){0};
+    const sp_atlas *atlas = sp_evaluator_atlas(evaluator);
+    teller t = {.mesh = sp_evaluator_setup(evaluator)->mesh,
+                .atlas = atlas,
+                .walk = walk,
+                .coder = coder,
+                .models = calloc(1, sizeof *t.models),
+                .parts = malloc((atlas->chart_count + 1) * sizeof *t.parts),
+                .spots = malloc((walk->vertex_count + 1) * sizeof *t.spots),
+                .uv = malloc((walk->count + 1) * sizeof *t.uv)};
+    bool done = t.models && t.parts && t.spots && t.uv;
+    if (done) {
+        find_parts(evaluator, t.parts);
+        for (size_t c = 0; c < atlas->chart_count; c++)
+            sp_code_number(coder, &t.models->parts, (int64_t)t.parts[c]);
+        for (size_t i = 0; i < walk->vertex_count; i++)
+            t.spots[i].chart = SP_NONE;
+        tell_all(&t);
+    }
+    free(t.models);
+    free(t.parts);
+    free(t.spots);
+    free(t.uv);
+    return done;
 }
