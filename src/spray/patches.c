@@ -32,6 +32,53 @@ static void look_at_piece(void *user, const sp_vec3 *polygon, int corners, doubl
     sp_middle_look(&sum->middle, polygon, corners, sum->triangle);
 }
 
+#define PARTS 997 /* of a pixel: finer than triangles lie apart, far coarser than round-off */
+
+/* A fragment, and where the middle of its triangle lies on the page. */
+typedef struct {
+    double along[2];
+    sp_fragment fragment;
+} spotted;
+
+static int by_spot(const void *a, const void *b)
+{
+    const spotted *one = a, *two = b;
+    for (int k = 0; k < 2; k++)
+        if (one->along[k] != two->along[k])
+            return one->along[k] < two->along[k] ? -1 : 1;
+    return one->fragment.triangle < two->fragment.triangle ? -1 : one->fragment.triangle > two->fragment.triangle;
+}
+
+static void order_texel(const sp_atlas *atlas, sp_fragment *items, size_t count, spotted *room)
+{
+    for (size_t i = 0; i < count; i++) {
+        const double(*uv)[2] = (const double(*)[2])atlas->uv[items[i].triangle];
+        room[i] = (spotted){.fragment = items[i]};
+        for (int k = 0; k < 2; k++)
+            room[i].along[k] = rint((uv[0][k] + uv[1][k] + uv[2][k]) * (PARTS / 3.0));
+    }
+    qsort(room, count, sizeof *room, by_spot);
+    for (size_t i = 0; i < count; i++)
+        items[i] = room[i].fragment;
+}
+
+/* Which of a texel's fragments comes first decides where it is judged if several would do as well: no matter of how
+ * triangles are numbered, which pages do in their own way. False where memory runs out. */
+static bool order_fragments(const sp_atlas *atlas, sp_fragments *fragments)
+{
+    size_t most = 0;
+    for (size_t texel = 0; texel < atlas->texel_count; texel++) {
+        size_t count = fragments->start[texel + 1] - fragments->start[texel];
+        most = count > most ? count : most;
+    }
+    spotted *room = malloc((most + 1) * sizeof *room);
+    for (size_t texel = 0; room && texel < atlas->texel_count; texel++)
+        order_texel(atlas, fragments->items + fragments->start[texel],
+                    fragments->start[texel + 1] - fragments->start[texel], room);
+    free(room);
+    return room != NULL;
+}
+
 static void visit_patch(const sp_evaluator *evaluator, uint32_t texel, unsigned side, sp_counted_visitor *visit,
                         patch_sum *sum)
 {
@@ -170,7 +217,7 @@ bool sp_patches_create(sp_evaluator *evaluator, sp_error *error)
     size_t texels = evaluator->atlas->texel_count;
     patch_place(*places)[2] = malloc((texels ? texels : 1) * sizeof *places);
     evaluator->texel_patch = malloc((texels ? texels : 1) * sizeof *evaluator->texel_patch);
-    if (!places || !evaluator->texel_patch) {
+    if (!places || !evaluator->texel_patch || !order_fragments(evaluator->atlas, &evaluator->fragments)) {
         free(places);
         return sp_fail_memory(error);
     }
