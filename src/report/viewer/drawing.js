@@ -98,8 +98,7 @@ function makeDrawing(view) {
             drawSurface(design, design.matrix, seen);
             drawLines(design, design.matrix);
         });
-        view.moveLabels();
-        view.moveAxes();
+        view.overlays.forEach((move) => move());
     }
     let drawing = false;
     function redraw() {

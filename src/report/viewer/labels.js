@@ -3,25 +3,33 @@ function makeLabels(view) {
     "use strict";
     const {state, labels, place} = view, {dot} = geometry, {element} = widgets;
 
+    /* Where a place lies in the picture of the i-th design shown, in CSS pixels; null where that is beyond it. */
+    function spotOf(i, at) {
+        const {left, width, height} = place(i), {matrix} = state.shown[i];
+        const [x, y, , w] = [0, 1, 2, 3].map((row) =>
+            dot([matrix[row], matrix[4 + row], matrix[8 + row]], at) + matrix[12 + row]);
+        return w <= 0 || Math.abs(x) > w || Math.abs(y) > w ? null
+            : [left + ((1 + x / w) * width) / 2, ((1 - y / w) * height) / 2];
+    }
+
     function moveLabels() {
         labels.replaceChildren(...state.shown.flatMap((design, i) => {
-            const {left, width, height} = place(i);
+            const {left, width} = place(i);
             const title = element("span", {class: "title"}, `${design.name}: ${design.quote}`);
             title.style.left = `${left}px`;
             title.style.maxWidth = `${width - 16}px`;
             return [title, ...design.nozzles.map((nozzle, index) => {
-                const [x, y, , w] = [0, 1, 2, 3].map((row) =>
-                    dot([design.matrix[row], design.matrix[4 + row], design.matrix[8 + row]], nozzle.at) +
-                    design.matrix[12 + row]);
                 const chosen = state.nozzle && state.nozzle.design === design && state.nozzle.index === index;
-                const label = element("span", {class: chosen ? "nozzle-dot chosen" : "nozzle-dot"}, nozzle.name);
+                const label = element("span", {
+                    class: `nozzle-dot${chosen ? " chosen" : ""}${nozzle.held ? " held" : ""}`}, nozzle.name);
                 label.addEventListener("click", () => view.chooseNozzle(design, index));
-                label.hidden = w <= 0 || Math.abs(x) > w || Math.abs(y) > w;
-                label.style.left = `${left + ((1 + x / w) * width) / 2}px`;
-                label.style.top = `${((1 - y / w) * height) / 2}px`;
+                const spot = spotOf(i, nozzle.at);
+                label.hidden = !spot;
+                label.style.left = spot ? `${spot[0]}px` : "";
+                label.style.top = spot ? `${spot[1]}px` : "";
                 return label;
             })];
         }));
     }
-    return {moveLabels};
+    return {spotOf, moveLabels};
 }

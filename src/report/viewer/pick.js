@@ -63,16 +63,21 @@ function makePick(view) {
         answer.append(element("div", {class: "wide"}, table));
     }
 
-    /* x, y in CSS pixels from the canvas's top left. */
+    /* Through x, y of the canvas, in CSS pixels from its top left, in the picture of the i-th design shown. */
+    function rayAt(i, x, y) {
+        const {left, width, height} = place(i), seen = frame();
+        const wide = REACH * Math.max(width / height, 1), tall = (wide * height) / width;
+        const ray = unit(add(add(scaled(seen.back, -1), seen.across, ((2 * (x - left)) / width - 1) * wide), seen.above,
+                             (1 - (2 * y) / height) * tall));
+        return {eye: seen.eye, ray};
+    }
+
     function ask(x, y) {
         const i = state.shown.findIndex((_, k) => x >= place(k).left && x <= place(k).left + place(k).width);
         if (i < 0)
             return;
-        const model = state.shown[i].model, {left, width, height} = place(i), seen = frame();
-        const wide = REACH * Math.max(width / height, 1), tall = (wide * height) / width;
-        const ray = unit(add(add(scaled(seen.back, -1), seen.across, ((2 * (x - left)) / width - 1) * wide), seen.above,
-                             (1 - (2 * y) / height) * tall));
-        const hit = nearest(model, seen.eye, ray);
+        const model = state.shown[i].model, {eye, ray} = rayAt(i, x, y);
+        const hit = nearest(model, eye, ray);
         if (!hit) {
             tell("Nothing there.", model, -1);
             return;
@@ -82,5 +87,5 @@ function makePick(view) {
         tell(`${part.name} at ${where} m${patch < 0 ? ": no cleaning asked there" : ""}`, model, patch);
         answer.dataset.patch = patch;
     }
-    return {tell, ask};
+    return {tell, nearest, rayAt, ask};
 }

@@ -25,7 +25,8 @@ EMBED("sp_viewer_script",
                   VIEWER("choosing.js") VIEWER("bar.js") VIEWER("controls.js") VIEWER("layers.js") VIEWER("pointer.js")
                       VIEWER("keyboard.js") VIEWER("viewer.js"));
 EMBED("sp_live_script", LIVE("evaluator.js") LIVE("layout.js") LIVE("telling.js") LIVE("evaluating.js") LIVE("scene.js")
-                            LIVE("changes.js") LIVE("sliders.js") LIVE("controls.js") LIVE("live.js"));
+                            LIVE("changes.js") LIVE("sliders.js") LIVE("controls.js") LIVE("handles.js")
+                             LIVE("live.js"));
 EMBED("sp_live_worker", LIVE("worker.js"));
 #ifdef SPRAYPLAN_LIVE
 EMBED("sp_live_module", TAKEN(SPRAYPLAN_LIVE));

@@ -29,35 +29,46 @@ typedef struct {
     double (*uv)[3][2]; /* [triangles told], as they are read */
 } teller;
 
-/* Where the corner opposite to the edge from a to b lies if the triangle keeps its shape. */
-static void turn_in(const sp_vec3 place[3], const double a[2], const double b[2], double uv[2])
-{
-    sp_vec3 e = sp_sub(place[1], place[0]), f = sp_sub(place[2], place[0]);
-    double length2 = e.x * e.x + e.y * e.y + e.z * e.z, along = (e.x * f.x + e.y * f.y + e.z * f.z) / length2;
-    double x = e.y * f.z - e.z * f.y, y = e.z * f.x - e.x * f.z, z = e.x * f.y - e.y * f.x;
-    double across = sqrt(x * x + y * y + z * z) / length2, gx = b[0] - a[0], gy = b[1] - a[1];
-    uv[0] = a[0] + along * gx - across * gy;
-    uv[1] = a[1] + along * gy + across * gx;
-    if (!(fabs(uv[0]) < FARTHEST) || !(fabs(uv[1]) < FARTHEST))
-        memcpy(uv, a, 2 * sizeof *uv);
-}
-
 static sp_vec3 place_of(const teller *t, uint32_t vertex)
 {
     return t->mesh->vertices[t->walk->vertex[vertex]];
 }
 
+/* How far a place lies along an edge, and off it, both in parts of the edge. */
+static void measure(sp_vec3 from, sp_vec3 to, sp_vec3 place, double *along, double *off)
+{
+    sp_vec3 e = sp_sub(to, from), f = sp_sub(place, from);
+    double length2 = e.x * e.x + e.y * e.y + e.z * e.z;
+    double x = e.y * f.z - e.z * f.y, y = e.z * f.x - e.x * f.z, z = e.x * f.y - e.y * f.x;
+    *along = (e.x * f.x + e.y * f.y + e.z * f.z) / length2;
+    *off = sqrt(x * x + y * y + z * z) / length2;
+}
+
+/* Where corner i of a triangle lies if it is turned into the page at the edge to its neighbour and strained as that. */
+static void turn_in(const teller *t, uint32_t triangle, uint32_t i, double uv[2])
+{
+    uint32_t gate = t->walk->gate[triangle], third = (gate % 3 + 2) % 3;
+    const uint32_t *v = t->walk->corners[triangle];
+    double(*own)[2] = t->uv[triangle], *a = own[(i + 1) % 3], *b = own[(i + 2) % 3], *c = t->uv[gate / 3][third];
+    sp_vec3 from = place_of(t, v[(i + 1) % 3]), to = place_of(t, v[(i + 2) % 3]);
+    double along, off, other_along, other_off, g[2] = {b[0] - a[0], b[1] - a[1]};
+    measure(from, to, place_of(t, v[i]), &along, &off);
+    measure(from, to, place_of(t, t->walk->corners[gate / 3][third]), &other_along, &other_off);
+    for (int k = 0; k < 2; k++) {
+        double across = (a[k] + other_along * g[k] - c[k]) / other_off;
+        uv[k] = a[k] + along * g[k] + off * across;
+    }
+    if (!(fabs(uv[0]) < FARTHEST) || !(fabs(uv[1]) < FARTHEST))
+        memcpy(uv, a, 2 * sizeof *uv);
+}
+
 /* Where corner i of a triangle is looked for, from where the others are. */
 static void expect(const teller *t, uint32_t triangle, uint32_t i, double uv[2])
 {
-    const uint32_t *v = t->walk->corners[triangle];
-    double (*own)[2] = t->uv[triangle];
-    if (t->walk->gate[triangle] == SP_NONE) {
-        memcpy(uv, i ? own[i - 1] : (double[]){0, 0}, sizeof *own);
-        return;
-    }
-    uint32_t a = (i + 1) % 3, b = (i + 2) % 3;
-    turn_in((sp_vec3[]){place_of(t, v[a]), place_of(t, v[b]), place_of(t, v[i])}, own[a], own[b], uv);
+    if (t->walk->gate[triangle] == SP_NONE)
+        memcpy(uv, i ? t->uv[triangle][i - 1] : (double[]){0, 0}, 2 * sizeof *uv);
+    else
+        turn_in(t, triangle, i, uv);
 }
 
 static void tell(const teller *t, uint32_t triangle, uint32_t i)

@@ -7,17 +7,30 @@ function readUnfolded(coder, walk, places, charts) {
     const count = chart.length, vertices = places.length / 3, uv = new Float64Array(6 * count);
     const latest = new Int32Array(vertices).fill(-1), spots = new Float64Array(2 * vertices), spot = [0, 0];
 
-    /* Where corner i lies if the triangle keeps its shape. */
-    function turnIn(t, i) {
-        const one = (i + 1) % 3, two = (i + 2) % 3, a = 3 * triangles[3 * t + one], b = 3 * triangles[3 * t + two];
-        const c = 3 * triangles[3 * t + i], from = 6 * t + 2 * one, to = 6 * t + 2 * two;
-        const ex = places[b] - places[a], ey = places[b + 1] - places[a + 1], ez = places[b + 2] - places[a + 2];
-        const fx = places[c] - places[a], fy = places[c + 1] - places[a + 1], fz = places[c + 2] - places[a + 2];
-        const length2 = ex * ex + ey * ey + ez * ez, along = (ex * fx + ey * fy + ez * fz) / length2;
+    /* How far a vertex lies along an edge, and off it, both in parts of the edge. */
+    const measured = [0, 0];
+    function measure(from, to, vertex) {
+        const ex = places[3 * to] - places[3 * from], ey = places[3 * to + 1] - places[3 * from + 1];
+        const ez = places[3 * to + 2] - places[3 * from + 2], fx = places[3 * vertex] - places[3 * from];
+        const fy = places[3 * vertex + 1] - places[3 * from + 1], fz = places[3 * vertex + 2] - places[3 * from + 2];
+        const length2 = ex * ex + ey * ey + ez * ez;
         const x = ey * fz - ez * fy, y = ez * fx - ex * fz, z = ex * fy - ey * fx;
-        const across = Math.sqrt(x * x + y * y + z * z) / length2, gx = uv[to] - uv[from], gy = uv[to + 1] - uv[from + 1];
-        spot[0] = uv[from] + along * gx - across * gy;
-        spot[1] = uv[from + 1] + along * gy + across * gx;
+        measured[0] = (ex * fx + ey * fy + ez * fz) / length2;
+        measured[1] = Math.sqrt(x * x + y * y + z * z) / length2;
+    }
+
+    /* Where corner i lies if its triangle is turned into the page at the edge to its neighbour and strained as that. */
+    function turnIn(t, i) {
+        const one = (i + 1) % 3, two = (i + 2) % 3, from = 6 * t + 2 * one, to = 6 * t + 2 * two;
+        const third = gates[t] - (gates[t] % 3) + (((gates[t] % 3) + 2) % 3);
+        measure(triangles[3 * t + one], triangles[3 * t + two], triangles[3 * t + i]);
+        const [along, off] = measured;
+        measure(triangles[3 * t + one], triangles[3 * t + two], triangles[third]);
+        for (let k = 0; k < 2; k++) {
+            const g = uv[to + k] - uv[from + k];
+            const across = (uv[from + k] + measured[0] * g - uv[2 * third + k]) / measured[1];
+            spot[k] = uv[from + k] + along * g + off * across;
+        }
         if (!(Math.abs(spot[0]) < FARTHEST && Math.abs(spot[1]) < FARTHEST))
             [spot[0], spot[1]] = [uv[from], uv[from + 1]];
     }

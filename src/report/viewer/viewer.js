@@ -42,6 +42,7 @@ const viewer = (async () => {
                         makeLabels, makeAxes, makeChoosing, makeBar, makeControls, makeLayers, makePointer,
                         makeKeyboard])
         Object.assign(view, make(view));
+    view.overlays = [view.moveLabels, view.moveAxes]; /* what moves with the picture */
 
     view.addDesigns();
     view.addQuantities();

@@ -5,6 +5,7 @@ function makeChanges(live) {
 
     function drawNozzles() {
         design.nozzles = live.nozzles.map((nozzle, i) => ({name: nozzle.name, known: true, at: nozzle.place,
+            held: i === live.chosen && nozzle.on,
             flux: (design.nozzles[i] || {}).flux || empty, direct: [], bounced: [],
             sprays: nozzle.on ? [{from: nozzle.place, rim: rimOf(nozzle)}] : []}));
         view.uploadLines(design);

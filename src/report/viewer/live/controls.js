@@ -1,8 +1,8 @@
 /* The controls of the nozzle in hand. */
 function makeEditor(live) {
     "use strict";
-    const {editing, holder, sliders, undoButton, named, mountOf, fitType, mountName, mountAt, run, change, addNozzle,
-           save, positionSliders, poseSliders, typeSliders} = live;
+    const {view, design, editing, holder, sliders, undoButton, named, mountOf, fitType, mountName, mountAt, run, change,
+           addNozzle, drawNozzles, save, positionSliders, poseSliders, typeSliders} = live;
     const {types, mounts} = editing, {element, option, button} = widgets;
 
     function list(name, texts, at, act) {
@@ -19,6 +19,8 @@ function makeEditor(live) {
         live.syncs = [];
         list("Nozzle", live.nozzles.map(({name, on}) => (on ? name : `${name}, off`)), live.chosen, (i) => {
             live.chosen = i;
+            drawNozzles();
+            view.redraw();
             build();
             run(true);
         });
@@ -35,7 +37,11 @@ function makeEditor(live) {
         const adds = element("select", {"aria-label": "Mount of a nozzle more"},
             ...["anywhere", ...mounts.map(mountName)].map((text, i) => option(text, i === 1)));
         const more = button("Add a nozzle at", () => addNozzle(adds.selectedIndex - 1));
-        holder.append(toggle, element("span", {class: "adding"}, more, " ", adds), undoButton,
+        const grip = button("Move it in the picture", () => {
+            design.shown = true;
+            view.show(design);
+        });
+        holder.append(grip, toggle, element("span", {class: "adding"}, more, " ", adds), undoButton,
                       button("Save as scene", save));
         [...holder.querySelectorAll("select, button")].forEach((one, i) => (one.dataset.key = `key${i}`));
         if (focused)

@@ -22,7 +22,7 @@
         undoButton: button("Undo", () => live.undo())};
     live.undoButton.disabled = true;
     for (const make of [makeEvaluator, makeLayout, makeTelling, makeEvaluating, makeScene, makeChanges, makeSliders,
-                        makeEditor])
+                        makeEditor, makeHandles])
         Object.assign(live, make(live));
     const {section, answer, nozzleOf, numbersOf, findMount} = live;
 

@@ -5,9 +5,11 @@ function makeSliders(live) {
     const {add, dot, limited} = geometry, {element} = widgets;
     const [DEGREE, BAR] = [Math.PI / 180, 1e5];
 
+    /* Without what units round off: 30 deg that read 29.999999999999996 would leave out the last step. */
+    const told = (value) => String(Number(value.toPrecision(12)));
     function slider(name, low, high, step, get, set) {
-        const range = element("input", {type: "range", min: String(low), max: String(high), step: String(step)});
-        const exact = element("input", {type: "number", min: String(low), max: String(high), step: "any",
+        const range = element("input", {type: "range", min: told(low), max: told(high), step: String(step)});
+        const exact = element("input", {type: "number", min: told(low), max: told(high), step: "any",
                                         "aria-label": `${name}, as a number`});
         const act = (from) => () => {
             if (from.value === "" || !Number.isFinite(Number(from.value)))
