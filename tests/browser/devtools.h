@@ -97,9 +97,9 @@ static inline void devtools_open(devtools *d, const char *page)
     char address[2048];
     snprintf(address, sizeof address, "file://%s/%s", workplace, page);
     json_t *made = devtools_ask(d, "Target.createTarget", json_pack("{s:s}", "url", address));
-    json_t *held = devtools_ask(d, "Target.attachToTarget",
-                                json_pack("{s:s, s:b}", "targetId",
-                                          json_string_value(json_object_get(made, "targetId")), "flatten", 1));
+    json_t *held = devtools_ask(
+        d, "Target.attachToTarget",
+        json_pack("{s:s, s:b}", "targetId", json_string_value(json_object_get(made, "targetId")), "flatten", 1));
     snprintf(d->session, sizeof d->session, "%s", json_string_value(json_object_get(held, "sessionId")));
     json_decref(made);
     json_decref(held);
@@ -116,9 +116,9 @@ static inline void devtools_close(devtools *d)
 /* What an expression comes to, also of a promise; the caller owns it. */
 static inline json_t *devtools_evaluate(devtools *d, const char *expression)
 {
-    json_t *answer = devtools_ask(d, "Runtime.evaluate",
-                                  json_pack("{s:s, s:b, s:b}", "expression", expression, "awaitPromise", 1,
-                                            "returnByValue", 1));
+    json_t *answer =
+        devtools_ask(d, "Runtime.evaluate",
+                     json_pack("{s:s, s:b, s:b}", "expression", expression, "awaitPromise", 1, "returnByValue", 1));
     if (json_object_get(answer, "exceptionDetails"))
         fail_msg("%s", json_dumps(answer, JSON_COMPACT));
     json_t *value = json_object_get(json_object_get(answer, "result"), "value");
@@ -134,11 +134,11 @@ static inline void devtools_drag(devtools *d, const double from[2], const double
     for (int i = -1; i <= STEPS + 1; i++) {
         double share = i < 0 ? 0 : i > STEPS ? 1 : (double)i / STEPS;
         const char *type = i < 0 ? "mousePressed" : i > STEPS ? "mouseReleased" : "mouseMoved";
-        json_decref(devtools_ask(d, "Input.dispatchMouseEvent",
-                                 json_pack("{s:s, s:f, s:f, s:s, s:i, s:i}", "type", type, "x",
-                                           from[0] + share * (to[0] - from[0]), "y",
-                                           from[1] + share * (to[1] - from[1]), "button", "left", "buttons",
-                                           i > STEPS ? 0 : 1, "clickCount", 1)));
+        json_decref(
+            devtools_ask(d, "Input.dispatchMouseEvent",
+                         json_pack("{s:s, s:f, s:f, s:s, s:i, s:i}", "type", type, "x",
+                                   from[0] + share * (to[0] - from[0]), "y", from[1] + share * (to[1] - from[1]),
+                                   "button", "left", "buttons", i > STEPS ? 0 : 1, "clickCount", 1)));
     }
 }
 

@@ -216,8 +216,10 @@ static void on_a_surface_and_anywhere(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(along_the_axis_of_a_port), cmocka_unit_test(the_axis_within_its_tilt),
-        cmocka_unit_test(along_a_line),             cmocka_unit_test(in_a_flat_box),
+        cmocka_unit_test(along_the_axis_of_a_port),
+        cmocka_unit_test(the_axis_within_its_tilt),
+        cmocka_unit_test(along_a_line),
+        cmocka_unit_test(in_a_flat_box),
         cmocka_unit_test(on_a_surface_and_anywhere),
     };
     return cmocka_run_group_tests(tests, open_the_page, close_the_page);

@@ -102,11 +102,11 @@ static void any_surface_is_walked(void **state)
     for (uint32_t i = 0; i < 6; i++)
         points[3 * ALONE + i] = sp_v(cos(i), sin(i), -1.0 - i);
     uint32_t o = 3 * ALONE;
-    const uint32_t more[5][3] = {{o, o + 1, o + 2}, {o + 1, o, o + 3}, {o + 1, o, o + 4}, {o, o + 1, o + 4},
-                                 {o + 2, o, o + 1}};
+    const uint32_t more[5][3] = {
+        {o, o + 1, o + 2}, {o + 1, o, o + 3}, {o + 1, o, o + 4}, {o, o + 1, o + 4}, {o + 2, o, o + 1}};
     memcpy(triangles[ALONE], more, sizeof more);
-    sp_mesh *mesh = sp_mesh_create(points, POINTS, (const uint32_t(*)[3])triangles, COUNT, part, (const char **)names, 1,
-                                   &error);
+    sp_mesh *mesh =
+        sp_mesh_create(points, POINTS, (const uint32_t(*)[3])triangles, COUNT, part, (const char **)names, 1, &error);
     size_t reached;
     assert_non_null(mesh);
     assert_true(walk_over(mesh, &reached) > 0);

@@ -30,8 +30,10 @@ static void place_point(const sp_shape *shape, const sp_spot *spot, const double
     const double turned[4][2] = {{x, y}, {height - y, x}, {width - x, height - y}, {y, width - x}};
     const double size[2] = {spot->turns % 2 ? height : width, spot->turns % 2 ? width : height};
     const double corner[2] = {spot->x, spot->y};
-    for (int k = 0; k < 2; k++) /* just inside the far sides, where round-off may have left no pixel */
-        uv[k] = fmin(rint((corner[k] + turned[spot->turns][k]) * SP_ATLAS_PARTS), (corner[k] + size[k]) * SP_ATLAS_PARTS - 1) / SP_ATLAS_PARTS;
+    for (int k = 0; k < 2; k++) { /* just inside the far sides, where round-off may have left no pixel */
+        double whole = rint((corner[k] + turned[spot->turns][k]) * SP_ATLAS_PARTS);
+        uv[k] = fmin(whole, (corner[k] + size[k]) * SP_ATLAS_PARTS - 1) / SP_ATLAS_PARTS;
+    }
 }
 
 static void place_triangles(sp_atlas *atlas, const sp_charts *charts, const sp_shape *shapes, const sp_spot *spots)

@@ -3,10 +3,24 @@
 #define HALF 32768
 #define LEAST 32 /* 65536ths: no bit is more certain */
 #define MOST_SEEN 126
+#define DOUBLE 52      /* bits of a number that scripts read at once */
+#define AT_ONCE 16     /* plain bits */
+#define WIDE 0x1000000 /* a range that is shared out among all values of so many bits */
 
 void sp_coder_start(sp_coder *coder)
 {
     *coder = (sp_coder){.high = UINT32_MAX};
+}
+
+/* What low and high begin with alike is told. */
+static void settle(sp_coder *coder)
+{
+    while (coder->low >> 24 == coder->high >> 24) {
+        char top = (char)(coder->low >> 24);
+        sp_text_append(&coder->bytes, &top, 1);
+        coder->low <<= 8;
+        coder->high = coder->high << 8 | 0xff;
+    }
 }
 
 /* The lower part of the range, its share in 65536ths, is a set bit's. */
@@ -18,12 +32,7 @@ static void narrow(sp_coder *coder, uint32_t share, bool bit)
         coder->high = middle;
     else
         coder->low = middle + 1;
-    while (coder->low >> 24 == coder->high >> 24) {
-        char top = (char)(coder->low >> 24);
-        sp_text_append(&coder->bytes, &top, 1);
-        coder->low <<= 8;
-        coder->high = coder->high << 8 | 0xff;
-    }
+    settle(coder);
 }
 
 void sp_coder_end(sp_coder *coder)
@@ -47,8 +56,18 @@ void sp_code_bit(sp_coder *coder, sp_bit_model *model, bool bit)
 
 void sp_code_plain(sp_coder *coder, uint64_t bits, int count)
 {
-    while (count-- > 0)
-        narrow(coder, HALF, bits >> count & 1);
+    while (count > 0) {
+        uint32_t range = coder->high - coder->low;
+        int taken = range < WIDE ? 1 : count < AT_ONCE ? count : AT_ONCE;
+        count -= taken;
+        if (taken == 1) {
+            narrow(coder, HALF, bits >> count & 1);
+            continue;
+        }
+        coder->low += (range >> taken) * (uint32_t)(bits >> count & ((1u << taken) - 1));
+        coder->high = coder->low + (range >> taken) - 1;
+        settle(coder);
+    }
 }
 
 static void code_tree(sp_coder *coder, sp_bit_model *models, uint32_t value, int bits)
@@ -78,6 +97,11 @@ int sp_code_number(sp_coder *coder, sp_number_model *model, int64_t value)
     sp_code_bit(coder, &model->sign, value < 0);
     behind = length - 1 < 2 ? length - 1 : 2;
     code_tree(coder, model->leading[length], (uint32_t)(size >> (length - 1 - behind) & ((1u << behind) - 1)), behind);
-    sp_code_plain(coder, size, length - 1 - behind);
+    int rest = length - 1 - behind;
+    if (length > DOUBLE) { /* a script reads it in two parts */
+        sp_code_plain(coder, size >> 32, rest - 32);
+        rest = 32;
+    }
+    sp_code_plain(coder, size, rest);
     return length;
 }

@@ -1,6 +1,6 @@
-/* Bits in as few bytes as they surprise: a binary arithmetic coder whose models learn how likely each bit is (a carryless
- * range coder, as M. Mahoney's lpaq has it). coder.js is the other way round, operation by operation: whatever is
- * changed here is changed there. */
+/* Bits in as few bytes as they surprise: a binary arithmetic coder whose models learn how likely each bit is (a
+ * carryless range coder, as M. Mahoney's lpaq has it). coder.js is the other way round, operation by operation:
+ * whatever is changed here is changed there. */
 #ifndef REPORT_VIEWER_CODER_H
 #define REPORT_VIEWER_CODER_H
 

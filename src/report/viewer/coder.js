@@ -2,7 +2,8 @@
  * begins in them. */
 function makeCoder(bytes) {
     "use strict";
-    const HALF = 32768, LEAST = 32, MOST_SEEN = 126, BYTE = 256, LENGTHS = 64, NUMBER = 64 + 1 + 64 * 4;
+    const HALF = 32768, LEAST = 32, MOST_SEEN = 126, DOUBLE = 52, AT_ONCE = 16, WIDE = 0x1000000;
+    const BYTE = 256, LENGTHS = 64, NUMBER = 64 + 1 + 64 * 4;
     let shares = new Uint16Array(1 << 16).fill(HALF), seen = new Uint8Array(1 << 16), used = 0;
     let low = 0, high = 0xffffffff, held = 0, at = 0;
     while (at < 4)
@@ -21,6 +22,14 @@ function makeCoder(bytes) {
         return from;
     }
 
+    function settle() {
+        while (((low ^ high) & 0xff000000) === 0) {
+            low = (low << 8) >>> 0;
+            high = (high << 8 | 0xff) >>> 0;
+            held = (held << 8 | bytes[at++]) >>> 0;
+        }
+    }
+
     function narrow(share) {
         const range = high - low;
         const middle = low + (range >>> 16) * share + (((range & 0xffff) * share) >>> 16), bit = held <= middle ? 1 : 0;
@@ -28,11 +37,7 @@ function makeCoder(bytes) {
             high = middle;
         else
             low = middle + 1;
-        while (((low ^ high) & 0xff000000) === 0) {
-            low = (low << 8) >>> 0;
-            high = (high << 8 | 0xff) >>> 0;
-            held = (held << 8 | bytes[at++]) >>> 0;
-        }
+        settle();
         return bit;
     }
 
@@ -48,8 +53,19 @@ function makeCoder(bytes) {
 
     function plain(count) {
         let value = 0;
-        while (count-- > 0)
-            value = 2 * value + narrow(HALF);
+        while (count > 0) {
+            const range = high - low, taken = range < WIDE ? 1 : Math.min(count, AT_ONCE);
+            count -= taken;
+            if (taken === 1) {
+                value = 2 * value + narrow(HALF);
+                continue;
+            }
+            const step = range >>> taken, part = Math.floor((held - low) / step);
+            low += step * part;
+            high = low + step - 1;
+            settle();
+            value = value * 2 ** taken + part;
+        }
         return value;
     }
 
@@ -67,7 +83,7 @@ function makeCoder(bytes) {
             return 0;
         const below = bit(model + LENGTHS), behind = Math.min(length - 1, 2);
         const first = 1 << behind | tree(model + LENGTHS + 1 + 4 * length, behind), rest = length - 1 - behind;
-        if (length > 52) {
+        if (length > DOUBLE) {
             const upper = BigInt(plain(rest - 32)), size = BigInt(first) << BigInt(rest) | upper << 32n | BigInt(plain(32));
             return below ? -size : size;
         }

@@ -19,16 +19,16 @@ typedef struct {
     const sp_neighbours *neighbours;
     const sp_shown_quantity *quantities;
     sp_coder *coder;
-    uint8_t *bytes, *off;                /* [patches], of what is in hand */
-    uint8_t *flux, *speed, *incidence;   /* [patches], told */
-    uint8_t *most, *second;              /* [patches], the largest of what nozzles bring */
-    sp_patch_guess guess;                /* [patches] */
+    uint8_t *bytes, *off;              /* [patches], of what is in hand */
+    uint8_t *flux, *speed, *incidence; /* [patches], told */
+    uint8_t *most, *second;            /* [patches], the largest of what nozzles bring */
+    sp_patch_guess guess;              /* [patches] */
 } teller;
 
 static bool make_room(teller *t, size_t patches)
 {
-    uint8_t **all[] = {&t->bytes, &t->off, &t->flux, &t->speed, &t->incidence, &t->most, &t->second,
-                       &t->guess.expected, &t->guess.hint};
+    uint8_t **all[] = {&t->bytes, &t->off,    &t->flux,           &t->speed,     &t->incidence,
+                       &t->most,  &t->second, &t->guess.expected, &t->guess.hint};
     bool done = true;
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
         *all[i] = calloc(patches + 1, 1);
@@ -39,8 +39,8 @@ static bool make_room(teller *t, size_t patches)
 
 static void free_room(teller *t)
 {
-    uint8_t *all[] = {t->bytes, t->off, t->flux, t->speed, t->incidence, t->most, t->second, t->guess.expected,
-                      t->guess.hint};
+    uint8_t *all[] = {t->bytes, t->off,    t->flux,           t->speed,     t->incidence,
+                      t->most,  t->second, t->guess.expected, t->guess.hint};
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
         free(all[i]);
 }
@@ -90,7 +90,10 @@ static bool tell_flux(teller *t)
     for (size_t i = 0; i < t->neighbours->count; ++i) {
         int apart = (t->most[i] - t->second[i]) / APART;
         t->guess.expected[i] = t->most[i];
-        t->guess.hint[i] = (uint8_t)(!t->most[i] ? 0 : !t->second[i] ? 1 : apart < SP_HINTS - 3 ? 2 + apart : SP_HINTS - 1);
+        t->guess.hint[i] = (uint8_t)(!t->most[i]            ? 0
+                                     : !t->second[i]        ? 1
+                                     : apart < SP_HINTS - 3 ? 2 + apart
+                                                            : SP_HINTS - 1);
     }
     return tell(t, t->flux);
 }
@@ -192,9 +195,9 @@ static json_t *tell_nozzle(teller *t, size_t index, sp_packed *packed, sp_error 
     if (known && !tell_brought(t, index))
         return sp_fail_memory(error);
     char *name = sp_text_utf8(nozzle->name);
-    json_t *object = name ? json_pack("{s:s, s:b, s:o}", "name", name, "known", (int)known, "at",
-                                      vector_json(nozzle->position))
-                          : NULL;
+    json_t *object =
+        name ? json_pack("{s:s, s:b, s:o}", "name", name, "known", (int)known, "at", vector_json(nozzle->position))
+             : NULL;
     free(name);
     if (!object)
         return sp_fail_memory(error);
@@ -247,10 +250,8 @@ static bool tell_all(teller *t, json_t *object, sp_packed *packed, sp_error *err
 json_t *sp_viewer_design(const sp_page *page, size_t index, const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES],
                          const sp_neighbours *neighbours, sp_coder *coder, sp_packed *packed, sp_error *error)
 {
-    teller t = {.design = &page->result->designs[index],
-                .neighbours = neighbours,
-                .quantities = quantities,
-                .coder = coder};
+    teller t = {
+        .design = &page->result->designs[index], .neighbours = neighbours, .quantities = quantities, .coder = coder};
     json_t *object = head_json(page, index);
     bool room = make_room(&t, neighbours->count) && object;
     if (!room)

@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Each as what it is more than the one before, in the order of the walk or as they stand; false where memory runs out. */
+/* Each as what it is more than the one before, in the order of the walk or as they stand; false where memory runs out.
+ */
 static bool tell_words(const uint32_t *values, const uint32_t *order, size_t count, sp_coder *coder)
 {
     sp_number_model *model = calloc(1, sizeof *model);

@@ -106,8 +106,8 @@ char *sp_packed_finish(const sp_packed *packed, sp_error *error)
 {
     uLongf size = compressBound(packed->length);
     uint8_t *deflated = packed->failed ? NULL : malloc(size);
-    bool done = deflated && compress2(deflated, &size, (const Bytef *)packed->text, packed->length,
-                                      Z_BEST_COMPRESSION) == Z_OK;
+    bool done =
+        deflated && compress2(deflated, &size, (const Bytef *)packed->text, packed->length, Z_BEST_COMPRESSION) == Z_OK;
     char *text = done ? sp_packed_letters(deflated, size, error) : sp_fail_memory(error);
     free(deflated);
     return text;

@@ -60,7 +60,7 @@ function makePick(view) {
                 ...asked.map((design) => element("th", {scope: "col"}, design.name)))),
             element("tbody", {}, ...columns[0].map(([name], i) => element("tr", {}, element("th", {scope: "row"}, name),
                 ...columns.map((rows) => element("td", {}, rows[i][1]))))));
-        answer.append(element("div", {class: "wide"}, table));
+        answer.append(scrolling.watch(element("div", {class: "wide"}, table)));
     }
 
     /* Through x, y of the canvas, in CSS pixels from its top left, in the picture of the i-th design shown. */

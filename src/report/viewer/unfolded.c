@@ -24,8 +24,8 @@ typedef struct {
     const sp_walk *walk;
     sp_coder *coder;
     models *models;
-    double *parts; /* [charts], of a pixel, that corners are told in; 0: bits */
-    spot *spots;   /* [vertices told] */
+    double *parts;      /* [charts], of a pixel, that corners are told in; 0: bits */
+    spot *spots;        /* [vertices told] */
     double (*uv)[3][2]; /* [triangles told], as they are read */
 } teller;
 

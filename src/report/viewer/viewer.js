@@ -4,11 +4,14 @@
 const viewer = (async () => {
     "use strict";
     const section = document.getElementById("viewer");
-    const gl = document.createElement("canvas").getContext("webgl2", {antialias: true, preserveDrawingBuffer: true});
-    if (!section || !gl || !window.DecompressionStream)
+    if (!section || !window.WebGL2RenderingContext || !window.DecompressionStream)
         return null;
-
-    const {about, designs, inflated} = await readData(), {element} = widgets, {canvas} = gl;
+    /* first: the browser brings up meanwhile what the context below waits for */
+    const {about, designs, inflated} = await readData(), {element} = widgets;
+    const canvas = element("canvas", {});
+    const gl = canvas.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true});
+    if (!gl)
+        return null;
     const flux = about.quantities.find((quantity) => quantity.key === "flux");
     const coverage = {key: "covered", name: "Covered"};
     const difference = {key: "difference", name: "Difference"};

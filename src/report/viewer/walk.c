@@ -21,16 +21,16 @@ typedef struct {
     sp_walk *walk;
     sp_coder *coder;
     models *models;
-    uint64_t *edges;      /* [3 triangles], from and to of what leads from each corner to the next, ascending */
-    uint32_t *corner_of;  /* [3 triangles], their corners */
-    uint32_t *by_chart;   /* [triangles] */
-    bool *told;           /* [triangles of the mesh] */
-    uint32_t *number;     /* [vertices of the mesh], as they are told; SP_NONE: not yet */
-    uint32_t *first;      /* [vertices], the latest told corner at each, SP_NONE: none */
-    uint32_t *next;       /* [3 triangles], the one before at the same vertex */
-    bool *met;            /* [3 triangles], whether a triangle is told on the other side of this edge */
-    uint8_t *around;      /* [vertices], told triangles, FULL at most */
-    uint32_t *queue;      /* [3 triangles], edges of told corners that may lead on */
+    uint64_t *edges;     /* [3 triangles], from and to of what leads from each corner to the next, ascending */
+    uint32_t *corner_of; /* [3 triangles], their corners */
+    uint32_t *by_chart;  /* [triangles] */
+    bool *told;          /* [triangles of the mesh] */
+    uint32_t *number;    /* [vertices of the mesh], as they are told; SP_NONE: not yet */
+    uint32_t *first;     /* [vertices], the latest told corner at each, SP_NONE: none */
+    uint32_t *next;      /* [3 triangles], the one before at the same vertex */
+    bool *met;           /* [3 triangles], whether a triangle is told on the other side of this edge */
+    uint8_t *around;     /* [vertices], told triangles, FULL at most */
+    uint32_t *queue;     /* [3 triangles], edges of told corners that may lead on */
     size_t queued, taken, told_count;
     uint32_t fresh; /* vertices told */
 } walker;
@@ -141,7 +141,8 @@ static bool same_spot(const walker *w, uint32_t one, uint32_t two)
     return a[0] == b[0] && a[1] == b[1];
 }
 
-/* The corner of a triangle that is not told yet, of the chart, from which an edge leads back along the gate; SP_NONE. */
+/* The corner of a triangle that is not told yet, of the chart, from which an edge leads back along the gate; SP_NONE.
+ */
 static uint32_t beyond(const walker *w, uint32_t gate)
 {
     const sp_walk *walk = w->walk;

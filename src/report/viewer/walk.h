@@ -14,13 +14,13 @@ typedef struct {
     uint32_t *vertex;       /* [vertex_count], of the mesh; those that no triangle has come last */
     uint32_t (*corners)[3]; /* [count], by told vertices */
     uint32_t *chart;        /* [count], of the atlas */
-    uint32_t *gate;         /* [count], 3 t + i: over the edge of told triangle t behind its corner i; SP_NONE: over none */
-    uint8_t *far;           /* [count], the corner opposite to that edge; 0 where there is none */
+    uint32_t *gate; /* [count], 3 t + i: over the edge of told triangle t behind its corner i; SP_NONE: over none */
+    uint8_t *far;   /* [count], the corner opposite to that edge; 0 where there is none */
 } sp_walk;
 
-/* Corner `i` of a told triangle that was reached over its gate where its own corners are `far` + 1 and + 2: they are the
- * gate's end and its start. Tells the walk to the coder. For sp_walk_free whatever the outcome; false where memory runs
- * out. */
+/* Corner `i` of a told triangle that was reached over its gate where its own corners are `far` + 1 and + 2: they are
+ * the gate's end and its start. Tells the walk to the coder. For sp_walk_free whatever the outcome; false where memory
+ * runs out. */
 bool sp_walk_create(sp_walk *walk, const sp_mesh *mesh, const sp_atlas *atlas, sp_coder *coder);
 void sp_walk_free(sp_walk *walk);
 

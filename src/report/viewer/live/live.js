@@ -14,7 +14,7 @@
                     film: empty, shadowOf: empty, shadows: [], nozzles: [], jets: []};
     const live = {view, editing, model, empty, design, origin: editing.settings.slice(13, 16), LITRES: 6e4,
         nozzles: [], chosen: 0, start: null, last: null, syncs: [],
-        section: element("section", {id: "live"}), figures: element("div", {class: "wide"}),
+        section: element("section", {id: "live"}), figures: scrolling.watch(element("div", {class: "wide"})),
         answer: element("div", {class: "answer", role: "status", "aria-live": "polite"}),
         holder: element("div", {class: "controls"}), sliders: element("div", {class: "sliders"}),
         scene: element("textarea", {readonly: "", rows: "12", spellcheck: "false",

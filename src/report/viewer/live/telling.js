@@ -24,7 +24,7 @@ function makeTelling(live) {
         if (editing.costly)
             rows.splice(2, 0, row("Price: water and mounts", (one) => priceText(one.price)));
         figures.replaceChildren(element("table", {class: "numbers narrow"},
-            element("thead", {}, element("tr", {}, ...["", live.start.name, "Yours"].map((name) =>
+            element("thead", {}, element("tr", {}, ...["Layout", live.start.name, "Yours"].map((name) =>
                 element("th", {scope: "col"}, name)))),
             element("tbody", {}, ...rows)));
     }
