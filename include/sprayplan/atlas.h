@@ -55,9 +55,10 @@ typedef struct {
     float length;          /* m on the surface, along all edges */
 } sp_seam;
 
-/* Corners of an unfolded surface are whole in so many parts of a pixel, a power of two: what flattening and placing
- * round off lies far below that, and a report's page is told fewer digits. */
+/* Corners of a chart are whole in so many parts of a pixel, a power of two, unless one of its triangles is less than
+ * SP_ATLAS_THIN pixels high: far below what any figure tells, and a report's page is told fewer digits. */
 #define SP_ATLAS_PARTS 67108864.0 /* 2^26 */
+#define SP_ATLAS_THIN 1e-6
 
 /* A texel is one connected patch of one chart inside one pixel of a page. Nearly always it is all that the pixel holds;
  * where the two lips of a cut or of a fold cross a pixel, each has a texel of its own. Texels [0, pixel_count) are the

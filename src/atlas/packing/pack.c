@@ -30,10 +30,33 @@ static void place_point(const sp_shape *shape, const sp_spot *spot, const double
     const double turned[4][2] = {{x, y}, {height - y, x}, {width - x, height - y}, {y, width - x}};
     const double size[2] = {spot->turns % 2 ? height : width, spot->turns % 2 ? width : height};
     const double corner[2] = {spot->x, spot->y};
-    for (int k = 0; k < 2; k++) { /* just inside the far sides, where round-off may have left no pixel */
-        double whole = rint((corner[k] + turned[spot->turns][k]) * SP_ATLAS_PARTS);
-        uv[k] = fmin(whole, (corner[k] + size[k]) * SP_ATLAS_PARTS - 1) / SP_ATLAS_PARTS;
+    for (int k = 0; k < 2; k++) /* just inside the far sides, where round-off may have left no pixel */
+        uv[k] = fmin(corner[k] + turned[spot->turns][k], nextafter(corner[k] + size[k], 0));
+}
+
+/* Whether a triangle is too thin to keep its shape in parts of a pixel. */
+static bool is_sliver(double uv[3][2])
+{
+    double longest2 = 0,
+           area = (uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) - (uv[2][0] - uv[0][0]) * (uv[1][1] - uv[0][1]);
+    for (int i = 0; i < 3; i++) {
+        double x = uv[(i + 1) % 3][0] - uv[i][0], y = uv[(i + 1) % 3][1] - uv[i][1];
+        longest2 = fmax(longest2, x * x + y * y);
     }
+    return !(area * area > SP_ATLAS_THIN * SP_ATLAS_THIN * longest2);
+}
+
+/* Corners of charts without slivers become whole in parts of a pixel. False where memory runs out. */
+static bool round_corners(sp_atlas *atlas)
+{
+    bool *thin = calloc(atlas->chart_count + 1, sizeof *thin);
+    for (size_t t = 0; thin && t < atlas->triangle_count; t++)
+        thin[atlas->chart[t]] |= is_sliver(atlas->uv[t]);
+    for (size_t t = 0; thin && t < atlas->triangle_count; t++)
+        for (int k = 0; k < 6 && !thin[atlas->chart[t]]; k++)
+            atlas->uv[t][k / 2][k % 2] = floor(atlas->uv[t][k / 2][k % 2] * SP_ATLAS_PARTS) / SP_ATLAS_PARTS;
+    free(thin);
+    return thin != NULL;
 }
 
 static void place_triangles(sp_atlas *atlas, const sp_charts *charts, const sp_shape *shapes, const sp_spot *spots)
@@ -59,8 +82,10 @@ bool sp_atlas_pack(sp_atlas *atlas, const sp_charts *charts, sp_packing packing,
     bool done = shapes && (spots || sp_fail_memory(error));
     done = done && (packing == SP_PACKING_SKYLINE ? pack_boxes : sp_nest)(shapes, count, limit, spots,
                                                                           &atlas->page_edge, &atlas->page_count, error);
-    if (done)
+    if (done) {
         place_triangles(atlas, charts, shapes, spots);
+        done = round_corners(atlas) || sp_fail_memory(error);
+    }
     sp_shapes_destroy(shapes, count);
     free(spots);
     return done;
