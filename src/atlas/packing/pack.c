@@ -22,16 +22,20 @@ static bool pack_boxes(const sp_shape *shapes, size_t count, uint32_t limit, sp_
     return done;
 }
 
-/* A point of a frame after the frame was turned and put on its spot. */
-static void place_point(const sp_shape *shape, const sp_spot *spot, const double point[2], double uv[2])
+/* A point of a frame after the frame was turned and put on its spot; `whole`: in parts of a pixel, to the nearest, so
+ * that round-off beside round numbers tells nothing apart. */
+static void place_point(const sp_shape *shape, const sp_spot *spot, const double point[2], bool whole, double uv[2])
 {
     double width = shape->width, height = shape->height;
     double x = fmin(fmax(point[0], 0), width), y = fmin(fmax(point[1], 0), height);
     const double turned[4][2] = {{x, y}, {height - y, x}, {width - x, height - y}, {y, width - x}};
     const double size[2] = {spot->turns % 2 ? height : width, spot->turns % 2 ? width : height};
     const double corner[2] = {spot->x, spot->y};
-    for (int k = 0; k < 2; k++) /* just inside the far sides, where round-off may have left no pixel */
-        uv[k] = fmin(corner[k] + turned[spot->turns][k], nextafter(corner[k] + size[k], 0));
+    for (int k = 0; k < 2; k++) { /* just inside the far sides, where round-off may have left no pixel */
+        double at = corner[k] + turned[spot->turns][k], far = corner[k] + size[k];
+        uv[k] = whole ? fmin(rint(at * SP_ATLAS_PARTS), far * SP_ATLAS_PARTS - 1) / SP_ATLAS_PARTS
+                      : fmin(at, nextafter(far, 0));
+    }
 }
 
 /* Whether a triangle is too thin to keep its shape in parts of a pixel. */
@@ -46,32 +50,33 @@ static bool is_sliver(double uv[3][2])
     return !(area * area > SP_ATLAS_THIN * SP_ATLAS_THIN * longest2);
 }
 
-/* Corners of charts without slivers become whole in parts of a pixel. False where memory runs out. */
-static bool round_corners(sp_atlas *atlas)
+static void place_triangle(sp_atlas *atlas, const sp_charts *charts, const sp_shape *shapes, const sp_spot *spots,
+                           size_t t, bool whole)
 {
-    bool *thin = calloc(atlas->chart_count + 1, sizeof *thin);
-    for (size_t t = 0; thin && t < atlas->triangle_count; t++)
-        thin[atlas->chart[t]] |= is_sliver(atlas->uv[t]);
-    for (size_t t = 0; thin && t < atlas->triangle_count; t++)
-        for (int k = 0; k < 6 && !thin[atlas->chart[t]]; k++)
-            atlas->uv[t][k / 2][k % 2] = floor(atlas->uv[t][k / 2][k % 2] * SP_ATLAS_PARTS) / SP_ATLAS_PARTS;
-    free(thin);
-    return thin != NULL;
+    const sp_shape *shape = &shapes[charts->chart[t]];
+    double texel = atlas->chart_texel[charts->chart[t]];
+    for (int i = 0; i < 3; i++) {
+        const double point[2] = {charts->flat[t][i][0] / texel + shape->left,
+                                 charts->flat[t][i][1] / texel + shape->low};
+        place_point(shape, &spots[charts->chart[t]], point, whole, atlas->uv[t][i]);
+    }
 }
 
-static void place_triangles(sp_atlas *atlas, const sp_charts *charts, const sp_shape *shapes, const sp_spot *spots)
+/* Corners of charts without slivers are whole in parts of a pixel. False where memory runs out. */
+static bool place_triangles(sp_atlas *atlas, const sp_charts *charts, const sp_shape *shapes, const sp_spot *spots)
 {
-    for (size_t t = 0; t < charts->triangle_count; t++) {
-        const sp_shape *shape = &shapes[charts->chart[t]];
-        double texel = atlas->chart_texel[charts->chart[t]];
-        for (int i = 0; i < 3; i++) {
-            const double point[2] = {charts->flat[t][i][0] / texel + shape->left,
-                                     charts->flat[t][i][1] / texel + shape->low};
-            place_point(shape, &spots[charts->chart[t]], point, atlas->uv[t][i]);
-        }
+    bool *thin = calloc(charts->chart_count + 1, sizeof *thin);
+    for (size_t t = 0; thin && t < charts->triangle_count; t++) {
+        place_triangle(atlas, charts, shapes, spots, t, false);
+        thin[charts->chart[t]] |= is_sliver(atlas->uv[t]);
     }
+    for (size_t t = 0; thin && t < charts->triangle_count; t++)
+        if (!thin[charts->chart[t]])
+            place_triangle(atlas, charts, shapes, spots, t, true);
     for (size_t c = 0; c < charts->chart_count; c++)
         atlas->chart_page[c] = spots[c].page;
+    free(thin);
+    return thin != NULL;
 }
 
 bool sp_atlas_pack(sp_atlas *atlas, const sp_charts *charts, sp_packing packing, uint32_t limit, sp_error *error)
@@ -82,10 +87,7 @@ bool sp_atlas_pack(sp_atlas *atlas, const sp_charts *charts, sp_packing packing,
     bool done = shapes && (spots || sp_fail_memory(error));
     done = done && (packing == SP_PACKING_SKYLINE ? pack_boxes : sp_nest)(shapes, count, limit, spots,
                                                                           &atlas->page_edge, &atlas->page_count, error);
-    if (done) {
-        place_triangles(atlas, charts, shapes, spots);
-        done = round_corners(atlas) || sp_fail_memory(error);
-    }
+    done = done && (place_triangles(atlas, charts, shapes, spots) || sp_fail_memory(error));
     sp_shapes_destroy(shapes, count);
     free(spots);
     return done;
