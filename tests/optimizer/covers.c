@@ -41,6 +41,7 @@ static void scene_open(scene *s, const sp_vec3 *vertices, size_t vertex_count, c
     s->setup.surfaces = &s->surface;
     s->setup.fidelity.trajectory = SP_TRAJECTORY_LINE;
     s->setup.fidelity.texel = texel;
+    s->setup.fidelity.accuracy = ROOM_ACCURACY;
     s->evaluator = sp_evaluator_create(&s->setup, &error);
     assert_string_equal(error.message, "");
     s->type = room_cone("equal", 2 * half_angle, 10);

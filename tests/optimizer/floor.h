@@ -38,6 +38,7 @@ static inline void job_open(job *j, double edge, double texel, double flux)
     room_part(&b, "floor");
     room_sheet(&b, sp_v(-0.5 * edge, -0.5 * edge, 0), sp_v(edge, 0, 0), sp_v(0, edge, 0));
     j->room.setup = sp_setup_default();
+    j->room.setup.fidelity.accuracy = ROOM_ACCURACY;
     j->room.setup.fidelity.trajectory = SP_TRAJECTORY_LINE;
     j->room.setup.criterion.flux = flux;
     room_open(&j->room, &b, texel);

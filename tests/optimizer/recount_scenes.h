@@ -34,7 +34,7 @@ static inline void scene_begin(recount_scene *s, room_builder *b, bool hall)
     s->room.setup.cavity = SP_CAVITY_POINT;
     s->room.setup.fidelity.method = SP_METHOD_INVERSE;
     s->room.setup.fidelity.trajectory = SP_TRAJECTORY_LINE;
-    s->room.setup.fidelity.accuracy = 0.2; /* few jets check proposals: they are counted again here in another way */
+    s->room.setup.fidelity.accuracy = ROOM_ACCURACY; /* proposals are counted again here in another way */
     s->room.setup.cavity_point = hall ? sp_v(0.3, 0.2, 4.9) : sp_v(0.05, 0.02, 1.1);
     if (hall)
         room_box(b, sp_v(-5, -5, 0), sp_v(5, 5, 6), "walls", "lid");

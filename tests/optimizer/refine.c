@@ -101,6 +101,7 @@ static void roll_follows_the_plank(void **state)
     sp_vec3 along = sp_v(2 * cos(0.2), 2 * sin(0.2), 0), across = sp_v(-0.15 * sin(0.2), 0.15 * cos(0.2), 0);
     room_sheet(&b, sp_scale(sp_add(along, across), -0.5), along, across);
     j.room.setup = sp_setup_default();
+    j.room.setup.fidelity.accuracy = ROOM_ACCURACY;
     j.room.setup.fidelity.trajectory = SP_TRAJECTORY_LINE;
     room_open(&j.room, &b, 0.02);
     j.type = room_cone("fan", 80 * DEGREE, 10);
@@ -125,6 +126,7 @@ static void open_scaled_room(job *j, double edge)
     room_builder b = {0};
     room_box(&b, sp_v(0, 0, 0), sp_v(edge, 0.8125 * edge, 0.625 * edge), "walls", "lid");
     j->room.setup = sp_setup_default();
+    j->room.setup.fidelity.accuracy = ROOM_ACCURACY;
     j->room.setup.fidelity.trajectory = SP_TRAJECTORY_LINE;
     j->room.setup.cavity = SP_CAVITY_POINT;
     j->room.setup.cavity_point = sp_v(0.5 * edge, 0.5 * edge, 0.25 * edge);

@@ -16,6 +16,9 @@
 #define DEGREE (M_PI / 180)
 #define LITRES_PER_MINUTE (1e-3 / 60)
 
+/* Accuracy where none is asserted: points that measure a proposal's error and jets that count it again are few. */
+#define ROOM_ACCURACY 0.2
+
 #define ROOM_VERTICES 96
 typedef struct {
     sp_vec3 vertices[ROOM_VERTICES];

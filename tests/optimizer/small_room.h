@@ -23,6 +23,7 @@ static inline void job_open_coarse(job *j, double texel)
     room_builder b = {0};
     room_box(&b, sp_v(-1, -0.7, 0), sp_v(1, 0.7, 1.2), "walls", "lid");
     j->room.setup = sp_setup_default();
+    j->room.setup.fidelity.accuracy = ROOM_ACCURACY;
     j->room.setup.cavity = SP_CAVITY_POINT;
     j->room.setup.cavity_point = sp_v(0, 0, 0.5);
     j->room.setup.criterion.flux = 2 * LITRES_PER_MINUTE;

@@ -22,6 +22,7 @@ static void job_open(job *j, double edge, sp_vec3 shift, bool refined)
     room_sheet(&b, sp_add(shift, sp_v(0.4375 * edge, 0.25 * edge, 0)), sp_v(0, 0.3125 * edge, 0),
                sp_v(0.0625 * edge, 0, 0.25 * edge));
     j->room.setup = sp_setup_default();
+    j->room.setup.fidelity.accuracy = ROOM_ACCURACY;
     j->room.setup.gravity = 9.81 * edge;
     j->room.setup.cavity = SP_CAVITY_POINT;
     j->room.setup.cavity_point = sp_add(shift, sp_v(0.25 * edge, 0.5 * edge, 0.25 * edge));
@@ -195,6 +196,7 @@ static void of_equal_candidates_the_first_is_taken(void **state)
                 j.mounts[swapped ? 1 - k : k] = above;
             }
             j.room.setup = sp_setup_default();
+            j.room.setup.fidelity.accuracy = ROOM_ACCURACY;
             j.room.setup.fidelity.trajectory = SP_TRAJECTORY_LINE;
             j.room.setup.criterion.flux = 2 * LITRES_PER_MINUTE;
             j.room.setup.run.threads = 1;
