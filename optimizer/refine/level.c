@@ -1,6 +1,9 @@
 #include "refine/level.h"
 
-#define FAR 8.0   /* widths beyond the edge where nothing is left of a pattern */
+#define FAR 8.0 /* widths beyond the edge where nothing is left of a pattern */
+/* Width of the logistic step, of a patch's breadth, whose slope is that of sp_spray_share's. */
+#define OWN_EDGE (SP_SPRAY_BLUR / 7.5)
+#define BROAD 0.3 /* rad; patches that look broader lose what reaches beyond FAR of its width */
 #define STEP 1e-6 /* share of half an unknown's range, for differences of frames and patterns */
 
 /* All that a nozzle's arrivals share. */
@@ -58,7 +61,7 @@ static sp_posed pose(const sp_search *search, const sp_freedom *freedom, const s
     posed.frame = sp_nozzle_frame(posed.nozzle.axis, posed.nozzle.roll, setup->up);
     double flow = sp_nozzle_flow(&posed.nozzle, &setup->liquid);
     posed.strength = search->threshold > 0 ? flow / (posed.spray.solid_angle * search->threshold) : 1;
-    double most = sp_spray_reach(&posed.spray) + FAR * width.edge;
+    double most = sp_spray_reach(&posed.spray) + FAR * (width.edge + OWN_EDGE * BROAD);
     posed.least = most < M_PI ? cos(most) : -2;
     posed.moved = sp_distance(posed.nozzle.position, sight->position) > 0;
     for (size_t k = 0; slopes && k < freedom->count; k++)
@@ -73,8 +76,8 @@ typedef struct {
     sp_vec3 local;    /* its direction in the nozzle's frame */
     double margin;    /* rad */
     sp_vec3 gradient; /* of the margin by `local`; for slopes alone */
+    double edge;      /* rad, its width */
     double inside;    /* soft, 0 to 1 */
-    bool by_flux;     /* more flux makes its level higher */
 } sp_borne;
 
 static sp_vec3 in_frame(const sp_frame *frame, sp_vec3 d)
@@ -118,13 +121,12 @@ static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool sl
     if (borne->local.z < posed->least)
         return false;
     borne->margin = margin_of(&posed->spray, borne->local, slopes ? &borne->gradient : NULL);
-    double widths = borne->margin / posed->width.edge;
+    double own = OWN_EDGE * seen->breadth;
+    borne->edge = sqrt(posed->width.edge * posed->width.edge + own * own);
+    double widths = borne->margin / borne->edge;
     if (widths < -FAR)
         return false;
     borne->inside = widths > FAR ? 1 : sp_soft_step(widths);
-    /* a cell that has enough has no more to give to others */
-    borne->by_flux = posed->search->threshold > 0 &&
-                     !(seen->part < 1 && sp_levels_sum(posed->search) && posed->strength * borne->transfer >= 1);
     return true;
 }
 
@@ -152,40 +154,66 @@ static double shift(const sp_posed *posed, const sp_borne *borne, const sp_seen 
     return sp_dot(seen->normal, faster) / sp_dot(seen->normal, w) - spread;
 }
 
-/* Derivative of the logarithm of transfer times inside by unknown k, and of the strength. */
-static double log_slope(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, size_t k)
+/* Derivatives of logarithms by an unknown. */
+typedef struct {
+    double flux, share;
+} sp_log_slope;
+
+static sp_log_slope log_slope(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, size_t k)
 {
     const sp_freedom *freedom = posed->freedom;
-    double edge = (1 - borne->inside) / posed->width.edge, thicker = 0;
+    double edge = (1 - borne->inside) / borne->edge;
+    sp_log_slope slope = {0, 0};
     sp_vec3 turn;
     switch (freedom->kind[k]) {
     case SP_UNKNOWN_PLACE:
-        thicker = shift(posed, borne, seen, freedom->move[k], &turn);
-        return (borne->by_flux ? thicker : 0) + edge * sp_dot(borne->gradient, in_frame(&posed->frame, turn));
+        slope.flux = shift(posed, borne, seen, freedom->move[k], &turn);
+        slope.share = edge * sp_dot(borne->gradient, in_frame(&posed->frame, turn));
+        break;
     case SP_UNKNOWN_AXIS:
     case SP_UNKNOWN_ROLL:
-        return edge > 0 ? edge * sp_dot(borne->gradient, in_frame(&posed->turn[k], borne->flight.direction)) : 0;
+        if (edge > 0)
+            slope.share = edge * sp_dot(borne->gradient, in_frame(&posed->turn[k], borne->flight.direction));
+        break;
     case SP_UNKNOWN_ANGLE:
         if (edge > 0)
-            thicker = edge * (margin_of(&posed->other[k], borne->local, NULL) - borne->margin) / posed->step[k];
-        return thicker + (borne->by_flux ? posed->thicken[k] : 0);
+            slope.share = edge * (margin_of(&posed->other[k], borne->local, NULL) - borne->margin) / posed->step[k];
+        slope.flux = posed->thicken[k];
+        break;
     case SP_UNKNOWN_FLOW:
-        return borne->by_flux ? posed->thicken[k] : 0;
+        slope.flux = posed->thicken[k];
+        break;
     }
-    return 0;
+    return slope;
 }
 
-/* The level of an arrival, and by how much it changes per change of its logarithm's argument. */
-static double level_of(const sp_posed *posed, const sp_borne *borne, double part, double *rise)
+/* How far the flux of an arrival suffices alone, and by how much that changes with its logarithm. */
+static double alone_of(const sp_posed *posed, double flux, double *rise)
 {
-    double flux = posed->strength * borne->transfer;
+    *rise = 0;
     if (posed->search->threshold <= 0)
-        return *rise = part * borne->inside;
-    if (sp_levels_sum(posed->search))
-        return *rise = part * borne->inside * (borne->by_flux ? flux : 1);
-    double cover = sp_soft_step(log(flux * borne->inside) / posed->width.level);
-    *rise = part * cover * (1 - cover) / posed->width.level;
-    return part * cover;
+        return 1;
+    double cover = sp_soft_step(log(flux) / posed->width.level);
+    *rise = cover * (1 - cover) / posed->width.level;
+    return cover;
+}
+
+static void set_level(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, size_t i,
+                      const sp_levels *levels)
+{
+    double flux = posed->strength * borne->transfer, share = seen->part * borne->inside, rise;
+    double alone = alone_of(posed, flux, &rise);
+    bool sums = !posed->search->single && posed->search->threshold > 0;
+    levels->alone[i] = share * alone;
+    levels->flux[i] = sums ? share * (1 - alone) * flux : 0;
+    for (size_t k = 0; levels->alone_slope && k < posed->freedom->count; k++) {
+        sp_log_slope by = log_slope(posed, borne, seen, k);
+        size_t at = k * posed->sight->count + i;
+        double of_alone = share * (alone * by.share + rise * by.flux);
+        double of_flux = share * flux * ((1 - alone) * (by.share + by.flux) - rise * by.flux);
+        levels->alone_slope[at] = isfinite(of_alone) ? of_alone : 0;
+        levels->flux_slope[at] = sums && isfinite(of_flux) ? of_flux : 0;
+    }
 }
 
 /* The liquid that an arrival brings its patch, m³/s, and by how much that changes with every unknown. */
@@ -193,23 +221,21 @@ static void bring(const sp_posed *posed, const sp_borne *borne, const sp_seen *s
                   const sp_brought *brought)
 {
     const sp_patches *patches = sp_evaluator_patches(posed->search->coarse);
-    size_t count = posed->sight->count;
-    double area = patches->area[seen->patch];
     double flow = sp_nozzle_flow(&posed->nozzle, &sp_evaluator_setup(posed->search->coarse)->liquid);
-    sp_borne all = *borne;
-    all.by_flux = true;
-    brought->amount[i] = flow / posed->spray.solid_angle * borne->transfer * borne->inside * seen->part * area;
+    brought->amount[i] =
+        flow / posed->spray.solid_angle * borne->transfer * borne->inside * seen->part * patches->area[seen->patch];
     for (size_t k = 0; brought->slope && k < posed->freedom->count; k++) {
-        double by_k = brought->amount[i] * log_slope(posed, &all, seen, k);
-        brought->slope[k * count + i] = isfinite(by_k) ? by_k : 0;
+        sp_log_slope by = log_slope(posed, borne, seen, k);
+        double by_k = brought->amount[i] * (by.flux + by.share);
+        brought->slope[k * posed->sight->count + i] = isfinite(by_k) ? by_k : 0;
     }
 }
 
-static void bring_nothing(const sp_freedom *freedom, size_t count, size_t i, const sp_brought *brought)
+static void set_nothing(const sp_freedom *freedom, size_t count, size_t i, double *amount, double *slope)
 {
-    brought->amount[i] = 0;
-    for (size_t k = 0; brought->slope && k < freedom->count; k++)
-        brought->slope[k * count + i] = 0;
+    amount[i] = 0;
+    for (size_t k = 0; slope && k < freedom->count; k++)
+        slope[k * count + i] = 0;
 }
 
 static bool has_place(const sp_freedom *freedom)
@@ -220,26 +246,25 @@ static bool has_place(const sp_freedom *freedom)
     return false;
 }
 
-void sp_levels(const sp_search *search, const sp_freedom *freedom, const sp_sight *sight, sp_width width,
-               const double *values, double *level, double *slope, const sp_brought *brought)
+void sp_levels_set(const sp_search *search, const sp_freedom *freedom, const sp_sight *sight, sp_width width,
+                   const double *values, const sp_levels *levels, const sp_brought *brought)
 {
-    sp_posed posed = pose(search, freedom, sight, width, values, slope != NULL);
-    bool flies = posed.moved || (slope && has_place(freedom));
+    bool slopes = levels->alone_slope != NULL;
+    sp_posed posed = pose(search, freedom, sight, width, values, slopes);
+    bool flies = posed.moved || (slopes && has_place(freedom));
     for (size_t i = 0; i < sight->count; i++) {
         const sp_seen *seen = &sight->seen[i];
         sp_borne borne = {0};
-        double rise = 0;
-        bool borne_there = bear(&posed, seen, flies, slope != NULL, &borne);
-        level[i] = borne_there && seen->passes ? level_of(&posed, &borne, seen->part, &rise) : 0;
-        if (brought && borne_there)
+        bool there = bear(&posed, seen, flies, slopes, &borne);
+        if (there && seen->passes) {
+            set_level(&posed, &borne, seen, i, levels);
+        } else {
+            set_nothing(freedom, sight->count, i, levels->alone, levels->alone_slope);
+            set_nothing(freedom, sight->count, i, levels->flux, levels->flux_slope);
+        }
+        if (brought && there)
             bring(&posed, &borne, seen, i, brought);
         else if (brought)
-            bring_nothing(freedom, sight->count, i, brought);
-        if (!slope)
-            continue;
-        for (size_t k = 0; k < freedom->count; k++) {
-            double by_k = rise > 0 ? rise * log_slope(&posed, &borne, seen, k) : 0;
-            slope[k * sight->count + i] = isfinite(by_k) ? by_k : 0;
-        }
+            set_nothing(freedom, sight->count, i, brought->amount, brought->slope);
     }
 }

@@ -12,12 +12,13 @@ typedef struct {
     double edge; /* rad */
 } sp_width;
 
-/* Levels that add up are fluxes over threshold; others are covers, any of which suffices, but that those of one
- * nozzle's cells of a patch add up. */
-static inline bool sp_levels_sum(const sp_search *search)
-{
-    return !search->single && search->threshold > 0;
-}
+/* What each arrival brings its patch, as the measure has it, softly (see sp_wetting): the share of the patch that it
+ * covers by itself, and the flux over threshold that it brings towards what several cover together. Derivatives by each
+ * value of the freedom, [freedom->count][sight->count]. */
+typedef struct {
+    double *alone, *alone_slope; /* [sight->count]; slopes NULL where they are not asked for */
+    double *flux, *flux_slope;
+} sp_levels;
 
 /* The liquid that each arrival brings its patch, m³/s, [sight->count], and its derivatives, as slopes of levels;
  * `slope` may be NULL. Softened at the pattern's edge alone. */
@@ -25,10 +26,9 @@ typedef struct {
     double *amount, *slope;
 } sp_brought;
 
-/* At the freedom's values [SP_UNKNOWNS], visibility as in `sight`: level [sight->count] and, where `slope` is not NULL,
- * its derivatives by each value, [freedom->count][sight->count]. And what is brought, where that is asked for. */
-void sp_levels(const sp_search *search, const sp_freedom *freedom, const sp_sight *sight, sp_width width,
-               const double *values, double *level, double *slope, const sp_brought *brought);
+/* At the freedom's values [SP_UNKNOWNS], visibility as in `sight`. And what is brought, where that is asked for. */
+void sp_levels_set(const sp_search *search, const sp_freedom *freedom, const sp_sight *sight, sp_width width,
+                   const double *values, const sp_levels *levels, const sp_brought *brought);
 
 /* Logistic function. */
 static inline double sp_soft_step(double x)

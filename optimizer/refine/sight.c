@@ -23,7 +23,8 @@ bool sp_sights_reserve(sp_sights *sights, size_t capacity, sp_error *error)
 
 bool sp_sights_create(const sp_search *search, size_t capacity, sp_sights *sights, sp_error *error)
 {
-    *sights = (sp_sights){.search = search, .tolerance = NEAR * sp_evaluator_fidelity(search->coarse)->texel};
+    *sights = (sp_sights){
+        .search = search, .asked = capacity, .tolerance = NEAR * sp_evaluator_fidelity(search->coarse)->texel};
     return sp_sights_reserve(sights, capacity, error);
 }
 
@@ -33,6 +34,8 @@ void sp_sights_forget(sp_sights *sights)
         free(sights->items[i].seen);
         sights->items[i] = (sp_sight){0};
     }
+    /* what room an earlier draft needed must not tell what is remembered of the next */
+    sights->capacity = sights->asked;
 }
 
 void sp_sights_free(sp_sights *sights)

@@ -32,6 +32,7 @@ typedef struct {
     const sp_search *search;
     double tolerance; /* m */
     uint64_t clock;
+    size_t asked; /* capacity that it was created with */
     size_t capacity;
     sp_sight *items; /* [capacity], unused ones all zero */
 } sp_sights;
@@ -40,7 +41,7 @@ typedef struct {
  * taken to be as it was: shadows' edges are not known better anyway. So what is seen depends on what was looked at
  * before, until it is forgotten. */
 bool sp_sights_create(const sp_search *search, size_t capacity, sp_sights *sights, sp_error *error);
-/* Room for at least as many. */
+/* Room for at least as many, until it forgets. */
 bool sp_sights_reserve(sp_sights *sights, size_t capacity, sp_error *error);
 void sp_sights_forget(sp_sights *sights);
 void sp_sights_free(sp_sights *sights);

@@ -17,9 +17,8 @@
 typedef struct {
     const sp_freedom *freedom;
     const sp_sight *sight;
-    size_t first;  /* of its unknowns */
-    double *level; /* [sight->count] */
-    double *slope; /* [freedom->count][sight->count], by unknown */
+    size_t first; /* of its unknowns */
+    sp_levels levels;
 } sp_soft_nozzle;
 
 /* A patch's arrivals are links[start[p]] to links[start[p + 1]]. */
@@ -30,7 +29,6 @@ typedef struct {
 typedef struct {
     const sp_search *search;
     sp_width width;
-    bool sums; /* levels are fluxes that add up; else covers, any of which suffices */
     double budget;
     size_t nozzle_count, unknowns;
     sp_soft_nozzle *nozzles;
@@ -66,71 +64,82 @@ static void set_levels(sp_soft *soft, const double *x, bool slopes)
         sp_brought brought = {0};
         if (soft->film.count)
             brought = (sp_brought){soft->film.runs[i].brought.amount, slopes ? soft->film.runs[i].brought.slope : NULL};
-        sp_levels(soft->search, freedom, own->sight, soft->width, values, own->level, slopes ? own->slope : NULL,
-                  soft->film.count ? &brought : NULL);
+        sp_levels levels = own->levels;
+        if (!slopes)
+            levels.alone_slope = levels.flux_slope = NULL;
+        sp_levels_set(soft->search, freedom, own->sight, soft->width, values, &levels,
+                      soft->film.count ? &brought : NULL);
         for (size_t k = 0; slopes && k < freedom->count; k++) {
             chain[k] = 0.5 * (freedom->high[k] - freedom->low[k]) * cos(x[own->first + k]);
-            for (size_t a = 0; a < own->sight->count; a++)
-                own->slope[k * own->sight->count + a] *= chain[k];
+            for (size_t a = k * own->sight->count; a < (k + 1) * own->sight->count; a++) {
+                levels.alone_slope[a] *= chain[k];
+                levels.flux_slope[a] *= chain[k];
+            }
         }
         if (soft->film.count)
             sp_soft_film_set(&soft->film, i, slopes ? chain : NULL);
     }
 }
 
-/* What is missing at a patch, 1 - soft cover, from its levels; *factor is what a level's slope is multiplied by to give
- * the slope of the miss, for levels that add up. */
-static double miss_of_sum(const sp_soft *soft, size_t patch, double *factor)
-{
-    double sum = (double)soft->search->kept_hit[patch];
-    for (size_t l = soft->start[patch]; l < soft->start[patch + 1]; l++)
-        sum += soft->nozzles[soft->links[l].nozzle].level[soft->links[l].arrival];
-    *factor = 0;
-    if (sum <= 0)
-        return 1;
-    double widths = log(sum) / soft->width.level;
-    if (widths > SURE)
-        return 0;
-    double cover = sp_soft_step(widths);
-    *factor = -cover * (1 - cover) / (soft->width.level * sum);
-    return 1 - cover;
-}
-
-/* What is missing at a patch: the product of what hits and what films leave dry. */
+/* What is missing at a patch: the product of what each nozzle alone, all hits together, and films leave dry. */
 typedef struct {
-    double weight;    /* root of the patch's area, as a share of all: the solver's tolerances are absolute, and must not
-                       * know the unit of length */
-    double hit, film; /* each 1 where the other is all that counts */
-    double by_level;  /* how `hit` changes per level, where these add up */
-    double by_film;   /* how `film` changes per film of all nozzles */
+    double weight;   /* root of the patch's area, as a share of all: the solver's tolerances are absolute, and must not
+                      * know the unit of length */
+    double alone;    /* what no nozzle covers alone */
+    double together; /* what all hits together do not cover; 1 where they do not add up */
+    double film;     /* 1 where it is not asked for */
+    double by_flux;  /* how `together` changes per flux */
+    double by_film;  /* how `film` changes per film of all nozzles */
 } sp_soft_miss;
 
-static bool is_cell(const sp_soft *soft, size_t link)
-{
-    return soft->nozzles[soft->links[link].nozzle].sight->seen[soft->links[link].arrival].part < 1;
-}
-
-/* The link behind one that counts by itself, or behind all cells of its nozzle. */
+/* The link behind the last of the same nozzle's at a patch. */
 static size_t end_of_group(const sp_soft *soft, size_t patch, size_t first)
 {
     size_t end = first + 1;
-    while (is_cell(soft, first) && end < soft->start[patch + 1] && soft->links[end].nozzle == soft->links[first].nozzle)
+    while (end < soft->start[patch + 1] && soft->links[end].nozzle == soft->links[first].nozzle)
         end++;
     return end;
 }
 
-/* The same where any one level suffices: the product of what each leaves dry, or a nozzle's cells together; but for
- * what link `but` (SIZE_MAX: none) belongs to. */
-static double miss_of_any(const sp_soft *soft, size_t patch, size_t but)
+/* The share of a patch that a nozzle's arrivals leave dry, links `first` to before `end`. */
+static double left_dry(const sp_soft *soft, size_t first, size_t end)
+{
+    double cover = 0;
+    for (size_t l = first; l < end; l++)
+        cover += soft->nozzles[soft->links[l].nozzle].levels.alone[soft->links[l].arrival];
+    return cover > 1 ? 0 : 1 - cover; /* and not a number where it is none */
+}
+
+static void miss_of_hits(const sp_soft *soft, size_t patch, sp_soft_miss *at)
+{
+    const sp_search *search = soft->search;
+    double sum = (double)search->kept_hit[patch];
+    at->together = 1;
+    at->alone = sum >= 1 ? 0 : (double)search->kept_dry[patch];
+    for (size_t l = soft->start[patch], end; l < soft->start[patch + 1]; l = end) {
+        end = end_of_group(soft, patch, l);
+        at->alone *= left_dry(soft, l, end);
+        for (size_t k = l; k < end; k++)
+            sum += soft->nozzles[soft->links[k].nozzle].levels.flux[soft->links[k].arrival];
+    }
+    if (search->single || search->threshold <= 0 || sum <= 0)
+        return;
+    double widths = log(sum) / soft->width.level;
+    if (widths < -SURE)
+        return;
+    double cover = widths > SURE ? 1 : sp_soft_step(widths);
+    at->together = 1 - cover;
+    at->by_flux = -cover * (1 - cover) / (soft->width.level * sum);
+}
+
+/* What all but this nozzle leave dry alone. */
+static double alone_but(const sp_soft *soft, size_t patch, uint32_t nozzle)
 {
     double miss = soft->search->kept_hit[patch] >= 1 ? 0 : (double)soft->search->kept_dry[patch];
     for (size_t l = soft->start[patch], end; l < soft->start[patch + 1]; l = end) {
-        double cover = 0;
         end = end_of_group(soft, patch, l);
-        for (size_t k = l; k < end; k++)
-            cover += soft->nozzles[soft->links[k].nozzle].level[soft->links[k].arrival];
-        if (!(l <= but && but < end))
-            miss *= cover > 1 ? 0 : 1 - cover; /* and not a number where it is none */
+        if (soft->links[l].nozzle != nozzle)
+            miss *= left_dry(soft, l, end);
     }
     return miss;
 }
@@ -166,17 +175,21 @@ static void add_row(const sp_soft *soft, size_t patch, const sp_soft_miss *at, d
 {
     size_t n = soft->unknowns;
     sp_soft_row own_row = {row, columns, 0};
-    double weight = at->weight, miss = at->hit * at->film;
+    double weight = at->weight, miss = at->alone * at->together * at->film;
     for (size_t l = soft->start[patch]; l < soft->start[patch + 1]; l++) {
         const sp_soft_nozzle *own = &soft->nozzles[soft->links[l].nozzle];
-        if (own->level[soft->links[l].arrival] <= 0)
+        size_t arrival = soft->links[l].arrival;
+        if (own->levels.alone[arrival] <= 0 && own->levels.flux[arrival] <= 0)
             continue;
-        double by_level = at->film * (soft->sums ? at->by_level : -miss_of_any(soft, patch, l));
-        for (size_t k = 0; k < own->freedom->count; k++)
+        double by_alone = -weight * at->together * at->film * alone_but(soft, patch, soft->links[l].nozzle);
+        double by_flux = weight * at->alone * at->film * at->by_flux;
+        for (size_t k = 0; k < own->freedom->count; k++) {
+            size_t slope = k * own->sight->count + arrival;
             add_slope(&own_row, own->first + k,
-                      weight * by_level * own->slope[k * own->sight->count + soft->links[l].arrival]);
+                      by_alone * own->levels.alone_slope[slope] + by_flux * own->levels.flux_slope[slope]);
+        }
     }
-    add_film(soft, patch, weight * at->hit * at->by_film, &own_row);
+    add_film(soft, patch, weight * at->alone * at->together * at->by_film, &own_row);
     size_t used = own_row.used;
     for (size_t i = 0; i < used; i++) {
         gradient[columns[i]] += row[columns[i]] * weight * miss;
@@ -191,7 +204,7 @@ static void add_row(const sp_soft *soft, size_t patch, const sp_soft_miss *at, d
 static sp_soft_miss miss_at(const sp_soft *soft, size_t patch)
 {
     sp_soft_miss at = {.weight = sqrt((double)soft->search->area[patch]), .film = 1};
-    at.hit = soft->sums ? miss_of_sum(soft, patch, &at.by_level) : miss_of_any(soft, patch, SIZE_MAX);
+    miss_of_hits(soft, patch, &at);
     if (!soft->film.count)
         return at;
     at.film = 1 - sp_soft_film_cover(&soft->film, patch, &at.by_film);
@@ -212,7 +225,7 @@ static void sum_chunk(sp_soft *soft, size_t chunk, bool slopes, double *row, siz
         if ((soft->start[p] == soft->start[p + 1] && !soft->film.count) || soft->search->area[p] <= 0)
             continue;
         sp_soft_miss at = miss_at(soft, p);
-        double miss = at.hit * at.film;
+        double miss = at.alone * at.together * at.film;
         cost += at.weight * at.weight * miss * miss;
         if (slopes && miss > 0)
             add_row(soft, p, &at, row, columns, gradient, normal);
@@ -365,10 +378,12 @@ static bool soft_create(sp_soft *soft, const sp_freedom *freedoms, const sp_sigh
         size_t most = sights[i]->count ? sights[i]->count : 1;
         soft->nozzles[i] = (sp_soft_nozzle){.freedom = &freedoms[i], .sight = sights[i], .first = first};
         first += freedoms[i].count;
-        soft->nozzles[i].level = malloc(most * sizeof *soft->nozzles[i].level);
-        soft->nozzles[i].slope = malloc(most * SP_UNKNOWNS * sizeof *soft->nozzles[i].slope);
-        if (!soft->nozzles[i].level || !soft->nozzles[i].slope)
+        sp_levels *levels = &soft->nozzles[i].levels;
+        double *numbers = malloc(2 * most * (1 + SP_UNKNOWNS) * sizeof *numbers);
+        if (!numbers)
             return sp_fail_memory(error);
+        *levels = (sp_levels){numbers, numbers + most, numbers + most * (1 + SP_UNKNOWNS),
+                              numbers + most * (2 + SP_UNKNOWNS)};
     }
     size_t n = soft->unknowns;
     soft->chunk_cost = calloc(CHUNKS, sizeof *soft->chunk_cost);
@@ -381,10 +396,8 @@ static bool soft_create(sp_soft *soft, const sp_freedom *freedoms, const sp_sigh
 
 static void soft_free(sp_soft *soft)
 {
-    for (size_t i = 0; soft->nozzles && i < soft->nozzle_count; i++) {
-        free(soft->nozzles[i].level);
-        free(soft->nozzles[i].slope);
-    }
+    for (size_t i = 0; soft->nozzles && i < soft->nozzle_count; i++)
+        free(soft->nozzles[i].levels.alone);
     free(soft->nozzles);
     sp_soft_film_free(&soft->film);
     free(soft->start);
@@ -455,8 +468,7 @@ bool sp_soft_solve(const sp_search *search, const sp_draft *draft, const sp_free
                    sp_error *error)
 {
     sp_search held;
-    sp_soft soft = {
-        .search = &held, .width = width, .sums = sp_levels_sum(search), .budget = budget, .nozzle_count = draft->count};
+    sp_soft soft = {.search = &held, .width = width, .budget = budget, .nozzle_count = draft->count};
     for (size_t i = 0; i < draft->count; i++)
         soft.unknowns += freedoms[i].count;
     if (!soft.unknowns)

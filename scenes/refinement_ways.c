@@ -1,0 +1,148 @@
+/* What is each way of refinement worth by itself? Looks for the best that candidates give at every amount of water and
+ * refines eight of these drafts on the search's own patches: annealing by Ceres from the widest start and from a
+ * narrow one, compass search, and both. Says for each which share of what the draft leaves dry is covered then, and the
+ * processor time that it took. One thread. */
+#include "refine/anneal.h"
+#include "refine/compass.h"
+#include "search/find.h"
+
+#include <sprayplan/sprayplan.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#define DRAFTS 8
+#define NARROW 3 /* the width at which an annealing starts that keeps what is there */
+#define SIGHTS 24
+#define STEP_FIRST 0.25 /* of the compass, as refinement has it */
+#define STEP_LEAST 0.006
+
+typedef struct {
+    const char *name;
+    size_t start; /* of an annealing; SP_WIDTHS: none */
+    bool compass;
+    double closed, seconds; /* sums */
+} way;
+
+/* What a placement has made when refinement begins. */
+typedef struct {
+    sp_place_options options;
+    sp_watch watch;
+    sp_sites sites;
+    sp_candidates candidates;
+    sp_evaluator *coarse;
+    sp_visibility visibility;
+    sp_search search;
+    sp_pool pool;
+    sp_front front;
+} placement;
+
+static void fail(const sp_error *error)
+{
+    char text[1400];
+    sp_error_text(error, text, sizeof text);
+    fprintf(stderr, "refinement_ways: %s\n", text);
+    exit(1);
+}
+
+static void find(const sp_scene *scene, const sp_evaluator *fine, placement *p)
+{
+    sp_error error = {0};
+    *p = (placement){.options = sp_scene_place_options(scene)};
+    p->options.run.threads = 1;
+    p->watch = sp_watch_start(&p->options.run);
+    if (!sp_sites_create(fine, &p->options, &p->sites, &error) ||
+        !sp_candidates_create(fine, &p->options, &p->sites, &p->candidates, &error) ||
+        !sp_visibility_fit(fine, &p->options, &p->sites, &p->candidates, &p->watch, &p->coarse, &p->visibility,
+                           &error) ||
+        !sp_search_create(p->coarse ? p->coarse : fine, &p->options, &p->sites, &p->candidates, &p->visibility,
+                          &p->search, &error))
+        fail(&error);
+    p->front.fine = fine;
+    p->front.objective = p->options.objective;
+    p->front.target = p->options.coverage * sp_evaluator_patches(fine)->total_area;
+    if (!sp_find(&p->search, &p->watch, &p->front, &p->pool, &error))
+        fail(&error);
+}
+
+static double processor_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* What the draft covers after it was refined, m²; *seconds: how long that took. */
+static double refine(placement *p, const sp_draft *from, const way *how, double *seconds)
+{
+    sp_error error = {0};
+    sp_sights sights;
+    sp_draft draft;
+    double water = sp_draft_water(&p->search, from, from->outlay), start = processor_seconds();
+    if (!sp_sights_create(&p->search, SIGHTS, &sights, &error) || !sp_draft_copy(&p->search, from, &draft, &error) ||
+        (how->start < SP_WIDTHS && !sp_anneal(&sights, how->start, SP_WIDTHS, water, &p->watch, &draft, &error)) ||
+        (how->compass && !sp_compass(&sights, STEP_FIRST, STEP_LEAST, water, &p->watch, &draft, &error)))
+        fail(&error);
+    *seconds = processor_seconds() - start;
+    double covered = draft.covered;
+    sp_draft_free(&draft);
+    sp_sights_free(&sights);
+    return covered;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc != 2) {
+        fprintf(stderr, "usage: refinement_ways SCENE\n");
+        return 2;
+    }
+    sp_error error = {0};
+    sp_scene *scene = sp_scene_load(argv[1], &error);
+    sp_evaluator *evaluator = scene ? sp_evaluator_create(sp_scene_setup(scene), &error) : NULL;
+    if (!evaluator)
+        fail(&error);
+    placement p;
+    find(scene, evaluator, &p);
+    way ways[] = {{.name = "Ceres", .start = 0},
+                  {.name = "Ceres, narrow", .start = NARROW},
+                  {.name = "compass", .start = SP_WIDTHS, .compass = true},
+                  {.name = "Ceres, compass", .start = 0, .compass = true},
+                  {.name = "Ceres, narrow, compass", .start = NARROW, .compass = true}};
+    const size_t way_count = sizeof ways / sizeof *ways, drafts = p.front.by_water.count;
+    size_t tried = 0;
+    printf("| water, L/min | nozzles |");
+    for (size_t w = 0; w < way_count; w++)
+        printf(" %s, %% |", ways[w].name);
+    printf("\n|---|---|---|---|---|---|---|\n");
+    for (size_t i = 0; i<drafts; i += drafts> DRAFTS ? drafts / DRAFTS : 1) {
+        const sp_draft *from = &p.front.by_water.entries[i].draft;
+        double dry = p.search.view_area - from->covered;
+        if (!from->count || dry <= 0)
+            continue;
+        tried++;
+        printf("| %.1f | %zu |", 6e4 * from->outlay, from->count);
+        for (size_t w = 0; w < way_count; w++) {
+            double seconds, closed = (refine(&p, from, &ways[w], &seconds) - from->covered) / dry;
+            ways[w].closed += closed;
+            ways[w].seconds += seconds;
+            printf(" %.1f |", 100 * closed);
+        }
+        printf("\n");
+    }
+    printf("| mean | |");
+    for (size_t w = 0; w < way_count; w++)
+        printf(" %.1f in %.2f s |", 100 * ways[w].closed / (double)tried, ways[w].seconds / (double)tried);
+    printf("\n");
+    sp_front_free(&p.front);
+    sp_pool_free(&p.pool);
+    sp_search_free(&p.search);
+    sp_visibility_free(&p.visibility);
+    sp_evaluator_destroy(p.coarse);
+    sp_candidates_free(&p.candidates);
+    sp_sites_free(&p.sites);
+    free(p.watch.stages);
+    sp_evaluator_destroy(evaluator);
+    sp_scene_destroy(scene);
+    return 0;
+}
