@@ -119,10 +119,9 @@ void sp_coverage_judge(const sp_evaluator *evaluator, sp_coverage *coverage)
         double area = sp_evaluator_counted(evaluator, i);
         coverage->area += area;
         if (deposits->flux[i] > 0) {
-            /* of millions of jets alike a sum's round-off would take their mean beyond each of them */
-            deposits->speed[i] = fmin(deposits->speed[i] / deposits->flux[i], deposits->speed_max[i]);
-            deposits->incidence[i] = fmax(deposits->incidence[i] / deposits->flux[i], deposits->incidence_min[i]);
-            deposits->impact[i] = fmin(deposits->impact[i] / deposits->flux[i], deposits->impact_max[i]);
+            deposits->speed[i] /= deposits->flux[i];
+            deposits->incidence[i] /= deposits->flux[i];
+            deposits->impact[i] /= deposits->flux[i];
         }
         deposits->share[i] = sp_wetting_share(&(sp_wetting){deposits->even[i], deposits->dry[i], 0}, threshold);
         if (evaluator->rundown && deposits->film[i] >= evaluator->setup.criterion.film) {
