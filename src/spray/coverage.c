@@ -135,12 +135,23 @@ void sp_coverage_judge(const sp_evaluator *evaluator, sp_coverage *coverage)
     coverage->fraction = coverage->area > 0 ? coverage->covered_area / coverage->area : 0;
 }
 
+/* Of millions of jets alike a sum's round-off takes their mean beyond each of them. */
+static void hold_means(sp_deposits *deposits)
+{
+    for (size_t i = 0; i < deposits->count; i++) {
+        deposits->speed[i] = fmin(deposits->speed[i], deposits->speed_max[i]);
+        deposits->incidence[i] = fmax(deposits->incidence[i], deposits->incidence_min[i]);
+        deposits->impact[i] = fmin(deposits->impact[i], deposits->impact_max[i]);
+    }
+}
+
 bool sp_coverage_conclude(const sp_evaluator *evaluator, const sp_bodies *bodies, sp_coverage *coverage,
                           sp_error *error)
 {
     if (evaluator->rundown && !sp_rundown_find(evaluator->rundown, bodies->patterns, coverage, error))
         return false;
     sp_coverage_judge(evaluator, coverage);
+    hold_means(&coverage->deposits);
     coverage->flow = sp_layout_flow(bodies->layout, &evaluator->setup.liquid);
     coverage->area_per_water = coverage->flow > 0 ? coverage->covered_area / coverage->flow : 0;
     return draw_flux_figures(&evaluator->patches, coverage, error);

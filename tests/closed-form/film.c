@@ -91,7 +91,8 @@ static void upright_walls(void **state)
         walls_rain(&w, everywhere, LAID);
         size_t whole = 0;
         for (size_t i = 0; i < w.cells->count; i++) {
-            if (fabs(w.cells->area[i] / (texel * texel) - 1) > 1e-6)
+            /* as whole as corners in parts of a pixel leave it */
+            if (fabs(w.cells->area[i] / (texel * texel) - 1) > 16 / SP_ATLAS_PARTS)
                 continue;
             assert_near("wall", w.per_width[i], LAID * (1 - w.cells->point[i].z + 0.5 * texel), 1e-4);
             whole++;

@@ -259,7 +259,7 @@ static inline void proved(recount_scene *s, double texel)
     scene_type(s, SP_PATTERN_FULL_CONE, 30, 0, 3);
     scene_type(s, SP_PATTERN_FLAT_FAN, 50, 3, 2.2);
     s->mounts[0].tilt = 0;
-    s->mounts[0].spacing = 0.3;
+    s->mounts[0].spacing = 0.2;
     s->options.max_nozzles = 4;
     s->options.prove = true;
     s->room.setup.criterion.flux = 5 * LITRES_PER_MINUTE;
