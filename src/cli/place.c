@@ -27,9 +27,13 @@ static size_t list_designs(const cli_scene *opened, const placement *found, sp_d
 {
     size_t count = 0;
     bool alternatives = sp_scene_alternative_count(opened->scene) > 0;
-    if (found->manual)
-        designs[count++] =
+    if (found->manual) {
+        const sp_proposal *best = found->proposals[found->best];
+        designs[count] =
             cli_design(opened, "manual", own_evaluator(opened, found), sp_scene_layout(opened->scene), found->manual);
+        designs[count].remedies = best->own_remedies;
+        designs[count++].remedy_count = best->own_remedy_count;
+    }
     for (size_t i = 0; i < found->count; i++) {
         const sp_proposal *proposal = found->proposals[i];
         const sp_evaluator *evaluator = evaluator_of(opened, proposal);

@@ -155,6 +155,13 @@ static void add_at_its_coverage(const sp_page *page, sp_text *text, size_t desig
     sp_text_add(text, "</span>");
 }
 
+static void add_sheet_link(const sp_page *page, sp_text *text, size_t design)
+{
+    sp_text_add(text, "<a href=\"#");
+    sp_page_sheet_id(page, text, design);
+    sp_text_add(text, "\">sheet</a>");
+}
+
 static void add_row(const sp_page *page, sp_text *text, const char *title, add_cell *cell)
 {
     sp_text_add(text, "<tr><th scope=\"row\">%s</th>", title);
@@ -209,6 +216,7 @@ static void add_table(const sp_page *page, sp_text *text)
                      ", the most found", add_at_its_price);
     add_row_of_first(page, text, "To cover as much as",
                      page->costly ? ", the lowest price found" : ", the least water found", add_at_its_coverage);
+    add_row(page, text, "What to weld and order", add_sheet_link);
     sp_text_add(text, "</tbody></table></div>\n");
 }
 

@@ -70,7 +70,7 @@ static const char *const style[] = {
     "@media screen and (max-width:640px){main{padding:0 12px 30px}body{font-size:15px}.aside{display:none}"
     "th,td{padding:5px 6px}.numbers{font-size:14px}"
     ".wide :not(.sub)>th:first-child{position:sticky;left:0;background:var(--paper)}}\n",
-    "@page{size:A4;margin:16mm 14mm 18mm;@bottom-right{content:counter(page) \" / \" counter(pages);"
+    "@media screen{.again{display:none}}\n@page{size:A4;margin:16mm 14mm 18mm;@bottom-right{content:counter(page) \" / \" counter(pages);"
     "font:9pt system-ui,\"DejaVu Sans\",Arial,sans-serif;color:#55636f}}\n"
     "@media "
     "print{body{font-size:11pt;-webkit-print-color-adjust:exact;print-color-adjust:exact}main{max-width:none;padding:0}"
@@ -80,9 +80,9 @@ static const char *const style[] = {
     ".value{font-size:14pt}.card .unit{font-size:8.5pt}"
     "figure,.card,.wide,tr,dl>div,.chart,.block{break-inside:avoid}thead{display:table-header-group}"
     "h2,h3,caption{break-after:avoid}a{color:inherit;text-decoration:none}"
-    /* The sheet goes to the workshop by itself. */
-    "#sheet{break-before:page;break-after:page}.alone{display:none}"
-    "main:has(#sheet:target)>:not(header,#sheet,footer){display:none}#sheet:target{break-before:auto;break-after:auto}"
+    /* Each sheet goes to the workshop by itself. */
+    ".sheet:not(:target){break-before:page;break-after:page}.alone{display:none}"
+    "main:has(.sheet:target)>:not(header,.sheet:target,footer){display:none}"
     "}\n</style>\n",
 };
 
@@ -247,7 +247,7 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
     if (!sp_page_viewer(page, text, error) || !sp_page_pictures(page, text, error))
         return false;
     sp_page_nozzles(page, text);
-    if (!sp_page_sheet(page, text, error))
+    if (!sp_page_sheets(page, text, error))
         return false;
     sp_page_contributions(page, text);
     sp_page_shadows(page, text);
