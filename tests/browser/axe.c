@@ -129,19 +129,13 @@ static void ask_about(const char *report)
     devtools page;
     write_page_with_reader(report, "", "axe.js");
     devtools_open(&page, "read.html");
-    for (int i = 0; i < 600; i++) { /* the page may still be on its way */
-        json_t *there = devtools_evaluate(&page, "typeof asked === 'object'");
-        bool ready = json_is_true(there);
-        json_decref(there);
-        if (ready)
-            break;
-        nanosleep(&(struct timespec){.tv_nsec = 50000000}, NULL);
-    }
+    devtools_wait(&page, "asked");
     json_decref(devtools_evaluate(&page, "asked.ready()"));
     json_decref(devtools_evaluate(&page, axe));
     expect_none_in_any_light(&page, "as it opens");
     json_t *said = devtools_evaluate(&page, "asked.use()");
     assert_non_null(strstr(json_string_value(said), "region 1"));
+    assert_non_null(strstr(json_string_value(said), " at "));
     json_decref(said);
     expect_none_in_any_light(&page, "in use");
     devtools_close(&page);
@@ -171,7 +165,7 @@ static void what_is_wrong_is_found(void **state)
                              "<img src=\"data:,\"><p style=\"color:#ddd\">pale</p></main></body></html>");
     write_page_with_reader("wrong.html", "", "axe.js");
     devtools_open(&page, "read.html");
-    nanosleep(&(struct timespec){.tv_nsec = 500000000}, NULL);
+    devtools_wait(&page, "asked");
     json_decref(devtools_evaluate(&page, axe));
     json_t *told = devtools_evaluate(&page, "asked.faults()");
     assert_int_equal(json_array_size(json_object_get(told, "faults")), 2);

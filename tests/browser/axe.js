@@ -28,14 +28,19 @@ const asked = (() => {
             await change();
         document.querySelector("#nozzles button.row").click();
         document.querySelector("#shadows button.row").click();
+        const answer = viewer.querySelector(".answer"), said = answer.textContent;
         const canvas = viewer.querySelector("canvas");
         canvas.focus();
         canvas.dispatchEvent(new KeyboardEvent("keydown", {key: "Enter", bubbles: true}));
         await wait(300);
-        return viewer.querySelector(".answer").textContent;
+        return said + answer.textContent;
     }
 
+    /* Once the page is laid out as wide as it is now. */
+    const drawn = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done))));
+
     async function faults() {
+        await drawn();
         const {violations, passes} = await axe.run();
         return {checked: passes.length, faults: violations.map(({id, impact, help, nodes}) =>
             ({id, impact, help, at: nodes.slice(0, 3).map(({target}) => target.join(" ")).join(", ")}))};
