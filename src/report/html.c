@@ -82,7 +82,8 @@ static const char *const style[] = {
     "h2,h3,caption{break-after:avoid}a{color:inherit;text-decoration:none}"
     /* Each sheet goes to the workshop by itself. */
     ".sheet:not(:target){break-before:page;break-after:page}.alone{display:none}"
-    "main:has(.sheet:target)>:not(header,.sheet:target,footer){display:none}"
+    "main:has(.sheet:target)>:not(header,.sheet:target,footer),"
+    "main:has(.sheet:not(#sheet):target) h1{display:none}" /* which tells of the main layout */
     "}\n</style>\n",
 };
 

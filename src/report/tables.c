@@ -356,8 +356,8 @@ void sp_page_shadows(const sp_page *page, sp_text *text)
                 "nozzle that by itself brings the region most liquid, and is nearest to mending it. A region that is "
                 "not attainable is out of reach of every "
                 "allowed nozzle: a matter of the vessel, not of the layout. One more nozzle: of "
-                "the candidates looked at the one that, beside a "
-                "proposal's own, covers most of the region, how much of it and for how much water, whatever number and "
+                "the candidates looked at the one that, beside the "
+                "layout's own, covers most of the region, how much of it and for how much water, whatever number and "
                 "water are allowed. All that result.json lists are in "
                 "that file.</p>\n");
     for (size_t i = 0; i < page->result->design_count; ++i)

@@ -144,7 +144,8 @@ static const char *const files[] = {
     "result.json",      "report.html",         "nozzles.csv",         "coverage.png",
     "deposits.exr",     "model.glb",           "coverage-manual.png", "deposits-manual.exr",
     "model-manual.glb", "coverage-greedy.png", "deposits-greedy.exr", "model-greedy.glb",
-    "surface.vtp",      "texels.vtp",          "nozzles.stl",         "swabs.csv"};
+    "surface.vtp",      "texels.vtp",          "nozzles.stl",         "swabs.csv",
+    "nozzles-all.csv"};
 #define FILES (sizeof files / sizeof *files)
 
 static void the_same_bytes_every_time(void **state)
