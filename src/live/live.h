@@ -107,8 +107,8 @@ bool SP_LIVE(sp_live_admits)(sp_live *live, size_t index);
 const double *SP_LIVE(sp_live_foot)(sp_live *live, uint32_t part, double x, double y, double z);
 /* Finds the boxes of the accelerator's leaves; how many there are, 0 where memory runs out. */
 size_t SP_LIVE(sp_live_boxes)(sp_live *live);
-/* Flies a few jets of nozzle `index` of those handed over, as sp_paths_fly; how many legs they have, 0 where it is off or
- * memory runs out. */
+/* Flies a few jets of nozzle `index` of those handed over, as sp_paths_fly; how many legs they have, 0 where it is off
+ * or memory runs out. */
 size_t SP_LIVE(sp_live_fly)(sp_live *live, size_t index);
 const void *SP_LIVE(sp_live_tell)(sp_live *live, sp_live_result what);
 /* What nozzle `index` brings by itself to each patch, m/s. NULL while it is off or new. */

@@ -39,8 +39,8 @@ struct sp_live {
     sp_coverage *coverage;
     double figures[SP_LIVE_FIGURE_COUNT];
     double shadow_list[SP_LIVE_SHADOWS][SP_LIVE_SHADOW_NUMBERS];
-    uint32_t *shadow_of; /* [patches] */
-    double (*boxes)[6];  /* of the accelerator's leaves; NULL: nobody asked */
+    uint32_t *shadow_of;                 /* [patches] */
+    double (*boxes)[6];                  /* of the accelerator's leaves; NULL: nobody asked */
     double (*legs)[SP_LIVE_LEG_NUMBERS]; /* of the jets flown last */
     double foot[6];
     sp_error error;

@@ -70,7 +70,8 @@ static const char *const style[] = {
     "@media screen and (max-width:640px){main{padding:0 12px 30px}body{font-size:15px}.aside{display:none}"
     "th,td{padding:5px 6px}.numbers{font-size:14px}"
     ".wide :not(.sub)>th:first-child{position:sticky;left:0;background:var(--paper)}}\n",
-    "@media screen{.again{display:none}}\n@page{size:A4;margin:16mm 14mm 18mm;@bottom-right{content:counter(page) \" / \" counter(pages);"
+    "@media screen{.again{display:none}}\n@page{size:A4;margin:16mm 14mm 18mm;@bottom-right{content:counter(page) \" / "
+    "\" counter(pages);"
     "font:9pt system-ui,\"DejaVu Sans\",Arial,sans-serif;color:#55636f}}\n"
     "@media "
     "print{body{font-size:11pt;-webkit-print-color-adjust:exact;print-color-adjust:exact}main{max-width:none;padding:0}"

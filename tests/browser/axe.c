@@ -1,7 +1,7 @@
 /* The report to who does not see it, or not well: axe-core (https://github.com/dequelabs/axe-core, MPL-2.0) finds no
  * serious fault in the page, as it opens and in use, wide and narrow, light and dark. It is no part of the project: the
- * test takes the axe.min.js that the environment's SPRAYPLAN_AXE names or, of `npm install axe-core`, the one beside the
- * project, in its parent folder or where npm keeps what is installed for all; without one it is skipped. */
+ * test takes the axe.min.js that the environment's SPRAYPLAN_AXE names or, of `npm install --no-save axe-core`, the one
+ * in the project, beside it or where npm keeps what is installed for all; without one it is skipped. */
 #include "devtools.h"
 
 static const char scene_yaml[] =
@@ -43,10 +43,9 @@ static char *read_whole(const char *path)
 
 static void find_axe(void)
 {
-    static const char *const places[] = {SOURCE_DIR "/node_modules/axe-core/axe.min.js",
-                                         SOURCE_DIR "/../node_modules/axe-core/axe.min.js",
-                                         "/usr/local/lib/node_modules/axe-core/axe.min.js",
-                                         "/usr/lib/node_modules/axe-core/axe.min.js"};
+    static const char *const places[] = {
+        SOURCE_DIR "/node_modules/axe-core/axe.min.js", SOURCE_DIR "/../node_modules/axe-core/axe.min.js",
+        "/usr/local/lib/node_modules/axe-core/axe.min.js", "/usr/lib/node_modules/axe-core/axe.min.js"};
     const char *named = getenv("SPRAYPLAN_AXE");
     axe = named ? read_whole(named) : NULL;
     if (named && !axe)
@@ -86,12 +85,12 @@ static void skip_without_axe(void)
 
 static void show(devtools *page, int width, const char *scheme)
 {
-    json_decref(devtools_ask(page, "Emulation.setDeviceMetricsOverride",
-                             json_pack("{s:i, s:i, s:i, s:b}", "width", width, "height", 1000, "deviceScaleFactor", 1,
-                                       "mobile", 0)));
     json_decref(devtools_ask(
-        page, "Emulation.setEmulatedMedia",
-        json_pack("{s:[{s:s, s:s}]}", "features", "name", "prefers-color-scheme", "value", scheme)));
+        page, "Emulation.setDeviceMetricsOverride",
+        json_pack("{s:i, s:i, s:i, s:b}", "width", width, "height", 1000, "deviceScaleFactor", 1, "mobile", 0)));
+    json_decref(
+        devtools_ask(page, "Emulation.setEmulatedMedia",
+                     json_pack("{s:[{s:s, s:s}]}", "features", "name", "prefers-color-scheme", "value", scheme)));
 }
 
 static void expect_no_fault(devtools *page, const char *when)

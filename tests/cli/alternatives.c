@@ -272,10 +272,11 @@ static void scenes_hold_every_alternative(void **state)
     (void)state;
     static const char *const files[] = {"layout-1.yaml", "layout-2.yaml", "layout.yaml"};
     char *folder = list_folder("out");
-    assert_string_equal(folder, "coverage-manual.png\ncoverage.png\ndeposits-manual.exr\ndeposits.exr\nlayout-1.yaml\n"
-                                "layout-2.yaml\nlayout.yaml\nmodel-manual.glb\nmodel.glb\nnozzles-all.csv\nnozzles.csv\n"
-                                "nozzles.stl\n"
-                                "report.html\nresult.json\nsurface.vtp\nswabs.csv\ntexels.vtp\n");
+    assert_string_equal(folder,
+                        "coverage-manual.png\ncoverage.png\ndeposits-manual.exr\ndeposits.exr\nlayout-1.yaml\n"
+                        "layout-2.yaml\nlayout.yaml\nmodel-manual.glb\nmodel.glb\nnozzles-all.csv\nnozzles.csv\n"
+                        "nozzles.stl\n"
+                        "report.html\nresult.json\nsurface.vtp\nswabs.csv\ntexels.vtp\n");
     free(folder);
     for (size_t k = 0; k < 3; k++) {
         char command[100];

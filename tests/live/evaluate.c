@@ -383,8 +383,7 @@ int main(void)
         cmocka_unit_test(one_that_is_off_brings_nothing),  cmocka_unit_test(a_sample_comes_near),
         cmocka_unit_test(shadows_are_those_of_the_layout), cmocka_unit_test(a_nozzle_in_steel_cannot_stand),
         cmocka_unit_test(a_foot_lies_on_its_part),         cmocka_unit_test(what_does_not_belong_together_is_refused),
-        cmocka_unit_test(boxes_are_those_of_the_tree),
-        cmocka_unit_test(jets_fly_as_the_report_s_do),
+        cmocka_unit_test(boxes_are_those_of_the_tree),     cmocka_unit_test(jets_fly_as_the_report_s_do),
     };
     return cmocka_run_group_tests_name("live evaluate", tests, open_room, close_room);
 }

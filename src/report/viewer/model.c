@@ -263,7 +263,8 @@ static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator,
         if (!object || json_object_set(object, "designs", designs) != 0 ||
             json_object_set_new(object, "cut", json_boolean(camera.cut)) != 0 ||
             (exact && json_object_set(object, "exact", exact) != 0) ||
-            (!page->live && !sp_viewer_boxes(evaluator, object, &packed, error)) || !add_data(object, &packed, &coder, error)) {
+            (!page->live && !sp_viewer_boxes(evaluator, object, &packed, error)) ||
+            !add_data(object, &packed, &coder, error)) {
             json_decref(object);
             object = sp_fail_memory(error);
         }
