@@ -31,10 +31,12 @@ void sp_page_head(sp_text *text, const char *title, const char *scene, bool live
 void sp_page_plain_name(const sp_page *page, sp_text *text, size_t design);
 /* The same, escaped. */
 void sp_page_name(const sp_page *page, sp_text *text, size_t design);
-/* html.c: what its cells have of attributes: narrow screens leave a layout before refinement out. */
-const char *sp_page_aside(const sp_page *page, size_t design);
 /* The same for a narrow column: paths may break after each folder. */
 void sp_page_narrow_name(const sp_page *page, sp_text *text, size_t design);
+/* html.c: what its cells have of attributes: narrow screens leave a layout before refinement out. */
+const char *sp_page_aside(const sp_page *page, size_t design);
+/* The same of tables with one column for each design: the main one's stays in sight where the table scrolls. */
+const char *sp_page_column(const sp_page *page, size_t design);
 /* html.c: the end of the designs that, from `first` on, have columns in one table: all of few, else some, so that the
  * next table goes on with it. */
 size_t sp_page_fold(const sp_page *page, size_t first);

@@ -115,7 +115,7 @@ static const row rows[] = {
 static void add_value(const sp_page *page, sp_text *text, const row *r, size_t design)
 {
     const sp_figures *figures = &page->figures[design];
-    sp_text_add(text, "<td%s>", sp_page_aside(page, design));
+    sp_text_add(text, "<td%s>", sp_page_column(page, design));
     if (r->decimal)
         sp_markup_decimals(text, r->value(figures), r->digits);
     else

@@ -173,7 +173,7 @@ static void the_page_has_every_alternative(void **state)
     char *page = read_file("out/report.html", NULL);
     assert_non_null(page);
     assert_int_equal(count_of(page, "<section id=\"alternatives\">"), 1);
-    assert_non_null(strstr(page, "<th scope=\"col\">free &amp; easy (proposed)</th>"));
+    assert_non_null(strstr(page, "<th scope=\"col\" class=\"decided\">free &amp; easy (proposed)</th>"));
     assert_null(strstr(page, "free & easy</"));
     assert_int_equal(count_of(page, "What each new fitting buys"), 1);
     assert_int_equal(count_of(page, "<path class=\"front\" style="), 3);
