@@ -85,7 +85,9 @@ static const char *const style[] = {
     /* Each sheet goes to the workshop by itself. */
     ".sheet:not(:target){break-before:page;break-after:page}.alone{display:none}"
     "main:has(.sheet:target)>:not(header,.sheet:target,footer),"
-    "main:has(.sheet:not(#sheet):target) h1{display:none}" /* which tells of the main layout */
+    /* the heading tells of the main layout, and of a comparison all of the head of its first */
+    "main:has(.sheet:not(#sheet):target) h1,main:not(:has(#sheet)):has(.sheet:target) header{display:none}"
+    ".sheet:target h2,main:has(.sheet:target) footer{margin-top:16px}"
     "}\n</style>\n",
 };
 
