@@ -244,12 +244,32 @@ static bool confirm(sp_placement *placement, sp_proposal *proposal, sp_error *er
     return false;
 }
 
-/* What would mend the proposal's shadows. */
+/* What would mend the shadows of the scene's own nozzles, which all stay. */
+static bool mend_own(sp_placement *placement, sp_proposal *proposal, sp_error *error)
+{
+    const sp_layout *own = placement->options->kept;
+    if (!own || !own->count || !sp_watch_has_time(&placement->watch, "remedies", 0))
+        return true;
+    sp_search keeping;
+    if (!sp_search_keep_all(&placement->search, &keeping, error))
+        return false;
+    sp_draft draft = {0};
+    sp_coverage *coverage = sp_evaluate(placement->fine, own, error);
+    bool done = coverage && sp_draft_create(&keeping, &draft, error) &&
+                sp_remedies_find(&keeping, placement->fine, &draft, coverage, &placement->watch, proposal->own_remedies,
+                                 &proposal->own_remedy_count, error);
+    sp_draft_free(&draft);
+    sp_coverage_destroy(coverage);
+    sp_search_keep_all_free(&keeping);
+    return done;
+}
+
+/* What would mend the shadows of the proposal, and then those of the layout that it is compared with. */
 static bool find_remedies(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
     return sp_remedies_find(&placement->search, placement->fine, &placement->front.best, proposal->coverage,
                             &placement->watch, proposal->remedies, &proposal->remedy_count, error) &&
-           sp_watch_stage(&placement->watch, "remedies", error);
+           mend_own(placement, proposal, error) && sp_watch_stage(&placement->watch, "remedies", error);
 }
 
 /* Nothing is proved by the one evaluation of which the other was not asked first. */

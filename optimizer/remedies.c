@@ -156,11 +156,14 @@ static bool measure(const remedying *r, const sp_draft *draft, sp_pose pose, uin
     const sp_mount *mount = &r->search->options->mounts[r->search->sites->items[pose.site].mount];
     bool done = coverage != NULL;
     double area = done ? newly_covered(r, shadow, coverage) : 0;
-    if (done && (!remedy->nozzle.type || area > remedy->area))
+    if (done && (!remedy->nozzle.type || area > remedy->area)) {
         *remedy = (sp_remedy){.nozzle = layout->nozzles[layout->count - 1],
                               .in_port = mount->kind == SP_MOUNT_PORT,
                               .area = area,
                               .flow = coverage->flow - r->coverage->flow};
+        if (remedy->in_port) /* a nozzle that sits elsewhere may be called like it */
+            memcpy(remedy->nozzle.name, mount->name, sizeof remedy->nozzle.name);
+    }
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
     sp_draft_free(&more);

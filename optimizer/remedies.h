@@ -1,4 +1,4 @@
-/* What one more nozzle could do for what a proposal leaves uncovered. */
+/* What one more nozzle could do for what a layout leaves uncovered. */
 #ifndef OPTIMIZER_REMEDIES_H
 #define OPTIMIZER_REMEDIES_H
 

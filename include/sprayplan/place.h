@@ -86,7 +86,7 @@ typedef struct {
     size_t other_count;
     const sp_mount *others; /* borrowed: of ports among them that are not to be used no nozzle gets the name */
     sp_refine refine;
-    const sp_layout *kept; /* borrowed, may be NULL: its nozzles marked keep are in every proposal */
+    const sp_layout *kept; /* borrowed, may be NULL: the scene's own; its nozzles marked keep are in every proposal */
     sp_run run;
 } sp_place_options;
 
@@ -144,11 +144,10 @@ typedef struct {
     bool agrees;       /* the difference is no more than that */
 } sp_forward_check;
 
-/* What one more nozzle could do for a shadow of the proposal, whatever the limits on number and water: the most that
- * was found, not a bound. Which places promise most is told by the search's patches, of which the report's may be
- * finer. */
+/* What one more nozzle could do for a shadow of a layout, whatever the limits on number and water: the most that was
+ * found, not a bound. Which places promise most is told by the search's patches, of which the report's may be finer. */
 typedef struct {
-    sp_nozzle nozzle; /* the candidate found that covers most of it beside the proposal; type NULL: none covers any */
+    sp_nozzle nozzle; /* the candidate found that covers most of it beside the layout; type NULL: none covers any */
     bool in_port;     /* whose name it has */
     double area;      /* m² of the shadow that it covers, by the scene's own settings; it may be 0 */
     double flow;      /* m³/s */
@@ -189,6 +188,10 @@ typedef struct {
     /* Of its largest shadows, as sp_shadows lists them: as many as there was time for. */
     size_t remedy_count;
     sp_remedy remedies[SP_REMEDIES];
+    /* Of those of all nozzles of the options' `kept`, marked or not, as the evaluator counts them that the proposal is
+     * counted on: what to add to the layout there is. */
+    size_t own_remedy_count;
+    sp_remedy own_remedies[SP_REMEDIES];
     sp_forward_check forward_check;
     sp_certificate certificate;
     size_t stage_count;

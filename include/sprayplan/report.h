@@ -37,7 +37,8 @@ bool sp_report_nozzles_stl(const sp_design *design, const char *path, sp_error *
 /* The self-contained page as HTML text (pictures inside it). Malloc'd, the caller frees. */
 char *sp_report_html(const sp_result *result, sp_error *error);
 /* Everything that DESIGN §4 lists, except layout.yaml, into `output`: result.json, report.html; of the main design
- * nozzles.csv, swabs.csv, nozzles.stl, surface.vtp and texels.vtp; and coverage.png, deposits.exr and model.glb of
+ * nozzles.csv, swabs.csv, nozzles.stl, surface.vtp and texels.vtp; nozzles-all.csv where other designs that may be
+ * built have sheets too, which those before refinement have not; and coverage.png, deposits.exr and model.glb of
  * each design, with the suffixes -manual and -greedy where it is not the main one. */
 bool sp_report_write(const sp_result *result, sp_output *output, sp_error *error);
 

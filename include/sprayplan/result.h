@@ -212,6 +212,9 @@ char *sp_result_json(const sp_result *result, sp_error *error);
  * A text that begins with =, +, -, @, a tab or a line's end has an apostrophe in front, so that no spreadsheet takes it
  * for a formula. Malloc'd. */
 char *sp_nozzles_csv(const sp_fitting_sheet *sheet, sp_error *error);
+/* The same of `count` sheets one after the other, with a column `layout` in front that holds their names. */
+char *sp_all_nozzles_csv(const sp_fitting_sheet *const *sheets, const char *const *layouts, size_t count,
+                         sp_error *error);
 /* How a nozzle is mounted: port, weld, line, box or nothing. */
 const char *sp_mounting_key(const sp_mount *mount);
 

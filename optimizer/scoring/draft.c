@@ -10,22 +10,58 @@
 
 #define CREDIT 0.2f /* of a patch that has almost the flux it needs: a saturating surrogate misleads the search */
 
-static bool kept_create(sp_search *search, sp_error *error)
+static void kept_free(sp_search *search)
 {
-    const sp_layout *layout = search->options->kept;
-    search->kept = calloc(layout->count ? layout->count : 1, sizeof *search->kept);
-    bool done = search->kept || sp_fail_memory(error);
-    for (size_t i = 0; done && i < layout->count; i++) {
-        sp_footprint footprint;
-        if (!layout->nozzles[i].keep)
-            continue;
-        search->kept[search->kept_count++] = layout->nozzles[i];
-        search->kept_flow += sp_nozzle_flow(&layout->nozzles[i], &sp_evaluator_setup(search->coarse)->liquid);
-        done = sp_footprint_trace(search, &layout->nozzles[i], &footprint, error);
-        if (done)
-            sp_footprint_pour(search, &footprint, search->kept_hit, search->kept_film, search->kept_dry);
-        sp_footprint_free(&footprint);
-    }
+    free(search->kept_hit);
+    free(search->kept_film);
+    free(search->kept_dry);
+    free(search->port_taken);
+    free(search->kept);
+}
+
+/* Nothing is kept yet. */
+static bool kept_reserve(sp_search *search, sp_error *error)
+{
+    const sp_place_options *options = search->options;
+    bool film = search->field_count > search->patch_count;
+    search->kept_count = 0;
+    search->kept_flow = 0;
+    search->kept = calloc((options->kept ? options->kept->count : 0) + 1, sizeof *search->kept);
+    search->port_taken = calloc(options->mount_count, sizeof *search->port_taken);
+    search->kept_hit = calloc(search->patch_count + 1, sizeof *search->kept_hit);
+    search->kept_film = film ? calloc(search->patch_count + 1, sizeof *search->kept_film) : NULL;
+    search->kept_dry = malloc((search->patch_count + 1) * sizeof *search->kept_dry);
+    for (uint32_t p = 0; search->kept_dry && p < search->patch_count; p++)
+        search->kept_dry[p] = 1;
+    return (search->kept && search->port_taken && search->kept_hit && search->kept_dry &&
+            (search->kept_film || !film)) ||
+           sp_fail_memory(error);
+}
+
+static bool keep(sp_search *search, const sp_nozzle *nozzle, sp_error *error)
+{
+    const sp_setup *setup = sp_evaluator_setup(search->coarse);
+    double tolerance = sp_mount_tolerance(setup);
+    sp_footprint footprint;
+    search->kept[search->kept_count++] = *nozzle;
+    search->kept_flow += sp_nozzle_flow(nozzle, &setup->liquid);
+    for (size_t m = 0; m < search->options->mount_count; m++)
+        search->port_taken[m] |= search->options->mounts[m].kind == SP_MOUNT_PORT &&
+                                 sp_port_holds(&search->options->mounts[m], nozzle->position, tolerance);
+    bool done = sp_footprint_trace(search, nozzle, &footprint, error);
+    if (done)
+        sp_footprint_pour(search, &footprint, search->kept_hit, search->kept_film, search->kept_dry);
+    sp_footprint_free(&footprint);
+    return done;
+}
+
+/* Of the scene's own nozzles those marked, or all. */
+static bool kept_create(sp_search *search, bool all, sp_error *error)
+{
+    const sp_layout *own = search->options->kept;
+    bool done = kept_reserve(search, error);
+    for (size_t i = 0; done && own && i < own->count; i++)
+        done = !(all || own->nozzles[i].keep) || keep(search, &own->nozzles[i], error);
     return done;
 }
 
@@ -38,19 +74,14 @@ static bool set_patches(sp_search *search, sp_error *error)
     search->all_feeds = setup->criterion.film > 0;
     search->field_count = (film ? 2 : 1) * search->patch_count;
     search->area = malloc((search->patch_count + 1) * sizeof *search->area);
-    search->kept_hit = calloc(search->patch_count + 1, sizeof *search->kept_hit);
-    search->kept_dry = malloc((search->patch_count + 1) * sizeof *search->kept_dry);
-    search->kept_film = film ? calloc(search->patch_count + 1, sizeof *search->kept_film) : NULL;
     search->level = omp_get_level();
     search->runoffs = film ? calloc(threads + 1, sizeof *search->runoffs) : NULL;
-    if (!search->area || !search->kept_hit || !search->kept_dry || (film && (!search->kept_film || !search->runoffs)))
+    if (!search->area || (film && !search->runoffs))
         return sp_fail_memory(error);
     for (uint32_t p = 0; p < search->patch_count; p++)
         search->all += sp_evaluator_counted(search->coarse, p);
-    for (uint32_t p = 0; p < search->patch_count; p++) {
+    for (uint32_t p = 0; p < search->patch_count; p++)
         search->area[p] = (float)(sp_evaluator_counted(search->coarse, p) / search->all);
-        search->kept_dry[p] = 1;
-    }
     for (size_t i = 0; film && i < threads; i++)
         if (!(search->runoffs[i] = sp_runoff_create(search->coarse, error)))
             return false;
@@ -94,20 +125,28 @@ bool sp_search_create(const sp_evaluator *coarse, const sp_place_options *option
                           .plenty = threshold * sp_evaluator_patches(visibility->evaluator)->total_area,
                           .single = criterion->combine == SP_COMBINE_SINGLE,
                           .credit = criterion->combine == SP_COMBINE_SINGLE ? 0 : CREDIT};
-    search->port_taken = calloc(options->mount_count, sizeof *search->port_taken);
-    bool done = (search->port_taken || sp_fail_memory(error)) && set_patches(search, error) &&
-                (!options->kept || kept_create(search, error)) &&
+    bool done = set_patches(search, error) && kept_create(search, false, error) &&
                 sp_footprints_create(search, &search->footprints, error);
     if (!done) {
         sp_search_free(search);
         return false;
     }
     set_outlay(search);
-    double tolerance = sp_mount_tolerance(sp_evaluator_setup(coarse));
-    for (size_t m = 0; m < options->mount_count; m++)
-        for (size_t i = 0; options->mounts[m].kind == SP_MOUNT_PORT && i < search->kept_count; i++)
-            search->port_taken[m] |= sp_port_holds(&options->mounts[m], search->kept[i].position, tolerance);
     return true;
+}
+
+bool sp_search_keep_all(const sp_search *search, sp_search *keeping, sp_error *error)
+{
+    *keeping = *search;
+    if (kept_create(keeping, true, error))
+        return true;
+    kept_free(keeping);
+    return false;
+}
+
+void sp_search_keep_all_free(sp_search *keeping)
+{
+    kept_free(keeping);
 }
 
 void sp_search_free(sp_search *search)
@@ -117,11 +156,7 @@ void sp_search_free(sp_search *search)
     for (int i = 0; search->runoffs && search->runoffs[i]; i++)
         sp_runoff_destroy(search->runoffs[i]);
     free(search->runoffs);
-    free(search->kept_hit);
-    free(search->kept_film);
-    free(search->kept_dry);
-    free(search->port_taken);
-    free(search->kept);
+    kept_free(search);
     *search = (sp_search){0};
 }
 

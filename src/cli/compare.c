@@ -76,12 +76,11 @@ static bool add_design(comparison *all, sp_design design, const char *path, cons
 
 static bool add_input(comparison *all, const compared *input, const char *path, sp_error *error)
 {
-    if (!input->figures)
-        return add_design(all,
-                          (sp_design){.evaluator = input->opened.evaluator,
-                                      .layout = sp_scene_layout(input->opened.scene),
-                                      .coverage = input->coverage},
-                          path, "", error);
+    if (!input->figures) {
+        const sp_layout *layout = sp_scene_layout(input->opened.scene);
+        return add_design(all, cli_design(&input->opened, "", input->opened.evaluator, layout, input->coverage), path,
+                          "", error);
+    }
     for (size_t i = 0; i < input->figure_count; i++)
         if (!add_design(all, (sp_design){.figures = &input->figures[i]}, path,
                         input->figure_count > 1 ? input->figures[i].name : "", error))
@@ -172,7 +171,7 @@ static bool compare(comparison *all, const cli_options *options, sp_error *error
     all->scenes = calloc((size_t)options->input_count, sizeof *all->scenes);
     if (!all->inputs || !all->scenes)
         return sp_fail_memory(error);
-    static const char *const files[] = {"result.json", "report.html", NULL};
+    static const char *const files[] = {"result.json", "report.html", "nozzles-all.csv", NULL};
     if (!cli_output_ready(options, NULL, files, error))
         return false;
     for (int i = 0; i < options->input_count; i++)

@@ -6,9 +6,9 @@
 
 #define FEW_JETS 10 /* on a texel that is just covered: with fewer, longer texels were more exact on the vessel */
 
-const char *const cli_result_files[] = {"result.json", "report.html", "layout.yaml",  "nozzles.csv",
-                                        "nozzles.stl", "swabs.csv",   "coverage.png", "deposits.exr",
-                                        "model.glb",   "surface.vtp", "texels.vtp",   NULL};
+const char *const cli_result_files[] = {
+    "result.json",  "report.html",  "layout.yaml", "nozzles.csv", "nozzles-all.csv", "nozzles.stl", "swabs.csv",
+    "coverage.png", "deposits.exr", "model.glb",   "surface.vtp", "texels.vtp",      NULL};
 
 void cli_layout_name(size_t alternative, char name[CLI_LAYOUT_NAME])
 {

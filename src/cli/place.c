@@ -22,14 +22,29 @@ static const sp_evaluator *own_evaluator(const cli_scene *opened, const placemen
     return evaluator_of(opened, found->proposals[found->best]);
 }
 
+/* Whose candidates mend the shadows of the scene's own nozzles: what is proposed, or where its search had no time left
+ * for that another alternative that counts on the same. */
+static const sp_proposal *mender_of_own(const cli_scene *opened, const placement *found)
+{
+    const sp_proposal *mender = found->proposals[found->best];
+    for (size_t i = 0; i < found->count && mender->own_remedy_count == 0; i++)
+        if (evaluator_of(opened, found->proposals[i]) == own_evaluator(opened, found))
+            mender = found->proposals[i];
+    return mender;
+}
+
 /* `designs` has room for two more than there are proposals. */
 static size_t list_designs(const cli_scene *opened, const placement *found, sp_design *designs)
 {
     size_t count = 0;
     bool alternatives = sp_scene_alternative_count(opened->scene) > 0;
-    if (found->manual)
-        designs[count++] =
+    if (found->manual) {
+        const sp_proposal *mender = mender_of_own(opened, found);
+        designs[count] =
             cli_design(opened, "manual", own_evaluator(opened, found), sp_scene_layout(opened->scene), found->manual);
+        designs[count].remedies = mender->own_remedies;
+        designs[count++].remedy_count = mender->own_remedy_count;
+    }
     for (size_t i = 0; i < found->count; i++) {
         const sp_proposal *proposal = found->proposals[i];
         const sp_evaluator *evaluator = evaluator_of(opened, proposal);

@@ -47,6 +47,11 @@ static bool is_on(const sp_live *live, size_t index)
     return ((const double *)live->arrays[SP_LIVE_NOZZLES])[(index + 1) * SP_LIVE_NOZZLE_NUMBERS - 1] != 0;
 }
 
+bool sp_live_nozzle_on(sp_live *live, size_t index, sp_nozzle *nozzle)
+{
+    return index < handed_over(live) && is_on(live, index) && read_nozzle(live, index, nozzle);
+}
+
 static void add_patch(const sp_live *live, const sp_deposits *alone, sp_deposits *all, size_t i)
 {
     bool single = sp_evaluator_setup(live->evaluator)->criterion.combine == SP_COMBINE_SINGLE;
@@ -173,6 +178,8 @@ const void *sp_live_tell(sp_live *live, sp_live_result what)
         return live->shadow_of;
     case SP_LIVE_BOXES:
         return live->boxes;
+    case SP_LIVE_LEGS:
+        return live->legs;
     }
     return NULL;
 }

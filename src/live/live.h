@@ -68,7 +68,9 @@ typedef enum {
     SP_LIVE_SHADOW_LIST,     /* double [shadows][SP_LIVE_SHADOW_NUMBERS]: area, place, part, lack */
     SP_LIVE_SHADOW_OF,       /* uint32_t [patches], as sp_shadow_numbers */
     SP_LIVE_BOXES,           /* double [sp_live_boxes][6], as sp_tracer_leaves */
+    SP_LIVE_LEGS,            /* double [sp_live_fly][SP_LIVE_LEG_NUMBERS]: from, to, rise and bounce of sp_path_leg */
 } sp_live_result;
+#define SP_LIVE_LEG_NUMBERS 8
 #define SP_LIVE_SHADOW_NUMBERS 6
 #define SP_LIVE_SHADOWS 10 /* the largest are told */
 
@@ -105,6 +107,9 @@ bool SP_LIVE(sp_live_admits)(sp_live *live, size_t index);
 const double *SP_LIVE(sp_live_foot)(sp_live *live, uint32_t part, double x, double y, double z);
 /* Finds the boxes of the accelerator's leaves; how many there are, 0 where memory runs out. */
 size_t SP_LIVE(sp_live_boxes)(sp_live *live);
+/* Flies a few jets of nozzle `index` of those handed over, as sp_paths_fly; how many legs they have, 0 where it is off
+ * or memory runs out. */
+size_t SP_LIVE(sp_live_fly)(sp_live *live, size_t index);
 const void *SP_LIVE(sp_live_tell)(sp_live *live, sp_live_result what);
 /* What nozzle `index` brings by itself to each patch, m/s. NULL while it is off or new. */
 const double *SP_LIVE(sp_live_alone)(sp_live *live, size_t index);

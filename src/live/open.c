@@ -26,6 +26,7 @@ void sp_live_destroy(sp_live *live)
     sp_coverage_destroy(live->coverage);
     free(live->shadow_of);
     free(live->boxes);
+    free(live->legs);
     sp_live_free_sample(&live->sample);
     sp_evaluator_destroy(live->evaluator);
     sp_live_free_types(live);

@@ -39,8 +39,9 @@ struct sp_live {
     sp_coverage *coverage;
     double figures[SP_LIVE_FIGURE_COUNT];
     double shadow_list[SP_LIVE_SHADOWS][SP_LIVE_SHADOW_NUMBERS];
-    uint32_t *shadow_of; /* [patches] */
-    double (*boxes)[6];  /* of the accelerator's leaves; NULL: nobody asked */
+    uint32_t *shadow_of;                 /* [patches] */
+    double (*boxes)[6];                  /* of the accelerator's leaves; NULL: nobody asked */
+    double (*legs)[SP_LIVE_LEG_NUMBERS]; /* of the jets flown last */
     double foot[6];
     sp_error error;
     char text[1400];
@@ -49,6 +50,8 @@ struct sp_live {
 /* types.c: from what was handed over. */
 bool sp_live_make_types(sp_live *live);
 void sp_live_free_types(sp_live *live);
+/* evaluate.c: nozzle `index` of those handed over; false where it is off, or none. */
+bool sp_live_nozzle_on(sp_live *live, size_t index, sp_nozzle *nozzle);
 /* sample.c: as sp_live_evaluate says. */
 bool sp_live_take_sample(sp_live *live, unsigned stride);
 void sp_live_free_sample(sp_live_sample *sample);

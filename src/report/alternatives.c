@@ -155,13 +155,20 @@ static void add_at_its_coverage(const sp_page *page, sp_text *text, size_t desig
     sp_text_add(text, "</span>");
 }
 
+static void add_sheet_link(const sp_page *page, sp_text *text, size_t design)
+{
+    sp_text_add(text, "<a href=\"#");
+    sp_page_sheet_id(page, text, design);
+    sp_text_add(text, "\">sheet</a>");
+}
+
 static void add_row(const sp_page *page, sp_text *text, const char *title, add_cell *cell)
 {
     sp_text_add(text, "<tr><th scope=\"row\">%s</th>", title);
     for (size_t i = 0; i < page->result->design_count; ++i) {
         if (!is_alternative(page, i))
             continue;
-        sp_text_add(text, "<td style=\"font-weight:%d\">", i == page->main ? 600 : 400);
+        sp_text_add(text, "<td%s style=\"font-weight:%d\">", sp_page_column(page, i), i == page->main ? 600 : 400);
         cell(page, text, i);
         sp_text_add(text, "</td>");
     }
@@ -187,7 +194,7 @@ static void add_table(const sp_page *page, sp_text *text)
     for (size_t i = 0; i < page->result->design_count; ++i) {
         if (!is_alternative(page, i))
             continue;
-        sp_text_add(text, "<th scope=\"col\">");
+        sp_text_add(text, "<th scope=\"col\"%s>", sp_page_column(page, i));
         sp_page_name(page, text, i);
         sp_text_add(text, "</th>");
     }
@@ -209,6 +216,7 @@ static void add_table(const sp_page *page, sp_text *text)
                      ", the most found", add_at_its_price);
     add_row_of_first(page, text, "To cover as much as",
                      page->costly ? ", the lowest price found" : ", the least water found", add_at_its_coverage);
+    add_row(page, text, "What to weld and order", add_sheet_link);
     sp_text_add(text, "</tbody></table></div>\n");
 }
 

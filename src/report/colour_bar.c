@@ -7,6 +7,7 @@
 #define LEFT 10.0
 #define LENGTH 400.0 /* of the bar, in the drawing's units */
 #define MOST_TICKS 8
+#define WIDE_RATIO 200.0 /* of a scale by ratios: beyond, whole decades alone have ticks */
 
 static void add_hatch(sp_text *text)
 {
@@ -44,8 +45,9 @@ static void add_tick(const sp_colour_scale *scale, sp_text *text, double value)
 static void add_ratio_ticks(const sp_colour_scale *scale, sp_text *text, double low, double high)
 {
     const double steps[] = {1, 2, 5};
+    int each = high / low > WIDE_RATIO ? 1 : 3;
     for (int power = (int)floor(log10(low)) - 1; power <= (int)ceil(log10(high)); ++power)
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < each; ++k) {
             double value = steps[k] * pow(10, power);
             if (value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9))
                 add_tick(scale, text, value);

@@ -34,7 +34,7 @@ static void add_row(const sp_page *page, sp_text *text, columns shown, const cha
 {
     sp_text_add(text, "<tr><th scope=\"row\">%s <span class=\"unit\">(%s)</span></th>", title, unit);
     for (size_t i = shown.first; i < shown.end; ++i) {
-        sp_text_add(text, "<td%s>", sp_page_aside(page, i));
+        sp_text_add(text, "<td%s>", sp_page_column(page, i));
         if (page->figures[i].film.known)
             sp_markup_decimals(text, value(&page->figures[i]), decimals);
         sp_text_add(text, "</td>");

@@ -66,11 +66,13 @@ static const char *const style[] = {
     "footer{margin-top:44px;padding-top:12px;border-top:1px solid var(--line);color:var(--soft);font-size:14px}\n"
     ".digest,code{overflow-wrap:anywhere;font-family:ui-monospace,\"DejaVu Sans Mono\",monospace;font-size:.92em}\n",
     "@media (max-width:640px){.of2,.of3{grid-template-columns:1fr}dl{grid-template-columns:1fr}}\n"
-    /* The column that decides stays: the one before refinement goes, and what is measured stands still. */
+    /* The column that decides stays in sight: the one before refinement goes, and what is measured stands still. */
     "@media screen and (max-width:640px){main{padding:0 12px 30px}body{font-size:15px}.aside{display:none}"
     "th,td{padding:5px 6px}.numbers{font-size:14px}"
-    ".wide :not(.sub)>th:first-child{position:sticky;left:0;background:var(--paper)}}\n",
-    "@page{size:A4;margin:16mm 14mm 18mm;@bottom-right{content:counter(page) \" / \" counter(pages);"
+    ".wide :not(.sub)>th:first-child{position:sticky;left:0;background:var(--paper);z-index:1}"
+    ".decided{position:sticky;right:0;background:var(--paper);box-shadow:-1px 0 var(--line)}}\n",
+    "@media screen{.again{display:none}}\n@page{size:A4;margin:16mm 14mm 18mm;@bottom-right{content:counter(page) \" / "
+    "\" counter(pages);"
     "font:9pt system-ui,\"DejaVu Sans\",Arial,sans-serif;color:#55636f}}\n"
     "@media "
     "print{body{font-size:11pt;-webkit-print-color-adjust:exact;print-color-adjust:exact}main{max-width:none;padding:0}"
@@ -80,9 +82,12 @@ static const char *const style[] = {
     ".value{font-size:14pt}.card .unit{font-size:8.5pt}"
     "figure,.card,.wide,tr,dl>div,.chart,.block{break-inside:avoid}thead{display:table-header-group}"
     "h2,h3,caption{break-after:avoid}a{color:inherit;text-decoration:none}"
-    /* The sheet goes to the workshop by itself. */
-    "#sheet{break-before:page;break-after:page}.alone{display:none}"
-    "main:has(#sheet:target)>:not(header,#sheet,footer){display:none}#sheet:target{break-before:auto;break-after:auto}"
+    /* Each sheet goes to the workshop by itself. */
+    ".sheet:not(:target){break-before:page;break-after:page}.alone{display:none}"
+    "main:has(.sheet:target)>:not(header,.sheet:target,footer),"
+    /* the heading tells of the main layout, and of a comparison all of the head of its first */
+    "main:has(.sheet:not(#sheet):target) h1,main:not(:has(#sheet)):has(.sheet:target) header{display:none}"
+    ".sheet:target h2,main:has(.sheet:target) footer{margin-top:16px}"
     "}\n</style>\n",
 };
 
@@ -116,6 +121,11 @@ const char *sp_page_aside(const sp_page *page, size_t design)
     return design == page->greedy ? " class=\"aside\"" : "";
 }
 
+const char *sp_page_column(const sp_page *page, size_t design)
+{
+    return design == page->main && page->result->design_count > 1 ? " class=\"decided\"" : sp_page_aside(page, design);
+}
+
 void sp_page_narrow_name(const sp_page *page, sp_text *text, size_t design)
 {
     sp_text name = {0};
@@ -136,7 +146,7 @@ size_t sp_page_fold(const sp_page *page, size_t first)
 void sp_page_columns(const sp_page *page, sp_text *text, size_t first, size_t end)
 {
     for (size_t i = first; i < end; ++i) {
-        sp_text_add(text, "<th scope=\"col\"%s>", sp_page_aside(page, i));
+        sp_text_add(text, "<th scope=\"col\"%s>", sp_page_column(page, i));
         sp_page_narrow_name(page, text, i);
         sp_text_add(text, "</th>");
     }
@@ -247,7 +257,7 @@ static bool add_page(sp_page *page, sp_text *text, const char *scene, sp_error *
     if (!sp_page_viewer(page, text, error) || !sp_page_pictures(page, text, error))
         return false;
     sp_page_nozzles(page, text);
-    if (!sp_page_sheet(page, text, error))
+    if (!sp_page_sheets(page, text, error))
         return false;
     sp_page_contributions(page, text);
     sp_page_shadows(page, text);

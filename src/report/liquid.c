@@ -26,7 +26,7 @@ static void add_row(const sp_page *page, sp_text *text, size_t first, size_t end
     sp_text_add(text, "<tr><th scope=\"row\">%s</th>", title);
     for (size_t i = first; i < end; ++i) {
         const sp_figures *figures = &page->figures[i];
-        sp_text_add(text, "<td%s>", sp_page_aside(page, i));
+        sp_text_add(text, "<td%s>", sp_page_column(page, i));
         sp_markup_decimals(text, 6e4 * value(figures), 1);
         if (isfinite(value(figures)) && figures->flow > 0) {
             sp_text_add(text, " <span class=\"unit\">(");

@@ -31,10 +31,12 @@ void sp_page_head(sp_text *text, const char *title, const char *scene, bool live
 void sp_page_plain_name(const sp_page *page, sp_text *text, size_t design);
 /* The same, escaped. */
 void sp_page_name(const sp_page *page, sp_text *text, size_t design);
-/* html.c: what its cells have of attributes: narrow screens leave a layout before refinement out. */
-const char *sp_page_aside(const sp_page *page, size_t design);
 /* The same for a narrow column: paths may break after each folder. */
 void sp_page_narrow_name(const sp_page *page, sp_text *text, size_t design);
+/* html.c: what its cells have of attributes: narrow screens leave a layout before refinement out. */
+const char *sp_page_aside(const sp_page *page, size_t design);
+/* The same of tables with one column for each design: the main one's stays in sight where the table scrolls. */
+const char *sp_page_column(const sp_page *page, size_t design);
 /* html.c: the end of the designs that, from `first` on, have columns in one table: all of few, else some, so that the
  * next table goes on with it. */
 size_t sp_page_fold(const sp_page *page, size_t first);
@@ -108,8 +110,10 @@ void sp_page_shadows(const sp_page *page, sp_text *text);
 void sp_page_stages(const sp_page *page, sp_text *text);
 /* spread.c: how liquid leaves the nozzles of the designs on an evaluator, within a sentence. */
 void sp_page_spread(sp_text *text, const sp_result *result, const sp_evaluator *evaluator);
-/* sheet.c: what to weld, set and order of the main design; nothing where it has no evaluator. */
-bool sp_page_sheet(const sp_page *page, sp_text *text, sp_error *error);
+/* sheet.c: what to weld, set and order of each design that may be built, the main one first. */
+bool sp_page_sheets(const sp_page *page, sp_text *text, sp_error *error);
+/* The id of a design's sheet. */
+void sp_page_sheet_id(const sp_page *page, sp_text *text, size_t design);
 /* swabs.c: the worst places of the main design; nothing where it has no evaluator. */
 bool sp_page_swabs(const sp_page *page, sp_text *text, sp_error *error);
 /* inputs.c: the files that were read, where they are told; version, date and command. */

@@ -1,7 +1,42 @@
 /* What to weld, set and order. */
+#include "sheet.h"
+
 #include "page.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+/* What was found before refinement cannot all be set, and nobody is to build it. */
+static bool has_sheet(const sp_result *result, const sp_design *design)
+{
+    bool greedy = strcmp(result->command, "place") == 0 && !design->alternative && strcmp(design->name, "greedy") == 0;
+    return design->evaluator && !greedy;
+}
+
+sp_fitting_sheet **sp_fitting_sheets_of(const sp_result *result, sp_error *error)
+{
+    sp_fitting_sheet **sheets = calloc(result->design_count + 1, sizeof(sp_fitting_sheet *));
+    bool done = sheets || sp_fail_memory(error);
+    for (size_t i = 0; done && i < result->design_count; ++i) {
+        const sp_design *design = &result->designs[i];
+        if (!has_sheet(result, design))
+            continue;
+        sheets[i] = sp_fitting_sheet_create(design->layout, sp_evaluator_setup(design->evaluator), design->mounts,
+                                            design->mount_count, error);
+        done = sheets[i] != NULL;
+    }
+    if (done)
+        return sheets;
+    sp_fitting_sheets_destroy(sheets, result->design_count);
+    return NULL;
+}
+
+void sp_fitting_sheets_destroy(sp_fitting_sheet **sheets, size_t count)
+{
+    for (size_t i = 0; sheets && i < count; ++i)
+        sp_fitting_sheet_destroy(sheets[i]);
+    free(sheets);
+}
 
 static void add_head(sp_text *text, const char *name)
 {
@@ -91,11 +126,11 @@ static void add_places_head(sp_text *text, bool round, bool turns)
     sp_text_add(text, "</tr></thead>\n");
 }
 
-static void add_places(const sp_page *page, sp_text *text, const sp_fitting_sheet *sheet)
+static void add_places(const sp_page *page, sp_text *text, size_t design, const sp_fitting_sheet *sheet)
 {
     bool turns = any_turns(sheet);
     sp_text_add(text, "<div class=\"wide\"><table class=\"numbers small\"><caption>");
-    sp_page_name(page, text, page->main);
+    sp_page_name(page, text, design);
     sp_text_add(text, ": where to drill, weld and point</caption>\n");
     add_places_head(text, sheet->round, turns);
     sp_text_add(text, "<tbody>\n");
@@ -221,11 +256,17 @@ static void add_direction(sp_text *text, sp_vec3 v)
     add_vector(text, v);
 }
 
-static void add_datum(sp_text *text, const sp_datum *datum, bool round)
+/* On the screen what is the same of all sheets stands in the first alone. */
+static const char *manner(const sp_page *page, size_t design)
+{
+    return page->main == SP_UNKNOWN || design == page->main ? "" : " again";
+}
+
+static void add_datum(sp_text *text, const sp_datum *datum, bool round, const char *classes)
 {
     char *name = sp_text_utf8(datum->name[0] ? datum->name : "the geometry's own axes");
     text->failed |= !name;
-    sp_text_add(text, "<p>Measured from ");
+    sp_text_add(text, "<p class=\"datum%s\">Measured from ", classes);
     sp_markup_escape(text, name ? name : "");
     free(name);
     sp_text_add(text, ": heights along ");
@@ -238,30 +279,100 @@ static void add_datum(sp_text *text, const sp_datum *datum, bool round)
                 round ? "" : "; x lies along azimuth 0 and y along azimuth 90");
 }
 
-bool sp_page_sheet(const sp_page *page, sp_text *text, sp_error *error)
+static void add_note(sp_text *text, bool turns, const char *classes)
 {
-    const sp_design *design = page->main == SP_UNKNOWN ? NULL : &page->result->designs[page->main];
-    if (!design || !design->evaluator)
-        return true;
-    sp_fitting_sheet *sheet = sp_fitting_sheet_create(design->layout, sp_evaluator_setup(design->evaluator),
-                                                      design->mounts, design->mount_count, error);
-    if (!sheet)
-        return false;
-    sp_text_add(text, "<section id=\"sheet\"><h2>Sheet</h2>\n");
-    add_datum(text, &sheet->setup->datum, sheet->round);
-    add_places(page, text, sheet);
-    add_orders(text, sheet);
-    add_circuits(text, sheet);
     sp_text_add(text,
-                "<p class=\"note\">A fitting&#39;s place is the port&#39;s mouth, or the point of the wall where to "
+                "<p class=\"note%s\">A fitting&#39;s place is the port&#39;s mouth, or the point of the wall where to "
                 "weld; the nozzle reaches in from there, along the port or square to the wall, to its tip, where the "
                 "liquid leaves. It points tilted from straight down, against the datum&#39;s axis, towards that "
-                "azimuth. %sA circuit feeds the nozzles of one pressure. The same is in nozzles.csv.</p><p "
-                "class=\"note alone\"><a "
-                "href=\"#sheet\">Printed from here</a> the sheet comes alone.</p></section>\n",
-                any_turns(sheet) ? "Turned from the level line that points 90&deg; on from there, clockwise seen along "
-                                   "the spray, lies the width of a fan, or a body&#39;s own x. "
-                                 : "");
-    sp_fitting_sheet_destroy(sheet);
+                "azimuth. %sA circuit feeds the nozzles of one pressure.</p>",
+                classes,
+                turns ? "Turned from the level line that points 90&deg; on from there, clockwise seen along "
+                        "the spray, lies the width of a fan, or a body&#39;s own x. "
+                      : "");
+}
+
+static void add_file(const sp_page *page, sp_text *text, size_t design, bool several)
+{
+    if (design == page->main && strcmp(page->result->command, "compare") != 0) {
+        sp_text_add(text, "The same is in nozzles.csv%s.", several ? ", of all layouts in " SP_ALL_NOZZLES : "");
+        return;
+    }
+    sp_text_add(text, "The same is in " SP_ALL_NOZZLES ", as ");
+    sp_markup_escape(text, page->figures[design].name);
+    sp_text_add(text, ".");
+}
+
+static void add_link(const sp_page *page, sp_text *text, size_t design)
+{
+    sp_text_add(text, "<a href=\"#");
+    sp_page_sheet_id(page, text, design);
+    sp_text_add(text, "\">");
+    sp_page_name(page, text, design);
+    sp_text_add(text, "</a>");
+}
+
+/* Where else the sheet is, and where those of others are. */
+static void add_whereabouts(const sp_page *page, sp_text *text, sp_fitting_sheet *const *sheets, size_t design)
+{
+    const sp_result *result = page->result;
+    size_t told = 0, several = 0;
+    for (size_t i = 0; i < result->design_count; ++i)
+        several += sheets[i] != NULL;
+    sp_text_add(text, "<p class=\"note\">");
+    add_file(page, text, design, several > 1);
+    sp_text_add(text, "<span class=\"alone\"> <a href=\"#");
+    sp_page_sheet_id(page, text, design);
+    sp_text_add(text, "\">Printed from here</a> the sheet comes alone.");
+    for (size_t i = 0; i < result->design_count; ++i) {
+        if (i == design || !sheets[i])
+            continue;
+        sp_text_add(text, told++ ? ", " : " Sheets of the others: ");
+        add_link(page, text, i);
+    }
+    sp_text_add(text, "%s</span></p>", told ? "." : "");
+}
+
+static void add_sheet(const sp_page *page, sp_text *text, sp_fitting_sheet *const *sheets, size_t design, bool turns)
+{
+    const sp_fitting_sheet *sheet = sheets[design];
+    const char *classes = manner(page, design);
+    sp_text_add(text, "<section id=\"");
+    sp_page_sheet_id(page, text, design);
+    sp_text_add(text, "\" class=\"sheet\"><h2>Sheet");
+    if (design != page->main) {
+        sp_text_add(text, ": ");
+        sp_page_narrow_name(page, text, design);
+    }
+    sp_text_add(text, "</h2>\n");
+    add_datum(text, &sheet->setup->datum, sheet->round, classes);
+    add_places(page, text, design, sheet);
+    add_orders(text, sheet);
+    add_circuits(text, sheet);
+    add_note(text, turns, classes);
+    add_whereabouts(page, text, sheets, design);
+    sp_text_add(text, "</section>\n");
+}
+
+void sp_page_sheet_id(const sp_page *page, sp_text *text, size_t design)
+{
+    sp_text_add(text, design == page->main ? "sheet" : "sheet-%zu", design + 1);
+}
+
+bool sp_page_sheets(const sp_page *page, sp_text *text, sp_error *error)
+{
+    size_t count = page->result->design_count;
+    sp_fitting_sheet **sheets = sp_fitting_sheets_of(page->result, error);
+    bool turns = false;
+    if (!sheets)
+        return false;
+    for (size_t i = 0; i < count; ++i)
+        turns |= sheets[i] && any_turns(sheets[i]);
+    if (page->main != SP_UNKNOWN && sheets[page->main])
+        add_sheet(page, text, sheets, page->main, turns);
+    for (size_t i = 0; i < count; ++i)
+        if (i != page->main && sheets[i])
+            add_sheet(page, text, sheets, i, turns);
+    sp_fitting_sheets_destroy(sheets, count);
     return true;
 }

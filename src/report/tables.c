@@ -115,7 +115,7 @@ static const row rows[] = {
 static void add_value(const sp_page *page, sp_text *text, const row *r, size_t design)
 {
     const sp_figures *figures = &page->figures[design];
-    sp_text_add(text, "<td%s>", sp_page_aside(page, design));
+    sp_text_add(text, "<td%s>", sp_page_column(page, design));
     if (r->decimal)
         sp_markup_decimals(text, r->value(figures), r->digits);
     else
@@ -356,8 +356,8 @@ void sp_page_shadows(const sp_page *page, sp_text *text)
                 "nozzle that by itself brings the region most liquid, and is nearest to mending it. A region that is "
                 "not attainable is out of reach of every "
                 "allowed nozzle: a matter of the vessel, not of the layout. One more nozzle: of "
-                "the candidates looked at the one that, beside a "
-                "proposal's own, covers most of the region, how much of it and for how much water, whatever number and "
+                "the candidates looked at the one that, beside the "
+                "layout's own, covers most of the region, how much of it and for how much water, whatever number and "
                 "water are allowed. All that result.json lists are in "
                 "that file.</p>\n");
     for (size_t i = 0; i < page->result->design_count; ++i)

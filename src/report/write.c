@@ -1,5 +1,6 @@
 /* Everything that a command leaves in a folder. */
 #include "scaled_files.h"
+#include "sheet.h"
 
 #include <sprayplan/report.h>
 
@@ -73,13 +74,28 @@ static const sp_design *main_design(const sp_result *result)
     return NULL;
 }
 
-static char *nozzles_csv(const sp_design *design, sp_error *error)
+/* Of the main design; where more than one may be built, of all of these as well. */
+static bool write_sheets(const sp_result *result, const sp_design *main, sp_output *output, sp_error *error)
 {
-    sp_fitting_sheet *sheet = sp_fitting_sheet_create(design->layout, sp_evaluator_setup(design->evaluator),
-                                                      design->mounts, design->mount_count, error);
-    char *text = sheet ? sp_nozzles_csv(sheet, error) : NULL;
-    sp_fitting_sheet_destroy(sheet);
-    return text;
+    size_t count = 0;
+    const char **names = malloc((result->design_count + 1) * sizeof *names);
+    const sp_fitting_sheet **told = malloc((result->design_count + 1) * sizeof(sp_fitting_sheet *));
+    sp_fitting_sheet **sheets = names && told ? sp_fitting_sheets_of(result, error) : sp_fail_memory(error);
+    bool done = sheets != NULL;
+    for (size_t i = 0; done && i < result->design_count; ++i) {
+        if (!sheets[i])
+            continue;
+        names[count] = result->designs[i].name;
+        told[count++] = sheets[i];
+        if (main == &result->designs[i])
+            done = write_text(output, "nozzles.csv", sp_nozzles_csv(sheets[i], error), error);
+    }
+    if (done && count > (main != NULL))
+        done = write_text(output, SP_ALL_NOZZLES, sp_all_nozzles_csv(told, names, count, error), error);
+    sp_fitting_sheets_destroy(sheets, result->design_count);
+    free(told);
+    free(names);
+    return done;
 }
 
 static bool write_designs(const sp_result *result, const sp_design *main, sp_output *output, sp_error *error)
@@ -96,14 +112,14 @@ static bool write_designs(const sp_result *result, const sp_design *main, sp_out
     }
     if (!main || !main->evaluator)
         return true;
-    return write_text(output, "nozzles.csv", nozzles_csv(main, error), error) &&
-           write_text(output, "swabs.csv", sp_swabs_csv(main, error), error) && write_main(main, output, error);
+    return write_text(output, "swabs.csv", sp_swabs_csv(main, error), error) && write_main(main, output, error);
 }
 
 bool sp_report_write(const sp_result *result, sp_output *output, sp_error *error)
 {
     bool compared = strcmp(result->command, "compare") == 0;
+    const sp_design *main = compared ? NULL : main_design(result);
     return write_text(output, "result.json", sp_result_json(result, error), error) &&
-           (compared || write_designs(result, main_design(result), output, error)) &&
+           (compared || write_designs(result, main, output, error)) && write_sheets(result, main, output, error) &&
            write_text(output, "report.html", sp_report_html(result, error), error);
 }

@@ -119,22 +119,48 @@ static void add_sheet_row(sp_text *text, const sp_fitting_sheet *sheet, const sp
     sp_text_append(text, "\n", 1);
 }
 
-char *sp_nozzles_csv(const sp_fitting_sheet *sheet, sp_error *error)
+/* The layout's name goes in front of each row, but of one without a name. */
+static void add_sheet(sp_text *text, const sp_fitting_sheet *sheet, const char *layout, const column_units *units)
+{
+    for (size_t i = 0; i < sheet->count; ++i) {
+        if (layout) {
+            add_field(text, layout);
+            sp_text_append(text, ",", 1);
+        }
+        add_sheet_row(text, sheet, &sheet->rows[i], units);
+    }
+}
+
+/* `layouts` NULL: of one sheet, without a column for them. */
+static char *sheets_csv(const sp_fitting_sheet *const *sheets, const char *const *layouts, size_t count,
+                        sp_error *error)
 {
     column_units units;
     sp_locale locale;
     sp_text text = {0};
     if (!find_units(&units, error) || !sp_locale_enter(&locale, error))
         return NULL;
+    sp_text_add(&text, "%s", layouts ? "layout," : "");
     sp_text_add(&text,
                 "name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s,"
                 "order_code,url,thread,insert,mounting,fitting,depth_mm,standoff_mm,fitting_x_mm,fitting_y_mm,"
                 "fitting_height_mm,fitting_radius_mm,fitting_azimuth_deg,tip_x_mm,tip_y_mm,tip_height_mm,"
                 "tip_radius_mm,tip_azimuth_deg,tilt_deg,towards_deg,turn_deg,circuit,circuit_l_min\n");
-    for (size_t i = 0; i < sheet->count; ++i)
-        add_sheet_row(&text, sheet, &sheet->rows[i], &units);
+    for (size_t i = 0; i < count; ++i)
+        add_sheet(&text, sheets[i], layouts ? layouts[i] : NULL, &units);
     sp_locale_leave(&locale);
     return sp_text_finish(&text, error);
+}
+
+char *sp_nozzles_csv(const sp_fitting_sheet *sheet, sp_error *error)
+{
+    return sheets_csv(&sheet, NULL, 1, error);
+}
+
+char *sp_all_nozzles_csv(const sp_fitting_sheet *const *sheets, const char *const *layouts, size_t count,
+                         sp_error *error)
+{
+    return sheets_csv(sheets, layouts, count, error);
 }
 
 char *sp_swabs_csv(const sp_design *design, sp_error *error)

@@ -92,11 +92,25 @@ static void a_page_of_several_textures_looks_the_same(void **state)
     assert_true(json_equal(json_object_get(found[0], "quantities"), json_object_get(found[1], "quantities")));
 }
 
+/* A page that evaluates nothing has them with it. */
+static void boxes_come_and_go(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    const json_t *boxes = json_object_get(json_object_get(found[0], "layers"), "Boxes");
+    const json_t *on = json_object_get(boxes, "on"), *off = json_object_get(boxes, "off");
+    assert_non_null(strstr(json_string_value(json_object_get(on, "said")), "Boxes: the leaves"));
+    assert_false(json_equal(json_object_get(on, "seen"), json_object_get(off, "seen")));
+    assert_true(json_equal(json_object_get(off, "seen"), json_object_get(found[0], "first")));
+    assert_true(json_equal(json_object_get(json_object_get(boxes, "byKey"), "seen"), json_object_get(on, "seen")));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_click_tells_what_is_there),
         cmocka_unit_test(a_page_of_several_textures_looks_the_same),
+        cmocka_unit_test(boxes_come_and_go),
     };
     return cmocka_run_group_tests(tests, open_twice, close_both);
 }

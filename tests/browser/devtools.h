@@ -127,6 +127,22 @@ static inline json_t *devtools_evaluate(devtools *d, const char *expression)
     return value;
 }
 
+/* Until a page, which may still be on its way, has a script's global of that name. */
+static inline void devtools_wait(devtools *d, const char *global)
+{
+    char expression[200];
+    snprintf(expression, sizeof expression, "typeof %s !== 'undefined'", global);
+    for (int i = 0; i < 600; i++) {
+        json_t *there = devtools_evaluate(d, expression);
+        bool ready = json_is_true(there);
+        json_decref(there);
+        if (ready)
+            return;
+        nanosleep(&(struct timespec){.tv_nsec = 50000000}, NULL);
+    }
+    fail_msg("no %s in the page", global);
+}
+
 /* By the mouse: pressed at one place, moved to the other in steps, let go; CSS pixels of the window. */
 static inline void devtools_drag(devtools *d, const double from[2], const double to[2])
 {

@@ -38,14 +38,7 @@ static int open_the_page(void **state)
         return 0;
     write_page_with_reader("rails/report.html", "", "drag.js");
     devtools_open(&page, "read.html");
-    for (int i = 0; i < 600; i++) { /* the page may still be on its way */
-        json_t *there = devtools_evaluate(&page, "typeof dragged === 'object'");
-        bool ready = json_is_true(there);
-        json_decref(there);
-        if (ready)
-            break;
-        nanosleep(&(struct timespec){.tv_nsec = 50000000}, NULL);
-    }
+    devtools_wait(&page, "dragged");
     json_t *ready = devtools_evaluate(&page, "dragged.start()");
     int status = strcmp(json_string_value(ready), "true") == 0 ? 0 : -1;
     json_decref(ready);

@@ -149,6 +149,15 @@ static void boxes_come_and_go(void **state)
     assert_non_null(strstr(json_string_value(json_object_get(found, "said")), "Boxes"));
 }
 
+static void the_changed_layout_has_jets(void **state)
+{
+    (void)state;
+    skip_without_module();
+    const json_t *jets = json_object_get(found, "jets");
+    assert_int_equal(json_array_size(jets), 2);
+    assert_false(json_equal(json_array_get(jets, 0), json_array_get(jets, 1)));
+}
+
 /* A layout without nozzles is evaluated, and is no scene. */
 static void without_nozzles_nothing_is_saved(void **state)
 {
@@ -216,6 +225,7 @@ int main(void)
         cmocka_unit_test(undo_brings_back_what_was),
         cmocka_unit_test(it_says_what_comes_of_it),
         cmocka_unit_test(boxes_come_and_go),
+        cmocka_unit_test(the_changed_layout_has_jets),
         cmocka_unit_test(without_nozzles_nothing_is_saved),
         cmocka_unit_test(without_webassembly_it_is_a_viewer),
         cmocka_unit_test(without_it_the_page_is_smaller),

@@ -48,8 +48,9 @@
         gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
         return pixels.reduce((sum, byte) => (sum * 31 + byte) % 2147483647, 0);
     }
-    const boxes = () => [...document.querySelectorAll("#viewer .switches label")]
-        .find((label) => label.textContent.includes("Boxes")).querySelector("input");
+    const switchOf = (name) => [...document.querySelectorAll("#viewer .switches label")]
+        .find((label) => label.textContent.includes(name)).querySelector("input");
+    const boxes = () => switchOf("Boxes");
 
     if (live().dataset.ready) {
         found.boxes = [look()];
@@ -74,7 +75,12 @@
         await step("placed", () => set("x, m", 0.31));
         found.reachable = [...live().querySelectorAll("button, input, select, textarea, summary")].every((one) =>
             one.tabIndex >= 0 && (one.textContent || one.ariaLabel || one.labels.length));
-        found.shown = document.querySelectorAll("#viewer .switches:first-child input:checked").length;
+        const shown = [...document.querySelectorAll("#viewer .switches:first-child input:checked")];
+        found.shown = shown.length;
+        shown.filter((box) => box !== switchOf("Yours")).forEach((box) => box.click());
+        found.jets = [look()];
+        switchOf("Jets").click();
+        found.jets.push(look());
     }
     found.requests = performance.getEntriesByType("resource").map((entry) => entry.name)
         .filter((name) => !name.startsWith("blob:"));

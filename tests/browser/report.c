@@ -90,16 +90,19 @@ static void it_prints_without_the_viewer(void **state)
     free(page);
 }
 
-/* One page, without pictures, where the rest takes several. */
-static void the_sheet_prints_alone(void **state)
+/* One page, without pictures, where the rest takes several; of the proposal, or of the manual layout. */
+static void each_sheet_prints_alone(void **state)
 {
     (void)state;
     skip_without_browser();
-    size_t size;
-    char *pdf = print_page("placed/report.html#sheet", &size);
-    assert_int_equal(found(pdf, size, "/Type /Page\n"), 1);
-    assert_int_equal(found(pdf, size, "/Subtype /Image"), 0);
-    free(pdf);
+    static const char *const sheets[] = {"placed/report.html#sheet", "placed/report.html#sheet-1"};
+    for (size_t i = 0; i < 2; i++) {
+        size_t size;
+        char *pdf = print_page(sheets[i], &size);
+        assert_int_equal(found(pdf, size, "/Type /Page\n"), 1);
+        assert_int_equal(found(pdf, size, "/Subtype /Image"), 0);
+        free(pdf);
+    }
 }
 
 int main(void)
@@ -108,7 +111,7 @@ int main(void)
         cmocka_unit_test(the_browser_finds_headings_tables_and_pictures),
         cmocka_unit_test(the_page_is_not_blank),
         cmocka_unit_test(it_prints_without_the_viewer),
-        cmocka_unit_test(the_sheet_prints_alone),
+        cmocka_unit_test(each_sheet_prints_alone),
     };
     return cmocka_run_group_tests(tests, place_once, close_workplace);
 }

@@ -173,7 +173,7 @@ static void the_page_has_every_alternative(void **state)
     char *page = read_file("out/report.html", NULL);
     assert_non_null(page);
     assert_int_equal(count_of(page, "<section id=\"alternatives\">"), 1);
-    assert_non_null(strstr(page, "<th scope=\"col\">free &amp; easy (proposed)</th>"));
+    assert_non_null(strstr(page, "<th scope=\"col\" class=\"decided\">free &amp; easy (proposed)</th>"));
     assert_null(strstr(page, "free & easy</"));
     assert_int_equal(count_of(page, "What each new fitting buys"), 1);
     assert_int_equal(count_of(page, "<path class=\"front\" style="), 3);
@@ -184,14 +184,99 @@ static void the_page_has_every_alternative(void **state)
     free(page);
 }
 
+/* The rest of a line behind the layout's name, for every line of that layout; without a name, of all but the first. */
+static void rows_of(const char *csv, const char *layout, char *rows)
+{
+    size_t length = layout ? strlen(layout) : 0;
+    *rows = 0;
+    for (const char *line = strchr(csv, '\n') + 1; *line; line = strchr(line, '\n') + 1)
+        if (!layout || (strncmp(line, layout, length) == 0 && line[length] == ','))
+            strncat(rows, line + length + (layout != NULL), strcspn(line, "\n") + 1 - length - (layout != NULL));
+}
+
+/* In the page and as CSV, the rows of each are those of the nozzles.csv of its own scene. */
+static void every_layout_has_its_sheet(void **state)
+{
+    (void)state;
+    static const char *const layouts[] = {"manual", "ports alone", "a weld at most", "free & easy"};
+    static const char *const scenes[] = {"room.yaml", "out/layout-1.yaml", "out/layout-2.yaml", "out/layout.yaml"};
+    static const char *const ids[] = {"sheet-1", "sheet-2", "sheet-3", "sheet"};
+    char *page = read_file("out/report.html", NULL), *csv = read_file("out/nozzles-all.csv", NULL);
+    assert_non_null(csv);
+    assert_int_equal(count_of(page, "class=\"sheet\""), 4);
+    for (size_t k = 0; k < 4; k++) {
+        char command[100], section[100], expected[8192], told[8192];
+        snprintf(command, sizeof command, "simulate %s -o alone --quiet", scenes[k]);
+        outcome done = run_program(command);
+        assert_int_equal(done.status, 0);
+        forget(&done);
+        char *own = read_file("alone/nozzles.csv", NULL);
+        rows_of(own, NULL, expected);
+        rows_of(csv, layouts[k], told);
+        assert_string_equal(told, expected);
+        assert_true(*told);
+        free(own);
+        snprintf(section, sizeof section, "<section id=\"%s\" class=\"sheet\">", ids[k]);
+        char *from = strstr(page, section), *to = from ? strstr(from, "</section>") : NULL;
+        assert_non_null(to);
+        *to = 0;
+        assert_int_equal(count_of(from, "where to drill, weld and point"), 1);
+        assert_int_equal(count_of(from, "<a href=\"#sheet"), 4);
+        *to = '<';
+        if (k > 0) {
+            snprintf(section, sizeof section, "<a href=\"#%s\">sheet</a>", ids[k]);
+            assert_int_equal(count_of(page, section), 1);
+        }
+    }
+    free(page);
+    free(csv);
+}
+
+/* Of what is compared, scenes have sheets, figures that were read have none. */
+static void so_has_what_is_compared(void **state)
+{
+    (void)state;
+    outcome done = run_program("compare out/result.json out/layout-2.yaml room.yaml -o compared --quiet");
+    assert_int_equal(done.status, 0);
+    forget(&done);
+    char *page = read_file("compared/report.html", NULL), *csv = read_file("compared/nozzles-all.csv", NULL);
+    char *all_rows = read_file("out/nozzles-all.csv", NULL), expected[8192], told[8192];
+    assert_int_equal(count_of(page, "class=\"sheet\""), 2);
+    rows_of(all_rows, "a weld at most", expected);
+    rows_of(csv, "out/layout-2.yaml", told);
+    assert_string_equal(told, expected);
+    rows_of(all_rows, "manual", expected);
+    rows_of(csv, "room.yaml", told);
+    assert_string_equal(told, expected);
+    free(all_rows);
+    free(page);
+    free(csv);
+    char *folder = list_folder("compared");
+    assert_string_equal(folder, "nozzles-all.csv\nreport.html\nresult.json\n");
+    free(folder);
+}
+
+/* The layout there is has them as well, of the places that the proposed alternative allows. */
+static void shadows_of_the_manual_layout_have_remedies(void **state)
+{
+    (void)state;
+    json_t *shadows = json_object_get(named(all, "layouts", "manual"), "shadows");
+    assert_true(json_array_size(shadows) > 0);
+    json_t *remedy = json_object_get(json_array_get(shadows, 0), "remedy");
+    assert_true(number(remedy, "covers_m2") > 0);
+    assert_string_equal(text_of(remedy, "type"), "cone");
+}
+
 static void scenes_hold_every_alternative(void **state)
 {
     (void)state;
     static const char *const files[] = {"layout-1.yaml", "layout-2.yaml", "layout.yaml"};
     char *folder = list_folder("out");
-    assert_string_equal(folder, "coverage-manual.png\ncoverage.png\ndeposits-manual.exr\ndeposits.exr\nlayout-1.yaml\n"
-                                "layout-2.yaml\nlayout.yaml\nmodel-manual.glb\nmodel.glb\nnozzles.csv\nnozzles.stl\n"
-                                "report.html\nresult.json\nsurface.vtp\nswabs.csv\ntexels.vtp\n");
+    assert_string_equal(folder,
+                        "coverage-manual.png\ncoverage.png\ndeposits-manual.exr\ndeposits.exr\nlayout-1.yaml\n"
+                        "layout-2.yaml\nlayout.yaml\nmodel-manual.glb\nmodel.glb\nnozzles-all.csv\nnozzles.csv\n"
+                        "nozzles.stl\n"
+                        "report.html\nresult.json\nsurface.vtp\nswabs.csv\ntexels.vtp\n");
     free(folder);
     for (size_t k = 0; k < 3; k++) {
         char command[100];
@@ -262,6 +347,9 @@ int main(void)
         cmocka_unit_test(none_may_reach_what_is_asked_for),
         cmocka_unit_test(the_page_has_every_alternative),
         cmocka_unit_test(scenes_hold_every_alternative),
+        cmocka_unit_test(every_layout_has_its_sheet),
+        cmocka_unit_test(so_has_what_is_compared),
+        cmocka_unit_test(shadows_of_the_manual_layout_have_remedies),
         cmocka_unit_test(what_is_read_is_not_replaced),
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(time_is_shared),

@@ -186,7 +186,7 @@ static void a_layout_has_one_coverage_wherever_it_is_read(void **state)
     assert_int_equal(result.status, 0);
     forget(&result);
     char percent[64], row[512];
-    snprintf(percent, sizeof percent, "<td>%.1f&nbsp;\xc2\xb1", 100 * coverage);
+    snprintf(percent, sizeof percent, ">%.1f&nbsp;\xc2\xb1", 100 * coverage);
     row_of("steep", "Coverage of the surface to be cleaned", row);
     assert_non_null(strstr(row, percent));
     row_of("both", "Coverage of the surface to be cleaned", row);

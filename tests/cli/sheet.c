@@ -93,7 +93,8 @@ static void what_is_placed_is_what_can_be_set(void **state)
 static void the_page_has_the_sheet(void **state)
 {
     (void)state;
-    char *page = read_file("again/report.html", NULL), *section = strstr(page, "<section id=\"sheet\">");
+    char *page = read_file("again/report.html", NULL),
+         *section = strstr(page, "<section id=\"sheet\" class=\"sheet\">");
     assert_non_null(section);
     *strstr(section, "</section>") = 0;
     static const char *const told[] = {"Measured from &lt;the lid&gt;: heights along z from (0.5, 0.5, 1)&nbsp;m",

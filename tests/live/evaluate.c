@@ -8,6 +8,7 @@
 
 #include "live/live.h"
 #include "live/numbers.h"
+#include "spray/paths.h"
 #include "spray/restore.h"
 #include "trace/visit.h"
 
@@ -326,6 +327,37 @@ static void boxes_are_those_of_the_tree(void **state)
     free(boxes);
 }
 
+/* Of a cone, and of both members of a cluster, each from its own place; of one that is off, or none, nothing. */
+static void jets_fly_as_the_report_s_do(void **state)
+{
+    (void)state;
+    hand_over_nozzles(true);
+    for (size_t n = 0; n < 2; n++) {
+        sp_error error = {0};
+        sp_paths paths;
+        sp_nozzle patterns[2];
+        assert_true(sp_paths_fly(evaluator, &nozzles[n], &paths, &error));
+        sp_nozzle_patterns(&nozzles[n], &sp_evaluator_setup(evaluator)->liquid, sp_evaluator_setup(evaluator)->up,
+                           patterns);
+        assert_true(paths.jet_count >= 30);
+        assert_int_equal(sp_live_fly(live, n), paths.leg_count);
+        const double(*legs)[SP_LIVE_LEG_NUMBERS] = sp_live_tell(live, SP_LIVE_LEGS);
+        for (size_t i = 0; i < paths.leg_count; i++) {
+            const sp_path_leg *leg = &paths.legs[i];
+            const sp_vec3 from = patterns[paths.pattern[leg->jet]].position;
+            const double expected[SP_LIVE_LEG_NUMBERS] = {from.x,     from.y,     from.z,    leg->end.x,
+                                                          leg->end.y, leg->end.z, leg->rise, leg->bounce};
+            for (size_t k = 0; k < SP_LIVE_LEG_NUMBERS; k++)
+                assert_float_equal(legs[i][k], expected[k], TOLERANCE);
+        }
+        sp_paths_free(&paths);
+    }
+    assert_int_equal(sp_live_fly(live, 2), 0);
+    hand_over_nozzles(false);
+    assert_int_equal(sp_live_fly(live, 1), 0);
+    hand_over_nozzles(true);
+}
+
 static void what_does_not_belong_together_is_refused(void **state)
 {
     (void)state;
@@ -351,7 +383,7 @@ int main(void)
         cmocka_unit_test(one_that_is_off_brings_nothing),  cmocka_unit_test(a_sample_comes_near),
         cmocka_unit_test(shadows_are_those_of_the_layout), cmocka_unit_test(a_nozzle_in_steel_cannot_stand),
         cmocka_unit_test(a_foot_lies_on_its_part),         cmocka_unit_test(what_does_not_belong_together_is_refused),
-        cmocka_unit_test(boxes_are_those_of_the_tree),
+        cmocka_unit_test(boxes_are_those_of_the_tree),     cmocka_unit_test(jets_fly_as_the_report_s_do),
     };
     return cmocka_run_group_tests_name("live evaluate", tests, open_room, close_room);
 }

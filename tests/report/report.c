@@ -141,10 +141,10 @@ static void write_report(const fixture *f)
 }
 
 static const char *const files[] = {
-    "result.json",      "report.html",         "nozzles.csv",         "coverage.png",
-    "deposits.exr",     "model.glb",           "coverage-manual.png", "deposits-manual.exr",
-    "model-manual.glb", "coverage-greedy.png", "deposits-greedy.exr", "model-greedy.glb",
-    "surface.vtp",      "texels.vtp",          "nozzles.stl",         "swabs.csv"};
+    "result.json",         "report.html",         "nozzles.csv",         "coverage.png",     "deposits.exr",
+    "model.glb",           "coverage-manual.png", "deposits-manual.exr", "model-manual.glb", "coverage-greedy.png",
+    "deposits-greedy.exr", "model-greedy.glb",    "surface.vtp",         "texels.vtp",       "nozzles.stl",
+    "swabs.csv",           "nozzles-all.csv"};
 #define FILES (sizeof files / sizeof *files)
 
 static void the_same_bytes_every_time(void **state)

@@ -52,6 +52,14 @@ static void rows_read_back(void **state)
     assert_string_equal(csv + strlen(start), "-0.3333333333333333,1.8,0,0,-1,30,90,2,12,19,\"A,1\","
                                              "https://example.com/a,G 1/2,'=7,,,,,,,,,,100,-333,1800,348,286.7,0,0,,1,"
                                              "12\n");
+    /* the same of several, behind their names */
+    const sp_fitting_sheet *const both[] = {sheet, sheet};
+    const char *const names[] = {"one, \"first\"", "=two"}, *rows = strchr(csv, '\n') + 1;
+    char *all = sp_all_nozzles_csv(both, names, 2, &error), expected[2048];
+    snprintf(expected, sizeof expected, "layout,%.*s\"one, \"\"first\"\"\",%s'=two,%s", (int)(rows - csv), csv, rows,
+             rows);
+    assert_string_equal(all, expected);
+    free(all);
     free(csv);
     sp_fitting_sheet_destroy(sheet);
     sp_layout_destroy(layout);

@@ -2,7 +2,7 @@
 function makeAxes(view) {
     "use strict";
     const {axes, state, frame, place, REACH} = view, {dot, roundStep} = geometry;
-    const CROSS = 26, LONGEST = 130; /* CSS pixels */
+    const CROSS = 26, LETTER = 11, NEAR = 15, SHORTEST = 4, LONGEST = 130; /* CSS pixels; shorter axes are dots */
 
     function shape(tag, attributes, text) {
         const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
@@ -11,13 +11,25 @@ function makeAxes(view) {
         return made;
     }
 
+    /* Where a letter goes: beyond its axis's end, or beside it, with a stroke, where that of a longer axis is near. */
+    function letterOf({x, y, seen}, others) {
+        const right = (LETTER * x) / seen, down = (LETTER * y) / seen, beyond = {x: x + right, y: y + down, stroke: ""};
+        return others.some((at) => Math.hypot(at.x - beyond.x, at.y - beyond.y) < NEAR)
+            ? {x: x + down, y: y - right, stroke: `l${down / 2} ${-right / 2}`} : beyond;
+    }
+
     function cross() {
-        const {across, above, back} = frame();
-        const ends = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis, k) =>
-            ({name: "xyz"[k], x: CROSS * dot(axis, across), y: -CROSS * dot(axis, above), near: dot(axis, back)}));
-        return ends.sort((a, b) => a.near - b.near).flatMap(({name, x, y}) => [
-            shape("line", {x1: 40, y1: 45, x2: 40 + x, y2: 45 + y}),
-            shape("text", {x: 40 + 1.4 * x, y: 49 + 1.4 * y}, name)]);
+        const {across, above} = frame(), letters = [];
+        const ends = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis, k) => {
+            const x = CROSS * dot(axis, across), y = -CROSS * dot(axis, above);
+            return {name: "xyz"[k], x, y, seen: Math.hypot(x, y)};
+        });
+        return ends.filter(({seen}) => seen > SHORTEST).sort((a, b) => b.seen - a.seen).flatMap((axis) => {
+            const at = letterOf(axis, letters);
+            letters.push(at);
+            return [shape("path", {d: `M40 45l${axis.x} ${axis.y}${at.stroke}`}),
+                    shape("text", {x: 40 + at.x, y: 49 + at.y}, axis.name)];
+        });
     }
 
     function ruler() {

@@ -37,6 +37,15 @@ async function readData() {
         });
     }
 
+    /* Low and high x, y, z of each, m. */
+    function readBoxes({count, low, high}, take) {
+        const boxes = new Float64Array(6 * count);
+        for (let k = 0; k < 6; k++)
+            take(Uint16Array, count, true).forEach((part, i) =>
+                (boxes[6 * i + k] = low[k % 3] + (part * (high[k % 3] - low[k % 3])) / 65535));
+        return boxes;
+    }
+
     async function readModel(model) {
         const take = surfaces.reader(await inflated(model.data)), coder = makeCoder(bytesOf(model.coded));
         delete model.data;
@@ -49,6 +58,7 @@ async function readData() {
             design.nozzles.forEach((nozzle) => sprays.read(nozzle, about.up, take));
             design.model = model;
         }
+        model.leaves = model.leaves && readBoxes(model.leaves, take);
     }
 
     await Promise.all(about.models.map(readModel));

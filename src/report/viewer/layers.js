@@ -1,7 +1,7 @@
 /* What may be drawn over the colours: edges of triangles, jets, boxes. */
 function makeLayers(view) {
     "use strict";
-    const {state, designs, about, layers, tell, redraw, uploadWires} = view, {checkbox} = widgets;
+    const {state, designs, about, layers, tell, redraw, uploadWires, uploadBoxes} = view, {checkbox} = widgets;
     const bounces = () => designs.some((design) => design.nozzles.some(({bounced}) => bounced && bounced.length));
     const kinds = {
         wires: {name: "Wireframe", told: "the edges of the triangles",
@@ -25,12 +25,18 @@ function makeLayers(view) {
         kinds[key].box = box;
         layers.append(label);
     }
-    /* For live.js: one more. */
-    function addLayer(key, kind) {
-        kinds[key] = kind;
-        addBox(key);
+    /* `prepare` draws them: a page that evaluates layouts has them from there. */
+    function addBoxes(prepare) {
+        kinds.boxes = {name: "Boxes", prepare, told: "the leaves of the hierarchy that finds what a jet meets, each of " +
+            "eight triangles at most"};
+        addBox("boxes");
     }
-    const addLayers = () => Object.keys(kinds).forEach(addBox);
+    function addLayers() {
+        const told = about.models.filter((model) => model.leaves);
+        Object.keys(kinds).forEach(addBox);
+        if (told.length)
+            addBoxes(() => told.forEach((model) => uploadBoxes(model, model.leaves)));
+    }
     const toggleLayer = (key) => kinds[key] && switchLayer(key, !state.layers[key]);
-    return {addLayers, addLayer, toggleLayer};
+    return {addLayers, addBoxes, toggleLayer};
 }

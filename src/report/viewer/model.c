@@ -1,5 +1,6 @@
 #include "model.h"
 
+#include "boxes.h"
 #include "design.h"
 #include "exact.h"
 #include "live.h"
@@ -261,7 +262,9 @@ static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator,
         sp_camera camera = sp_camera_create(evaluator, page->result, &sp_views[0], 1);
         if (!object || json_object_set(object, "designs", designs) != 0 ||
             json_object_set_new(object, "cut", json_boolean(camera.cut)) != 0 ||
-            (exact && json_object_set(object, "exact", exact) != 0) || !add_data(object, &packed, &coder, error)) {
+            (exact && json_object_set(object, "exact", exact) != 0) ||
+            (!page->live && !sp_viewer_boxes(evaluator, object, &packed, error)) ||
+            !add_data(object, &packed, &coder, error)) {
             json_decref(object);
             object = sp_fail_memory(error);
         }

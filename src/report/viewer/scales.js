@@ -52,9 +52,12 @@ function makeScales(view) {
             return Array.from({length: to}, (_, i) => i + 1).filter((i) => i % Math.ceil(to / 8) === 0 || i === 1);
         if (state.scales[quantity.key] === "stepped")
             return [quantity.step];
-        if (state.scales[quantity.key] === "log" && from > 0)
-            return [...Array(25).keys()].flatMap((power) => [1, 2, 5].map((step) => step * 10 ** (power - 12)))
+        if (state.scales[quantity.key] === "log" && from > 0) {
+            /* of many decades whole ones alone */
+            const steps = to / from > 200 ? [1] : [1, 2, 5];
+            return [...Array(25).keys()].flatMap((power) => steps.map((step) => step * 10 ** (power - 12)))
                 .filter((value) => value >= from * (1 - 1e-9) && value <= to * (1 + 1e-9));
+        }
         const step = geometry.roundStep((to - from) / 4), first = Math.ceil(from / step - 1e-9);
         const whole = Array.from({length: Math.floor(to / step + 1e-9) - first + 1}, (_, i) => (first + i) * step);
         return first * step - from > step / 2 ? [from, ...whole] : whole;

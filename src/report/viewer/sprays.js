@@ -10,6 +10,18 @@ const sprays = (() => {
         return Array.from({length: pieces}, (_, i) => [...at(i / pieces), ...at((i + 1) / pieces)]).flat();
     }
 
+    /* Jets whose legs the evaluator told, each from, to, rise and walls met before: as `read` has them. */
+    function jetsOf(legs, up) {
+        const jets = {direct: [], bounced: []};
+        for (let at = 0; at < legs.length; at += 8) {
+            const [from, to] = [legs.subarray(at, at + 3), legs.subarray(at + 3, at + 6)].map((place) => [...place]);
+            const [rise, walls] = legs.subarray(at + 6), far = Math.hypot(...geometry.add(to, from, -1));
+            (walls ? jets.bounced : jets.direct).push(...curve(from, to, geometry.scaled(up, rise),
+                                                               rise < FLAT * far ? 1 : PIECES));
+        }
+        return jets;
+    }
+
     /* Sets the nozzle's sprays, and its jets up to the first wall, `direct`, and beyond it, `bounced`. */
     function read(nozzle, up, take) {
         const {at, span, legs, sprays: count} = nozzle;
@@ -36,5 +48,5 @@ const sprays = (() => {
             return {from, rim: Array.from({length: POINTS - 1}, (_, i) => place(POINTS * spray + 1 + i))};
         });
     }
-    return {read};
+    return {read, jetsOf};
 })();

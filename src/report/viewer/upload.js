@@ -86,8 +86,9 @@ function makeUploads(view) {
 
     function uploadPoints(points) {
         const made = gl.createVertexArray(), slot = gl.getAttribLocation(lineProgram.made, "place");
+        const buffer = (made.buffer = gl.createBuffer());
         gl.bindVertexArray(made);
-        gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+        gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
         gl.bufferData(gl.ARRAY_BUFFER, Float32Array.from(points), gl.STATIC_DRAW);
         gl.enableVertexAttribArray(slot);
         gl.vertexAttribPointer(slot, 3, gl.FLOAT, false, 0, 0);
@@ -110,6 +111,10 @@ function makeUploads(view) {
             points = points.concat(direct, bounced);
             return {first, direct: direct.length / 3, bounced: bounced.length / 3};
         });
+        if (design.lines) {
+            gl.deleteBuffer(design.lines.buffer);
+            gl.deleteVertexArray(design.lines);
+        }
         design.lines = uploadPoints(points);
     }
 

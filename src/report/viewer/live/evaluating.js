@@ -35,12 +35,15 @@ function makeEvaluating(live) {
         const finished = await live.ask("finish", {nozzles: rows});
         design.shadowOf = finished.shadowOf;
         design.shadows = finished.shadows.map(({at}) => ({at, towards: view.up, extent: 0.1 * view.size}));
-        design.nozzles.forEach((nozzle, i) => (nozzle.flux = finished.alone[i] || empty));
+        design.nozzles.forEach((nozzle, i) =>
+            Object.assign(nozzle, {flux: finished.alone[i] || empty}, sprays.jetsOf(finished.jets[i], view.up)));
+        view.uploadLines(design);
         tell(1, finished);
         await live.ask("prepare", {chosen: live.chosen});
         section.dataset.settled = JSON.stringify(rows);
         if (view.state.quantity === view.reached || (view.state.nozzle && view.state.nozzle.design === design))
             view.recolour();
+        view.redraw();
         return true;
     }
 

@@ -90,12 +90,15 @@ function makeHandles(live) {
         if (busy)
             return;
         busy = true;
-        while (wish) {
-            const ray = view.rayAt(view.state.shown.indexOf(design), ...wish);
-            wish = null;
-            await change(`drag ${drag}`, (nozzle) => acts[drag](nozzle, ray));
+        try {
+            while (wish) {
+                const ray = view.rayAt(view.state.shown.indexOf(design), ...wish);
+                wish = null;
+                await change(`drag ${drag}`, (nozzle) => acts[drag](nozzle, ray));
+            }
+        } finally {
+            busy = false;
         }
-        busy = false;
     }
     [place, tip].forEach((disc) => {
         disc.addEventListener("pointerdown", (event) => {

@@ -67,8 +67,7 @@
             live.refresh(true);
         });
     });
-    view.addLayer("boxes", {name: "Boxes", told: "the leaves of the hierarchy that finds what a jet meets, each of " +
-        "eight triangles at most", prepare: async () => view.uploadBoxes(model, await live.ask("boxes"))});
+    view.addBoxes(async () => view.uploadBoxes(model, await live.ask("boxes")));
     live.drawNozzles();
     view.addDesign(design);
     live.build();

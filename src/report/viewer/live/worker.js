@@ -4,7 +4,8 @@
 (() => {
     const ARRAYS = ["settings", "places", "triangles", "part", "clean", "names", "chart", "uv", "chartPage",
                     "chartTexel", "sides", "nodes", "cuts", "types", "members"];
-    const NOZZLES = 15, FIGURES = 0, SHARE = 5, SHADOW_LIST = 6, SHADOW_OF = 7, BOXES = 8, SHADOW_NUMBERS = 6;
+    const NOZZLES = 15, FIGURES = 0, SHARE = 5, SHADOW_LIST = 6, SHADOW_OF = 7, BOXES = 8, LEGS = 9, SHADOW_NUMBERS = 6,
+          LEG_NUMBERS = 8;
     let wasm, live, count = 0, quantities = [];
 
     const bytesAt = (at, bytes) => new Uint8Array(wasm.memory.buffer, at, bytes);
@@ -71,7 +72,7 @@
                 share, stride, ms: performance.now() - start};
     }
 
-    /* What may wait: shadows, what each nozzle does alone, whether it can stand. */
+    /* What may wait: shadows, what each nozzle does alone, whether it can stand, a few of its jets. */
     function finish({nozzles}) {
         if (!wasm.sp_live_find_shadows(live))
             throw new Error(why());
@@ -88,7 +89,11 @@
             return at ? bytesOf(flux, quantities[0], flux) : new Uint8Array(count);
         });
         const stands = nozzles.map((_, i) => (wasm.sp_live_admits(live, i) ? "" : why()));
-        return {shadows, shadowOf, alone, stands};
+        const jets = nozzles.map((_, i) => {
+            const legs = wasm.sp_live_fly(live, i);
+            return doublesAt(wasm.sp_live_tell(live, LEGS), LEG_NUMBERS * legs).slice();
+        });
+        return {shadows, shadowOf, alone, stands, jets};
     }
 
     /* What the nozzle in hand may reach, so that it can be turned at once. */
