@@ -2,14 +2,11 @@
  * refines eight of these drafts on the search's own patches: annealing by Ceres from the widest start and from a
  * narrow one, compass search, and both. Says for each which share of what the draft leaves dry is covered then, and the
  * processor time that it took. One thread. */
+#include "placement.h"
 #include "refine/anneal.h"
 #include "refine/compass.h"
-#include "search/find.h"
-
-#include <sprayplan/sprayplan.h>
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <time.h>
 
 #define DRAFTS 8
@@ -24,47 +21,6 @@ typedef struct {
     bool compass;
     double closed, seconds; /* sums */
 } way;
-
-/* What a placement has made when refinement begins. */
-typedef struct {
-    sp_place_options options;
-    sp_watch watch;
-    sp_sites sites;
-    sp_candidates candidates;
-    sp_evaluator *coarse;
-    sp_visibility visibility;
-    sp_search search;
-    sp_pool pool;
-    sp_front front;
-} placement;
-
-static void fail(const sp_error *error)
-{
-    char text[1400];
-    sp_error_text(error, text, sizeof text);
-    fprintf(stderr, "refinement_ways: %s\n", text);
-    exit(1);
-}
-
-static void find(const sp_scene *scene, const sp_evaluator *fine, placement *p)
-{
-    sp_error error = {0};
-    *p = (placement){.options = sp_scene_place_options(scene)};
-    p->options.run.threads = 1;
-    p->watch = sp_watch_start(&p->options.run);
-    if (!sp_sites_create(fine, &p->options, &p->sites, &error) ||
-        !sp_candidates_create(fine, &p->options, &p->sites, &p->candidates, &error) ||
-        !sp_visibility_fit(fine, &p->options, &p->sites, &p->candidates, &p->watch, &p->coarse, &p->visibility,
-                           &error) ||
-        !sp_search_create(p->coarse ? p->coarse : fine, &p->options, &p->sites, &p->candidates, &p->visibility,
-                          &p->search, &error))
-        fail(&error);
-    p->front.fine = fine;
-    p->front.objective = p->options.objective;
-    p->front.target = p->options.coverage * sp_evaluator_patches(fine)->total_area;
-    if (!sp_find(&p->search, &p->watch, &p->front, &p->pool, &error))
-        fail(&error);
-}
 
 static double processor_seconds(void)
 {
@@ -97,13 +53,8 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: refinement_ways SCENE\n");
         return 2;
     }
-    sp_error error = {0};
-    sp_scene *scene = sp_scene_load(argv[1], &error);
-    sp_evaluator *evaluator = scene ? sp_evaluator_create(sp_scene_setup(scene), &error) : NULL;
-    if (!evaluator)
-        fail(&error);
     placement p;
-    find(scene, evaluator, &p);
+    placement_open(argv[1], &p);
     way ways[] = {{.name = "Ceres", .start = 0},
                   {.name = "Ceres, narrow", .start = NARROW},
                   {.name = "compass", .start = SP_WIDTHS, .compass = true},
@@ -134,15 +85,6 @@ int main(int argc, char **argv)
     for (size_t w = 0; w < way_count; w++)
         printf(" %.1f in %.2f s |", 100 * ways[w].closed / (double)tried, ways[w].seconds / (double)tried);
     printf("\n");
-    sp_front_free(&p.front);
-    sp_pool_free(&p.pool);
-    sp_search_free(&p.search);
-    sp_visibility_free(&p.visibility);
-    sp_evaluator_destroy(p.coarse);
-    sp_candidates_free(&p.candidates);
-    sp_sites_free(&p.sites);
-    free(p.watch.stages);
-    sp_evaluator_destroy(evaluator);
-    sp_scene_destroy(scene);
+    placement_close(&p);
     return 0;
 }

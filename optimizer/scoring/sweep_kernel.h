@@ -348,15 +348,23 @@ INLINE void flush(tally *tally, size_t weight_count)
     tally->vectors = 0;
 }
 
-/* One run of arrivals, into the tally. */
+/* One run of arrivals, into the tally. A third of the vectors weigh nothing, as all of their patches are covered
+ * already: they need not be looked at. */
 INLINE void sum_run(const sp_region *region, bool fan, sp_count count, const sp_view *view, const sp_weight *weights,
                     size_t weight_count, size_t first, size_t end, tally *tally)
 {
     for (size_t i = first; i < end; i += SP_LANES) {
-        lanes part = counting(region, fan, count, view, i);
-        mask own = first_lanes(end - i);
+        lanes weight[SP_WEIGHTS];
+        mask own = first_lanes(end - i), any = below(all(0), load(&weights[0].item[i]));
         for (size_t k = 0; k < weight_count; k++)
-            tally->sum[k] = add(tally->sum[k], keep(multiply(load(&weights[k].item[i]), part), own));
+            weight[k] = load(&weights[k].item[i]);
+        if (weight_count == 2)
+            any = either(any, below(all(0), weight[1]));
+        if (!bits_of(both(any, own)))
+            continue;
+        lanes part = counting(region, fan, count, view, i);
+        for (size_t k = 0; k < weight_count; k++)
+            tally->sum[k] = add(tally->sum[k], keep(multiply(weight[k], part), own));
     }
     tally->vectors += (end - first + SP_LANES - 1) / SP_LANES;
     if (tally->vectors >= FLUSH)

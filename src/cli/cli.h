@@ -57,6 +57,11 @@ enum option_flag {
     OPTION_NO_LIVE = 512,
 };
 
+/* waiting.c: lets threads sleep where they wait for one another, instead of asking again and again, which takes the
+ * processor from other programs and from one another. Before the first thread; starts the program anew with all of its
+ * arguments, or returns where there is nothing to do or it cannot. */
+void cli_sleep_while_waiting(char *const *arguments);
+
 /* options.c: fills options from the arguments after the command's name; false after a message on standard error. */
 bool cli_parse(const cli_command *command, int count, char **arguments, cli_options *options, bool *help);
 

@@ -167,6 +167,7 @@ static int run(int count, char **arguments)
         print_command_usage(stdout, command);
         return EXIT_DONE;
     }
+    cli_sleep_while_waiting(arguments);
     return command->run(&options);
 }
 

@@ -31,15 +31,6 @@ static pid_t begin_long_place(const char *folder)
     return child;
 }
 
-static void write_long_scene(void)
-{
-    char *long_yaml = malloc(sizeof room_yaml + 512);
-    sprintf(long_yaml, "%s    - box: {min: [0.1, 0.1, 0.1], max: [0.9, 0.9, 0.9], spacing: 40 mm, tilt: 180 deg}\n",
-            room_yaml);
-    write_file("long.yaml", long_yaml);
-    free(long_yaml);
-}
-
 /* check accepts what was written in `folder`, and simulate gives its figures; of a proposal without nozzles, where that
  * may be, there is nothing to simulate. */
 static void proposal_is_whole(const char *folder, bool may_be_empty)

@@ -77,4 +77,14 @@ static inline void row_of(const char *folder, const char *title, char row[512])
     free(page);
 }
 
+/* long.yaml: the room with thousands of mounting points, for which place takes longer than any test. */
+static inline void write_long_scene(void)
+{
+    char *long_yaml = malloc(sizeof room_yaml + 512);
+    sprintf(long_yaml, "%s    - box: {min: [0.1, 0.1, 0.1], max: [0.9, 0.9, 0.9], spacing: 40 mm, tilt: 180 deg}\n",
+            room_yaml);
+    write_file("long.yaml", long_yaml);
+    free(long_yaml);
+}
+
 #endif

@@ -54,11 +54,6 @@ static inline void store(float to[4], four a)
     memcpy(to, &a, sizeof a);
 }
 
-static inline four where(four_whole mask, four one, four other)
-{
-    return (four)((mask & (four_whole)one) | (~mask & (four_whole)other));
-}
-
 #ifdef __SSE2__
 /* gcc does not see that these are one instruction each. */
 static inline four lesser(four a, four b)
@@ -70,6 +65,11 @@ static inline four greater(four a, four b)
     return _mm_max_ps(a, b);
 }
 #else
+static inline four where(four_whole mask, four one, four other)
+{
+    return (four)((mask & (four_whole)one) | (~mask & (four_whole)other));
+}
+
 static inline four lesser(four a, four b)
 {
     return where(a < b, a, b);

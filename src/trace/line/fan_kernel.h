@@ -34,8 +34,8 @@ static inline void see_key_lanes(key_lanes *l, double scale)
         l->u[i] = u;
         l->v[i] = v;
         l->z[i] = 2 * z + (steep < 0 ? 1 : 0);
-        l->bad[i] = (rate > 1e-280) & (rate < 1e280) & (along > 1e-280) & (along < 1e280) & (l->t_min[i] >= 0) &
-                            (fabs(u) + fabs(v) <= 2)
+        l->bad[i] = ((rate > 1e-280) & (rate < 1e280) & (along > 1e-280) & (along < 1e280) & (l->t_min[i] >= 0) &
+                     (fabs(u) + fabs(v) <= 2))
                         ? 0
                         : 1;
     }

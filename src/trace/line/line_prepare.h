@@ -33,7 +33,7 @@ static inline void see_origins(line_lanes *l, int lanes, const sp_bvh *bvh)
             l->place[axis][i] = (l->origin[axis][i] - bvh->centre[axis]) * bvh->scale;
     for (int i = 0; i < lanes; i++) {
         l->reach[i] = sp_greater(sp_greater(fabs(l->place[0][i]), fabs(l->place[1][i])), fabs(l->place[2][i]));
-        l->far[i] = (l->t_min[i] >= 0) & (l->reach[i] <= SP_BVH_NEAR_ENOUGH) ? 0 : 1;
+        l->far[i] = ((l->t_min[i] >= 0) & (l->reach[i] <= SP_BVH_NEAR_ENOUGH)) ? 0 : 1;
         l->start[i] = 0;
     }
 }
@@ -52,8 +52,8 @@ static inline void see_directions(line_lanes *l, int lanes, double scale)
         l->direction[2][i] = (float)(v2 * slowness);
         l->z[i] = is_y + is_z * (2 - is_y);
         l->rate[i] = rate;
-        l->unfit[i] = (l->reach[i] <= SP_BVH_NEAR_ENOUGH) & (rate > 1e-280) & (rate < 1e280) & (along > 1e-280) &
-                              (along < 1e280) & (fabs(l->start[i]) < 1e280) & (all - all == 0)
+        l->unfit[i] = ((l->reach[i] <= SP_BVH_NEAR_ENOUGH) & (rate > 1e-280) & (rate < 1e280) & (along > 1e-280) &
+                       (along < 1e280) & (fabs(l->start[i]) < 1e280) & (all - all == 0))
                           ? 0
                           : 1;
     }

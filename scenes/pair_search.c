@@ -1,0 +1,146 @@
+/* Is there more to gain with few nozzles than refinement finds? At one amount of water every pose, or every so many-th,
+ * at the flows that refinement may set, is given the best partner that the water left allows; the best of these pairs
+ * are refined, each by Ceres from a narrow width and by compass. Says what the best of them cover before and after that,
+ * and which place in the order it had. One thread. */
+#include "placement.h"
+#include "refine/anneal.h"
+#include "refine/compass.h"
+#include "search/guess.h"
+#include "search/tuned.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define ROWS 12000 /* about so many poses, before flows are varied */
+#define NARROW 3   /* the width at which an annealing starts that keeps what is there */
+#define SIGHTS 24
+#define STEP_FIRST 0.25 /* of the compass, as refinement has it */
+#define STEP_LEAST 0.006
+
+/* A pose and its best partner, or none. */
+typedef struct {
+    uint32_t row[2];
+    size_t count;
+    double covered; /* m² of the table's sample */
+} pair;
+
+static int by_covered(const void *a, const void *b)
+{
+    const pair *p = a, *q = b;
+    return (p->covered < q->covered) - (p->covered > q->covered);
+}
+
+/* Every stride-th pose of all beside those that the search remembered. */
+static void widen_pool(placement *p)
+{
+    sp_error error = {0};
+    const sp_candidates *candidates = &p->candidates;
+    size_t stride = candidates->pose_start[p->sites.count] / ROWS + 1, number = 0;
+    for (uint32_t s = 0; s < p->sites.count; s++)
+        for (uint32_t k = 0; k < candidates->make_count; k++) {
+            size_t axes = sp_candidates_axes(candidates, p->sites.items[s].mount, k)->count;
+            for (uint32_t a = 0; a < axes; a++)
+                for (uint32_t r = 0; r < candidates->makes[k].roll_count; r++)
+                    if (number++ % stride == 0 && sp_search_knows(&p->search, s, k) &&
+                        !sp_pool_add(&p->pool, (sp_pose){s, k, a, r}, &error))
+                        fail(&error);
+        }
+    sp_pool_settle(&p->pool);
+}
+
+/* Every row that the budget allows with its best partner, the best first; malloc'd. */
+static pair *list_pairs(const sp_table *table, double budget, size_t *count)
+{
+    sp_error error = {0};
+    sp_lineup lineup;
+    pair *pairs = malloc((table->row_count + 1) * sizeof *pairs);
+    if (!pairs || !sp_lineup_create(table, &lineup, &error))
+        fail(&error);
+    *count = 0;
+    for (uint32_t r = 0; r < table->row_count; r++) {
+        double gain;
+        sp_lineup_set(&lineup, NULL, 0);
+        if (!(sp_lineup_gain(&lineup, r, budget) > 0))
+            continue;
+        sp_lineup_add(&lineup, r);
+        uint32_t partner = sp_lineup_best(&lineup, 0, 0, budget, &gain);
+        pairs[(*count)++] = (pair){{r, partner}, gain > 0 ? 2 : 1, lineup.covered + fmax(gain, 0)};
+    }
+    sp_lineup_free(&lineup);
+    qsort(pairs, *count, sizeof *pairs, by_covered);
+    return pairs;
+}
+
+static bool is_known(const pair *pairs, size_t i)
+{
+    for (size_t k = 0; k < i; k++)
+        if (pairs[k].count == pairs[i].count && pairs[i].count == 2 && pairs[k].row[0] == pairs[i].row[1] &&
+            pairs[k].row[1] == pairs[i].row[0])
+            return true;
+    return false;
+}
+
+/* What a pair covers on the search's patches, m², before and after it was refined. */
+static void refine(placement *p, const sp_tuned *tuned, const sp_table *table, const pair *start, double budget,
+                   double covered[2])
+{
+    sp_error error = {0};
+    sp_sights sights;
+    sp_lineup lineup;
+    sp_draft draft;
+    if (!sp_sights_create(&p->search, SIGHTS, &sights, &error) || !sp_lineup_create(table, &lineup, &error))
+        fail(&error);
+    sp_lineup_set(&lineup, start->row, start->count);
+    if (!sp_lineup_draft(&lineup, &draft, &error))
+        fail(&error);
+    sp_tuned_settle(tuned, &draft);
+    covered[0] = draft.covered;
+    double water = sp_draft_water(&p->search, &draft, budget);
+    if (!sp_anneal(&sights, NARROW, SP_WIDTHS, water, &p->watch, &draft, &error) ||
+        !sp_compass(&sights, STEP_FIRST, STEP_LEAST, water, &p->watch, &draft, &error))
+        fail(&error);
+    covered[1] = draft.covered;
+    sp_draft_free(&draft);
+    sp_lineup_free(&lineup);
+    sp_sights_free(&sights);
+}
+
+int main(int argc, char **argv)
+{
+    double litres = argc == 4 ? strtod(argv[2], NULL) : 0;
+    size_t most = argc == 4 ? strtoul(argv[3], NULL, 10) : 0, count;
+    if (!(litres > 0) || !most) {
+        fprintf(stderr, "usage: pair_search SCENE L_PER_MIN PAIRS\n");
+        return 2;
+    }
+    sp_error error = {0};
+    placement p;
+    sp_tuned tuned;
+    sp_table table = {0};
+    placement_open(argv[1], &p);
+    widen_pool(&p);
+    double budget = litres / 6e4 * (1 + SP_ROUNDING), best[2] = {0, 0};
+    if (!sp_tuned_create(&p.search, &p.pool, &tuned, &error) ||
+        !sp_table_create(&tuned.search, &tuned.pool, NULL, 0, &table, &error))
+        fail(&error);
+    pair *pairs = list_pairs(&table, budget, &count);
+    size_t tried = 0, rank = 0;
+    for (size_t i = 0; i < count && tried < most; i++) {
+        double covered[2];
+        if (is_known(pairs, i))
+            continue;
+        refine(&p, &tuned, &table, &pairs[i], budget, covered);
+        best[0] = fmax(best[0], covered[0]);
+        rank = covered[1] > best[1] ? tried : rank;
+        best[1] = fmax(best[1], covered[1]);
+        tried++;
+    }
+    printf("%zu rows, %zu pairs refined at %g L/min: %.2f %% of the attainable before, %.2f %% after, from pair %zu\n",
+           table.row_count, tried, litres, 100 * best[0] / p.search.view_area, 100 * best[1] / p.search.view_area,
+           rank + 1);
+    free(pairs);
+    sp_table_free(&table);
+    sp_tuned_free(&tuned);
+    placement_close(&p);
+    return 0;
+}
