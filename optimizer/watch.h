@@ -14,7 +14,7 @@ typedef struct {
     bool interrupted; /* cancelled, or something was left out for want of time */
     size_t stage_count, stage_capacity;
     sp_stage *stages;
-    double stage_start;
+    double stage_start, stage_processor; /* s, of the monotonic clock and of the process's processor time */
 } sp_watch;
 
 sp_watch sp_watch_start(const sp_run *run);
