@@ -9,6 +9,8 @@
 #include <string.h>
 #include <time.h>
 
+#define LEISURE 100.0 /* s of time limit, added up over the threads: with less a placement hurries */
+
 static double read_clock(clockid_t clock)
 {
     struct timespec time = {0};
@@ -90,6 +92,11 @@ bool sp_watch_stage(sp_watch *watch, const char *name, sp_error *error)
     snprintf(own.name, sizeof own.name, "%s", name);
     watch->stages[watch->stage_count++] = own;
     return true;
+}
+
+bool sp_run_hurries(const sp_run *run)
+{
+    return run->time_limit > 0 && run->time_limit * sp_threads(run) < LEISURE;
 }
 
 int sp_threads(const sp_run *run)

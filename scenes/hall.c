@@ -33,7 +33,8 @@ static int print_box(FILE *file, const box *b, int before, int first, int end, i
 static int print_machine(FILE *file, double x, double y, int before)
 {
     const box body = {{x - length / 2, y - width / 2, 0.3}, {x + length / 2, y + width / 2, height}};
-    const box top = {{x - length / 4, y - width / 4, height + 0.3}, {x + length / 4, y + width / 4, height + 0.3 + hood}};
+    const box top = {{x - length / 4, y - width / 4, height + 0.3},
+                     {x + length / 4, y + width / 4, height + 0.3 + hood}};
     before = print_box(file, &body, before, 0, 6, 0);
     return print_box(file, &top, before, 0, 6, 0);
 }

@@ -25,7 +25,7 @@ typedef struct {
     sp_vec3 *vertices;
     uint32_t (*triangles)[3];
     uint32_t *part; /* [triangle_count] */
-    double jitter; /* of an edge's length */
+    double jitter;  /* of an edge's length */
 } mesh;
 
 static void *allocate(size_t count, size_t size)

@@ -49,6 +49,7 @@ static void fail(const sp_error *error)
 static void find(const sp_scene *scene, const sp_evaluator *fine, placement *p)
 {
     sp_error error = {0};
+    sp_draft first;
     *p = (placement){.options = sp_scene_place_options(scene)};
     p->options.run.threads = 1;
     p->watch = sp_watch_start(&p->options.run);
@@ -62,8 +63,10 @@ static void find(const sp_scene *scene, const sp_evaluator *fine, placement *p)
     p->front.fine = fine;
     p->front.objective = p->options.objective;
     p->front.target = p->options.coverage * sp_evaluator_patches(fine)->total_area;
-    if (!sp_find(&p->search, &p->watch, &p->front, &p->pool, &error))
+    if (!sp_find_first(&p->search, &p->watch, &p->front, &p->pool, &first, &error) ||
+        !sp_find_more(&p->search, &p->watch, &p->front, &p->pool, &first, &error))
         fail(&error);
+    sp_draft_free(&first);
 }
 
 static double processor_seconds(void)
