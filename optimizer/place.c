@@ -17,6 +17,7 @@
 #define SEARCH 0.75
 #define SEARCH_PROVING 0.6
 #define SEARCH_HURRIED 0.95
+#define FIRST_HURRIED 0.93 /* of the target, for a first draft of which little more than the poses is wanted */
 
 /* What a placement makes on its way, in the order in which it comes about. */
 typedef struct {
@@ -177,9 +178,9 @@ static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error
     sp_search *search = &placement->search;
     sp_watch *watch = &placement->watch;
     sp_front *front = &placement->front;
-    bool hurried = sp_run_hurries(&placement->options->run);
+    bool hurried = sp_run_hurries(&placement->options->run) && sp_refine_asked(&placement->options->refine);
     sp_draft first;
-    if (!sp_find_first(search, watch, front, &placement->pool, &first, error))
+    if (!sp_find_first(search, hurried ? FIRST_HURRIED : 1, watch, front, &placement->pool, &first, error))
         return false;
     bool done = !hurried || (write_greedy(placement, proposal, error) && is_sound(placement, error) &&
                              sp_refine_first(search, &placement->pool, watch, front, error) &&

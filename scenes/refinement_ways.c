@@ -63,7 +63,7 @@ static void find(const sp_scene *scene, const sp_evaluator *fine, placement *p)
     p->front.fine = fine;
     p->front.objective = p->options.objective;
     p->front.target = p->options.coverage * sp_evaluator_patches(fine)->total_area;
-    if (!sp_find_first(&p->search, &p->watch, &p->front, &p->pool, &first, &error) ||
+    if (!sp_find_first(&p->search, 1, &p->watch, &p->front, &p->pool, &first, &error) ||
         !sp_find_more(&p->search, &p->watch, &p->front, &p->pool, &first, &error))
         fail(&error);
     sp_draft_free(&first);

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 
 #define ROUNDS_MOST 4    /* corrections for what the coarse patches misjudge */
-#define HURRIED 0.93     /* of the target, for a first draft of which only its poses are wanted */
 #define FRONT_BUDGETS 8  /* about as many points of the front are searched for */
 #define FRONT_RATIO 1.15 /* between two outlays at which the front is searched, at most */
 #define STARTS 2         /* of the search at one outlay */
@@ -23,12 +22,11 @@ typedef struct {
     double budget; /* m³/s of outlay */
 } sp_finding;
 
-/* Greedy over everything; where the fine measure falls short of the target, on with a higher coarse one. */
-static bool first_draft(const sp_finding *finding, sp_draft *draft)
+/* Greedy over everything; where the fine measure falls short of the target, on with a higher coarse one, unless a
+ * smaller share is enough. */
+static bool first_draft(const sp_finding *finding, double enough, sp_draft *draft)
 {
-    double coarse = finding->target;
-    if (isfinite(finding->target) && sp_run_hurries(&finding->watch->run))
-        coarse *= HURRIED;
+    double coarse = enough * finding->target;
     sp_front_point point;
     for (int round = 0; round < ROUNDS_MOST; round++) {
         size_t before = draft->count;
@@ -36,7 +34,7 @@ static bool first_draft(const sp_finding *finding, sp_draft *draft)
                        finding->error) ||
             !sp_front_measure(finding->front, finding->search, draft, &point, finding->error))
             return false;
-        if (point.area >= finding->target || coarse < finding->target || (round && draft->count == before))
+        if (point.area >= finding->target || enough < 1 || (round && draft->count == before))
             return true;
         coarse = draft->covered + (finding->target - point.area);
     }
@@ -271,13 +269,13 @@ static sp_finding finding_of(const sp_search *search, sp_watch *watch, sp_front 
                         .budget = search->outlay_most * (1 + SP_ROUNDING)};
 }
 
-bool sp_find_first(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool *pool, sp_draft *first,
-                   sp_error *error)
+bool sp_find_first(const sp_search *search, double enough, sp_watch *watch, sp_front *front, sp_pool *pool,
+                   sp_draft *first, sp_error *error)
 {
     sp_finding finding = finding_of(search, watch, front, pool, error);
     if (!sp_draft_create(search, first, error))
         return false;
-    if (sp_front_measure(front, search, first, NULL, error) && first_draft(&finding, first) &&
+    if (sp_front_measure(front, search, first, NULL, error) && first_draft(&finding, enough, first) &&
         sp_watch_stage(watch, "greedy", error))
         return true;
     sp_draft_free(first);
