@@ -204,7 +204,8 @@ static void in_a_hurry_any_objective_is_served(void **state)
         job j;
         job_open_coarse(&j, 0.2);
         j.options.objective = objectives[i];
-        j.options.coverage = 0.7;
+        j.options.max_nozzles = 4;
+        j.options.coverage = 0.4;
         j.mounts[0].tilt = 40 * DEGREE;
         j.mounts[0].spacing = 0.8;
         j.options.refine = sp_place_options_default().refine;
