@@ -12,9 +12,12 @@
 
 #include <stdlib.h>
 
-/* Of the time limit, at most, for all that goes before the certificate; the second with --prove. */
+/* Of the time limit, at most, for all that goes before the certificate; the second with --prove, the third where time
+ * is so short that next to nothing would be proved. */
 #define SEARCH 0.75
 #define SEARCH_PROVING 0.6
+#define SEARCH_HURRIED 0.95
+#define FIRST_HURRIED 0.93 /* of the target, for a first draft of which little more than the poses is wanted */
 
 /* What a placement makes on its way, in the order in which it comes about. */
 typedef struct {
@@ -158,6 +161,34 @@ static bool write_greedy(const sp_placement *placement, sp_proposal *proposal, s
 {
     return write_down(placement, &proposal->greedy, &proposal->greedy_coverage, error) &&
            (proposal->greedy_costs = list_costs(placement, error));
+}
+
+/* False where what candidates bring could not be found when it was asked for. */
+static bool is_sound(const sp_placement *placement, sp_error *error)
+{
+    return sp_visibility_sound(&placement->visibility, error) &&
+           sp_footprints_sound(placement->search.footprints, error);
+}
+
+/* At leisure all is found on the candidates before anything is refined. In a hurry the proposal comes first: the first
+ * draft stands for the best of the candidates, and what is refined next to it comes before better ones and the front.
+ */
+static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error)
+{
+    sp_search *search = &placement->search;
+    sp_watch *watch = &placement->watch;
+    sp_front *front = &placement->front;
+    bool hurried = sp_run_hurries(&placement->options->run) && sp_refine_asked(&placement->options->refine);
+    sp_draft first;
+    if (!sp_find_first(search, hurried ? FIRST_HURRIED : 1, watch, front, &placement->pool, &first, error))
+        return false;
+    bool done = !hurried || (write_greedy(placement, proposal, error) && is_sound(placement, error) &&
+                             sp_refine_first(search, &placement->pool, watch, front, error) &&
+                             sp_watch_stage(watch, "refine", error));
+    done = done && sp_find_more(search, watch, front, &placement->pool, &first, error) &&
+           (hurried || write_greedy(placement, proposal, error));
+    sp_draft_free(&first);
+    return done;
 }
 
 /* The same as the proposal, with which of its nozzles want a fitting and what their mounts cost. */
@@ -318,11 +349,9 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
     return proposal->front && proposal->by_number;
 }
 
-/* False where what candidates bring could not be found when it was asked for. */
-static bool is_sound(const sp_placement *placement, sp_error *error)
+static double search_share(const sp_place_options *options)
 {
-    return sp_visibility_sound(&placement->visibility, error) &&
-           sp_footprints_sound(placement->search.footprints, error);
+    return options->prove ? SEARCH_PROVING : sp_run_hurries(&options->run) ? SEARCH_HURRIED : SEARCH;
 }
 
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error)
@@ -333,10 +362,9 @@ sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *opt
     if (!proposal)
         return sp_fail_memory(error);
     sp_placement placement = {.fine = evaluator, .options = options, .watch = sp_watch_start(&options->run)};
-    sp_watch_allow(&placement.watch, options->prove ? SEARCH_PROVING : SEARCH);
+    sp_watch_allow(&placement.watch, search_share(options));
     bool done = look_around(&placement, error) && set_target(&placement, proposal, error) &&
-                sp_find(&placement.search, &placement.watch, &placement.front, &placement.pool, error) &&
-                write_greedy(&placement, proposal, error) && is_sound(&placement, error) &&
+                find(&placement, proposal, error) && is_sound(&placement, error) &&
                 sp_refine_best(&placement.search, &placement.pool, &placement.watch, &placement.front, error) &&
                 sp_set_front(&placement.search, &placement.watch, &placement.front, error) &&
                 is_sound(&placement, error) && propose(&placement, proposal, error) &&

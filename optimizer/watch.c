@@ -9,17 +9,28 @@
 #include <string.h>
 #include <time.h>
 
+#define LEISURE 100.0 /* s of time limit, added up over the threads: with less a placement hurries */
+
+static double read_clock(clockid_t clock)
+{
+    struct timespec time = {0};
+    clock_gettime(clock, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
 static double now(void)
 {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+    return read_clock(CLOCK_MONOTONIC);
 }
 
 sp_watch sp_watch_start(const sp_run *run)
 {
     double start = now();
-    return (sp_watch){.run = *run, .start = start, .share = 1, .stage_start = start};
+    return (sp_watch){.run = *run,
+                      .start = start,
+                      .share = 1,
+                      .stage_start = start,
+                      .stage_processor = read_clock(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
 double sp_watch_elapsed(const sp_watch *watch)
@@ -66,19 +77,26 @@ bool sp_watch_has_time(sp_watch *watch, const char *stage, double done)
 
 bool sp_watch_stage(sp_watch *watch, const char *name, sp_error *error)
 {
-    double end = now(), seconds = end - watch->stage_start;
+    double end = now(), processor = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    sp_stage own = {.seconds = end - watch->stage_start, .processor_seconds = processor - watch->stage_processor};
     watch->stage_start = end;
+    watch->stage_processor = processor;
     for (size_t i = 0; i < watch->stage_count; i++)
         if (!strcmp(watch->stages[i].name, name)) {
-            watch->stages[i].seconds += seconds;
+            watch->stages[i].seconds += own.seconds;
+            watch->stages[i].processor_seconds += own.processor_seconds;
             return true;
         }
     if (!sp_grow(&watch->stages, &watch->stage_capacity, watch->stage_count + 1, sizeof *watch->stages))
         return sp_fail_memory(error);
-    sp_stage *stage = &watch->stages[watch->stage_count++];
-    snprintf(stage->name, sizeof stage->name, "%s", name);
-    stage->seconds = seconds;
+    snprintf(own.name, sizeof own.name, "%s", name);
+    watch->stages[watch->stage_count++] = own;
     return true;
+}
+
+bool sp_run_hurries(const sp_run *run)
+{
+    return run->time_limit > 0 && run->time_limit * sp_threads(run) < LEISURE;
 }
 
 int sp_threads(const sp_run *run)

@@ -14,7 +14,7 @@ typedef struct {
     bool interrupted; /* cancelled, or something was left out for want of time */
     size_t stage_count, stage_capacity;
     sp_stage *stages;
-    double stage_start;
+    double stage_start, stage_processor; /* s, of the monotonic clock and of the process's processor time */
 } sp_watch;
 
 sp_watch sp_watch_start(const sp_run *run);
@@ -31,6 +31,9 @@ bool sp_watch_has_time(sp_watch *watch, const char *stage, double done);
 /* Books the time since the last stage's end, or the start, under `name`; stages of equal name add up. */
 bool sp_watch_stage(sp_watch *watch, const char *name, sp_error *error);
 
+/* Whether the time limit is too short for all that a placement does at leisure: a matter of the limit and the threads
+ * alone, so that equal runs choose the same. */
+bool sp_run_hurries(const sp_run *run);
 /* The number of threads that a run asks for. */
 int sp_threads(const sp_run *run);
 

@@ -1,7 +1,7 @@
 /* Refines a mesh to about so many triangles, for measuring: the longest edges are halved, round after round, and each
  * new vertex is moved by a small share of its edge, so that nothing is flat or regular that was not: by 0.05, or what
- * the fourth argument says. No gaps arise, and the same mesh comes out everywhere: as OBJ, or as binary STL where the
- * file's name ends in .stl. */
+ * the fourth argument says. No gaps arise, and the same mesh comes out everywhere: as OBJ, in the parts that
+ * there were, or as binary STL where the file's name ends in .stl. */
 #include <sprayplan/sprayplan.h>
 
 #include <stdio.h>
@@ -24,7 +24,8 @@ typedef struct {
     size_t vertex_count, triangle_count, vertex_room;
     sp_vec3 *vertices;
     uint32_t (*triangles)[3];
-    double jitter; /* of an edge's length */
+    uint32_t *part; /* [triangle_count] */
+    double jitter;  /* of an edge's length */
 } mesh;
 
 static void *allocate(size_t count, size_t size)
@@ -161,24 +162,31 @@ static void refine_once(mesh *m, size_t goal)
         for (const edge_use *of = use; of < uses + use_count && same_edge(of, use); of++, added++)
             middles[of->slot / 3][of->slot % 3] = middle;
     }
-    uint32_t(*parts)[3] = allocate(m->triangle_count + added, sizeof *parts);
+    uint32_t(*pieces)[3] = allocate(m->triangle_count + added, sizeof *pieces);
+    uint32_t *part = allocate(m->triangle_count + added, sizeof *part);
     size_t count = 0;
     for (size_t t = 0; t < m->triangle_count; t++)
-        count += cut(m, m->triangles[t], middles[t], &parts[count]);
+        for (size_t end = count + cut(m, m->triangles[t], middles[t], &pieces[count]); count < end; count++)
+            part[count] = m->part[t];
     free(m->triangles);
-    m->triangles = parts;
+    free(m->part);
+    m->triangles = pieces;
+    m->part = part;
     m->triangle_count = count;
     free(middles);
     free(edges);
     free(uses);
 }
 
-static void write_obj(const mesh *m, FILE *file)
+static void write_obj(const mesh *m, const sp_mesh *coarse, FILE *file)
 {
     for (size_t i = 0; i < m->vertex_count; i++)
         fprintf(file, "v %.9g %.9g %.9g\n", m->vertices[i].x, m->vertices[i].y, m->vertices[i].z);
-    for (size_t t = 0; t < m->triangle_count; t++)
+    for (size_t t = 0; t < m->triangle_count; t++) {
+        if (coarse->part_count > 1 && (t == 0 || m->part[t] != m->part[t - 1]))
+            fprintf(file, "o %s\n", coarse->parts[m->part[t]].name);
         fprintf(file, "f %u %u %u\n", m->triangles[t][0] + 1, m->triangles[t][1] + 1, m->triangles[t][2] + 1);
+    }
 }
 
 /* Little-endian, whatever this machine is. */
@@ -210,7 +218,7 @@ static void write_stl(const mesh *m, FILE *file)
     }
 }
 
-static bool write_mesh(const mesh *m, const char *path)
+static bool write_mesh(const mesh *m, const sp_mesh *coarse, const char *path)
 {
     FILE *file = fopen(path, "wb");
     if (!file)
@@ -219,7 +227,7 @@ static bool write_mesh(const mesh *m, const char *path)
     if (dot && strcmp(dot, ".stl") == 0)
         write_stl(m, file);
     else
-        write_obj(m, file);
+        write_obj(m, coarse, file);
     bool bad = ferror(file);
     return !fclose(file) && !bad;
 }
@@ -242,18 +250,21 @@ int main(int count, char **arguments)
         fprintf(stderr, "%s\n", text);
         return 1;
     }
-    mesh m = {coarse->vertex_count, coarse->triangle_count, coarse->vertex_count + 1, NULL, NULL, jitter};
+    mesh m = {coarse->vertex_count, coarse->triangle_count, coarse->vertex_count + 1, NULL, NULL, NULL, jitter};
     m.vertices = allocate(m.vertex_room, sizeof *m.vertices);
     m.triangles = allocate(m.triangle_count, sizeof *m.triangles);
     memcpy(m.vertices, coarse->vertices, m.vertex_count * sizeof *m.vertices);
+    m.part = allocate(m.triangle_count, sizeof *m.part);
     memcpy(m.triangles, coarse->triangles, m.triangle_count * sizeof *m.triangles);
-    sp_mesh_destroy(coarse);
+    memcpy(m.part, coarse->part, m.triangle_count * sizeof *m.part);
     while (m.triangle_count < (size_t)goal)
         refine_once(&m, (size_t)goal);
-    bool good = write_mesh(&m, arguments[3]);
+    bool good = write_mesh(&m, coarse, arguments[3]);
     if (!good)
         perror(arguments[3]);
     free(m.vertices);
     free(m.triangles);
+    free(m.part);
+    sp_mesh_destroy(coarse);
     return good ? 0 : 1;
 }

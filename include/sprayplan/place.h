@@ -157,6 +157,7 @@ typedef struct {
 typedef struct {
     char name[32];
     double seconds;
+    double processor_seconds; /* of all threads of the process, whatever they did besides */
 } sp_stage;
 
 /* Owned by the caller. */

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #define PATCHES_MOST 30000.0
+#define HURRIED_PATCHES_MOST 1700.0 /* the same where time is short; what is found is refined on the final ones */
 #define PATCHES_LEAST 500.0
 #define SAME 1.2           /* times longer texels are not worth patches of the search's own */
 #define RAYS_MOST 1e8      /* patches times views */
@@ -349,6 +350,7 @@ bool sp_visibility_fit(const sp_evaluator *fine, const sp_place_options *options
     double most = film ? FILM_PATCHES_MOST : PATCHES_MOST, sweeps = film ? FILM_SWEEPS_MOST : SWEEPS_MOST;
     most = fmin(most, PRINTS_SHARE * memory_of(options) / (PRINT * fmax(1, footprints)));
     most = drag ? fmin(most, DRAG_PATCHES_MOST) : most;
+    most = sp_run_hurries(&options->run) ? fmin(most, HURRIED_PATCHES_MOST) : most;
     double rays = drag ? DRAG_RAYS_MOST : RAYS_MOST;
     double patches = fmax(PATCHES_LEAST, fmin(most, fmin(rays / views, sweeps / poses)));
     double finer = sp_evaluator_fidelity(fine)->texel;

@@ -22,10 +22,11 @@ typedef struct {
     double budget; /* m³/s of outlay */
 } sp_finding;
 
-/* Greedy over everything; where the fine measure falls short of the target, on with a higher coarse one. */
-static bool first_draft(const sp_finding *finding, sp_draft *draft)
+/* Greedy over everything; where the fine measure falls short of the target, on with a higher coarse one, unless a
+ * smaller share is enough. */
+static bool first_draft(const sp_finding *finding, double enough, sp_draft *draft)
 {
-    double coarse = finding->target;
+    double coarse = enough * finding->target;
     sp_front_point point;
     for (int round = 0; round < ROUNDS_MOST; round++) {
         size_t before = draft->count;
@@ -33,7 +34,7 @@ static bool first_draft(const sp_finding *finding, sp_draft *draft)
                        finding->error) ||
             !sp_front_measure(finding->front, finding->search, draft, &point, finding->error))
             return false;
-        if (point.area >= finding->target || (round && draft->count == before))
+        if (point.area >= finding->target || enough < 1 || (round && draft->count == before))
             return true;
         coarse = draft->covered + (finding->target - point.area);
     }
@@ -256,26 +257,41 @@ static bool fill_front(const sp_finding *finding, const sp_draft *greedy)
     return done;
 }
 
-bool sp_find(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool *pool, sp_error *error)
+static sp_finding finding_of(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool *pool, sp_error *error)
 {
     bool most = front->objective == SP_OBJECTIVE_MAX_COVERAGE;
-    sp_finding finding = {.search = search,
-                          .watch = watch,
-                          .front = front,
-                          .pool = pool,
-                          .error = error,
-                          .target = most ? INFINITY : front->target,
-                          .budget = search->outlay_most * (1 + SP_ROUNDING)};
-    sp_draft draft;
-    if (!sp_draft_create(search, &draft, error))
+    return (sp_finding){.search = search,
+                        .watch = watch,
+                        .front = front,
+                        .pool = pool,
+                        .error = error,
+                        .target = most ? INFINITY : front->target,
+                        .budget = search->outlay_most * (1 + SP_ROUNDING)};
+}
+
+bool sp_find_first(const sp_search *search, double enough, sp_watch *watch, sp_front *front, sp_pool *pool,
+                   sp_draft *first, sp_error *error)
+{
+    sp_finding finding = finding_of(search, watch, front, pool, error);
+    if (!sp_draft_create(search, first, error))
         return false;
-    bool done = sp_front_measure(front, search, &draft, NULL, error) && first_draft(&finding, &draft) &&
-                sp_watch_stage(watch, "greedy", error);
+    if (sp_front_measure(front, search, first, NULL, error) && first_draft(&finding, enough, first) &&
+        sp_watch_stage(watch, "greedy", error))
+        return true;
+    sp_draft_free(first);
+    return false;
+}
+
+bool sp_find_more(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool *pool, const sp_draft *first,
+                  sp_error *error)
+{
+    sp_finding finding = finding_of(search, watch, front, pool, error);
+    bool done = true;
+    if (!sp_watch_goes_on(watch, "exchange", 0))
+        return true;
     for (int i = 0; done && i < 2 && sp_watch_goes_on(watch, "exchange", 0); i++)
         done = other_draft(&finding, i == 0 ? 0.5 : 0);
-    done = done && shrink_best(&finding) && sp_watch_stage(watch, "exchange", error) && fill_front(&finding, &draft) &&
-           sp_find_fewest(search, pool, &draft, finding.budget, watch, front, error) &&
+    return done && shrink_best(&finding) && sp_watch_stage(watch, "exchange", error) && fill_front(&finding, first) &&
+           sp_find_fewest(search, pool, first, finding.budget, watch, front, error) &&
            sp_watch_stage(watch, "front", error);
-    sp_draft_free(&draft);
-    return done;
 }

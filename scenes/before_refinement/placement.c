@@ -14,6 +14,7 @@ void fail(const sp_error *error)
 void placement_open(const char *scene, placement *p)
 {
     sp_error error = {0};
+    sp_draft first;
     *p = (placement){.scene = sp_scene_load(scene, &error)};
     p->fine = p->scene ? sp_evaluator_create(sp_scene_setup(p->scene), &error) : NULL;
     if (!p->fine)
@@ -31,8 +32,10 @@ void placement_open(const char *scene, placement *p)
     p->front.fine = p->fine;
     p->front.objective = p->options.objective;
     p->front.target = p->options.coverage * sp_evaluator_patches(p->fine)->total_area;
-    if (!sp_find(&p->search, &p->watch, &p->front, &p->pool, &error))
+    if (!sp_find_first(&p->search, 1, &p->watch, &p->front, &p->pool, &first, &error) ||
+        !sp_find_more(&p->search, &p->watch, &p->front, &p->pool, &first, &error))
         fail(&error);
+    sp_draft_free(&first);
 }
 
 void placement_close(placement *p)

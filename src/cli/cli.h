@@ -70,11 +70,12 @@ sp_run cli_run(const cli_options *options);
 bool cli_interrupted(void);
 void cli_progress_end(void);
 
-/* progress.c: wall seconds of what a command does, in order; a stage that comes again adds up. */
+/* progress.c: seconds, by the clock and of the processor, of what a command does, in order; a stage that comes again
+ * adds up. */
 typedef struct {
     sp_stage stages[8];
     size_t count;
-    double since;
+    double since, processor;
 } cli_clock;
 void cli_clock_start(cli_clock *clock);
 void cli_clock_stage(cli_clock *clock, const char *name);

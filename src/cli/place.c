@@ -1,8 +1,12 @@
 /* sprayplan place: a proposed layout, or one for each alternative, compared with the scene's own nozzles. */
 #include "cli.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define ENDING 0.1 /* of the time limit, left for what follows the search; no more than so many seconds */
+#define ENDING_MOST 1.0
 
 typedef struct {
     sp_coverage *manual;     /* NULL where the scene has no nozzles */
@@ -124,7 +128,7 @@ static int report(const cli_options *options, const cli_scene *opened, const pla
 /* Of the time limit, after what was done before, for one of those that are still to come; 0 where there is none. */
 static double time_left(const cli_options *options, const cli_clock *clock, const placement *found, size_t to_come)
 {
-    double left = options->time_limit;
+    double left = options->time_limit - fmin(ENDING_MOST, ENDING * options->time_limit);
     for (size_t i = 0; i < clock->count; i++)
         left -= clock->stages[i].seconds;
     for (size_t i = 0; i < found->count; i++)

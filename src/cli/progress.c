@@ -14,11 +14,16 @@ static struct {
     bool on_screen;
 } bar;
 
+static double read_clock(clockid_t clock)
+{
+    struct timespec time = {0};
+    clock_gettime(clock, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
 static double now(void)
 {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+    return read_clock(CLOCK_MONOTONIC);
 }
 
 static void on_interrupt(int number)
@@ -86,12 +91,12 @@ sp_run cli_run(const cli_options *options)
 
 void cli_clock_start(cli_clock *clock)
 {
-    *clock = (cli_clock){.since = now()};
+    *clock = (cli_clock){.since = now(), .processor = read_clock(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
 void cli_clock_stage(cli_clock *clock, const char *name)
 {
-    double time = now();
+    double time = now(), processor = read_clock(CLOCK_PROCESS_CPUTIME_ID);
     size_t at = 0;
     while (at < clock->count && strcmp(clock->stages[at].name, name))
         at++;
@@ -103,6 +108,8 @@ void cli_clock_stage(cli_clock *clock, const char *name)
             clock->count++;
         }
         stage->seconds += time - clock->since;
+        stage->processor_seconds += processor - clock->processor;
     }
     clock->since = time;
+    clock->processor = processor;
 }

@@ -398,8 +398,8 @@ static bool put_certificate(json_t *root, const sp_certificate *found, bool cost
 static bool put_stages(json_t *stages, const sp_stage *list, size_t count)
 {
     for (size_t i = 0; i < count; ++i)
-        if (json_array_append_new(stages, json_pack("{s:s, s:f}", "name", list[i].name, "seconds", list[i].seconds)) !=
-            0)
+        if (json_array_append_new(stages, json_pack("{s:s, s:f, s:f}", "name", list[i].name, "seconds", list[i].seconds,
+                                                    "processor_seconds", list[i].processor_seconds)) != 0)
             return false;
     return true;
 }

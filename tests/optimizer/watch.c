@@ -42,6 +42,16 @@ static void without_a_limit_there_is_always_time(void **state)
     assert_false(watch.interrupted);
 }
 
+static void short_limits_of_few_threads_make_haste(void **state)
+{
+    (void)state;
+    assert_false(sp_run_hurries(&(sp_run){.threads = 1}));
+    assert_true(sp_run_hurries(&(sp_run){.threads = 1, .time_limit = 90}));
+    assert_false(sp_run_hurries(&(sp_run){.threads = 1, .time_limit = 110}));
+    assert_true(sp_run_hurries(&(sp_run){.threads = 2, .time_limit = 15}));
+    assert_false(sp_run_hurries(&(sp_run){.threads = 16, .time_limit = 15}));
+}
+
 static bool cancel(void *user, const char *stage, double done)
 {
     (void)stage, (void)done;
@@ -66,6 +76,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(only_its_share_of_the_limit_may_be_spent),
         cmocka_unit_test(without_a_limit_there_is_always_time),
+        cmocka_unit_test(short_limits_of_few_threads_make_haste),
         cmocka_unit_test(cancelled_once_it_stays_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

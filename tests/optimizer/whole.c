@@ -1,6 +1,8 @@
 /* Placements that must come out whole: stopped before they end, where one nozzle alone must cover, or counted again. */
 #include "small_room.h"
 
+#include "scoring/visibility.h"
+
 /* Where one nozzle alone must cover, what a proposal covers is what its nozzles cover one by one where liquid adds up,
  * and no two others do better. */
 static void one_nozzle_alone_covers(void **state)
@@ -125,6 +127,97 @@ static void wherever_it_stops_the_best_so_far_is_valid(void **state)
     assert_true(stopped > 3 * sizeof calls / sizeof *calls);
 }
 
+#define HURRY                                                                                                          \
+    90 /* s, for one thread: less than a placement at leisure is given, and more than these small ones take            \
+        */
+
+/* Patches that the search sees. */
+static size_t count_patches(const job *j)
+{
+    sp_error error = {0};
+    sp_watch watch = sp_watch_start(&j->options.run);
+    sp_sites sites = {0};
+    sp_candidates candidates = {0};
+    sp_evaluator *resampled = NULL;
+    sp_visibility visibility;
+    assert_true(sp_sites_create(j->room.evaluator, &j->options, &sites, &error));
+    assert_true(sp_candidates_create(j->room.evaluator, &j->options, &sites, &candidates, &error));
+    assert_true(sp_visibility_fit(j->room.evaluator, &j->options, &sites, &candidates, &watch, &resampled, &visibility,
+                                  &error));
+    size_t count = sp_evaluator_patches(visibility.evaluator)->count;
+    sp_visibility_free(&visibility);
+    sp_evaluator_destroy(resampled);
+    sp_candidates_free(&candidates);
+    sp_sites_free(&sites);
+    return count;
+}
+
+static void in_a_hurry_few_patches_are_seen(void **state)
+{
+    (void)state;
+    job j;
+    job_open_coarse(&j, 0.05);
+    size_t all = sp_evaluator_patches(j.room.evaluator)->count;
+    assert_int_equal(count_patches(&j), all);
+    j.options.run.time_limit = HURRY;
+    assert_true(count_patches(&j) < all / 2);
+    room_close(&j.room);
+}
+
+/* What the placement has once it would look for other drafts of the candidates. */
+static sp_proposal *place_until_exchange(job *j, double time_limit)
+{
+    stopper stop = {"exchange", 0, 0};
+    j->options.run.progress = stop_in_stage;
+    j->options.run.user = &stop;
+    j->options.run.time_limit = time_limit;
+    sp_proposal *proposal = job_place(j);
+    assert_true(proposal->interrupted);
+    return proposal;
+}
+
+/* In a hurry a draft that reaches the target has been refined by then, and none at leisure. */
+static void in_a_hurry_the_proposal_comes_first(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    j.options.coverage = 0.7;
+    j.mounts[0].tilt = 40 * DEGREE;
+    j.options.refine = sp_place_options_default().refine;
+    sp_proposal *leisurely = place_until_exchange(&j, 0), *hurried = place_until_exchange(&j, HURRY);
+    assert_true(leisurely->coverage->covered_area == leisurely->greedy_coverage->covered_area);
+    assert_true(hurried->reached);
+    assert_true(hurried->coverage->flow < leisurely->coverage->flow);
+    assert_true(hurried->coverage->covered_area == area_of(&j, hurried->layout->nozzles, hurried->layout->count));
+    sp_proposal_destroy(leisurely);
+    sp_proposal_destroy(hurried);
+    room_close(&j.room);
+}
+
+/* By then it reaches the target for any objective, and where as much as possible is to be covered nothing is lost. */
+static void in_a_hurry_any_objective_is_served(void **state)
+{
+    (void)state;
+    static const sp_objective objectives[] = {SP_OBJECTIVE_MIN_WATER, SP_OBJECTIVE_MAX_COVERAGE};
+    for (size_t i = 0; i < sizeof objectives / sizeof *objectives; i++) {
+        job j;
+        job_open_coarse(&j, 0.2);
+        j.options.objective = objectives[i];
+        j.options.max_nozzles = 4;
+        j.options.coverage = 0.4;
+        j.mounts[0].tilt = 40 * DEGREE;
+        j.mounts[0].spacing = 0.8;
+        j.options.refine = sp_place_options_default().refine;
+        sp_proposal *proposal = place_until_exchange(&j, HURRY);
+        assert_true(proposal->reached);
+        if (objectives[i] == SP_OBJECTIVE_MAX_COVERAGE)
+            assert_true(proposal->coverage->covered_area >= proposal->greedy_coverage->covered_area);
+        sp_proposal_destroy(proposal);
+        room_close(&j.room);
+    }
+}
+
 /* The least flow and the most water let in more nozzles than are counted one by one. */
 static void many_nozzles_have_a_certificate(void **state)
 {
@@ -207,6 +300,9 @@ int main(void)
         cmocka_unit_test(one_nozzle_alone_covers),
         cmocka_unit_test(cancelling_gives_the_best_so_far),
         cmocka_unit_test(wherever_it_stops_the_best_so_far_is_valid),
+        cmocka_unit_test(in_a_hurry_few_patches_are_seen),
+        cmocka_unit_test(in_a_hurry_the_proposal_comes_first),
+        cmocka_unit_test(in_a_hurry_any_objective_is_served),
         cmocka_unit_test(many_nozzles_have_a_certificate),
         cmocka_unit_test(the_accuracy_holds_on_the_proposal),
         cmocka_unit_test(out_of_time_there_is_one_nozzle),

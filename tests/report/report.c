@@ -65,8 +65,8 @@ static int set_up(void **state)
                                       NAN,
                                       0,
                                       f.coverages[2]->flow * (i + 1) / 3};
-    f.stages[0] = (sp_stage){"visibility", 1.25};
-    f.stages[1] = (sp_stage){"refine", 2.5};
+    f.stages[0] = (sp_stage){"visibility", 1.25, 2.25};
+    f.stages[1] = (sp_stage){"refine", 2.5, 4.75};
     f.proposal = (sp_proposal){.layout = f.layouts[2],
                                .coverage = f.coverages[2],
                                .greedy = f.layouts[1],
@@ -346,7 +346,7 @@ static void result_json_has_the_keys_of_the_contract(void **state)
     EXPECT_KEYS(json_array_get(json_object_get(all, "front"), 0), "water_l_min", "coverage", "nozzles");
     assert_int_equal(json_array_size(json_object_get(all, "front_by_nozzles")), 3);
     EXPECT_KEYS(json_array_get(json_object_get(all, "front_by_nozzles"), 0), "nozzles", "water_l_min", "coverage");
-    EXPECT_KEYS(json_array_get(json_object_get(all, "stages"), 0), "name", "seconds");
+    EXPECT_KEYS(json_array_get(json_object_get(all, "stages"), 0), "name", "seconds", "processor_seconds");
     const fixture *f = *state;
     double water = json_number_value(json_object_get(manual, "water_l_min"));
     assert_true(fabs(water - 6e4 * f->coverages[0]->flow) < 1e-9 * water);
