@@ -1,0 +1,92 @@
+#include "refine/saving.h"
+
+#include "search/exchange.h"
+
+#define FLOW_TRIALS 7     /* measurements to find how far the flow can be turned down */
+#define MISSING_MOST 0.03 /* of the target: more, refinement is not expected to make up for */
+#define BATCH 8           /* walks from one draft at a time; fixed, so that the answer does not depend on the threads */
+#define BATCHES 2         /* before less water is given up */
+
+bool sp_save_flow(sp_refining *refining, const sp_draft *full)
+{
+    const sp_search *search = refining->search;
+    sp_front *front = refining->front;
+    double high = full->flow, low = search->kept_flow;
+    for (size_t i = 0; i < full->count; i++)
+        low += sp_least_flow(search, &full->items[i]);
+    if (!(low < high * (1 - 1e-6)))
+        return true;
+    bool done = true;
+    for (int trial = 0; done && trial < FLOW_TRIALS && sp_watch_goes_on(refining->watch, "refine", 1); trial++) {
+        sp_draft draft;
+        sp_front_point point;
+        double middle = 0.5 * (low + high);
+        done = sp_draft_copy(search, full, &draft, refining->error);
+        if (!done)
+            break;
+        sp_turn_down(search, &draft, middle);
+        done = sp_look_anew(&refining->polishing, &draft, refining->error) &&
+               sp_front_measure(front, search, &draft, &point, refining->error);
+        sp_draft_free(&draft);
+        if (done && point.area >= front->target)
+            high = middle;
+        else
+            low = middle;
+    }
+    return done;
+}
+
+/* Anneals a draft and walks from it once, on two cores, then polishes what more walks from it find, until the front has
+ * one that takes less water than `before` and reaches the target, or it is given up. */
+static bool insist(sp_refining *refining, sp_draft *draft, double budget, const sp_front_point *before)
+{
+    sp_front *front = refining->front;
+    bool done = true;
+    for (int batch = 0; done && batch <= BATCHES && sp_point_same(before, &front->measured); batch++) {
+        double missing = front->target - front->bias - draft->covered;
+        if (missing > MISSING_MOST * front->target || !sp_watch_goes_on(refining->watch, "refine", 0))
+            break;
+        sp_trials trials = {0};
+        for (size_t i = 0; done && i < (batch ? BATCH : 2); i++)
+            done = sp_try_also(refining, &trials, draft, budget, batch || i ? SP_TRIAL_WALK : SP_TRIAL_ANNEAL);
+        done = done && sp_trials_carry_out(refining, &trials, draft);
+        sp_trials_free(&trials);
+    }
+    return done;
+}
+
+/* Less water by the share given: exchange within it, then refine to make up for what is missing. *saved says whether
+ * the best draft got better. */
+static bool save_share(sp_refining *refining, double share, bool *saved)
+{
+    sp_front *front = refining->front;
+    sp_front_point before = front->measured;
+    double budget = front->best.outlay * (1 - share);
+    sp_draft reduced;
+    bool found;
+    *saved = false;
+    if (!sp_reduce(refining->search, refining->pool, &front->best, budget, front->target - front->bias, refining->watch,
+                   &reduced, &found, refining->error))
+        return false;
+    if (!found)
+        return true;
+    bool done = sp_front_measure(front, refining->search, &reduced, NULL, refining->error) &&
+                insist(refining, &reduced, budget, &before);
+    sp_draft_free(&reduced);
+    *saved = done && !sp_point_same(&before, &front->measured);
+    return done;
+}
+
+bool sp_save_water(sp_refining *refining)
+{
+    static const double shares[] = {0.06, 0.03};
+    for (size_t i = 0; i < sizeof shares / sizeof *shares;) {
+        bool saved = false;
+        if (!refining->front->best.count || !sp_watch_goes_on(refining->watch, "refine", 0))
+            return true;
+        if (!save_share(refining, shares[i], &saved))
+            return false;
+        i += !saved;
+    }
+    return true;
+}

@@ -1,0 +1,108 @@
+#include "refine/trials.h"
+
+#include "mesh/grow.h"
+#include "search/guess.h"
+
+#include <stdlib.h>
+
+#define MISJUDGED 0.003 /* of what is covered: by so much the search's patches may rank drafts wrongly */
+
+void sp_trials_free(sp_trials *trials)
+{
+    for (size_t i = 0; i < trials->count; i++) {
+        sp_draft_free(&trials->items[i].draft);
+        sp_draft_free(&trials->items[i].other);
+    }
+    free(trials->items);
+    *trials = (sp_trials){0};
+}
+
+bool sp_try_also(sp_refining *refining, sp_trials *trials, const sp_draft *draft, double budget, sp_trial_kind kind)
+{
+    if (!sp_grow(&trials->items, &trials->capacity, trials->count + 1, sizeof *trials->items))
+        return sp_fail_memory(refining->error);
+    sp_trial *trial = &trials->items[trials->count];
+    *trial = (sp_trial){.kind = kind, .seed = ++refining->seeds, .budget = fmin(budget, refining->search->outlay_most)};
+    if (!sp_draft_copy(refining->search, draft, &trial->draft, refining->error))
+        return false;
+    trials->count++;
+    return true;
+}
+
+/* Whether the final patches may see the draft on the front: none of no more water covers clearly more on the search's.
+ */
+static bool may_count(const sp_front *front, const sp_draft *draft)
+{
+    for (size_t i = 0; i < front->by_water.count && front->by_water.entries[i].point.outlay <= draft->outlay; i++)
+        if (front->by_water.entries[i].draft.covered > draft->covered * (1 + MISJUDGED))
+            return false;
+    return true;
+}
+
+bool sp_ask_other(sp_refining *refining, sp_trials *trials, double outlay)
+{
+    const sp_front *front = refining->front;
+    size_t i = 0;
+    while (i + 1 < front->by_water.count && front->by_water.entries[i + 1].point.outlay <= outlay * (1 + SP_ROUNDING))
+        i++;
+    return sp_try_also(refining, trials, &front->by_water.entries[i].draft, outlay, SP_TRIAL_OTHER);
+}
+
+/* All nozzles of the front's drafts; NULL when memory runs out. */
+static const sp_placed **list_nozzles(const sp_front *front, size_t *count)
+{
+    size_t total = 0;
+    for (size_t i = 0; i < front->by_water.count; i++)
+        total += front->by_water.entries[i].draft.count;
+    const sp_placed **nozzles = malloc((total + 1) * sizeof *nozzles);
+    *count = 0;
+    for (size_t i = 0; nozzles && i < front->by_water.count; i++)
+        for (size_t n = 0; n < front->by_water.entries[i].draft.count; n++)
+            nozzles[(*count)++] = &front->by_water.entries[i].draft.items[n];
+    return nozzles;
+}
+
+bool sp_find_others(sp_refining *refining, sp_trials *trials)
+{
+    const sp_tuned *tuned = &refining->polishing.tuned;
+    size_t count = trials->count, nozzle_count;
+    double *budgets = malloc((count + 1) * sizeof *budgets);
+    sp_lineup *lineups = calloc(count + 1, sizeof *lineups);
+    const sp_placed **nozzles = list_nozzles(refining->front, &nozzle_count);
+    sp_table table = {0};
+    bool done = (budgets && lineups && nozzles) || sp_fail_memory(refining->error);
+    for (size_t i = 0; done && i < count; i++)
+        budgets[i] = trials->items[i].budget * (1 + SP_ROUNDING);
+    done = done && sp_table_create(&tuned->search, &tuned->pool, nozzles, nozzle_count, &table, refining->error) &&
+           sp_guess(&table, budgets, count, refining->watch, lineups, refining->error);
+    for (size_t i = 0; done && i < count; i++)
+        done = sp_lineup_draft(&lineups[i], &trials->items[i].other, refining->error);
+    for (size_t i = 0; lineups && i < count; i++)
+        sp_lineup_free(&lineups[i]);
+    free(budgets);
+    free(lineups);
+    free(nozzles);
+    sp_table_free(&table);
+    return done;
+}
+
+bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials, sp_draft *best)
+{
+    const sp_search *search = refining->search;
+    bool done = sp_polish(&refining->polishing, trials->items, trials->count, refining->error);
+    for (size_t i = 0; done && i < trials->count; i++) {
+        sp_draft *draft = &trials->items[i].draft;
+        if (!trials->items[i].better || !may_count(refining->front, draft))
+            continue;
+        done = sp_front_measure(refining->front, search, draft, NULL, refining->error);
+        if (done && best && sp_covers_more(search, draft, best)) {
+            sp_draft copy;
+            done = sp_draft_copy(search, draft, &copy, refining->error);
+            if (done) {
+                sp_draft_free(best);
+                *best = copy;
+            }
+        }
+    }
+    return done;
+}

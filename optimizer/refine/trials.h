@@ -1,0 +1,44 @@
+/* Trials: drafts that refinement polishes many at a time, and where it looks for others in their place. */
+#ifndef OPTIMIZER_TRIALS_H
+#define OPTIMIZER_TRIALS_H
+
+#include "refine/polish.h"
+#include "search/front.h"
+
+#define SP_GAIN_LEAST 1e-4 /* of area or water: less is no improvement */
+
+typedef struct {
+    const sp_search *search;
+    const sp_pool *pool;
+    sp_watch *watch;
+    sp_front *front;
+    sp_polishing polishing;
+    uint64_t seeds; /* used so far */
+    sp_error *error;
+} sp_refining;
+
+/* Trials in the making. */
+typedef struct {
+    size_t count, capacity;
+    sp_trial *items;
+} sp_trials;
+
+static inline bool sp_point_same(const sp_front_point *a, const sp_front_point *b)
+{
+    return fabs(a->area - b->area) <= SP_GAIN_LEAST * b->area &&
+           fabs(a->outlay - b->outlay) <= SP_GAIN_LEAST * b->outlay;
+}
+
+/* Another trial of a copy of the draft, within a budget (m³/s of outlay). */
+bool sp_try_also(sp_refining *refining, sp_trials *trials, const sp_draft *draft, double budget, sp_trial_kind kind);
+/* A trial of another draft for so much water, to be better than what the front has for no more. */
+bool sp_ask_other(sp_refining *refining, sp_trials *trials, double outlay);
+/* Finds the trials' other drafts: of the pool at the flows that refinement may set, and of nozzles that the front's
+ * drafts have already, put together anew. */
+bool sp_find_others(sp_refining *refining, sp_trials *trials);
+/* Polishes the trials and lets the front have them. *best, where not NULL, becomes a copy of the one that covers most,
+ * if that is more than it does itself. */
+bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials, sp_draft *best);
+void sp_trials_free(sp_trials *trials);
+
+#endif
