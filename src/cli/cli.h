@@ -67,6 +67,9 @@ bool cli_parse(const cli_command *command, int count, char **arguments, cli_opti
 
 /* progress.c: Ctrl-C, SIGTERM and the bar on standard error. */
 sp_run cli_run(const cli_options *options);
+/* For a search that returns its best so far when it is interrupted; evaluations that run by cli_run() are not cut short
+ * from then on. */
+sp_run cli_search_run(const cli_options *options);
 bool cli_interrupted(void);
 void cli_progress_end(void);
 

@@ -158,7 +158,7 @@ static bool propose(const cli_options *options, const cli_scene *opened, const c
         return sp_fail_memory(error);
     for (size_t i = 0; i < count && (i == 0 || !cli_interrupted()); i++) {
         sp_place_options how = alternatives ? sp_scene_alternative_options(opened->scene, i) : all;
-        how.run = cli_run(options);
+        how.run = cli_search_run(options);
         how.run.time_limit = time_left(options, clock, found, count - i);
         how.memory = options->memory;
         how.prove = options->prove;

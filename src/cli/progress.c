@@ -8,6 +8,7 @@
 
 /* The program's own state, not the library's: a signal handler has no argument to find it by. */
 static volatile sig_atomic_t interrupted;
+static bool searching;
 static struct {
     char stage[64];
     double began, drawn;
@@ -68,12 +69,18 @@ static void draw(const char *stage, double done)
     bar.on_screen = true;
 }
 
-static bool progress(void *user, const char *stage, double done)
+static bool search_progress(void *user, const char *stage, double done)
 {
     const bool *visible = user;
     if (*visible)
         draw(stage, done);
     return !interrupted;
+}
+
+/* Once a search has begun, its evaluations end whatever is asked: without them it has nothing to return. */
+static bool progress(void *user, const char *stage, double done)
+{
+    return search_progress(user, stage, done) || searching;
 }
 
 sp_run cli_run(const cli_options *options)
@@ -87,6 +94,14 @@ sp_run cli_run(const cli_options *options)
     sigaction(SIGTERM, &action, NULL);
     return (sp_run){
         .threads = options->threads, .progress = progress, .user = &visible, .time_limit = options->time_limit};
+}
+
+sp_run cli_search_run(const cli_options *options)
+{
+    sp_run run = cli_run(options);
+    run.progress = search_progress;
+    searching = true;
+    return run;
 }
 
 void cli_clock_start(cli_clock *clock)

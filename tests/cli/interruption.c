@@ -18,14 +18,14 @@ static bool catches(pid_t process, int signal)
     return caught >> (signal - 1) & 1;
 }
 
-static pid_t begin_long_place(const char *folder)
+static pid_t begin_long_place(const char *scene, const char *folder)
 {
     pid_t child = fork();
     if (child == 0) {
         if (chdir(workplace) != 0 || !freopen(".out", "w", stdout) || !freopen(".err", "w", stderr))
             _exit(127);
         /* Thousands of mounting points on fine texels: far longer than the test lets it run. */
-        execl(BINARY_DIR "/sprayplan", "sprayplan", "place", "long.yaml", "-o", folder, (char *)NULL);
+        execl(BINARY_DIR "/sprayplan", "sprayplan", "place", scene, "-o", folder, (char *)NULL);
         _exit(127);
     }
     return child;
@@ -58,7 +58,7 @@ static void proposal_is_whole(const char *folder, bool may_be_empty)
 static void out_of_time_place_writes_the_best_so_far(void **state)
 {
     (void)state;
-    write_long_scene();
+    write_long_scene("long.yaml", "", "40 mm");
     static const char *const limits[] = {"0.1", "2"};
     for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
         char text[128];
@@ -73,10 +73,9 @@ static void out_of_time_place_writes_the_best_so_far(void **state)
     }
 }
 
-static void place_survives(int signal, const char *folder)
+static void place_survives(int signal, const char *scene, const char *folder)
 {
-    write_long_scene();
-    pid_t child = begin_long_place(folder);
+    pid_t child = begin_long_place(scene, folder);
     assert_true(child > 0);
     struct timespec pause = {0, 10000000}, worked = {0};
     clockid_t clock;
@@ -101,14 +100,24 @@ static void place_survives(int signal, const char *folder)
 static void interrupting_place_writes_the_best_so_far(void **state)
 {
     (void)state;
-    place_survives(SIGINT, "interrupted");
+    write_long_scene("long.yaml", "", "40 mm");
+    place_survives(SIGINT, "long.yaml", "interrupted");
 }
 
 /* As timeout(1) and schedulers do. */
 static void so_does_asking_it_to_end(void **state)
 {
     (void)state;
-    place_survives(SIGTERM, "terminated");
+    write_long_scene("long.yaml", "", "40 mm");
+    place_survives(SIGTERM, "long.yaml", "terminated");
+}
+
+/* What is found is evaluated by jets after that, which could be cut short as well. Nozzles are found early on. */
+static void so_does_interrupting_a_search_by_jets(void **state)
+{
+    (void)state;
+    write_long_scene("jets.yaml", "evaluator: forward, jets: 20000, ", "160 mm");
+    place_survives(SIGINT, "jets.yaml", "interrupted-jets");
 }
 
 int main(void)
@@ -117,6 +126,7 @@ int main(void)
         cmocka_unit_test(out_of_time_place_writes_the_best_so_far),
         cmocka_unit_test(interrupting_place_writes_the_best_so_far),
         cmocka_unit_test(so_does_asking_it_to_end),
+        cmocka_unit_test(so_does_interrupting_a_search_by_jets),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }

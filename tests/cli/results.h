@@ -77,14 +77,18 @@ static inline void row_of(const char *folder, const char *title, char row[512])
     free(page);
 }
 
-/* long.yaml: the room with thousands of mounting points, for which place takes longer than any test. */
-static inline void write_long_scene(void)
+/* The room with mounting points as far apart as `spacing` says; with 40 mm, thousands of them, place takes longer than
+ * any test. `evaluator` is how that of the scene begins, as "evaluator: forward, ", or "". */
+static inline void write_long_scene(const char *name, const char *evaluator, const char *spacing)
 {
-    char *long_yaml = malloc(sizeof room_yaml + 512);
-    sprintf(long_yaml, "%s    - box: {min: [0.1, 0.1, 0.1], max: [0.9, 0.9, 0.9], spacing: 40 mm, tilt: 180 deg}\n",
-            room_yaml);
-    write_file("long.yaml", long_yaml);
-    free(long_yaml);
+    char *scene = malloc(sizeof room_yaml + 512);
+    const char *settings = strstr(room_yaml, "texel: ");
+    assert_non_null(scene);
+    assert_non_null(settings);
+    sprintf(scene, "%.*s%s%s    - box: {min: [0.1, 0.1, 0.1], max: [0.9, 0.9, 0.9], spacing: %s, tilt: 180 deg}\n",
+            (int)(settings - room_yaml), room_yaml, evaluator, settings, spacing);
+    write_file(name, scene);
+    free(scene);
 }
 
 #endif

@@ -58,7 +58,7 @@ static void threads_sleep_unless_told_otherwise(void **state)
     static const struct {
         const char *policy, *wanted;
     } cases[] = {{NULL, "OMP_WAIT_POLICY=passive"}, {"active", "OMP_WAIT_POLICY=active"}};
-    write_long_scene();
+    write_long_scene("long.yaml", "", "40 mm");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         pid_t child = begin_place(cases[i].policy);
         assert_true(child > 0);
