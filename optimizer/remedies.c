@@ -90,7 +90,8 @@ static void scan_make(const remedying *r, sp_sweeper *sweeper, uint32_t make, si
     size_t axes = sp_candidates_axes(candidates, mount, make)->count;
     double tie = SP_SCORE_TIE * r->search->all;
     sp_sweeper_take(sweeper, make);
-    for (uint32_t a = 0; a < axes; a++)
+    double most = sp_sweeper_most(sweeper); /* mounting points see little of one shadow, and soon all of that is wet */
+    for (uint32_t a = 0; a < axes && most > best->gain + tie; a++)
         for (uint32_t roll = 0; roll < candidates->makes[make].roll_count; roll++) {
             double gain = sp_sweeper_score(sweeper, a, roll, best->gain + tie).gain;
             if (gain > best->gain + tie)

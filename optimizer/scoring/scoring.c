@@ -4,6 +4,8 @@
 
 #include <stdlib.h>
 
+#define ROUNDED_MORE (1 + 1e-4) /* than single precision puts a sum of bins' totals wrong */
+
 static bool sweeper_create(const sp_search *search, sp_sweeper *sweeper, sp_error *error)
 {
     /* whole vectors, and one that begins at the last arrival */
@@ -164,6 +166,17 @@ sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t rol
     search->sweeps->sum(&search->visibility->bins, &sweeper->cull, &region, sweeper->view, weights, 2,
                         least / search->all, sums);
     return (sp_score){sums[0] * search->all, sums[1] * search->all};
+}
+
+double sp_sweeper_most(const sp_sweeper *sweeper)
+{
+    const sp_search *search = sweeper->search;
+    double sum = 0;
+    if (search->runoffs || !sp_type_is_uniform(search->candidates->makes[sweeper->make].type))
+        return INFINITY;
+    for (size_t b = 0; sweeper->view->start && b < SP_BINS; b++)
+        sum += (double)sweeper->gain_total[b];
+    return ROUNDED_MORE * sum * search->all;
 }
 
 sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose, double least)

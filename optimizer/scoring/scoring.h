@@ -42,7 +42,9 @@ void sp_sweeper_take(sp_sweeper *sweeper, size_t make);
 sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll, double least);
 /* Or to a pose's field, as swept, where film is asked for, or of its footprint: the sweeper's, until the next. */
 const float *sp_sweeper_field(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll);
-/* All three at once. */
+/* What none of the make's poses gains more than, m²; INFINITY where its bins do not tell. */
+double sp_sweeper_most(const sp_sweeper *sweeper);
+/* Looks, takes and scores at once. */
 sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose, double least);
 
 /* False where what a make's poses at a site bring was left out for want of time. */
