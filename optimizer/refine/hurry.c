@@ -49,26 +49,22 @@ static bool keep_promising(const sp_refining *refining, sp_trials *trials)
     const sp_front *front = refining->front;
     size_t count = trials->count;
     sp_ranked *ranked = malloc((count + 1) * sizeof *ranked);
-    if (!ranked)
-        return sp_fail_memory(refining->error);
-    for (size_t i = 0; i < count; i++) {
+    bool *kept = calloc(count + 1, sizeof *kept);
+    bool done = (ranked && kept) || sp_fail_memory(refining->error);
+    for (size_t i = 0; done && i < count; i++) {
         const sp_draft *other = &trials->items[i].other;
         bool promising = other->covered >= front->target * (1 - PROMISING);
         ranked[i] = (sp_ranked){promising ? outlay_at_target(front, other->outlay, other->covered) : INFINITY, i};
     }
-    sp_rank_rising(ranked, count);
-    for (size_t k = RUNGS_TRIED; k < count; k++) {
-        sp_trial *trial = &trials->items[ranked[k].at];
-        sp_draft_free(&trial->draft);
-        sp_draft_free(&trial->other);
-        trial->budget = -1;
+    if (done) {
+        sp_rank_rising(ranked, count);
+        for (size_t k = 0; k < count && k < RUNGS_TRIED; k++)
+            kept[ranked[k].at] = true;
+        sp_trials_keep(trials, kept);
     }
-    trials->count = 0;
-    for (size_t i = 0; i < count; i++)
-        if (trials->items[i].budget >= 0)
-            trials->items[trials->count++] = trials->items[i];
     free(ranked);
-    return true;
+    free(kept);
+    return done;
 }
 
 /* The drafts of the front that are close to the target or reach it, and that which covers most, by the water they may

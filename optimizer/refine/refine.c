@@ -3,6 +3,8 @@
 #include "refine/hurry.h"
 #include "refine/saving.h"
 
+#include <stdlib.h>
+
 #define SAVINGS 3    /* amounts of water below the best draft's for which others are looked for */
 #define SAVING 0.015 /* each by so much less */
 #define BETWEEN 0.05 /* less water than a draft of the front, for another */
@@ -77,19 +79,18 @@ static bool ask_savings(sp_refining *refining, sp_trials *trials)
 }
 
 /* Drops the trials whose other draft covers no more than what they hold. */
-static void drop_others(sp_trials *trials)
+static bool drop_others(sp_refining *refining, sp_trials *trials)
 {
-    size_t kept = 0;
+    bool *kept = calloc(trials->count + 1, sizeof *kept);
+    if (!kept)
+        return sp_fail_memory(refining->error);
     for (size_t i = 0; i < trials->count; i++) {
-        sp_trial *trial = &trials->items[i];
-        if (trial->other.covered > trial->draft.covered * (1 + SP_GAIN_LEAST)) {
-            trials->items[kept++] = *trial;
-            continue;
-        }
-        sp_draft_free(&trial->draft);
-        sp_draft_free(&trial->other);
+        const sp_trial *trial = &trials->items[i];
+        kept[i] = trial->other.covered > trial->draft.covered * (1 + SP_GAIN_LEAST);
     }
-    trials->count = kept;
+    sp_trials_keep(trials, kept);
+    free(kept);
+    return true;
 }
 
 /* Every draft of the front, and others in their places and between. */
@@ -107,11 +108,9 @@ static bool polish_front(sp_refining *refining)
 static bool recombine_front(sp_refining *refining)
 {
     sp_trials trials = {0};
-    bool done =
-        ask_others(refining, &trials, false) && ask_savings(refining, &trials) && sp_find_others(refining, &trials);
-    if (done)
-        drop_others(&trials);
-    done = done && sp_trials_carry_out(refining, &trials, NULL);
+    bool done = ask_others(refining, &trials, false) && ask_savings(refining, &trials) &&
+                sp_find_others(refining, &trials) && drop_others(refining, &trials) &&
+                sp_trials_carry_out(refining, &trials, NULL);
     sp_trials_free(&trials);
     return done;
 }

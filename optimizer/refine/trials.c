@@ -7,12 +7,27 @@
 
 #define MISJUDGED 0.003 /* of what is covered: by so much the search's patches may rank drafts wrongly */
 
+static void trial_free(sp_trial *trial)
+{
+    sp_draft_free(&trial->draft);
+    sp_draft_free(&trial->other);
+}
+
+void sp_trials_keep(sp_trials *trials, const bool *kept)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < trials->count; i++)
+        if (kept[i])
+            trials->items[count++] = trials->items[i];
+        else
+            trial_free(&trials->items[i]);
+    trials->count = count;
+}
+
 void sp_trials_free(sp_trials *trials)
 {
-    for (size_t i = 0; i < trials->count; i++) {
-        sp_draft_free(&trials->items[i].draft);
-        sp_draft_free(&trials->items[i].other);
-    }
+    for (size_t i = 0; i < trials->count; i++)
+        trial_free(&trials->items[i]);
     free(trials->items);
     *trials = (sp_trials){0};
 }

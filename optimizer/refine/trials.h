@@ -39,6 +39,8 @@ bool sp_find_others(sp_refining *refining, sp_trials *trials);
 /* Polishes the trials and lets the front have them. *best, where not NULL, becomes a copy of the one that covers most,
  * if that is more than it does itself. */
 bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials, sp_draft *best);
+/* Keeps those of which `kept` [count] is true, in their order. */
+void sp_trials_keep(sp_trials *trials, const bool *kept);
 void sp_trials_free(sp_trials *trials);
 
 #endif

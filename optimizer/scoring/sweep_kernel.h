@@ -355,11 +355,11 @@ INLINE void sum_run(const sp_region *region, bool fan, sp_count count, const sp_
 {
     for (size_t i = first; i < end; i += SP_LANES) {
         lanes weight[SP_WEIGHTS];
-        mask own = first_lanes(end - i), any = below(all(0), load(&weights[0].item[i]));
-        for (size_t k = 0; k < weight_count; k++)
+        mask own = first_lanes(end - i), any = {0};
+        for (size_t k = 0; k < weight_count; k++) {
             weight[k] = load(&weights[k].item[i]);
-        if (weight_count == 2)
-            any = either(any, below(all(0), weight[1]));
+            any = either(any, below(all(0), weight[k]));
+        }
         if (!bits_of(both(any, own)))
             continue;
         lanes part = counting(region, fan, count, view, i);
