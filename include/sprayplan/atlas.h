@@ -2,6 +2,7 @@
 #ifndef SPRAYPLAN_ATLAS_H
 #define SPRAYPLAN_ATLAS_H
 
+#include <sprayplan/export.h>
 #include <sprayplan/mesh.h>
 
 #ifdef __cplusplus
@@ -24,13 +25,13 @@ typedef struct {
  * is laid without strain but for round-off. Cuts at open and flipped edges; where more
  * than two triangles meet, those two after two that go on in each other most smoothly stay together. Deterministic;
  * size, place and attitude do not matter but for their round-off. */
-sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error);
-void sp_charts_destroy(sp_charts *charts);
+SP_API sp_charts *sp_charts_create(const sp_mesh *mesh, double extent, sp_error *error);
+SP_API void sp_charts_destroy(sp_charts *charts);
 /* How far it is around the part that each chart lies on, m: 2π times the chart's area over how far its surface turns
  * about the direction in which it turns most, summed over the edges of the mesh in it (half of those on its rim). That
  * is exact for convex prisms and cylinders and for spheres, whatever they were cut into; the larger the flatter a chart
  * is, INFINITY where it is flat; bends of opposite sense cancel out. [chart_count]; the caller frees. */
-double *sp_charts_girth(const sp_charts *charts, const sp_mesh *mesh, sp_error *error);
+SP_API double *sp_charts_girth(const sp_charts *charts, const sp_mesh *mesh, sp_error *error);
 
 /* Used pixels side by side in one row of a page. Charts keep a pixel apart, so they are of one chart. */
 typedef struct {
@@ -100,15 +101,15 @@ typedef struct {
 /* Packs the charts with one pixel between any two, into the smallest square page found, or as many pages as needed, and
  * measures every texel by exact coverage. Fails with SP_ERROR_INPUT where a chart is larger than a page at this texel:
  * with an extent of page_edge texels that happens only to single triangles. charts and mesh are only read. */
-sp_atlas *sp_atlas_create(const sp_mesh *mesh, const sp_charts *charts, const sp_atlas_options *options,
-                          sp_error *error);
+SP_API sp_atlas *sp_atlas_create(const sp_mesh *mesh, const sp_charts *charts, const sp_atlas_options *options,
+                                 sp_error *error);
 /* The atlas that an OBJ file already holds as texture coordinates, `mesh` being what sp_mesh_load made of that file.
  * The coordinates are in units of a page's edge, the pages named by usemtl page_0, ...; they are kept as they are.
  * `texel` (m) 0: the file's own where sp_atlas_obj wrote it, else one of 2^20 of the surface. Fails with
  * SP_ERROR_INPUT, at the face's line, for what breaks what every atlas keeps: corners without coordinates or off the
  * page, triangles that are turned over, overlaps, lengths (more than 5 % of the area strained by more than 5 %), charts
  * without a pixel between them. */
-sp_atlas *sp_atlas_reuse(const sp_mesh *mesh, const char *path, double texel, sp_error *error);
+SP_API sp_atlas *sp_atlas_reuse(const sp_mesh *mesh, const char *path, double texel, sp_error *error);
 
 /* How an OBJ file lays its triangles flat, polygons as fans and in the file's order. Nothing of it has been checked. */
 typedef struct {
@@ -121,21 +122,21 @@ typedef struct {
 } sp_unfolding;
 
 /* Reads a file that sp_mesh_load reads; `unit`: m per unit of the file's coordinates, as the mesh has it. */
-sp_unfolding *sp_unfolding_read(const char *path, double unit, sp_error *error);
-void sp_unfolding_destroy(sp_unfolding *unfolding);
+SP_API sp_unfolding *sp_unfolding_read(const char *path, double unit, sp_error *error);
+SP_API void sp_unfolding_destroy(sp_unfolding *unfolding);
 /* As sp_atlas_reuse, of a mesh that several files make up, in the order of its source triangles; their pages follow one
  * another, each in the lower left of pages of one size, on texels of its own that are no longer than `texel`. Errors
  * name file and line. */
-sp_atlas *sp_atlas_of_files(const sp_mesh *mesh, const sp_unfolding *const *files, size_t count, double texel,
-                            sp_error *error);
+SP_API sp_atlas *sp_atlas_of_files(const sp_mesh *mesh, const sp_unfolding *const *files, size_t count, double texel,
+                                   sp_error *error);
 /* The texel (m) where none is asked for: the shortest that the files have themselves, or as sp_atlas_reuse has it. */
-double sp_unfolding_texel(const sp_unfolding *const *files, size_t count, const sp_mesh *mesh);
+SP_API double sp_unfolding_texel(const sp_unfolding *const *files, size_t count, const sp_mesh *mesh);
 /* The charts of an atlas as they lie on its pages, no edge cut anew; the caller destroys. */
-sp_charts *sp_charts_of_atlas(const sp_atlas *atlas, sp_error *error);
-void sp_atlas_destroy(sp_atlas *atlas);
+SP_API sp_charts *sp_charts_of_atlas(const sp_atlas *atlas, sp_error *error);
+SP_API void sp_atlas_destroy(sp_atlas *atlas);
 
 /* The texel that holds the point (1-u-v, u, v) of a triangle; always one that the triangle has a part in. */
-uint32_t sp_atlas_texel(const sp_atlas *atlas, uint32_t triangle, double u, double v);
+SP_API uint32_t sp_atlas_texel(const sp_atlas *atlas, uint32_t triangle, double u, double v);
 
 /* The length of a triangle's texels, m. */
 static inline double sp_atlas_texel_length(const sp_atlas *atlas, uint32_t triangle)
@@ -147,15 +148,15 @@ static inline double sp_atlas_texel_length(const sp_atlas *atlas, uint32_t trian
 typedef struct {
     uint32_t page, x, y, chart;
 } sp_texel_place;
-sp_texel_place sp_atlas_place(const sp_atlas *atlas, uint32_t texel);
+SP_API sp_texel_place sp_atlas_place(const sp_atlas *atlas, uint32_t texel);
 /* The first texel of a pixel, SP_NONE where nothing lies. x and y may lie beyond the page. */
-uint32_t sp_atlas_pixel(const sp_atlas *atlas, uint32_t page, uint32_t x, uint32_t y);
+SP_API uint32_t sp_atlas_pixel(const sp_atlas *atlas, uint32_t page, uint32_t x, uint32_t y);
 /* The seams of a texel: *count of them, from the result on. */
-const sp_seam *sp_atlas_seams(const sp_atlas *atlas, uint32_t texel, size_t *count);
+SP_API const sp_seam *sp_atlas_seams(const sp_atlas *atlas, uint32_t texel, size_t *count);
 /* Where a point at `place` on the page of a seam's texel would lie on that of the other (both in pixels), if the
  * surface went on there as it does beyond the seam: turned and moved, or mirrored where the two face opposite ways. */
-void sp_atlas_across(const sp_atlas *atlas, const sp_mesh *mesh, const sp_seam *seam, const double place[2],
-                     double there[2]);
+SP_API void sp_atlas_across(const sp_atlas *atlas, const sp_mesh *mesh, const sp_seam *seam, const double place[2],
+                            double there[2]);
 
 /* Which triangles a texel consists of. What the evaluators need beyond the atlas; 16 bytes a piece. */
 typedef struct {
@@ -166,24 +167,24 @@ typedef struct {
     uint32_t *start;    /* [texel_count + 1]; fragments of texel i are [start[i], start[i+1]) */
     sp_fragment *items; /* ordered by texel, then triangle */
 } sp_fragments;
-bool sp_fragments_create(sp_fragments *fragments, const sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
+SP_API bool sp_fragments_create(sp_fragments *fragments, const sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
 /* Accepts what was never created, if it is all zeros. */
-void sp_fragments_destroy(sp_fragments *fragments);
+SP_API void sp_fragments_destroy(sp_fragments *fragments);
 
 #define SP_FRAGMENT_POINTS 7 /* a triangle clipped by a square has at most this many corners */
 /* The corners on the surface (m) of one triangle's part of a texel; returns how many (0 where round-off left nothing).
  */
-int sp_atlas_fragment_polygon(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t texel, uint32_t triangle,
-                              sp_vec3 polygon[SP_FRAGMENT_POINTS]);
+SP_API int sp_atlas_fragment_polygon(const sp_atlas *atlas, const sp_mesh *mesh, uint32_t texel, uint32_t triangle,
+                                     sp_vec3 polygon[SP_FRAGMENT_POINTS]);
 
 /* Which texels touch along an edge of a pixel in their chart, or across a cut. Symmetric. */
 typedef struct {
     uint32_t *start; /* [texel_count + 1]; neighbours of texel i are items[start[i]] up to start[i+1], ascending */
     uint32_t *items;
 } sp_texel_links;
-bool sp_texel_links_create(sp_texel_links *links, const sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
+SP_API bool sp_texel_links_create(sp_texel_links *links, const sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
 /* Accepts what was never created, if it is all zeros. */
-void sp_texel_links_destroy(sp_texel_links *links);
+SP_API void sp_texel_links_destroy(sp_texel_links *links);
 
 /* The `atlas` command's figures. */
 typedef struct {
@@ -195,12 +196,12 @@ typedef struct {
     size_t overlaps;                          /* pairs of triangles that overlap in a chart */
     double area_error;                        /* |Σ texel area − surface| / surface */
 } sp_atlas_figures;
-bool sp_atlas_measure(const sp_atlas *atlas, const sp_mesh *mesh, sp_atlas_figures *figures, sp_error *error);
+SP_API bool sp_atlas_measure(const sp_atlas *atlas, const sp_mesh *mesh, sp_atlas_figures *figures, sp_error *error);
 
 /* The mesh with its UVs as OBJ text: every source triangle in order, groups as they came, `v` and `vt` with 17
  * significant digits, usemtl page_0, page_1, ... Malloc'd, terminated; the caller frees. Only an atlas of one texel
  * length can be read back by sp_atlas_reuse. */
-char *sp_atlas_obj(const sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
+SP_API char *sp_atlas_obj(const sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
 
 #ifdef __cplusplus
 }

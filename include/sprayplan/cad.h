@@ -2,6 +2,7 @@
 #ifndef SPRAYPLAN_CAD_H
 #define SPRAYPLAN_CAD_H
 
+#include <sprayplan/export.h>
 #include <sprayplan/mesh.h>
 #include <sprayplan/run.h>
 
@@ -16,7 +17,7 @@ typedef enum {
     SP_CAD_BREP, /* .brep, .brp: OpenCASCADE's own, the only one that does not know its unit of length */
 } sp_cad_kind;
 
-sp_cad_kind sp_cad_kind_of(const char *path);
+SP_API sp_cad_kind sp_cad_kind_of(const char *path);
 
 typedef struct {
     double chord;      /* m: how far triangles may lie off the surface; 0: a thousandth of the geometry's diagonal, */
@@ -26,7 +27,7 @@ typedef struct {
 } sp_cad_options;
 
 /* Chord 0, 10 degrees: whatever the chord, cylinders keep their area to 0.13 % and spheres to 0.3 %. */
-sp_cad_options sp_cad_options_default(void);
+SP_API sp_cad_options sp_cad_options_default(void);
 
 /* What was kept, and what was wrong with the file. */
 typedef struct {
@@ -46,8 +47,8 @@ typedef struct {
  * parts. `account` may be NULL. NULL with an error that names the file, also where the program is not installed, dies
  * on the file or takes too much time or memory for its size. The caller destroys. Any number of threads may load at a
  * time. */
-sp_mesh *sp_cad_load(const char *path, double unit, const sp_cad_options *options, sp_cad_account *account,
-                     sp_error *error);
+SP_API sp_mesh *sp_cad_load(const char *path, double unit, const sp_cad_options *options, sp_cad_account *account,
+                            sp_error *error);
 
 #ifdef __cplusplus
 }

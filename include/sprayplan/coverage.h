@@ -3,6 +3,7 @@
 #define SPRAYPLAN_COVERAGE_H
 
 #include <sprayplan/error.h>
+#include <sprayplan/export.h>
 #include <sprayplan/vector.h>
 
 #include <stddef.h>
@@ -172,19 +173,19 @@ typedef struct {
     sp_deposits deposits;
 } sp_coverage;
 
-void sp_coverage_destroy(sp_coverage *coverage);
+SP_API void sp_coverage_destroy(sp_coverage *coverage);
 
 struct sp_evaluator;
 /* Connected uncovered regions, largest first (equal area: lowest patch first). `reasons` [patches] may be NULL.
  * On success *shadows is malloc'd (NULL where there are none) and the caller frees it. */
-bool sp_shadows(const struct sp_evaluator *evaluator, const sp_coverage *coverage, const sp_reason *reasons,
-                sp_shadow **shadows, size_t *count, sp_error *error);
+SP_API bool sp_shadows(const struct sp_evaluator *evaluator, const sp_coverage *coverage, const sp_reason *reasons,
+                       sp_shadow **shadows, size_t *count, sp_error *error);
 /* Which of the first `count` of these shadows each patch lies in: numbers [patches], the caller's, from 1, 0 for none.
  */
-bool sp_shadow_numbers(const struct sp_evaluator *evaluator, const sp_coverage *coverage, const sp_shadow *shadows,
-                       size_t count, uint32_t *numbers, sp_error *error);
+SP_API bool sp_shadow_numbers(const struct sp_evaluator *evaluator, const sp_coverage *coverage,
+                              const sp_shadow *shadows, size_t count, uint32_t *numbers, sp_error *error);
 /* What a patch lacks. */
-sp_lack sp_patch_lack(const struct sp_evaluator *evaluator, const sp_coverage *coverage, uint32_t patch);
+SP_API sp_lack sp_patch_lack(const struct sp_evaluator *evaluator, const sp_coverage *coverage, uint32_t patch);
 
 #ifdef __cplusplus
 }

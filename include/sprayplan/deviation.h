@@ -3,6 +3,7 @@
 #define SPRAYPLAN_DEVIATION_H
 
 #include <sprayplan/evaluator.h>
+#include <sprayplan/export.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -15,7 +16,7 @@ extern "C" {
  * With T² = 2 d²/(b + √D), the squared flight time (see sp_flights), it leaves along r - g T²/2, of length v T, so
  * that the sine of the angle is g T sin ζ / 2v. And T is at most f d/v: b = v² + r·g is no less than v² (1 - ε),
  * and D = (b - g d)(b + g d) no less than v⁴ (1 - 2ε). */
-double sp_line_deviation(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity);
+SP_API double sp_line_deviation(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity);
 
 /* How much the coverage that flights along straight lines give and the one that parabolas give can differ at most, as a
  * share of the counted area: the share that patches have of which it is not proved that lines and parabolas cover all
@@ -26,8 +27,8 @@ double sp_line_deviation(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity
  * on its method, it does not depend. 0 without gravity. 1 says nothing; so it is where the liquid is slow for where it
  * goes (ε of sp_line_deviation 1/2 or more), and where goods move. `decided` is NULL or [patches], the caller's: the
  * patches of which it is proved. */
-bool sp_bound_lines(const sp_evaluator *evaluator, const sp_layout *layout, double *bound, bool *decided,
-                    sp_error *error);
+SP_API bool sp_bound_lines(const sp_evaluator *evaluator, const sp_layout *layout, double *bound, bool *decided,
+                           sp_error *error);
 
 #ifdef __cplusplus
 }

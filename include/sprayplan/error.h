@@ -2,6 +2,8 @@
 #ifndef SPRAYPLAN_ERROR_H
 #define SPRAYPLAN_ERROR_H
 
+#include <sprayplan/export.h>
+
 #include <stdbool.h>
 
 #ifdef __cplusplus
@@ -28,17 +30,18 @@ typedef struct {
 
 /* Records an error unless `error` is NULL or holds one already: the first error is the cause, later ones are its
  * consequences. `file` may be NULL. Returns false always, so that `return sp_fail(...)` reads well. */
-bool sp_fail(sp_error *error, sp_error_kind kind, const char *file, int line, int column, const char *format, ...)
+SP_API bool sp_fail(sp_error *error, sp_error_kind kind, const char *file, int line, int column, const char *format,
+                    ...)
 #if defined(__GNUC__)
     __attribute__((format(printf, 6, 7)))
 #endif
     ;
 
 /* As sp_fail with SP_ERROR_MEMORY; returns NULL always. */
-void *sp_fail_memory(sp_error *error);
+SP_API void *sp_fail_memory(sp_error *error);
 
 /* Writes "file:line:column: message" (the parts that are known) to `text` of `size` bytes, always terminated. */
-void sp_error_text(const sp_error *error, char *text, unsigned long size);
+SP_API void sp_error_text(const sp_error *error, char *text, unsigned long size);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 
 #include <sprayplan/atlas.h>
 #include <sprayplan/coverage.h>
+#include <sprayplan/export.h>
 #include <sprayplan/flight.h>
 #include <sprayplan/patches.h>
 #include <sprayplan/setup.h>
@@ -19,7 +20,7 @@ typedef struct sp_evaluator sp_evaluator;
  * outlive the evaluator. Settings left to auto become the plain safe ones: parabolas, 100,000 texels on what is cleaned
  * and counted, jets for them, and jets at all, with three reflections, only where walls throw liquid back. Given NULL
  * it returns NULL and keeps the error. */
-sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error);
+SP_API sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error);
 /* The same for a layout (borrowed for the call; NULL or without nozzles: as above), with the cheapest settings that
  * keep the setup's accuracy as measured on it (see sp_measure_error), so that they hold for it and layouts like it:
  *  - the texel, inverse: the longest, between that of 30,000 texels and of 1,600,000, on which no more area is
@@ -31,21 +32,21 @@ sp_evaluator *sp_evaluator_create(const sp_setup *setup, sp_error *error);
  *  - reflections: as many as it takes until the liquid that still flies can change the coverage by no more than a
  *    quarter of the accuracy, eight at most
  * Nothing depends on time or threads. It costs about as much as two or three evaluations. */
-sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *layout, sp_error *error);
+SP_API sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *layout, sp_error *error);
 /* A second evaluator on the same geometry with another texel size (m), sharing accelerator, charts and wet sides with
  * `fine`, which must outlive it. On thin parts and on what is not cleaned its texels differ from `texel` in proportion
  * to those of `fine`. Inverse, whatever the setup asks: for searching. Where the criterion asks for film, its
  * patches are of all wet sides, cleaned or not, and film runs from one to the next: see sp_evaluator_counted and
  * sp_runoff. */
-sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_error *error);
+SP_API sp_evaluator *sp_evaluator_resample(const sp_evaluator *fine, double texel, sp_error *error);
 /* A third on the same geometry, by the scene's own method, to count on again what was found on `evaluator`, which must
  * outlive it: by parabolas where auto took lines, and with `shorter` on texels half as long where auto chose them. NULL
  * in *again where neither changes anything: auto takes no shorter texels than 1,600,000. False on error. */
-bool sp_evaluator_again(const sp_evaluator *evaluator, bool shorter, sp_evaluator **again, sp_error *error);
-void sp_evaluator_destroy(sp_evaluator *evaluator);
+SP_API bool sp_evaluator_again(const sp_evaluator *evaluator, bool shorter, sp_evaluator **again, sp_error *error);
+SP_API void sp_evaluator_destroy(sp_evaluator *evaluator);
 
-const sp_setup *sp_evaluator_setup(const sp_evaluator *evaluator);
-const sp_fidelity *sp_evaluator_fidelity(const sp_evaluator *evaluator); /* nothing left to auto */
+SP_API const sp_setup *sp_evaluator_setup(const sp_evaluator *evaluator);
+SP_API const sp_fidelity *sp_evaluator_fidelity(const sp_evaluator *evaluator); /* nothing left to auto */
 /* Why settings that the setup left to auto are as they are, a clause of plain text each; "" where the setup itself says
  * or nothing was measured. */
 #define SP_WHY 160
@@ -53,22 +54,22 @@ typedef struct {
     char trajectory[SP_WHY], method[SP_WHY], reflections[SP_WHY], jets[SP_WHY], texel[SP_WHY];
     bool missed; /* nothing that was tried keeps the accuracy with half of it to spare */
 } sp_choice;
-const sp_choice *sp_evaluator_choice(const sp_evaluator *evaluator);
+SP_API const sp_choice *sp_evaluator_choice(const sp_evaluator *evaluator);
 /* Jets per nozzle that so short a texel wants, where the forward evaluator flies fewer (whether they were asked for or
  * are the most that it chooses itself) and they were not measured to be enough; else 0. */
-double sp_evaluator_jets_wanted(const sp_evaluator *evaluator);
+SP_API double sp_evaluator_jets_wanted(const sp_evaluator *evaluator);
 /* By how many of a nozzle's jets a texel that is just covered is met; its flux is off by about one in their root. */
-double sp_evaluator_jets_met(const sp_evaluator *evaluator);
-const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator);
-const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator);
+SP_API double sp_evaluator_jets_met(const sp_evaluator *evaluator);
+SP_API const sp_atlas *sp_evaluator_atlas(const sp_evaluator *evaluator);
+SP_API const sp_patches *sp_evaluator_patches(const sp_evaluator *evaluator);
 /* m² of a patch that is to be cleaned: all of it, or none where it is only run over. */
-double sp_evaluator_counted(const sp_evaluator *evaluator, uint32_t patch);
-const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator);
+SP_API double sp_evaluator_counted(const sp_evaluator *evaluator, uint32_t patch);
+SP_API const sp_tracer *sp_evaluator_tracer(const sp_evaluator *evaluator);
 /* On which sides some of a triangle faces the liquid: bit 0 front, bit 1 back. Both where no cavity is named. A
  * triangle that others cross or touch may face it in parts. */
-unsigned sp_evaluator_wet(const sp_evaluator *evaluator, uint32_t triangle);
+SP_API unsigned sp_evaluator_wet(const sp_evaluator *evaluator, uint32_t triangle);
 /* On which sides the point (1-u-v, u, v) of a triangle does. */
-unsigned sp_evaluator_wet_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v);
+SP_API unsigned sp_evaluator_wet_at(const sp_evaluator *evaluator, uint32_t triangle, double u, double v);
 /* What became of a part's surface, in m². Of closed shells the outer side is told of (of a room's the inner), of sheets
  * both sides, each with its area. Where no cavity is named all is wet, once. */
 typedef struct {
@@ -79,7 +80,7 @@ typedef struct {
     double both;     /* of wet: of closed shells, wet on both sides; something is wrong with the geometry */
 } sp_part_sides;
 /* parts: [part_count of the setup's mesh], the caller's. */
-void sp_evaluator_part_sides(const sp_evaluator *evaluator, sp_part_sides *parts);
+SP_API void sp_evaluator_part_sides(const sp_evaluator *evaluator, sp_part_sides *parts);
 
 /* What was made of all the geometry, sound or not; what only its flood tells is 0 where no cavity is named. */
 typedef struct {
@@ -91,7 +92,7 @@ typedef struct {
     sp_part_sides sides;   /* of all parts together */
     double outdoors;       /* m², as sp_evaluator_outdoors */
 } sp_geometry_account;
-sp_geometry_account sp_evaluator_account(const sp_evaluator *evaluator);
+SP_API sp_geometry_account sp_evaluator_account(const sp_evaluator *evaluator);
 
 /* Where lines of sight leave the space to be cleaned, for the sky or for what lies outdoors. */
 typedef struct {
@@ -101,9 +102,9 @@ typedef struct {
 } sp_opening;
 #define SP_OPENINGS 16 /* as many are kept */
 /* The openings that are most seen through, in that order. Owned by the evaluator. None but for a cavity's point. */
-const sp_opening *sp_evaluator_openings(const sp_evaluator *evaluator, size_t *count);
+SP_API const sp_opening *sp_evaluator_openings(const sp_evaluator *evaluator, size_t *count);
 /* m² of surface that is seen through openings alone and lies under the sky: it is left out. */
-double sp_evaluator_outdoors(const sp_evaluator *evaluator);
+SP_API double sp_evaluator_outdoors(const sp_evaluator *evaluator);
 /* Where what runs down the walls stands: hollows up to their rim, flats, and the lowest places of a vessel without its
  * drain. */
 typedef struct {
@@ -114,48 +115,48 @@ typedef struct {
 #define SP_HOLLOWS 16 /* as many are kept */
 /* Those that do not drain, then the others, those of most area first. Owned by the evaluator. None where the criterion
  * does not ask for film. */
-const sp_hollow *sp_evaluator_hollows(const sp_evaluator *evaluator, size_t *count);
+SP_API const sp_hollow *sp_evaluator_hollows(const sp_evaluator *evaluator, size_t *count);
 /* One thread's memory for what runs down the walls of an evaluator, borrowed, that sp_evaluator_resample made where the
  * criterion asks for film; or for what goods that move take with them, where it asks for a dose. */
 typedef struct sp_runoff sp_runoff;
 /* NULL on error, also where film does not run from patch to patch and no goods take a dose. */
-sp_runoff *sp_runoff_create(const sp_evaluator *walls, sp_error *error);
+SP_API sp_runoff *sp_runoff_create(const sp_evaluator *walls, sp_error *error);
 /* Accepts NULL. */
-void sp_runoff_destroy(sp_runoff *runoff);
+SP_API void sp_runoff_destroy(sp_runoff *runoff);
 /* Where to write what one nozzle brings to each patch, m³/s, [patches]: the runoff's, all 0 at first. */
-double *sp_runoff_arriving(sp_runoff *runoff);
+SP_API double *sp_runoff_arriving(sp_runoff *runoff);
 /* What comes of it: the film on every patch [patches], in flow per width over what the criterion asks for, of which a
  * solid stream's liquid, all of `flow` (m³/s), spreads over a disc first; or the dose over what is asked for. What
  * arrives is 0 again then. Films of several nozzles add up, and so do doses. */
-void sp_runoff_find(sp_runoff *runoff, const sp_nozzle_type *type, double flow, float *film);
+SP_API void sp_runoff_find(sp_runoff *runoff, const sp_nozzle_type *type, double flow, float *film);
 
 /* True where the point lies in the space that the wet sides face (no cavity: everywhere). Never in a solid; else by
  * lines of sight in at least 16 directions: what most of them first meet is a wet side (or, with the cavity outside,
  * nothing). */
-bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point);
+SP_API bool sp_evaluator_inside(const sp_evaluator *evaluator, sp_vec3 point);
 /* False, with an error that names the nozzle, where it cannot stand: in a wall (nearer to a surface than 1e-6 of the
  * geometry's diagonal), or not in the space that the wet sides face (by lines of sight as above, and none to the
  * cavity's point), or in the way of goods that move. Of a cluster that is asked of each pattern. */
-bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle, sp_error *error);
+SP_API bool sp_evaluator_admits(const sp_evaluator *evaluator, const sp_nozzle *nozzle, sp_error *error);
 /* In how many positions goods that move are looked at on their pass; 1 where nothing moves. */
-size_t sp_evaluator_positions(const sp_evaluator *evaluator);
+SP_API size_t sp_evaluator_positions(const sp_evaluator *evaluator);
 /* True where no surface but that of part `own` (SP_NONE: no exception) comes nearer to the point than `clearance` (m),
  * of goods that move at any time of their pass. */
-bool sp_evaluator_is_clear(const sp_evaluator *evaluator, sp_vec3 point, double clearance, uint32_t own);
+SP_API bool sp_evaluator_is_clear(const sp_evaluator *evaluator, sp_vec3 point, double clearance, uint32_t own);
 /* What pulls at liquid that leaves so, or (NULL) of a type without a trajectory of its own: m/s², zero along lines. */
-sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator, const sp_launch *launch);
+SP_API sp_vec3 sp_evaluator_gravity(const sp_evaluator *evaluator, const sp_launch *launch);
 
 /* Evaluates by the scene's own method. NULL on error. */
-sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
+SP_API sp_coverage *sp_evaluate(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
 /* By one method whatever the scene asks, both to the first impact, so that each checks the other. The nozzles share the
  * jets by their flows; a texel that none of few jets meets looks dry, and one that few meet is covered whole. */
-sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
-sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, uint64_t jets,
-                                 sp_error *error);
+SP_API sp_coverage *sp_evaluate_inverse(const sp_evaluator *evaluator, const sp_layout *layout, sp_error *error);
+SP_API sp_coverage *sp_evaluate_forward(const sp_evaluator *evaluator, const sp_layout *layout, uint64_t jets,
+                                        sp_error *error);
 /* Works out coverage->balance of this layout where it is not known: 20,000 jets of each nozzle (which a cluster's
  * patterns share) are flown to their first impact, evenly spread, which tells shares of the liquid to about 0.1 %. */
-bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
-                         sp_error *error);
+SP_API bool sp_evaluate_balance(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage,
+                                sp_error *error);
 
 /* What each nozzle of a layout does for its coverage. */
 typedef struct {
@@ -167,10 +168,10 @@ typedef struct {
 /* By the scene's own method; `coverage` is that of the layout. Evaluates every nozzle alone, of which what is lost
  * follows: takes about as long as evaluating the layout, and besides what it returns 16 bytes (24 where the criterion
  * asks for film) for each nozzle and patch meanwhile. The caller destroys; NULL on error. */
-sp_contributions *sp_contributions_create(const sp_evaluator *evaluator, const sp_layout *layout,
-                                          const sp_coverage *coverage, sp_error *error);
+SP_API sp_contributions *sp_contributions_create(const sp_evaluator *evaluator, const sp_layout *layout,
+                                                 const sp_coverage *coverage, sp_error *error);
 /* Accepts NULL. */
-void sp_contributions_destroy(sp_contributions *contributions);
+SP_API void sp_contributions_destroy(sp_contributions *contributions);
 
 /* Finds the patches whose verdict round-off could turn, for `coverage` that sp_evaluate_inverse found for this layout:
  * where a flux, speed or incidence lies within 1e-9 (relative) of its criterion, or the patch's point, or that of a
@@ -182,8 +183,8 @@ void sp_contributions_destroy(sp_contributions *contributions);
  * Takes about as long as evaluating. `patches` is NULL or the caller's [patches], true for those found. *borderline is
  * coverage->borderline or another, the caller's; not known where goods move. Given NULL from an earlier failure it
  * returns false and keeps the error. */
-bool sp_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
-                        bool *patches, sp_borderline *borderline, sp_error *error);
+SP_API bool sp_find_borderline(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
+                               bool *patches, sp_borderline *borderline, sp_error *error);
 
 /* How liquid from one position arrives at a patch that leaves as a launch says: nothing else here depends on the
  * nozzle, its axis, roll, angle, type or flow. The flux (m/s) at the patch is Q · intensity(direction) · transfer. A
@@ -215,24 +216,25 @@ typedef struct {
  * `axis`, or so near beyond it that a spray which ends there may have a share of their patch (sp_spray_fringe).
  * The caller destroys. Uses the setup's threads; inside a parallel region it runs on one. Fails where the launch has no
  * fronts and the evaluator flies with drag, or the other way round: see sp_launch_table. */
-sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch, sp_vec3 axis,
-                             double half_angle, sp_error *error);
+SP_API sp_reach *sp_evaluator_reach(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch, sp_vec3 axis,
+                                    double half_angle, sp_error *error);
 /* The same, of arrivals that pass the criterion's speed and incidence alone, at the patches that `among` [patches]
  * holds, all where it is NULL: less is traced. */
-sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch, sp_vec3 axis,
-                                     double half_angle, const bool *among, sp_error *error);
+SP_API sp_reach *sp_evaluator_reach_passing(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch,
+                                            sp_vec3 axis, double half_angle, const bool *among, sp_error *error);
 /* The same of the patches first to end alone, and where film runs from patch to patch of all arrivals, for callers with
  * little memory: it takes no more than SP_REACH_WORK bytes for each of these patches and for each arrival of a cell,
  * the answer included. `known` is NULL, or holds the answer of an earlier call, bit 2 patch + arc (least bits first)
  * set for every arrival: then the same is told again, and nothing is traced but the way to cells. */
 #define SP_REACH_WORK 1024
-sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch, sp_vec3 axis,
-                                  double half_angle, size_t first, size_t end, const uint8_t *known, sp_error *error);
-void sp_reach_destroy(sp_reach *reach);
+SP_API sp_reach *sp_evaluator_reach_part(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch,
+                                         sp_vec3 axis, double half_angle, size_t first, size_t end,
+                                         const uint8_t *known, sp_error *error);
+SP_API void sp_reach_destroy(sp_reach *reach);
 
 /* True where nothing lies in the way of a flight, one of what leaves `position` (m) so, to the patch's point. */
-bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch,
-                              const sp_flight *flight, uint32_t patch);
+SP_API bool sp_evaluator_flight_free(const sp_evaluator *evaluator, sp_vec3 position, sp_launch launch,
+                                     const sp_flight *flight, uint32_t patch);
 
 /* What liquid meets first that flies along a ray from its start. */
 typedef struct {
@@ -241,7 +243,7 @@ typedef struct {
     sp_vec3 velocity; /* there, m/s */
 } sp_meeting;
 /* `drops`: it has met a wall, so that it is a stream no longer, whatever it was when it left. */
-sp_meeting sp_evaluator_meet(const sp_evaluator *evaluator, sp_launch launch, const sp_ray *ray, bool drops);
+SP_API sp_meeting sp_evaluator_meet(const sp_evaluator *evaluator, sp_launch launch, const sp_ray *ray, bool drops);
 
 #ifdef __cplusplus
 }

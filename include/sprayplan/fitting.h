@@ -2,6 +2,7 @@
 #ifndef SPRAYPLAN_FITTING_H
 #define SPRAYPLAN_FITTING_H
 
+#include <sprayplan/export.h>
 #include <sprayplan/place.h>
 
 #ifdef __cplusplus
@@ -55,10 +56,10 @@ typedef struct {
 } sp_fitting_sheet;
 
 /* Of a layout of the setup, whose mounts (see sp_mount_at) may be NULL for none. All that is given is borrowed. */
-sp_fitting_sheet *sp_fitting_sheet_create(const sp_layout *layout, const sp_setup *setup, const sp_mount *mounts,
-                                          size_t mount_count, sp_error *error);
+SP_API sp_fitting_sheet *sp_fitting_sheet_create(const sp_layout *layout, const sp_setup *setup, const sp_mount *mounts,
+                                                 size_t mount_count, sp_error *error);
 /* Accepts NULL. */
-void sp_fitting_sheet_destroy(sp_fitting_sheet *sheet);
+SP_API void sp_fitting_sheet_destroy(sp_fitting_sheet *sheet);
 
 #ifdef __cplusplus
 }

@@ -2,6 +2,7 @@
 #ifndef SPRAYPLAN_FLIGHT_H
 #define SPRAYPLAN_FLIGHT_H
 
+#include <sprayplan/export.h>
 #include <sprayplan/nozzle.h>
 
 #ifdef __cplusplus
@@ -18,13 +19,13 @@ typedef struct {
 
 /* The closed-form flights from `from` to `to` at `speed` under `gravity`, without drag, low arc first. Returns 0, 1 or
  * 2. A line (gravity zero) has one. */
-int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_flight flights[2]);
+SP_API int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_flight flights[2]);
 /* How broad a square of this edge length (m) about the flight's end looks from where it starts, at most, however it is
  * turned: by how much the flight's direction has to change for its end to move so far. Never more than SP_BREADTH_MOST
  * (rad): a patch that looks broader is cut into cells that do not, and the spray's edge is blurred over them by as
  * much, so that their shares still come to the region's solid angle. */
 #define SP_BREADTH_MOST 0.2
-double sp_flight_breadth(const sp_flight *flight, double length);
+SP_API double sp_flight_breadth(const sp_flight *flight, double length);
 
 /* How air holds single drops back: dv/dt = g - (3 rho_a Cd / 4 rho D) |v| v with Haider and Levenspiel's drag
  * coefficient of a sphere, Cd = 24/Re (1 + 0.1806 Re^0.6459) + 0.4251/(1 + 6880.95/Re) (Powder Technology 58, 1989).
@@ -37,27 +38,28 @@ typedef struct {
 } sp_drag;
 
 /* Of what leaves as drops of a diameter (m). No air (density 0), no drag. */
-sp_drag sp_drag_of_drops(double diameter, const sp_fluid *liquid, const sp_fluid *air);
+SP_API sp_drag sp_drag_of_drops(double diameter, const sp_fluid *liquid, const sp_fluid *air);
 /* Of what leaves a nozzle of one pattern at its speed and flow: drops of its type's diameter, of solid streams only
  * once they have broken up. That is 5 We^0.378 of their diameters away, in the time that it takes at the exit speed; We
  * is the liquid's, rho v² d / sigma, and the diameter d that of a round stream of this flow and speed. With two axes
  * the jets share the flow. */
-sp_drag sp_drag_of(const sp_nozzle *nozzle, const sp_fluid *liquid, const sp_fluid *air);
+SP_API sp_drag sp_drag_of(const sp_nozzle *nozzle, const sp_fluid *liquid, const sp_fluid *air);
 /* m/s², of a drop at a velocity through air at rest. */
-sp_vec3 sp_drag_acceleration(const sp_drag *drag, sp_vec3 velocity, sp_vec3 gravity);
+SP_API sp_vec3 sp_drag_acceleration(const sp_drag *drag, sp_vec3 velocity, sp_vec3 gravity);
 
 /* All that leaves a point at one speed at once, whatever its direction, moment by moment: the table that flights with
  * drag are found in, told to about 1e-9 of their length. Read only once it is made. */
 typedef struct sp_fronts sp_fronts;
 /* `far`: m, no flight is asked for to an end farther off than this. NULL on error. */
-sp_fronts *sp_fronts_create(const sp_drag *drag, double speed, sp_vec3 gravity, double far, sp_error *error);
+SP_API sp_fronts *sp_fronts_create(const sp_drag *drag, double speed, sp_vec3 gravity, double far, sp_error *error);
 /* Accepts NULL. */
-void sp_fronts_destroy(sp_fronts *fronts);
+SP_API void sp_fronts_destroy(sp_fronts *fronts);
 /* As sp_flights, with drag. */
-int sp_fronts_flights(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2]);
+SP_API int sp_fronts_flights(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, sp_flight flights[2]);
 
 /* The flight on the same arc as one near by, of which direction and time are asked; false where it is not found so. */
-bool sp_fronts_flight_near(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, const sp_flight *near, sp_flight *flight);
+SP_API bool sp_fronts_flight_near(const sp_fronts *fronts, sp_vec3 from, sp_vec3 to, const sp_flight *near,
+                                  sp_flight *flight);
 
 /* How a flight with drag changes as its end moves from where it is: derivatives by the share of the move. */
 typedef struct {
@@ -66,7 +68,7 @@ typedef struct {
     double spread;     /* of its logarithm */
 } sp_flight_change;
 /* `flight` is one that sp_fronts_flights has found; `move` in m. Nothing is finite at the limit of reach. */
-sp_flight_change sp_fronts_change(const sp_fronts *fronts, const sp_flight *flight, sp_vec3 move);
+SP_API sp_flight_change sp_fronts_change(const sp_fronts *fronts, const sp_flight *flight, sp_vec3 move);
 
 /* How liquid leaves a nozzle of one pattern, wherever that is and however it is turned. */
 typedef struct {
@@ -76,11 +78,11 @@ typedef struct {
 } sp_launch;
 
 /* The flights of what leaves so, low arc first: 0, 1 or 2; `gravity` for those without drag. */
-int sp_launch_flights(const sp_launch *launch, sp_vec3 from, sp_vec3 to, sp_vec3 gravity, sp_flight flights[2]);
+SP_API int sp_launch_flights(const sp_launch *launch, sp_vec3 from, sp_vec3 to, sp_vec3 gravity, sp_flight flights[2]);
 /* The same of one arc alone, 0 or 1, where a flight on it to or from a place near by, of which direction and time are
  * asked, is known: with drag that is quicker. False where there is none. */
-bool sp_launch_flight_near(const sp_launch *launch, sp_vec3 from, sp_vec3 to, sp_vec3 gravity, int arc,
-                           const sp_flight *near, sp_flight *flight);
+SP_API bool sp_launch_flight_near(const sp_launch *launch, sp_vec3 from, sp_vec3 to, sp_vec3 gravity, int arc,
+                                  const sp_flight *near, sp_flight *flight);
 
 #ifdef __cplusplus
 }

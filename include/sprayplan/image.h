@@ -3,6 +3,7 @@
 #define SPRAYPLAN_IMAGE_H
 
 #include <sprayplan/error.h>
+#include <sprayplan/export.h>
 
 #include <stddef.h>
 #include <stdint.h>
@@ -14,7 +15,7 @@ extern "C" {
 /* Perceptually uniform maps, readable without colour vision; cividis looks nearly the same without red or green. */
 typedef enum { SP_COLOURS_VIRIDIS, SP_COLOURS_CIVIDIS } sp_colours;
 /* Colour (sRGB) for a value from 0 to 1 (clamped; not a number: 0). */
-void sp_colour_of(sp_colours colours, double value, uint8_t rgb[3]);
+SP_API void sp_colour_of(sp_colours colours, double value, uint8_t rgb[3]);
 
 /* What pictures and model show. All zeros: liquid flux, on a logarithmic scale, in viridis. */
 typedef enum {
@@ -44,11 +45,13 @@ typedef struct {
 } sp_picture_style;
 
 /* 8 bits a channel, row by row from the top, no padding; 3 or 4 channels. */
-bool sp_image_write_png(const char *path, const uint8_t *pixels, int width, int height, int channels, sp_error *error);
+SP_API bool sp_image_write_png(const char *path, const uint8_t *pixels, int width, int height, int channels,
+                               sp_error *error);
 /* The same in memory: malloc'd bytes, the caller frees. */
-uint8_t *sp_image_encode_png(const uint8_t *pixels, int width, int height, int channels, size_t *size, sp_error *error);
+SP_API uint8_t *sp_image_encode_png(const uint8_t *pixels, int width, int height, int channels, size_t *size,
+                                    sp_error *error);
 /* As WebP of quality 90, RGB, for pages: a third of the bytes. malloc'd, the caller frees. */
-uint8_t *sp_image_encode_webp(const uint8_t *pixels, int width, int height, size_t *size, sp_error *error);
+SP_API uint8_t *sp_image_encode_webp(const uint8_t *pixels, int width, int height, size_t *size, sp_error *error);
 
 /* One part of a multi-part OpenEXR file. */
 typedef struct {
@@ -57,8 +60,8 @@ typedef struct {
     const float *pixels; /* [height][width][channels], rows from the top */
 } sp_exr_part;
 /* 32-bit floats, lossless compression; every part has the same size and channels. */
-bool sp_image_write_exr(const char *path, const sp_exr_part *parts, size_t count, const char *const *channel_names,
-                        int channels, sp_error *error);
+SP_API bool sp_image_write_exr(const char *path, const sp_exr_part *parts, size_t count,
+                               const char *const *channel_names, int channels, sp_error *error);
 
 /* A PNG, TIFF, OpenEXR or PFM file of one channel, or a TIFF or OpenEXR file of two. */
 typedef struct {
@@ -69,7 +72,8 @@ typedef struct {
 /* Channels are in the file's order; an OpenEXR file, which has none, names two of them as `names` does. NULL values on
  * error: the message says of the file, which it does not name, "cannot be read: ..." or "has 3 channels, expected 1";
  * larger images are refused before their pixels are read. */
-sp_image sp_image_read(const char *path, int most_width, int most_height, const char *const names[2], sp_error *error);
+SP_API sp_image sp_image_read(const char *path, int most_width, int most_height, const char *const names[2],
+                              sp_error *error);
 
 #ifdef __cplusplus
 }

@@ -3,6 +3,7 @@
 #define SPRAYPLAN_MESH_H
 
 #include <sprayplan/error.h>
+#include <sprayplan/export.h>
 #include <sprayplan/vector.h>
 
 #include <stddef.h>
@@ -71,17 +72,17 @@ typedef struct {
  * and for files without a triangle of some area. Holds at no time more than ten times the file's size and 64 MiB (CAD
  * files have limits of their own): polygons of so few bytes a corner that their mesh would are refused. Names of parts
  * are UTF-8; what is not is taken for Latin-1. The caller destroys. */
-sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error);
+SP_API sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error);
 
 /* Builds a welded mesh from `vertex_count` points and `triangle_count` triangles, all copied. `part` may be NULL: all
  * in one part; `part_names` [part_count] likewise. Fails for indices out of range and numbers that are not finite or
  * beyond 1e30 m; a mesh without triangles is allowed. */
-sp_mesh *sp_mesh_create(const sp_vec3 *vertices, size_t vertex_count, const uint32_t (*triangles)[3],
-                        size_t triangle_count, const uint32_t *part, const char *const *part_names, size_t part_count,
-                        sp_error *error);
+SP_API sp_mesh *sp_mesh_create(const sp_vec3 *vertices, size_t vertex_count, const uint32_t (*triangles)[3],
+                               size_t triangle_count, const uint32_t *part, const char *const *part_names,
+                               size_t part_count, sp_error *error);
 
 /* Accepts NULL. */
-void sp_mesh_destroy(sp_mesh *mesh);
+SP_API void sp_mesh_destroy(sp_mesh *mesh);
 
 /* p -> rotate(scale p) + translate, rotate being a row-major matrix. */
 typedef struct {
@@ -91,18 +92,19 @@ typedef struct {
 } sp_transform;
 
 /* The identity. */
-sp_transform sp_transform_default(void);
+SP_API sp_transform sp_transform_default(void);
 /* Rotation by `angle` (rad) about `axis` (any length but 0), Rodrigues' formula. */
-void sp_transform_rotation(sp_transform *transform, sp_vec3 axis, double angle);
-sp_vec3 sp_transform_point(const sp_transform *transform, sp_vec3 point);
+SP_API void sp_transform_rotation(sp_transform *transform, sp_vec3 axis, double angle);
+SP_API sp_vec3 sp_transform_point(const sp_transform *transform, sp_vec3 point);
 
 /* One mesh of several, in order, mesh i moved by transforms[i]; its parts get geometry = i. Vertices of different
  * meshes are not welded; within each, points that rounding makes equal are. Fails for transforms that mirror or
  * flatten. The inputs are copied and stay the caller's. */
-sp_mesh *sp_mesh_join(const sp_mesh *const *meshes, const sp_transform *transforms, size_t count, sp_error *error);
+SP_API sp_mesh *sp_mesh_join(const sp_mesh *const *meshes, const sp_transform *transforms, size_t count,
+                             sp_error *error);
 
 /* Returns false only when memory runs out. */
-bool sp_mesh_diagnose(const sp_mesh *mesh, sp_mesh_diagnosis *diagnosis, sp_error *error);
+SP_API bool sp_mesh_diagnose(const sp_mesh *mesh, sp_mesh_diagnosis *diagnosis, sp_error *error);
 
 /* What mending did, and what was wrong before and after it. */
 typedef struct {
@@ -122,28 +124,28 @@ typedef struct {
  * sheets drawn with both sides, openings wider than one triangle, crossings, bits and which side a closed shell faces
  * stay as they are. A sound mesh comes out with the same triangles, and so does what was mended. Parts keep their
  * numbers, also where they have lost all triangles. */
-sp_mesh *sp_mesh_repair(const sp_mesh *mesh, sp_repair_account *account, sp_error *error);
+SP_API sp_mesh *sp_mesh_repair(const sp_mesh *mesh, sp_repair_account *account, sp_error *error);
 
 /* Writes the triangles with some area, in m, and the vertices that they use, as OBJ text with a group for each part. It
  * reads back to the same last bit; names lose what OBJ has no way to write: a `#` that begins a word, a backslash at
  * the end. Fails with SP_ERROR_FILE. */
-bool sp_mesh_write_obj(const sp_mesh *mesh, const char *path, sp_error *error);
+SP_API bool sp_mesh_write_obj(const sp_mesh *mesh, const char *path, sp_error *error);
 
 /* The area in m² and the unit normal (anticlockwise front) of one triangle. */
-double sp_triangle_area(const sp_mesh *mesh, uint32_t triangle);
-sp_vec3 sp_triangle_normal(const sp_mesh *mesh, uint32_t triangle);
+SP_API double sp_triangle_area(const sp_mesh *mesh, uint32_t triangle);
+SP_API sp_vec3 sp_triangle_normal(const sp_mesh *mesh, uint32_t triangle);
 /* (1-u-v) a + u b + v c */
-sp_vec3 sp_triangle_point(const sp_mesh *mesh, uint32_t triangle, double u, double v);
+SP_API sp_vec3 sp_triangle_point(const sp_mesh *mesh, uint32_t triangle, double u, double v);
 /* The weights of the second and third corner at the foot of the perpendicular from `point` onto the triangle's plane;
  * whether that lies within the triangle. */
-bool sp_triangle_weights(const sp_mesh *mesh, uint32_t triangle, sp_vec3 point, double *u, double *v);
+SP_API bool sp_triangle_weights(const sp_mesh *mesh, uint32_t triangle, sp_vec3 point, double *u, double *v);
 /* Sum over all triangles, m². */
-double sp_mesh_area(const sp_mesh *mesh);
+SP_API double sp_mesh_area(const sp_mesh *mesh);
 /* What each part encloses by its triangles alone, m³, into volumes[part_count]: below 0 where they face inwards, 0 for
  * a part that is not closed. False only when memory runs out. */
-bool sp_mesh_volumes(const sp_mesh *mesh, double *volumes, sp_error *error);
+SP_API bool sp_mesh_volumes(const sp_mesh *mesh, double *volumes, sp_error *error);
 /* The box around all triangles, m; both zero for an empty mesh. Returns its diagonal. */
-double sp_mesh_box(const sp_mesh *mesh, sp_vec3 *low, sp_vec3 *high);
+SP_API double sp_mesh_box(const sp_mesh *mesh, sp_vec3 *low, sp_vec3 *high);
 
 #ifdef __cplusplus
 }

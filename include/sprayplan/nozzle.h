@@ -3,6 +3,7 @@
 #define SPRAYPLAN_NOZZLE_H
 
 #include <sprayplan/error.h>
+#include <sprayplan/export.h>
 #include <sprayplan/vector.h>
 
 #include <stddef.h>
@@ -54,9 +55,9 @@ typedef struct sp_patternation sp_patternation;
  * to 2π); each value is of its column's and row's middle. Between these it goes linearly with azimuth and with the
  * polar angle's cosine; the axis has the mean of the first row, and the last row reaches to the edge. The values are
  * copied. NULL on error, which says where a wrong value is. */
-sp_patternation *sp_patternation_create(const float *values, size_t columns, size_t rows, double angle,
-                                        sp_error *error);
-void sp_patternation_destroy(sp_patternation *patternation);
+SP_API sp_patternation *sp_patternation_create(const float *values, size_t columns, size_t rows, double angle,
+                                               sp_error *error);
+SP_API void sp_patternation_destroy(sp_patternation *patternation);
 /* The liquid of an image that leaves at one speed, or at one near to it. */
 typedef struct {
     sp_patternation *patternation; /* owned */
@@ -68,8 +69,8 @@ typedef struct {
  * nozzle's exit speed, above 0 and at most 10 where there is liquid, of any value where there is none. Layers' speeds
  * are 5 % apart, or more where SP_SPEEDS would not do; liquid of a speed between two goes to both, so that its mean
  * speed is its own. Returns how many layers there are, slowest first, 0 on error, which says where a wrong value is. */
-size_t sp_patternation_layers(const float *values, const float *speeds, size_t columns, size_t rows, double angle,
-                              sp_speed_layer layers[SP_SPEEDS], sp_error *error);
+SP_API size_t sp_patternation_layers(const float *values, const float *speeds, size_t columns, size_t rows,
+                                     double angle, sp_speed_layer layers[SP_SPEEDS], sp_error *error);
 
 /* How far apart what can be set lies, as it was given: `count` of a unit of `unit` in SI, so that every setting is a
  * short number of these. Count 0: anything can be set. */
@@ -131,7 +132,7 @@ typedef struct sp_member {
 
 /* True of an http or https address that fits and has neither spaces nor control characters nor quotes: a page may link
  * it. */
-bool sp_is_url(const char *text);
+SP_API bool sp_is_url(const char *text);
 
 /* One nozzle of a layout. */
 typedef struct {
@@ -154,21 +155,21 @@ typedef struct {
 } sp_layout;
 
 /* A layout of `count` copies of nozzles (NULL: all zero). The types stay borrowed. */
-sp_layout *sp_layout_create(const sp_nozzle *nozzles, size_t count, sp_error *error);
-void sp_layout_destroy(sp_layout *layout);
+SP_API sp_layout *sp_layout_create(const sp_nozzle *nozzles, size_t count, sp_error *error);
+SP_API void sp_layout_destroy(sp_layout *layout);
 /* Σ flow, m³/s. */
-double sp_layout_flow(const sp_layout *layout, const sp_fluid *liquid);
+SP_API double sp_layout_flow(const sp_layout *layout, const sp_fluid *liquid);
 
 /* Q = K dp^n √(1000/rho), m³/s. Nozzle makers' catalogues: K from one point, which is for water. */
-double sp_nozzle_flow(const sp_nozzle *nozzle, const sp_fluid *liquid);
+SP_API double sp_nozzle_flow(const sp_nozzle *nozzle, const sp_fluid *liquid);
 /* The same for a type at a pressure (Pa) and a rated flow (m³/s of water at type->at), for instance one that refinement
  * sets. */
-double sp_type_flow(const sp_nozzle_type *type, double rated_flow, double pressure, const sp_fluid *liquid);
+SP_API double sp_type_flow(const sp_nozzle_type *type, double rated_flow, double pressure, const sp_fluid *liquid);
 /* v0 = Cv √(2 dp/rho), m/s (Bernoulli), unless the nozzle sets its own. */
-double sp_nozzle_speed(const sp_nozzle *nozzle, const sp_fluid *liquid);
+SP_API double sp_nozzle_speed(const sp_nozzle *nozzle, const sp_fluid *liquid);
 /* The opening angle in force, rad; of a cluster that of the smallest cone about the body's axis that would hold all its
  * patterns if they had no offsets. */
-double sp_nozzle_angle(const sp_nozzle *nozzle);
+SP_API double sp_nozzle_angle(const sp_nozzle *nozzle);
 
 /* The nozzle's frame in world coordinates, right-handed and orthonormal. */
 typedef struct {
@@ -176,20 +177,20 @@ typedef struct {
 } sp_frame;
 /* z along axis; x = unit(up × axis), or where the axis is within 1e-6 rad of vertical world y × axis (with y up:
  * world z × axis); y = z × x; then roll turns x, y about z. `up` is (0,0,1) or (0,1,0). */
-sp_frame sp_nozzle_frame(sp_vec3 axis, double roll, sp_vec3 up);
+SP_API sp_frame sp_nozzle_frame(sp_vec3 axis, double roll, sp_vec3 up);
 
 /* How many patterns a nozzle has: its cluster's members, else 1. */
-size_t sp_nozzle_pattern_count(const sp_nozzle *nozzle);
+SP_API size_t sp_nozzle_pattern_count(const sp_nozzle *nozzle);
 /* Nozzles of one pattern each that together spray what this one does: its members, in their order, or itself. They have
  * the body's name and exit speed, or their part of it, their shares of its flow, and of its jets, where it sets their
  * number, at least one each. patterns: [sp_nozzle_pattern_count], the caller's; their types are borrowed from the
  * nozzle's. A member along the body's axis, without offset, that has all the flow is to the bit the plain nozzle. `up`
  * as for sp_nozzle_frame.
  */
-void sp_nozzle_patterns(const sp_nozzle *nozzle, const sp_fluid *liquid, sp_vec3 up, sp_nozzle *patterns);
+SP_API void sp_nozzle_patterns(const sp_nozzle *nozzle, const sp_fluid *liquid, sp_vec3 up, sp_nozzle *patterns);
 /* False, with an error that names the type, of a measured type without patternation, and of a cluster without members,
  * with more than SP_MEMBERS, or with a member that is a cluster or not whole, or whose share is not above 0. */
-bool sp_type_is_whole(const sp_nozzle_type *type, sp_error *error);
+SP_API bool sp_type_is_whole(const sp_nozzle_type *type, sp_error *error);
 
 /* A pattern ready for use: liquid per solid angle, uniform inside its region unless it rotates or is measured. The
  * region of each kind is DESIGN §2's: cones by polar angle about z, fans by longitude atan2(x, z) and latitude asin(y),
@@ -210,9 +211,9 @@ typedef struct {
     double height, rise;               /* fans: sine and cosine of half_thickness */
     double end_sine, end_cosine;       /* of half_width */
 } sp_spray;
-sp_spray sp_spray_create(const sp_nozzle_type *type, double angle);
+SP_API sp_spray sp_spray_create(const sp_nozzle_type *type, double angle);
 /* Works out what follows from a pattern's kind and angles, after these were changed. */
-void sp_spray_settle(sp_spray *spray);
+SP_API void sp_spray_settle(sp_spray *spray);
 /* True where the liquid is as dense all over the region: 1/solid_angle. Of any other that is the most there is, also of
  * means. */
 static inline bool sp_spray_is_uniform(const sp_spray *spray)
@@ -223,16 +224,16 @@ static inline bool sp_spray_is_uniform(const sp_spray *spray)
  * Of what rotates the mean over time: about one axis that of its jet along the circle about the axis, in closed form;
  * of two-axis heads, whose gears run through all angles evenly, 1/(2π² sin ϑ) at the polar angle ϑ from the body's
  * axis, averaged over the jet's breadth. Of what is measured the image's, so that all directions together have 1. */
-double sp_spray_intensity(const sp_spray *spray, sp_vec3 direction);
+SP_API double sp_spray_intensity(const sp_spray *spray, sp_vec3 direction);
 /* Signed angular distance (rad) from the direction to the region's edge, positive inside; its smooth counterpart for
  * refinement. Of what is measured to the ring or cone about the axis that just holds the region, which may have gaps.
  */
-double sp_spray_margin(const sp_spray *spray, sp_vec3 direction);
+SP_API double sp_spray_margin(const sp_spray *spray, sp_vec3 direction);
 /* Direction i of n, low-discrepancy and equal in area (Archimedes' map) or, where the liquid is not even, in liquid;
  * unit, in the nozzle's frame. Deterministic in (i, n, seed). */
-sp_vec3 sp_spray_direction(const sp_spray *spray, uint64_t i, uint64_t n, uint64_t seed);
+SP_API sp_vec3 sp_spray_direction(const sp_spray *spray, uint64_t i, uint64_t n, uint64_t seed);
 /* Half-angle (rad) of the smallest cone about z that holds the region. */
-double sp_spray_reach(const sp_spray *spray);
+SP_API double sp_spray_reach(const sp_spray *spray);
 
 /* Breadths over which sp_spray_share goes from all to nothing at an edge: the first length at which its step's slope,
  * seen as a filter, has a zero at the frequency of patches side by side. */
@@ -240,21 +241,21 @@ double sp_spray_reach(const sp_spray *spray);
 /* The share, 0 to 1, of a patch that lies inside the spray: how far the region, in `frame`, holds what is `breadth`
  * (rad) broad about a unit direction of the world. Edges are blurred by about as much: shares of patches side by side
  * come to the region's solid angle over theirs, also where the region is thinner than a patch. */
-double sp_spray_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth);
+SP_API double sp_spray_share(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth);
 /* Share of the liquid per steradian (1/sr), averaged over what is `breadth` (rad) broad about a unit direction of the
  * world, of which a part may lie outside of the region: sp_spray_share/solid_angle of uniform patterns. Of what rotates
  * it comes from differences of sp_spray_within over rings of about that breadth about the axis, so that no liquid is
  * lost however thin the jet. Of what is measured from its integral over squares on maps of equal area, whose bins are
  * 1/256 of its angle or finer; what is less broad than these has the density of its middle. */
-double sp_spray_density(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth);
+SP_API double sp_spray_density(const sp_spray *spray, const sp_frame *frame, sp_vec3 direction, double breadth);
 /* Of what rotates: the share of the liquid, 0 to 1, that leaves within a polar angle (rad) of the axis turned about. */
-double sp_spray_within(const sp_spray *spray, double polar);
+SP_API double sp_spray_within(const sp_spray *spray, double polar);
 /* Of what rotates or is measured: no less and no more than these leaves per steradian (1/sr) at any polar angle (rad)
  * from one to another, nor of any mean over directions between them. Of what rotates close for cones and streams of
  * less than 180 deg turned about one axis and for full ones on a hub, else 0 and 1/solid_angle. */
-void sp_spray_densities(const sp_spray *spray, double from, double to, double *least, double *most);
+SP_API void sp_spray_densities(const sp_spray *spray, double from, double to, double *least, double *most);
 /* Beyond so many rad outside of the region no patch of this breadth has a share. */
-double sp_spray_fringe(double breadth);
+SP_API double sp_spray_fringe(double breadth);
 
 #ifdef __cplusplus
 }

@@ -3,6 +3,7 @@
 #define SPRAYPLAN_PLACE_H
 
 #include <sprayplan/evaluator.h>
+#include <sprayplan/export.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -34,18 +35,18 @@ typedef struct {
 /* Of the settings `from` + k steps (k a whole number) within [low, high] the one nearest to `value`, in SI: the value
  * of a number of at most 12 digits, times step.unit in long double. `value` itself, held within [low, high], where
  * anything can be set; `from` where no setting is within. */
-double sp_step_nearest(sp_step step, double from, double value, double low, double high);
+SP_API double sp_step_nearest(sp_step step, double from, double value, double low, double high);
 
 /* True where the type may be mounted there: a port's own list has it, and its body passes the bore. */
-bool sp_mount_takes(const sp_mount *mount, const sp_nozzle_type *type);
+SP_API bool sp_mount_takes(const sp_mount *mount, const sp_nozzle_type *type);
 /* Index of the mount that a point of the setup lies on, as far as 4e-4 of the geometry's diagonal tells: in a port's
  * depth, no farther from a surface than its standoff, on a line, in a box; ports first, then in this order, of one kind
  * the first. SIZE_MAX: none. */
-size_t sp_mount_at(const sp_setup *setup, const sp_mount *mounts, size_t count, sp_vec3 position);
+SP_API size_t sp_mount_at(const sp_setup *setup, const sp_mount *mounts, size_t count, sp_vec3 position);
 /* False, with an error "nozzles: NAME, of type '..", where the nozzle sits in a port whose bore its body does not pass.
  */
-bool sp_mounts_admit(const sp_setup *setup, const sp_mount *mounts, size_t count, const sp_nozzle *nozzle,
-                     sp_error *error);
+SP_API bool sp_mounts_admit(const sp_setup *setup, const sp_mount *mounts, size_t count, const sp_nozzle *nozzle,
+                            sp_error *error);
 
 /* A layout's outlay is its water and what the mounts of its nozzles cost, but for kept ones, which are there already;
  * its water alone where no mount costs anything. */
@@ -91,7 +92,7 @@ typedef struct {
 } sp_place_options;
 
 /* DESIGN §3's defaults, with no mounts, types or pressures. */
-sp_place_options sp_place_options_default(void);
+SP_API sp_place_options sp_place_options_default(void);
 
 typedef struct {
     double flow; /* m³/s */
@@ -207,13 +208,13 @@ typedef struct {
  * pressure is given, no mounting point is inside and clear, or a kept nozzle is in a wall, outside, or in a port that
  * it does not pass. Clusters, and types that do not spray as densely all over, stay at the poses of candidates:
  * refinement moves the others about them. */
-sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error);
-void sp_proposal_destroy(sp_proposal *proposal);
+SP_API sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error);
+SP_API void sp_proposal_destroy(sp_proposal *proposal);
 
 /* Which of proposals [count >= 1] with one objective, for the same surface and coverage, is best by it: of those that
  * cover what was asked for the one of most area per outlay, of least outlay or of most coverage; where none does, the
  * one that covers most. Of equal ones that of less outlay, of these that of more coverage, then the first. */
-size_t sp_place_best(const sp_proposal *const *proposals, size_t count);
+SP_API size_t sp_place_best(const sp_proposal *const *proposals, size_t count);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 #define SPRAYPLAN_POINTS_H
 
 #include <sprayplan/evaluator.h>
+#include <sprayplan/export.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -23,16 +24,16 @@ typedef struct {
  * triangle after triangle in the mesh's order, each along Sierpinski's curve, so that what is close on it is close on
  * the triangle. The evaluator is borrowed and must outlive it. NULL, and the error kept, given NULL. */
 typedef struct sp_points sp_points;
-sp_points *sp_points_create(const sp_evaluator *evaluator, sp_error *error);
+SP_API sp_points *sp_points_create(const sp_evaluator *evaluator, sp_error *error);
 /* Accepts NULL. */
-void sp_points_destroy(sp_points *points);
+SP_API void sp_points_destroy(sp_points *points);
 /* m², all of it: the evaluator's total area but for round-off. */
-double sp_points_area(const sp_points *points);
+SP_API double sp_points_area(const sp_points *points);
 /* Point i of n, each standing for an n-th of the area: one at random in every n-th part of that length, drawn from the
  * seed for itself (jittered sampling). Two points of one seed never depend on each other, and a number of points that
  * fall on a region is off by about the root of the parts that its outline crosses, not of all. The same whatever the
  * texels, and whatever the order in which it is asked. i < n, of an area above 0. */
-sp_point sp_points_draw(const sp_points *points, size_t i, size_t n, uint64_t seed);
+SP_API sp_point sp_points_draw(const sp_points *points, size_t i, size_t n, uint64_t seed);
 
 /* What holds at single points for a layout: every flight that reaches a point, in closed form, with the spray's
  * intensity in the flight's own direction, against the setup's criterion, where nothing lies in the way. First impact
@@ -46,19 +47,19 @@ sp_point sp_points_draw(const sp_points *points, size_t i, size_t n, uint64_t se
  *
  * Evaluator and layout are borrowed and must outlive it. NULL on error, and given NULL. */
 typedef struct sp_reference sp_reference;
-sp_reference *sp_reference_create(const sp_evaluator *evaluator, const sp_layout *layout, sp_trajectory trajectory,
-                                  sp_error *error);
+SP_API sp_reference *sp_reference_create(const sp_evaluator *evaluator, const sp_layout *layout,
+                                         sp_trajectory trajectory, sp_error *error);
 /* Accepts NULL. */
-void sp_reference_destroy(sp_reference *reference);
+SP_API void sp_reference_destroy(sp_reference *reference);
 /* m, the edge of the cells on which it routes film; 0 where there is none. */
-double sp_reference_film_cell(const sp_reference *reference);
+SP_API double sp_reference_film_cell(const sp_reference *reference);
 /* Whether the layout covers each point. covered [count] is the caller's; points are judged each for itself, so that
  * neither threads nor the other points matter. About as quick as a patch. False where memory ran out. */
-bool sp_reference_judge(const sp_reference *reference, const sp_point *points, size_t count, bool *covered,
-                        sp_error *error);
+SP_API bool sp_reference_judge(const sp_reference *reference, const sp_point *points, size_t count, bool *covered,
+                               sp_error *error);
 /* All of that, for who asks once. */
-bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_trajectory trajectory,
-                     const sp_point *points, size_t count, bool *covered, sp_error *error);
+SP_API bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_trajectory trajectory,
+                            const sp_point *points, size_t count, bool *covered, sp_error *error);
 
 /* Measures how far `coverage`, which this evaluator found for this layout, is off: for each of n points the covered
  * share of its patch less what sp_points_judge says of the point itself. The estimate is the size of the mean
@@ -75,8 +76,8 @@ bool sp_points_judge(const sp_evaluator *evaluator, const sp_layout *layout, sp_
  * followed points know nothing of it, where goods move judging them takes many times as long as evaluating, and where
  * nothing is counted there are none: `known` is false. Of film the error is what cells half as long change.
  * Given NULL from an earlier failure it returns false and keeps the error. */
-bool sp_measure_error(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
-                      sp_trajectory reference, uint64_t seed, sp_measured_error *measured, sp_error *error);
+SP_API bool sp_measure_error(const sp_evaluator *evaluator, const sp_layout *layout, const sp_coverage *coverage,
+                             sp_trajectory reference, uint64_t seed, sp_measured_error *measured, sp_error *error);
 
 #ifdef __cplusplus
 }

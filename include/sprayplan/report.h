@@ -2,6 +2,7 @@
 #ifndef SPRAYPLAN_REPORT_H
 #define SPRAYPLAN_REPORT_H
 
+#include <sprayplan/export.h>
 #include <sprayplan/result.h>
 
 #ifdef __cplusplus
@@ -10,13 +11,13 @@ extern "C" {
 
 /* Writes the design's coverage on the atlas pages as one PNG, its deposits as multi-part EXR (channels of DESIGN §4, a
  * part for each page and side). */
-bool sp_report_coverage_png(const sp_design *design, const char *path, sp_error *error);
-bool sp_report_deposits_exr(const sp_design *design, const char *path, sp_error *error);
+SP_API bool sp_report_coverage_png(const sp_design *design, const char *path, sp_error *error);
+SP_API bool sp_report_deposits_exr(const sp_design *design, const char *path, sp_error *error);
 /* Writes the design as glTF 2.0 in one file, in m, y up, all in a root that is moved to the setup's origin. Each part
  * of which something is wet is a node of its name, its wet sides in false colour that no light changes
  * (KHR_materials_unlit); each nozzle is a node of its name, whose translation is its position and whose rotation is its
  * frame: its z is the axis. */
-bool sp_report_model_glb(const sp_design *design, const char *path, sp_error *error);
+SP_API bool sp_report_model_glb(const sp_design *design, const char *path, sp_error *error);
 /* Write the design for ParaView, as VTK's XML PolyData, in m and SI units, in the coordinates that scenes are read and
  * written in. Both hold part (an index into the field array part_names, in UTF-8) and side (0 both as one, 1 front,
  * 2 back).
@@ -27,27 +28,27 @@ bool sp_report_model_glb(const sp_design *design, const char *path, sp_error *er
  *  - texels: one point for each patch, in the order of sp_patches, where it is judged, with its normal and the channels
  *    of the EXR file under the same names and with the same values, also of those that are not the largest of a pixel.
  */
-bool sp_report_surface_vtp(const sp_design *design, const char *path, sp_error *error);
-bool sp_report_texels_vtp(const sp_design *design, const char *path, sp_error *error);
+SP_API bool sp_report_surface_vtp(const sp_design *design, const char *path, sp_error *error);
+SP_API bool sp_report_texels_vtp(const sp_design *design, const char *path, sp_error *error);
 /* Writes a body for each nozzle of the design, a cylinder that ends in a cone, as binary STL: the cone's tip is the
  * nozzle's position and points along its axis, the length is 1/50 of the geometry's diagonal. In the coordinates and
  * the unit of the scene's first geometry file (mm for STEP and IGES, see sp_setup), so that it fits on that; the header
  * tells the unit. */
-bool sp_report_nozzles_stl(const sp_design *design, const char *path, sp_error *error);
+SP_API bool sp_report_nozzles_stl(const sp_design *design, const char *path, sp_error *error);
 /* The self-contained page as HTML text (pictures inside it). Malloc'd, the caller frees. */
-char *sp_report_html(const sp_result *result, sp_error *error);
+SP_API char *sp_report_html(const sp_result *result, sp_error *error);
 /* Everything that DESIGN §4 lists, except layout.yaml, into `output`: result.json, report.html; of the main design
  * nozzles.csv, swabs.csv, nozzles.stl, surface.vtp and texels.vtp; nozzles-all.csv where other designs that may be
  * built have sheets too, which those before refinement have not; and coverage.png, deposits.exr and model.glb of
  * each design, with the suffixes -manual and -greedy where it is not the main one. */
-bool sp_report_write(const sp_result *result, sp_output *output, sp_error *error);
+SP_API bool sp_report_write(const sp_result *result, sp_output *output, sp_error *error);
 
 /* Writes a picture of what is wet as PNG: blue what is cleaned and counted, orange the wet sides of obstacles, grey
  * what is dry; from the front, from behind and from above, cut open at the middle (upper row) and whole. */
-bool sp_report_wet_png(const sp_evaluator *evaluator, const char *path, sp_error *error);
+SP_API bool sp_report_wet_png(const sp_evaluator *evaluator, const char *path, sp_error *error);
 
 /* A picture of the charts of one page, one colour a chart, malloc'd RGB of page_edge² pixels. */
-uint8_t *sp_report_charts(const sp_atlas *atlas, size_t page, sp_error *error);
+SP_API uint8_t *sp_report_charts(const sp_atlas *atlas, size_t page, sp_error *error);
 
 #ifdef __cplusplus
 }

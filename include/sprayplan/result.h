@@ -2,6 +2,7 @@
 #ifndef SPRAYPLAN_RESULT_H
 #define SPRAYPLAN_RESULT_H
 
+#include <sprayplan/export.h>
 #include <sprayplan/image.h>
 #include <sprayplan/fitting.h>
 #include <sprayplan/place.h>
@@ -98,27 +99,27 @@ typedef struct {
 #define SP_SHADOWS_KEPT 100
 
 /* The name of a reason in result.json, "no_line_of_reach" for instance; NULL for attainable and unknown. */
-const char *sp_reason_key(sp_reason reason);
+SP_API const char *sp_reason_key(sp_reason reason);
 /* The same for readers, "no line of reach". */
-const char *sp_reason_text(sp_reason reason);
+SP_API const char *sp_reason_text(sp_reason reason);
 /* The name of a lack in result.json, "no_nozzle_in_reach" for instance; NULL for none. */
-const char *sp_lack_key(sp_lack lack);
+SP_API const char *sp_lack_key(sp_lack lack);
 /* The same for readers, "no nozzle in reach". */
-const char *sp_lack_text(sp_lack lack);
+SP_API const char *sp_lack_text(sp_lack lack);
 /* Index in `missing` of the part of which the reason keeps most out of reach, of equal ones the first; given one such
  * index as `last`, of the next; SP_UNKNOWN before the first and after the last. */
-size_t sp_missing_next(const sp_figures *figures, sp_reason reason, size_t last);
+SP_API size_t sp_missing_next(const sp_figures *figures, sp_reason reason, size_t last);
 
 /* What a layout costs: water and mounts, m³/s, and in the currency of its water_cost; NAN where that is not told. */
-double sp_figures_price(const sp_figures *figures);
-double sp_figures_money(const sp_figures *figures);
+SP_API double sp_figures_price(const sp_figures *figures);
+SP_API double sp_figures_money(const sp_figures *figures);
 /* Accepts NULL. */
-void sp_figures_destroy(sp_figures *figures, size_t count);
+SP_API void sp_figures_destroy(sp_figures *figures, size_t count);
 
 /* Reads the layouts of a result.json, which may come from a stranger: every key, type, range and length is checked, and
  * an error names the file and the key's path (syntax errors: line and column). Keys that DESIGN §6 does not know are
  * ignored. Returns *count figures, destroyed by the caller. */
-sp_figures *sp_figures_read(const char *path, size_t *count, sp_error *error);
+SP_API sp_figures *sp_figures_read(const char *path, size_t *count, sp_error *error);
 
 /* One layout and what it does, on its own evaluator; or only figures of one (read from a result.json), the evaluator,
  * layout and coverage then being NULL: it has rows in tables but no pictures. Everything is borrowed. */
@@ -146,7 +147,7 @@ typedef struct {
     char sha256[SP_SHA256];
 } sp_input;
 /* The SHA-256 of a file's bytes (FIPS 180-4). False with an error of the file where it cannot be read. */
-bool sp_file_sha256(const char *path, char sha256[SP_SHA256], sp_error *error);
+SP_API bool sp_file_sha256(const char *path, char sha256[SP_SHA256], sp_error *error);
 
 /* What may be changed in a page that evaluates layouts itself. Everything is borrowed. */
 typedef struct {
@@ -174,20 +175,20 @@ typedef struct {
 } sp_result;
 
 /* The proposal that speaks of design `index`: the alternative that it is, or the result's. NULL where there is none. */
-const sp_proposal *sp_result_proposal(const sp_result *result, size_t index);
+SP_API const sp_proposal *sp_result_proposal(const sp_result *result, size_t index);
 /* True where the result is of alternatives. */
-bool sp_result_has_alternatives(const sp_result *result);
+SP_API bool sp_result_has_alternatives(const sp_result *result);
 /* True where mounts of what was placed cost something, so that prices decide, not water alone. */
-bool sp_result_is_costly(const sp_result *result);
+SP_API bool sp_result_is_costly(const sp_result *result);
 /* The design whose layout the result's proposal is; SP_UNKNOWN where there is none. */
-size_t sp_result_proposed(const sp_result *result);
+SP_API size_t sp_result_proposed(const sp_result *result);
 /* Why that is proposed and not another alternative, as a clause of plain text; "" without alternatives. */
 #define SP_CHOICE_TEXT 120
-void sp_result_choice(const sp_result *result, char text[SP_CHOICE_TEXT]);
+SP_API void sp_result_choice(const sp_result *result, char text[SP_CHOICE_TEXT]);
 
 /* The figures of every design, in order [design_count]. With a proposal, attainable is what it calls attainable and
  * what any design on the same evaluator that it speaks of covers. The caller destroys. */
-sp_figures *sp_result_figures(const sp_result *result, sp_error *error);
+SP_API sp_figures *sp_result_figures(const sp_result *result, sp_error *error);
 
 /* What was made of the geometry that an evaluator is on, in clauses of plain text (UTF-8) for readers. */
 typedef struct {
@@ -196,11 +197,11 @@ typedef struct {
 } sp_geometry_clause;
 #define SP_GEOMETRY_CLAUSES 11
 /* Returns how many. */
-size_t sp_geometry_clauses(const sp_evaluator *evaluator, sp_geometry_clause clauses[SP_GEOMETRY_CLAUSES]);
+SP_API size_t sp_geometry_clauses(const sp_evaluator *evaluator, sp_geometry_clause clauses[SP_GEOMETRY_CLAUSES]);
 
 /* result.json as DESIGN §6; `geometry` and `fidelity` stand in each layout where the designs differ in them. Malloc'd
  * text, newline at the end, the caller frees. */
-char *sp_result_json(const sp_result *result, sp_error *error);
+SP_API char *sp_result_json(const sp_result *result, sp_error *error);
 /* nozzles.csv: one row a nozzle of a sheet:
  * name,type,x_m,y_m,z_m,axis_x,axis_y,axis_z,roll_deg,angle_deg,pressure_bar,flow_l_min,speed_m_s,order_code,url,
  * in numbers that read as just these values where a scene has them with these units, then what the sheet says, empty
@@ -211,12 +212,12 @@ char *sp_result_json(const sp_result *result, sp_error *error);
  * with port, weld, line or box for the mounting, nothing for a nozzle on no mount, and circuits counted from 1.
  * A text that begins with =, +, -, @, a tab or a line's end has an apostrophe in front, so that no spreadsheet takes it
  * for a formula. Malloc'd. */
-char *sp_nozzles_csv(const sp_fitting_sheet *sheet, sp_error *error);
+SP_API char *sp_nozzles_csv(const sp_fitting_sheet *sheet, sp_error *error);
 /* The same of `count` sheets one after the other, with a column `layout` in front that holds their names. */
-char *sp_all_nozzles_csv(const sp_fitting_sheet *const *sheets, const char *const *layouts, size_t count,
-                         sp_error *error);
+SP_API char *sp_all_nozzles_csv(const sp_fitting_sheet *const *sheets, const char *const *layouts, size_t count,
+                                sp_error *error);
 /* How a nozzle is mounted: port, weld, line, box or nothing. */
-const char *sp_mounting_key(const sp_mount *mount);
+SP_API const char *sp_mounting_key(const sp_mount *mount);
 
 /* A place to look at first. */
 typedef struct {
@@ -233,10 +234,10 @@ typedef struct {
 /* The worst places of a design with an evaluator, worst first: those that receive the least share of what the criterion
  * asks for, of equally bad ones those farthest from anything covered, counted in patches; no two nearer to each other
  * than 5 % of the geometry's diagonal. */
-bool sp_find_swabs(const sp_design *design, sp_swab swabs[SP_SWABS], size_t *count, sp_error *error);
+SP_API bool sp_find_swabs(const sp_design *design, sp_swab swabs[SP_SWABS], size_t *count, sp_error *error);
 /* swabs.csv: number,part,x_m,y_m,z_m,received_percent,flux_l_min_m2,speed_m_s,incidence_deg,lack. What is not known is
  * empty; texts as in nozzles.csv. Malloc'd. */
-char *sp_swabs_csv(const sp_design *design, sp_error *error);
+SP_API char *sp_swabs_csv(const sp_design *design, sp_error *error);
 
 /* A set of files that is written whole or not at all: each goes to a folder .sprayplan-new-XXXXXX in `directory`
  * (created where missing, with its parents), and commit moves them all; discard removes them. An existing file is
@@ -244,24 +245,24 @@ char *sp_swabs_csv(const sp_design *design, sp_error *error);
  * commit at a time, the others wait for up to 30 s. A process that is killed leaves the old files, or, killed while it
  * moves them, a folder .sprayplan-commit from which the next commit moves the rest. */
 typedef struct sp_output sp_output;
-sp_output *sp_output_open(const char *directory, sp_error *error);
+SP_API sp_output *sp_output_open(const char *directory, sp_error *error);
 /* Names a file that was read: asking for a path that would replace it then fails. A file that does not exist is no
  * error. */
-bool sp_output_protect(sp_output *output, const char *path, sp_error *error);
+SP_API bool sp_output_protect(sp_output *output, const char *path, sp_error *error);
 /* The set is what a run has to say of a scene: commit removes what an earlier run left that is not replaced (figures,
  * pictures, models and pages, where the folder's result.json or study.json is ours), but for layout.yaml, which may
  * have been edited. */
-bool sp_output_supersede(sp_output *output, sp_error *error);
+SP_API bool sp_output_supersede(sp_output *output, sp_error *error);
 /* A path to write `name` (no slash in it) to; owned by the output. */
-const char *sp_output_path(sp_output *output, const char *name, sp_error *error);
-bool sp_output_text(sp_output *output, const char *name, const char *text, sp_error *error);
+SP_API const char *sp_output_path(sp_output *output, const char *name, sp_error *error);
+SP_API bool sp_output_text(sp_output *output, const char *name, const char *text, sp_error *error);
 /* An error that names such a path names the file then that was to be written. NULL is accepted. */
-void sp_output_tell(const sp_output *output, sp_error *error);
-bool sp_output_bytes(sp_output *output, const char *name, const void *bytes, size_t size, sp_error *error);
+SP_API void sp_output_tell(const sp_output *output, sp_error *error);
+SP_API bool sp_output_bytes(sp_output *output, const char *name, const void *bytes, size_t size, sp_error *error);
 /* Both end the output; NULL is accepted (commit then fails and keeps the error). Where a file cannot be moved, commit
  * puts back what it had replaced. */
-bool sp_output_commit(sp_output *output, sp_error *error);
-void sp_output_discard(sp_output *output);
+SP_API bool sp_output_commit(sp_output *output, sp_error *error);
+SP_API void sp_output_discard(sp_output *output);
 
 #ifdef __cplusplus
 }

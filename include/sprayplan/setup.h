@@ -4,6 +4,7 @@
 
 #include <sprayplan/atlas.h>
 #include <sprayplan/cad.h>
+#include <sprayplan/export.h>
 #include <sprayplan/mesh.h>
 #include <sprayplan/nozzle.h>
 #include <sprayplan/run.h>
@@ -32,9 +33,9 @@ typedef struct {
     double speed;     /* m/s, > 0 where anything moves; 0: nothing does */
 } sp_sweep;
 /* s, of the pass; 0 where nothing moves. What is given as a dose, m³/m², is that times a mean flux. */
-double sp_sweep_duration(const sp_sweep *sweep);
+SP_API double sp_sweep_duration(const sp_sweep *sweep);
 /* m, as far as what moves comes from where the mesh has it; 0 where nothing does. */
-double sp_sweep_reach(const sp_sweep *sweep);
+SP_API double sp_sweep_reach(const sp_sweep *sweep);
 
 typedef enum {
     SP_CAVITY_NONE,    /* every triangle counts once and takes liquid from either side */
@@ -118,13 +119,13 @@ typedef struct {
 } sp_setup;
 
 /* DESIGN §3's defaults, with no mesh. */
-sp_setup sp_setup_default(void);
+SP_API sp_setup sp_setup_default(void);
 
 /* A point of the setup (m) in the coordinates that are read and written. */
-sp_vec3 sp_setup_outside(const sp_setup *setup, sp_vec3 point);
+SP_API sp_vec3 sp_setup_outside(const sp_setup *setup, sp_vec3 point);
 /* The nearest point of the setup (m) that those coordinates tell from others: a layout of such points covers the same
  * when it has been written and read again. */
-sp_vec3 sp_setup_told(const sp_setup *setup, sp_vec3 point);
+SP_API sp_vec3 sp_setup_told(const sp_setup *setup, sp_vec3 point);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 #ifndef SPRAYPLAN_STUDY_H
 #define SPRAYPLAN_STUDY_H
 
+#include <sprayplan/export.h>
 #include <sprayplan/place.h>
 
 #ifdef __cplusplus
@@ -101,29 +102,29 @@ typedef struct {
  * `layout` may have no nozzles where there is `place`. NULL with an error; cancelled before the first run has ended,
  * with SP_ERROR_INTERRUPTED. The same for every number of threads but for sp_study_speed, seconds, memory and what a
  * limit cut. */
-sp_study *sp_study_create(const sp_setup *setup, const sp_layout *layout, const sp_place_options *place,
-                          const sp_study_options *options, sp_error *error);
+SP_API sp_study *sp_study_create(const sp_setup *setup, const sp_layout *layout, const sp_place_options *place,
+                                 const sp_study_options *options, sp_error *error);
 /* Accepts NULL. */
-void sp_study_destroy(sp_study *study);
+SP_API void sp_study_destroy(sp_study *study);
 
 /* The least-squares slope of log y over log x, of those points that have both above 0; NAN of fewer than three, or of
  * one x. */
-double sp_study_slope(const double *x, const double *y, size_t count);
+SP_API double sp_study_slope(const double *x, const double *y, size_t count);
 /* Pareto's front: on[i] is true where nothing costs no more and loses no more than i, and one of the two less. What is
  * NAN is not on it. */
-void sp_study_front(const double *cost, const double *loss, size_t count, bool *on);
+SP_API void sp_study_front(const double *cost, const double *loss, size_t count, bool *on);
 
 /* study.json: everything; what varies between runs stands in objects named "speed", and in "place_limited". Each text
  * is malloc'd, the caller frees. `scene` is the path as given. */
-char *sp_study_json(const sp_study *study, const char *scene, sp_error *error);
+SP_API char *sp_study_json(const sp_study *study, const char *scene, sp_error *error);
 /* study.csv: one row a run; place.csv: one row a placement. The columns that vary between runs are the last, from
  * prepare_s and from seconds on. */
-char *sp_study_csv(const sp_study *study, sp_error *error);
-char *sp_study_place_csv(const sp_study *study, sp_error *error);
+SP_API char *sp_study_csv(const sp_study *study, sp_error *error);
+SP_API char *sp_study_place_csv(const sp_study *study, sp_error *error);
 /* The tables for a terminal. */
-char *sp_study_text(const sp_study *study, sp_error *error);
+SP_API char *sp_study_text(const sp_study *study, sp_error *error);
 /* A self-contained page with plots. */
-char *sp_study_html(const sp_study *study, const char *scene, sp_error *error);
+SP_API char *sp_study_html(const sp_study *study, const char *scene, sp_error *error);
 
 #ifdef __cplusplus
 }

@@ -2,6 +2,7 @@
 #ifndef SPRAYPLAN_TRACE_H
 #define SPRAYPLAN_TRACE_H
 
+#include <sprayplan/export.h>
 #include <sprayplan/mesh.h>
 #include <sprayplan/run.h>
 
@@ -35,25 +36,25 @@ typedef struct sp_tracer sp_tracer;
 
 /* Builds the accelerator. The mesh is borrowed and must outlive the tracer. `threads` as in sp_run; only the bvh is
  * built by more than one. Never fails for a valid mesh unless memory runs out. */
-sp_tracer *sp_tracer_create(const sp_mesh *mesh, sp_accelerator accelerator, int threads, sp_error *error);
+SP_API sp_tracer *sp_tracer_create(const sp_mesh *mesh, sp_accelerator accelerator, int threads, sp_error *error);
 /* Accepts NULL. */
-void sp_tracer_destroy(sp_tracer *tracer);
-const sp_mesh *sp_tracer_mesh(const sp_tracer *tracer);
+SP_API void sp_tracer_destroy(sp_tracer *tracer);
+SP_API const sp_mesh *sp_tracer_mesh(const sp_tracer *tracer);
 /* Bytes held besides the mesh. */
-size_t sp_tracer_bytes(const sp_tracer *tracer);
+SP_API size_t sp_tracer_bytes(const sp_tracer *tracer);
 
-/* One ray. `gravity` (m/s²) zero means a line. Triangles are hit from both sides. What meets an edge or a corner hits at
- * least one of the triangles there, lines all of them, so that nothing slips between two. All accelerators give the same
- * answer to the last bit. Safe to call from many threads. */
-sp_hit sp_trace_nearest(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity);
+/* One ray. `gravity` (m/s²) zero means a line. Triangles are hit from both sides. What meets an edge or a corner hits
+ * at least one of the triangles there, lines all of them, so that nothing slips between two. All accelerators give the
+ * same answer to the last bit. Safe to call from many threads. */
+SP_API sp_hit sp_trace_nearest(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity);
 /* True where anything but `skip` is hit within (t_min, t_max). */
-bool sp_trace_occluded(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity);
+SP_API bool sp_trace_occluded(const sp_tracer *tracer, const sp_ray *ray, sp_vec3 gravity);
 
 /* Many rays: hits[count] / occluded[count] are the caller's. `threads` as in sp_run. */
-void sp_trace_nearest_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity, int threads,
-                           sp_hit *hits);
-void sp_trace_occluded_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity, int threads,
-                            bool *occluded);
+SP_API void sp_trace_nearest_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity,
+                                  int threads, sp_hit *hits);
+SP_API void sp_trace_occluded_many(const sp_tracer *tracer, const sp_ray *rays, size_t count, sp_vec3 gravity,
+                                   int threads, bool *occluded);
 
 /* Position and velocity at t. */
 static inline sp_vec3 sp_ray_point(const sp_ray *ray, sp_vec3 gravity, double t)

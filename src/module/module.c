@@ -1,34 +1,69 @@
+#define _GNU_SOURCE /* dladdr */
 #include "module/module.h"
 
 #include <dlfcn.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-/* What lies below a prefix: of the program's folder in the build and when installed, then absolute. */
-static const char *const prefixes[] = {"", "../", NULL};
+/* To the prefix from the folder of the program, and of the shared library: in the build, and as installed, the library
+ * in lib/ or in a folder for the architecture below that. */
+static const char *const from_program[] = {"", "../", NULL};
+static const char *const from_library[] = {"", "../", "../../", NULL};
+
+/* Cuts a path of `length` bytes after its last slash; empty where it has none. */
+static void keep_folder(char *path, ssize_t length)
+{
+    while (length > 0 && path[length - 1] != '/')
+        length--;
+    path[length > 0 ? length : 0] = '\0';
+}
 
 /* The folder of the running program with its slash, at most `size` bytes with the zero; empty where unknown. */
 static void program_folder(char *folder, size_t size)
 {
-    ssize_t length = readlink("/proc/self/exe", folder, size - 1);
-    while (length > 0 && folder[length - 1] != '/')
-        length--;
-    folder[length > 0 ? length : 0] = '\0';
+    keep_folder(folder, readlink("/proc/self/exe", folder, size - 1));
 }
 
-/* The path of a file `below` the program's folder, or else in `installed`. */
-static void find_file(const char *below, const char *installed, const char *file, char *path, size_t size)
+static bool is_program(const char *path)
 {
-    char folder[2048];
-    program_folder(folder, sizeof folder);
-    for (const char *const *prefix = prefixes; folder[0] && *prefix; prefix++) {
+    struct stat own, other;
+    return stat("/proc/self/exe", &own) == 0 && stat(path, &other) == 0 && own.st_dev == other.st_dev &&
+           own.st_ino == other.st_ino;
+}
+
+/* The same of the shared library that this is in; empty where it is in the program itself. */
+static void library_folder(char *folder, size_t size)
+{
+    Dl_info info;
+    static const char here;
+    folder[0] = '\0';
+    if (dladdr(&here, &info) && info.dli_fname && strlen(info.dli_fname) < size && !is_program(info.dli_fname))
+        keep_folder(strcpy(folder, info.dli_fname), (ssize_t)strlen(info.dli_fname));
+}
+
+static bool find_below(const char *folder, const char *const *prefix, const char *below, const char *file, char *path,
+                       size_t size)
+{
+    for (; folder[0] && *prefix; prefix++) {
         snprintf(path, size, "%s%s%s/%s", folder, *prefix, below, file);
         if (access(path, R_OK) == 0)
-            return;
+            return true;
     }
-    snprintf(path, size, "%s/%s", installed, file);
+    return false;
+}
+
+/* The path of a file `below` the program's or the library's prefix, or else in `installed`. */
+static void find_file(const char *below, const char *installed, const char *file, char *path, size_t size)
+{
+    char program[2048], library[2048];
+    program_folder(program, sizeof program);
+    library_folder(library, sizeof library);
+    if (!find_below(program, from_program, below, file, path, size) &&
+        !find_below(library, from_library, below, file, path, size))
+        snprintf(path, size, "%s/%s", installed, file);
 }
 
 static void *open_file(const char *file)

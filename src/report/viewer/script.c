@@ -1,17 +1,15 @@
 #include "script.h"
 
-/* The assembler takes the files in, so that nothing is generated. */
+/* The assembler takes the files in, so that nothing is generated; OWN is a symbol of the library alone. */
 #ifdef __APPLE__
 #define SECTION ".const_data"
-#define SYMBOL(name) "_" name
+#define OWN(name) ".private_extern _" name "\n.globl _" name "\n_" name ":\n"
 #else
 #define SECTION ".section .rodata"
-#define SYMBOL(name) name
+#define OWN(name) ".hidden " name "\n.globl " name "\n" name ":\n"
 #endif
 /* `files`: one after the other. */
-#define EMBED(name, files)                                                                                             \
-    __asm__(SECTION "\n.globl " SYMBOL(name) "\n" SYMBOL(name) ":\n" files "\n.globl " SYMBOL(                         \
-        name "_end") "\n" SYMBOL(name "_end") ":\n.byte 0\n.text\n")
+#define EMBED(name, files) __asm__(SECTION "\n" OWN(name) files OWN(name "_end") ".byte 0\n.text\n")
 #define TAKEN(path) ".incbin \"" path "\"\n"
 #define VIEWER(file) TAKEN(SPRAYPLAN_VIEWER "/" file)
 #define LIVE(file) TAKEN(SPRAYPLAN_VIEWER "/live/" file)
