@@ -1,6 +1,7 @@
 #include "remedies.h"
 
 #include "attainable/coarse_patch.h"
+#include "scoring/draft_told.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -192,6 +193,29 @@ static bool find_one(remedying *r, const sp_draft *draft, uint32_t shadow, sp_re
     return done;
 }
 
+/* What the others have found for their shadows, and whether they had the time. */
+static bool share(const sp_search *search, sp_remedy *remedies, bool *known, size_t count, sp_error *error)
+{
+    sp_ranks *ranks = search->options->run.ranks;
+    sp_told told = {0};
+    sp_heard heard;
+    for (size_t i = 0; i < count; i++)
+        if (sp_ranks_mine(ranks, i) && known[i]) {
+            sp_tell(&told, &i, sizeof i);
+            sp_tell(&told, &remedies[i], sizeof remedies[i]);
+            sp_tell_nozzle(search, &remedies[i].nozzle, &told);
+        }
+    if (!sp_ranks_gather(ranks, "remedies", &told, &heard, error))
+        return false;
+    for (size_t rank = 0, i; rank < heard.count; rank++)
+        while (sp_hear(&heard, rank, &i, sizeof i) && i < count) {
+            known[i] = sp_hear(&heard, rank, &remedies[i], sizeof remedies[i]) &&
+                       sp_hear_nozzle(search, &heard, rank, &remedies[i].nozzle);
+        }
+    sp_heard_free(&heard);
+    return true;
+}
+
 bool sp_remedies_find(const sp_search *search, const sp_evaluator *fine, const sp_draft *draft,
                       const sp_coverage *coverage, sp_watch *watch, sp_remedy *remedies, size_t *count, sp_error *error)
 {
@@ -202,11 +226,17 @@ bool sp_remedies_find(const sp_search *search, const sp_evaluator *fine, const s
     if (!sp_shadows(fine, coverage, NULL, &shadows, &found, error))
         return false;
     found = found < SP_REMEDIES ? found : SP_REMEDIES;
+    bool known[SP_REMEDIES] = {0};
     bool done = remedying_create(&r, shadows, found, error);
-    while (done && *count < found && sp_watch_has_time(watch, "remedies", (double)*count / (double)found)) {
-        done = find_one(&r, draft, (uint32_t)*count + 1, &remedies[*count], error);
-        *count += done;
-    }
+    sp_ranks_part(search->options->run.ranks);
+    for (size_t i = 0; done && i < found; i++)
+        if (sp_ranks_mine(search->options->run.ranks, i) &&
+            sp_watch_has_time(watch, "remedies", (double)i / (double)found))
+            done = known[i] = find_one(&r, draft, (uint32_t)i + 1, &remedies[i], error);
+    sp_ranks_rejoin(search->options->run.ranks);
+    done = done && share(search, remedies, known, found, error);
+    while (done && *count < found && known[*count])
+        ++*count;
     remedying_free(&r);
     free(shadows);
     return done;

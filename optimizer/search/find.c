@@ -1,5 +1,6 @@
 #include "search/find.h"
 
+#include "scoring/draft_told.h"
 #include "search/fewest.h"
 #include "search/guess.h"
 #include "search/walk.h"
@@ -118,7 +119,12 @@ static bool start_at(const sp_finding *finding, const sp_draft *greedy, const sp
     return true;
 }
 
-/* Walks on from every draft within its budget, many at a time. */
+static sp_ranks *ranks_of(const sp_finding *finding)
+{
+    return finding->search->options->run.ranks;
+}
+
+/* Walks on from every draft that is this rank's within its budget, many at a time. */
 static bool walk_all(const sp_finding *finding, const double *budgets, sp_draft *drafts, size_t count)
 {
     sp_error failure = {0};
@@ -128,7 +134,8 @@ static bool walk_all(const sp_finding *finding, const double *budgets, sp_draft 
     for (size_t k = 0; k < count; k++) {
         size_t i = count - 1 - k;
         sp_error mine = {0};
-        if (!sp_walk(finding->search, budgets[i], WALK, i + 1, finding->watch, &drafts[i], &mine)) {
+        if (sp_ranks_mine(ranks_of(finding), i) &&
+            !sp_walk(finding->search, budgets[i], WALK, i + 1, finding->watch, &drafts[i], &mine)) {
 #pragma omp critical(sp_find_failure)
             failure = mine;
         }
@@ -138,16 +145,37 @@ static bool walk_all(const sp_finding *finding, const double *budgets, sp_draft 
     return sp_fail(finding->error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
 }
 
-/* The best found within each budget, measured. */
+/* What the others have found. */
+static bool share_drafts(const sp_finding *finding, sp_draft *drafts, size_t count)
+{
+    sp_ranks *ranks = ranks_of(finding);
+    sp_told told = {0};
+    sp_heard heard;
+    for (size_t i = 0; sp_ranks_count(ranks) > 1 && i < count; i++)
+        if (sp_ranks_mine(ranks, i))
+            sp_tell_draft(finding->search, &drafts[i], &told);
+    bool done = sp_ranks_gather(ranks, "walks", &told, &heard, finding->error);
+    for (size_t i = 0; done && i < count; i++)
+        if (!sp_ranks_mine(ranks, i))
+            done = sp_hear_draft(finding->search, &heard, sp_ranks_owner(ranks, i), &drafts[i], finding->error);
+    if (done)
+        sp_heard_free(&heard);
+    return done;
+}
+
+/* The best found within each budget, which are dealt out, measured. */
 static bool search_budgets(const sp_finding *finding, const sp_draft *greedy, const sp_lineup *guessed,
                            const double *budgets, size_t count)
 {
     sp_draft *drafts = calloc(count + 1, sizeof *drafts);
     bool done = drafts || sp_fail_memory(finding->error);
+    sp_ranks_part(ranks_of(finding));
     for (size_t i = 0; done && i < count; i++)
         done = sp_draft_create(finding->search, &drafts[i], finding->error) &&
-               start_at(finding, greedy, &guessed[i], budgets[i], &drafts[i]);
+               (!sp_ranks_mine(ranks_of(finding), i) || start_at(finding, greedy, &guessed[i], budgets[i], &drafts[i]));
     done = done && walk_all(finding, budgets, drafts, count);
+    sp_ranks_rejoin(ranks_of(finding));
+    done = done && share_drafts(finding, drafts, count);
     for (size_t i = 0; done && i < count; i++)
         done = sp_front_measure(finding->front, finding->search, &drafts[i], NULL, finding->error);
     for (size_t i = 0; drafts && i < count; i++)
