@@ -336,9 +336,43 @@ void sp_bench_free(sp_bench *bench)
     *bench = (sp_bench){0};
 }
 
+/* Whether this rank scores a pose: that of a site of its own, or where ranks are apart any. */
+static bool scores(const sp_search *search, sp_pose pose)
+{
+    sp_ranks *ranks = search->options->run.ranks;
+    return sp_ranks_apart(ranks) || sp_ranks_mine(ranks, pose.site);
+}
+
+/* The scores of the others' poses that are above 0. */
+static bool share_scores(const sp_search *search, const sp_pool *pool, sp_bench *bench, sp_error *error)
+{
+    sp_ranks *ranks = search->options->run.ranks;
+    sp_told told = {0};
+    sp_heard heard;
+    uint32_t count = 0;
+    if (sp_ranks_apart(ranks) || sp_ranks_count(ranks) == 1)
+        return true;
+    for (size_t i = 0; i < pool->count; i++)
+        count += bench->scores[i] > 0;
+    sp_tell(&told, &count, sizeof count);
+    for (uint32_t i = 0; i < pool->count; i++)
+        if (bench->scores[i] > 0) {
+            sp_tell(&told, &i, sizeof i);
+            sp_tell(&told, &bench->scores[i], sizeof bench->scores[i]);
+        }
+    if (!sp_ranks_gather(ranks, "scores", &told, &heard, error))
+        return false;
+    for (size_t rank = 0; rank < heard.count; rank++)
+        for (uint32_t i, k = sp_hear(&heard, rank, &count, sizeof count) ? count : 0; k > 0; k--)
+            if (sp_hear(&heard, rank, &i, sizeof i) && i < pool->count)
+                sp_hear(&heard, rank, &bench->scores[i], sizeof bench->scores[i]);
+    sp_heard_free(&heard);
+    return true;
+}
+
 /* Scores all of the pool, exactly where they may be the best or equal to it; `least` as sp_pool_best's. */
-static void score_pool(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
-                       double least, sp_bench *bench)
+static bool score_pool(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
+                       double least, sp_bench *bench, sp_error *error)
 {
     double tie = SP_SCORE_TIE * search->all;
 #pragma omp parallel num_threads(bench->threads)
@@ -348,6 +382,9 @@ static void score_pool(const sp_search *search, const sp_pool *pool, const sp_dr
 #pragma omp for schedule(dynamic, 32)
         for (size_t i = 0; i < pool->count; i++) {
             sp_pose pose = pool->items[i];
+            bench->scores[i] = 0;
+            if (!scores(search, pose))
+                continue;
             double price = price_of(search, &pose, power), enough = fmax(least, merit * price) - tie;
             uint32_t mount = search->sites->items[pose.site].mount;
             bool allowed = affords(search, draft, mount, pose.make, budget) && sp_draft_has_place(search, draft, mount);
@@ -357,22 +394,26 @@ static void score_pool(const sp_search *search, const sp_pool *pool, const sp_dr
         }
     }
     sp_sweepers_forget(bench->sweepers, bench->threads);
+    return share_scores(search, pool, bench, error);
 }
 
-double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
-                    double least, sp_bench *bench, sp_pose *best)
+bool sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
+                  double least, sp_bench *bench, sp_pose *best, double *gain, sp_error *error)
 {
     const double *scores = bench->scores;
     double merit = 0, tie = SP_SCORE_TIE * search->all;
-    score_pool(search, pool, draft, power, budget, least, bench);
+    *gain = 0;
+    if (!score_pool(search, pool, draft, power, budget, least, bench, error))
+        return false;
     for (size_t i = 0; i < pool->count; i++)
         merit = fmax(merit, scores[i] / price_of(search, &pool->items[i], power));
     for (size_t i = 0; merit > 0 && i < pool->count; i++)
         if (scores[i] > 0 && scores[i] + tie >= merit * price_of(search, &pool->items[i], power)) {
             *best = pool->items[i];
-            return scores[i];
+            *gain = scores[i];
+            return true;
         }
-    return 0;
+    return true;
 }
 
 bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, double target, double budget,
@@ -382,7 +423,9 @@ bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, 
     bool done = true;
     while (done && draft->covered < target) {
         sp_pose pose;
-        if (sp_pool_best(search, pool, draft, power, budget, 0, bench, &pose) < least)
+        double gain;
+        done = sp_pool_best(search, pool, draft, power, budget, 0, bench, &pose, &gain, error);
+        if (!done || gain < least)
             break;
         done = sp_draft_add_pose(search, draft, pose, error);
     }
