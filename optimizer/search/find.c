@@ -163,6 +163,21 @@ static bool share_drafts(const sp_finding *finding, sp_draft *drafts, size_t cou
     return done;
 }
 
+static bool measure_all(const sp_finding *finding, const sp_draft *drafts, size_t count)
+{
+    const sp_draft **each = malloc((count + 1) * sizeof *each);
+    sp_front_point *points = malloc((count + 1) * sizeof *points);
+    bool done = (each && points) || sp_fail_memory(finding->error);
+    for (size_t i = 0; done && i < count; i++)
+        each[i] = &drafts[i];
+    done = done && sp_front_measure_ahead(finding->front, finding->search, each, count, points, finding->error);
+    for (size_t i = 0; done && i < count; i++)
+        done = sp_front_note(finding->front, finding->search, &drafts[i], &points[i], finding->error);
+    free(each);
+    free(points);
+    return done;
+}
+
 /* The best found within each budget, which are dealt out, measured. */
 static bool search_budgets(const sp_finding *finding, const sp_draft *greedy, const sp_lineup *guessed,
                            const double *budgets, size_t count)
@@ -176,8 +191,7 @@ static bool search_budgets(const sp_finding *finding, const sp_draft *greedy, co
     done = done && walk_all(finding, budgets, drafts, count);
     sp_ranks_rejoin(ranks_of(finding));
     done = done && share_drafts(finding, drafts, count);
-    for (size_t i = 0; done && i < count; i++)
-        done = sp_front_measure(finding->front, finding->search, &drafts[i], NULL, finding->error);
+    done = done && measure_all(finding, drafts, count);
     for (size_t i = 0; drafts && i < count; i++)
         sp_draft_free(&drafts[i]);
     free(drafts);
