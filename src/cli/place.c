@@ -12,6 +12,7 @@ typedef struct {
     sp_coverage *manual;     /* NULL where the scene has no nozzles */
     sp_proposal **proposals; /* [count], one for each alternative, or the only one */
     size_t count, best;
+    bool ended; /* some rank was interrupted, or could not go on */
 } placement;
 
 /* What a proposal is counted on. */
@@ -122,7 +123,7 @@ static int report(const cli_options *options, const cli_scene *opened, const pla
     free(designs);
     if (!good)
         return cli_fail_in(opened, error);
-    if (ends()) {
+    if (found->ended || cli_interrupted()) {
         say_interrupted(opened, found);
         return EXIT_INTERRUPTED;
     }
@@ -163,7 +164,7 @@ static bool propose(const cli_options *options, const cli_scene *opened, const c
     found->proposals = calloc(count, sizeof(sp_proposal *));
     if (!found->proposals)
         return sp_fail_memory(error);
-    for (size_t i = 0; i < count && (i == 0 || !sp_ranks_any(cli_ranks(), ends())); i++) {
+    for (size_t i = 0; i < count && !found->ended; i++) {
         sp_place_options how = alternatives ? sp_scene_alternative_options(opened->scene, i) : all;
         how.run = cli_search_run(options);
         how.run.time_limit = time_left(options, clock, found, count - i);
@@ -175,6 +176,7 @@ static bool propose(const cli_options *options, const cli_scene *opened, const c
             return false;
         }
         found->count++;
+        found->ended = sp_ranks_any(cli_ranks(), ends());
     }
     found->best = sp_place_best((const sp_proposal *const *)found->proposals, found->count);
     return true;

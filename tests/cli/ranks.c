@@ -11,22 +11,15 @@
     "mpirun --oversubscribe "
 #define PLACE "'" BINARY_DIR "/sprayplan' place --threads 1 "
 
-static bool can_run(void)
-{
-    char module[1024];
-    bool built = false;
-    /* lib/, or what a distribution calls it */
-    static const char *const below[] = {"lib", "lib64", "lib/x86_64-linux-gnu", "lib/aarch64-linux-gnu"};
-    for (size_t i = 0; !built && i < sizeof below / sizeof *below; i++) {
-        snprintf(module, sizeof module, "%s/%s/sprayplan/sprayplan-mpi.so", BINARY_DIR, below[i]);
-        built = access(module, R_OK) == 0;
-    }
-    return built && system("command -v mpirun >/dev/null") == 0;
-}
+#ifdef HAS_MPI
+static const bool built = true;
+#else
+static const bool built = false;
+#endif
 
 static void skip_without_mpi(void)
 {
-    if (can_run())
+    if (built && system("command -v mpirun >/dev/null") == 0)
         return;
     print_message("mpirun, or the module that was to be built with MPI, is missing (Debian: libopenmpi-dev, "
                   "openmpi-bin)\n");
@@ -46,9 +39,9 @@ static int run_in(const char *folder, const char *command)
  * mpirun. */
 static void place_by(size_t ranks, const char *scene, const char *folder)
 {
-    char line[1024];
-    snprintf(line, sizeof line, "mkdir '%s/%s' && cd '%s' && cp room.obj catalogue.yaml '%s'", workplace, folder, workplace,
-             folder);
+    char line[2048];
+    snprintf(line, sizeof line, "mkdir '%s/%s' && cd '%s' && cp room.obj catalogue.yaml types.yaml '%s'", workplace, folder,
+             workplace, folder);
     assert_int_equal(system(line), 0);
     snprintf(line, sizeof line, "%s/scene.yaml", folder);
     write_file(line, scene);
@@ -73,7 +66,7 @@ static void are_the_same(const char *a, const char *b)
              "in $(ls out); do sed -E '%s' out/$file >ours; sed -E '%s' '../%s/out/'$file >theirs; cmp ours theirs || "
              "{ echo $file; exit 1; }; done",
              a, a, seconds, seconds, a);
-    char command[2304];
+    char command[4096];
     snprintf(command, sizeof command, "cd '%s/%s' && %s", workplace, b, line);
     assert_int_equal(system(command), 0);
 }
@@ -98,15 +91,15 @@ static const char wide_yaml[] =
     "cavity: [0.5 m, 0.5 m, 0.5 m]\n"
     "criterion: {flux: 4 L/min/m2}\n"
     "catalogue: types.yaml\n"
-    "simulate: {texel: 60 mm}\n"
+    "simulate: {texel: 120 mm}\n"
     "place:\n"
     "  coverage: 99.9 %\n"
-    "  max_nozzles: 6\n"
+    "  max_nozzles: 4\n"
     "  pressure: 2 bar\n"
     "  mounts:\n"
     "    - port: {name: P1, position: [0.3 m, 0.3 m, 1 m], axis: [0, 0, -1], tilt: 30 deg, depth: {from: 100 mm, to: "
     "500 mm, spacing: 200 mm}}\n"
-    "    - surface: {geometry: 0, part: walls, spacing: 300 mm, standoff: 40 mm, tilt: 30 deg}\n";
+    "    - surface: {geometry: 0, part: walls, spacing: 500 mm, standoff: 40 mm, tilt: 30 deg}\n";
 
 static const char types_yaml[] =
     "nozzles:\n"
@@ -125,6 +118,7 @@ static void any_number_of_ranks_gives_the_same_bytes(void **state)
 {
     (void)state;
     skip_without_mpi();
+    write_file("types.yaml", types_yaml);
     compare(room_yaml, "room");
 }
 
@@ -134,12 +128,8 @@ static void so_it_does_with_much_to_refine(void **state)
     skip_without_mpi();
     if (!COMPARES_THREADS)
         skip();
-    char scene[sizeof wide_yaml + 64];
-    snprintf(scene, sizeof scene, "%s", wide_yaml);
-    char *catalogue = strstr(scene, "types.yaml");
-    memmove(catalogue, "../t.yaml ", 10);
-    write_file("t.yaml", types_yaml);
-    compare(scene, "wide");
+    write_file("types.yaml", types_yaml);
+    compare(wide_yaml, "wide");
 }
 
 static void an_error_is_told_once(void **state)
@@ -269,7 +259,8 @@ static void none_hangs_where_one_is_killed(void **state)
     assert_int_equal(kill(ranks[1], SIGKILL), 0);
     assert_int_not_equal(await(child), 0);
     for (int rank = 0; rank < 3; rank++)
-        assert_int_equal(kill(ranks[rank], 0), -1);
+        while (kill(ranks[rank], 0) == 0)
+            nanosleep(&(struct timespec){0, 20000000}, NULL);
 }
 
 /* Where mpirun leaves the others alone, which it does when asked to, whoever asks them to end sees the first do so. */
