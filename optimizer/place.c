@@ -371,9 +371,9 @@ static bool settle(const sp_evaluator *evaluator, const sp_place_options *given,
         return sp_fail(error, SP_ERROR_INTERRUPTED, NULL, 0, 0, "another rank has failed");
     options->run.threads = (int)-most[0];
     options->run.time_limit = isfinite(most[1]) ? -most[1] : 0;
-    return most[2] == -most[3] || sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
-                                          "the ranks see %g and %g m2 of surface, expected the same files on all machines",
-                                          -most[3], most[2]);
+    return most[2] == -most[3] ||
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "the ranks see %g and %g m2 of surface, expected the same files on all machines", -most[3], most[2]);
 }
 
 sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *given, sp_error *error)

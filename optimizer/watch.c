@@ -142,8 +142,7 @@ bool sp_watch_stage(sp_watch *watch, const char *name, sp_error *error)
 
 bool sp_run_hurries(const sp_run *run)
 {
-    return run->time_limit > 0 &&
-           run->time_limit * sp_threads(run) * (double)sp_ranks_count(run->ranks) < LEISURE;
+    return run->time_limit > 0 && run->time_limit * sp_threads(run) * (double)sp_ranks_count(run->ranks) < LEISURE;
 }
 
 int sp_threads(const sp_run *run)

@@ -429,7 +429,8 @@ static sp_ranks *ranks_of(const sp_pose_prices *prices)
     return prices->search->options->run.ranks;
 }
 
-/* The others' prices of the blocks of their sites, where `price` is not NULL, and where `bests` is set the best of these.
+/* The others' prices of the blocks of their sites, where `price` is not NULL, and where `bests` is set the best of
+ * these.
  */
 static bool share_prices(sp_pose_prices *prices, float *price, bool bests, sp_error *error)
 {

@@ -319,19 +319,20 @@ static bool share_drafts(const sp_polishing *polishing, sp_trial *trials, size_t
     for (size_t i = 0; sp_ranks_count(ranks) > 1 && i < count; i++)
         if (sp_ranks_mine(ranks, i) && (!better || trials[i].better))
             sp_tell_draft(search, &trials[i].draft, &told);
-    bool done = sp_ranks_gather(ranks, "trials", &told, &heard, error);
+    if (!sp_ranks_gather(ranks, "trials", &told, &heard, error))
+        return false;
+    bool done = true;
     for (size_t i = 0; done && i < count; i++)
         if (!sp_ranks_mine(ranks, i) && (!better || trials[i].better))
             done = sp_hear_draft(search, &heard, sp_ranks_owner(ranks, i), &trials[i].draft, error);
-    if (done)
-        sp_heard_free(&heard);
+    sp_heard_free(&heard);
     return done;
 }
 
 bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error)
 {
-    bool done = for_each(polishing, trials, count, false, polish, error) &&
-                share_merits(polishing, trials, count, error);
+    bool done =
+        for_each(polishing, trials, count, false, polish, error) && share_merits(polishing, trials, count, error);
     bool *keeps = calloc(count ? count : 1, sizeof *keeps);
     if (!keeps)
         done = sp_fail_memory(error);

@@ -110,8 +110,7 @@ sp_front_point *sp_trials_measure_ahead(sp_refining *refining, const sp_trials *
     for (size_t i = 0; done && i < trials->count; i++)
         if (!better || (trials->items[i].better && may_count(front, &trials->items[i].draft)))
             drafts[i] = &trials->items[i].draft;
-    done = done &&
-           sp_front_measure_ahead(front, refining->search, drafts, trials->count, points, refining->error);
+    done = done && sp_front_measure_ahead(front, refining->search, drafts, trials->count, points, refining->error);
     free(drafts);
     if (done)
         return points;

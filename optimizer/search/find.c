@@ -154,12 +154,13 @@ static bool share_drafts(const sp_finding *finding, sp_draft *drafts, size_t cou
     for (size_t i = 0; sp_ranks_count(ranks) > 1 && i < count; i++)
         if (sp_ranks_mine(ranks, i))
             sp_tell_draft(finding->search, &drafts[i], &told);
-    bool done = sp_ranks_gather(ranks, "walks", &told, &heard, finding->error);
+    if (!sp_ranks_gather(ranks, "walks", &told, &heard, finding->error))
+        return false;
+    bool done = true;
     for (size_t i = 0; done && i < count; i++)
         if (!sp_ranks_mine(ranks, i))
             done = sp_hear_draft(finding->search, &heard, sp_ranks_owner(ranks, i), &drafts[i], finding->error);
-    if (done)
-        sp_heard_free(&heard);
+    sp_heard_free(&heard);
     return done;
 }
 
@@ -178,16 +179,16 @@ static bool measure_all(const sp_finding *finding, const sp_draft *drafts, size_
     return done;
 }
 
-/* The best found within each budget, which are dealt out, measured. */
+/* The best found within each budget, measured. */
 static bool search_budgets(const sp_finding *finding, const sp_draft *greedy, const sp_lineup *guessed,
                            const double *budgets, size_t count)
 {
     sp_draft *drafts = calloc(count + 1, sizeof *drafts);
     bool done = drafts || sp_fail_memory(finding->error);
-    sp_ranks_part(ranks_of(finding));
     for (size_t i = 0; done && i < count; i++)
         done = sp_draft_create(finding->search, &drafts[i], finding->error) &&
-               (!sp_ranks_mine(ranks_of(finding), i) || start_at(finding, greedy, &guessed[i], budgets[i], &drafts[i]));
+               start_at(finding, greedy, &guessed[i], budgets[i], &drafts[i]);
+    sp_ranks_part(ranks_of(finding));
     done = done && walk_all(finding, budgets, drafts, count);
     sp_ranks_rejoin(ranks_of(finding));
     done = done && share_drafts(finding, drafts, count);

@@ -336,13 +336,6 @@ void sp_bench_free(sp_bench *bench)
     *bench = (sp_bench){0};
 }
 
-/* Whether this rank scores a pose: that of a site of its own, or where ranks are apart any. */
-static bool scores(const sp_search *search, sp_pose pose)
-{
-    sp_ranks *ranks = search->options->run.ranks;
-    return sp_ranks_apart(ranks) || sp_ranks_mine(ranks, pose.site);
-}
-
 /* The scores of the others' poses that are above 0. */
 static bool share_scores(const sp_search *search, const sp_pool *pool, sp_bench *bench, sp_error *error)
 {
@@ -350,7 +343,7 @@ static bool share_scores(const sp_search *search, const sp_pool *pool, sp_bench 
     sp_told told = {0};
     sp_heard heard;
     uint32_t count = 0;
-    if (sp_ranks_apart(ranks) || sp_ranks_count(ranks) == 1)
+    if (sp_ranks_count(ranks) == 1)
         return true;
     for (size_t i = 0; i < pool->count; i++)
         count += bench->scores[i] > 0;
@@ -370,7 +363,8 @@ static bool share_scores(const sp_search *search, const sp_pool *pool, sp_bench 
     return true;
 }
 
-/* Scores all of the pool, exactly where they may be the best or equal to it; `least` as sp_pool_best's. */
+/* Scores all of the pool, each rank the poses of its own sites, exactly where they may be the best or equal to it;
+ * `least` as sp_pool_best's. */
 static bool score_pool(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
                        double least, sp_bench *bench, sp_error *error)
 {
@@ -383,7 +377,7 @@ static bool score_pool(const sp_search *search, const sp_pool *pool, const sp_dr
         for (size_t i = 0; i < pool->count; i++) {
             sp_pose pose = pool->items[i];
             bench->scores[i] = 0;
-            if (!scores(search, pose))
+            if (!sp_ranks_mine(search->options->run.ranks, pose.site))
                 continue;
             double price = price_of(search, &pose, power), enough = fmax(least, merit * price) - tie;
             uint32_t mount = search->sites->items[pose.site].mount;

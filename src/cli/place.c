@@ -276,7 +276,7 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
         cli_clock_stage(clock, "simulate");
         good = propose(options, opened, clock, &found, error);
     }
-    int status = !good             ? cli_fail_in(opened, error)
+    int status = !good              ? cli_fail_in(opened, error)
                  : sp_ranks_first() ? conclude(options, opened, clock, &found, error)
                                     : EXIT_DONE;
     for (size_t i = 0; i < found.count; i++)

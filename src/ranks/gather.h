@@ -37,7 +37,7 @@ void sp_told_free(sp_told *told);
 
 /* What all ranks told, each part read once from its beginning. */
 typedef struct {
-    size_t count; /* of ranks; 0: nobody was asked */
+    size_t count;     /* of ranks; 0: nobody was asked */
     size_t *at, *end; /* [count] of `bytes` */
     unsigned char *bytes;
 } sp_heard;

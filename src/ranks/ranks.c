@@ -10,7 +10,7 @@
 /* With what every call begins: what each rank is about to do. Where one has failed, or does something else than the
  * others, all know it here, and none waits for what will not come. */
 typedef struct {
-    uint64_t call; /* what, and the number of the call */
+    uint64_t call;  /* what, and the number of the call */
     uint64_t words; /* that will follow */
     uint64_t failed;
     double values[SP_VALUES_MOST];
@@ -251,7 +251,8 @@ bool sp_ranks_gather(sp_ranks *ranks, const char *what, sp_told *told, sp_heard 
         static const unsigned char padding[8] = {0};
         sp_tell(told, padding, (8 - told->count % 8) % 8);
         done = !told->lacks_memory || sp_fail_memory(error);
-        done = done && call_roll(ranks, &(notice){.call = name_call(what, ranks->calls++), .words = told->count / 8}, error);
+        done = done &&
+               call_roll(ranks, &(notice){.call = name_call(what, ranks->calls++), .words = told->count / 8}, error);
         done = done && (sp_ranks_lost(ranks) || receive(ranks, told, heard, error));
     }
     sp_told_free(told);

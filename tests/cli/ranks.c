@@ -1,4 +1,5 @@
-/* place by several processes that mpirun started: the same files as by one, one message, and an end whatever happens. */
+/* place by several processes that mpirun started: the same files as by one, one message, and an end whatever happens.
+ */
 #include "results.h"
 
 #include <dirent.h>
@@ -40,8 +41,8 @@ static int run_in(const char *folder, const char *command)
 static void place_by(size_t ranks, const char *scene, const char *folder)
 {
     char line[2048];
-    snprintf(line, sizeof line, "mkdir '%s/%s' && cd '%s' && cp room.obj catalogue.yaml types.yaml '%s'", workplace, folder,
-             workplace, folder);
+    snprintf(line, sizeof line, "mkdir '%s/%s' && cd '%s' && cp room.obj catalogue.yaml types.yaml '%s'", workplace,
+             folder, workplace, folder);
     assert_int_equal(system(line), 0);
     snprintf(line, sizeof line, "%s/scene.yaml", folder);
     write_file(line, scene);
@@ -60,12 +61,14 @@ static void place_by(size_t ranks, const char *scene, const char *folder)
 static void are_the_same(const char *a, const char *b)
 {
     char line[2048];
-    static const char seconds[] = "/\"(processor_)?seconds\"/d; /^<tr><th scope=\"row\">[a-z ]+<.th><td>[0-9.]+<.td><.tr>$/d";
-    snprintf(line, sizeof line,
-             "diff .out '../%s/.out' && test \"$(ls out)\" = \"$(ls '../%s/out')\" && test -s out/layout.yaml && for file "
-             "in $(ls out); do sed -E '%s' out/$file >ours; sed -E '%s' '../%s/out/'$file >theirs; cmp ours theirs || "
-             "{ echo $file; exit 1; }; done",
-             a, a, seconds, seconds, a);
+    static const char seconds[] =
+        "/\"(processor_)?seconds\"/d; /^<tr><th scope=\"row\">[a-z ]+<.th><td>[0-9.]+<.td><.tr>$/d";
+    snprintf(
+        line, sizeof line,
+        "diff .out '../%s/.out' && test \"$(ls out)\" = \"$(ls '../%s/out')\" && test -s out/layout.yaml && for file "
+        "in $(ls out); do sed -E '%s' out/$file >ours; sed -E '%s' '../%s/out/'$file >theirs; cmp ours theirs || "
+        "{ echo $file; exit 1; }; done",
+        a, a, seconds, seconds, a);
     char command[4096];
     snprintf(command, sizeof command, "cd '%s/%s' && %s", workplace, b, line);
     assert_int_equal(system(command), 0);
@@ -196,8 +199,9 @@ static pid_t begin(const char *how, pid_t ranks[3])
 {
     struct timespec pause = {0, 20000000}, worked = {0};
     char line[1024];
-    snprintf(line, sizeof line, "cd '%s' && " MPIRUN "%s -n 3 " PLACE "long.yaml -o ended --quiet >.out 2>.err </dev/null",
-             workplace, how);
+    snprintf(line, sizeof line,
+             "cd '%s' && " MPIRUN "%s -n 3 " PLACE "long.yaml -o ended --quiet >.out 2>.err </dev/null", workplace,
+             how);
     write_long_scene("long.yaml", "", "40 mm");
     pid_t child = fork();
     assert_true(child >= 0);

@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <time.h>
 
-#define SPINS 2000     /* questions to MPI before a process that waits sleeps between them: others may want its core */
-#define NAP 20000      /* ns of sleep, at first */
+#define SPINS 2000 /* questions to MPI before a process that waits sleeps between them: others may want its core */
+#define NAP 20000  /* ns of sleep, at first */
 #define NAP_LONG 500000
-#define NAPS 200       /* of the short ones */
-#define PATIENCE 2.0   /* s that one who has been asked to end waits for the others */
+#define NAPS 200     /* of the short ones */
+#define PATIENCE 2.0 /* s that one who has been asked to end waits for the others */
 
 static double now(void)
 {
