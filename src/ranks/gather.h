@@ -10,10 +10,11 @@
 /* How many work together, 1 where the others are lost, and which of them this one is. */
 size_t sp_ranks_count(const sp_ranks *ranks);
 size_t sp_ranks_own(const sp_ranks *ranks);
-/* Who does part i of what is dealt out. */
+/* Who does part i of what is dealt out: to and fro, as parts are often longer the later they come, or by turns. */
 static inline size_t sp_ranks_owner(const sp_ranks *ranks, size_t i)
 {
-    return i % sp_ranks_count(ranks);
+    size_t count = sp_ranks_count(ranks), at = i % (2 * count);
+    return at < count ? at : 2 * count - 1 - at;
 }
 static inline bool sp_ranks_mine(const sp_ranks *ranks, size_t i)
 {

@@ -268,13 +268,13 @@ static void none_hangs_where_one_is_killed(void **state)
 }
 
 /* Where mpirun leaves the others alone, which it does when asked to, whoever asks them to end sees the first do so. */
-static void the_first_writes_what_it_has_where_one_was_killed(void **state)
+static void the_first_writes_what_it_has_where_others_were_killed(void **state)
 {
     (void)state;
     skip_without_mpi();
     pid_t ranks[3], child = begin("--enable-recovery", ranks);
     assert_int_equal(kill(ranks[1], SIGKILL), 0);
-    assert_int_equal(kill(ranks[2], SIGTERM), 0);
+    assert_int_equal(kill(ranks[2], SIGKILL), 0);
     assert_int_equal(kill(ranks[0], SIGTERM), 0);
     await(child);
     the_best_so_far_is_there("the other ranks being gone; this is the best layout so far");
@@ -289,7 +289,7 @@ int main(void)
         cmocka_unit_test(all_end_at_the_time_limit),
         cmocka_unit_test(all_end_where_one_is_asked_to),
         cmocka_unit_test(none_hangs_where_one_is_killed),
-        cmocka_unit_test(the_first_writes_what_it_has_where_one_was_killed),
+        cmocka_unit_test(the_first_writes_what_it_has_where_others_were_killed),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }

@@ -8,8 +8,13 @@
 #define SPINS 2000 /* questions to MPI before a process that waits sleeps between them: others may want its core */
 #define NAP 20000  /* ns of sleep, at first */
 #define NAP_LONG 500000
-#define NAPS 200     /* of the short ones */
-#define PATIENCE 2.0 /* s that one who has been asked to end waits for the others */
+#define NAPS 200 /* of the short ones */
+/* s that one who has been asked to end waits for the others: the first, which can write what it has, and those that
+ * nothing but the first can help. */
+#define PATIENCE_FIRST 5.0
+#define PATIENCE_OTHERS 60.0
+
+static double patience;
 
 static double now(void)
 {
@@ -32,7 +37,7 @@ static bool await(MPI_Request *request, bool (*ends)(void))
             continue;
         if (ends && ends()) {
             asked = asked > 0 ? asked : now();
-            if (now() - asked > PATIENCE)
+            if (now() - asked > patience)
                 return false;
         }
         nanosleep(&(struct timespec){0, round < SPINS + NAPS ? NAP : NAP_LONG}, NULL);
@@ -46,6 +51,7 @@ static void start(size_t *own, size_t *count)
     MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
+    patience = rank ? PATIENCE_OTHERS : PATIENCE_FIRST;
     *own = (size_t)rank;
     *count = (size_t)size;
 }
