@@ -8,6 +8,8 @@
 #include "refine/refine.h"
 #include "refine/settings.h"
 
+#include "ranks/gather.h"
+
 #include <sprayplan/points.h>
 
 #include <stdlib.h>
@@ -354,9 +356,30 @@ static double search_share(const sp_place_options *options)
     return options->prove ? SEARCH_PROVING : sp_run_hurries(&options->run) ? SEARCH_HURRIED : SEARCH;
 }
 
-sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *options, sp_error *error)
+/* What all ranks decide alike has to be the same on all: so many threads as every one has, and the shortest time. Where
+ * they see other surface they have read other files. */
+static bool settle(const sp_evaluator *evaluator, const sp_place_options *given, sp_place_options *options,
+                   sp_error *error)
 {
-    if (!evaluator || !check(evaluator, options, error))
+    const sp_patches *patches = sp_evaluator_patches(evaluator);
+    *options = *given;
+    double limit = options->run.time_limit > 0 ? options->run.time_limit : INFINITY;
+    double most[] = {-(double)sp_threads(&options->run), -limit, patches->total_area, -patches->total_area};
+    if (!sp_ranks_highest(options->run.ranks, "options", most, 4, error))
+        return false;
+    if (sp_ranks_lost(options->run.ranks))
+        return sp_fail(error, SP_ERROR_INTERRUPTED, NULL, 0, 0, "another rank has failed");
+    options->run.threads = (int)-most[0];
+    options->run.time_limit = isfinite(most[1]) ? -most[1] : 0;
+    return most[2] == -most[3] ||
+           sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
+                   "the ranks see %g and %g m2 of surface, expected the same files on all machines", -most[3], most[2]);
+}
+
+sp_proposal *sp_place(const sp_evaluator *evaluator, const sp_place_options *given, sp_error *error)
+{
+    sp_place_options settled, *options = &settled;
+    if (!evaluator || !settle(evaluator, given, &settled, error) || !check(evaluator, options, error))
         return NULL;
     sp_proposal *proposal = calloc(1, sizeof *proposal);
     if (!proposal)

@@ -1,6 +1,7 @@
 #include "remedies.h"
 
 #include "attainable/coarse_patch.h"
+#include "scoring/draft_told.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -15,6 +16,12 @@ typedef struct {
     sp_pose pose;
     double gain; /* m²; 0: none */
 } site_best;
+
+/* What promises most for a shadow, in that order. */
+typedef struct {
+    size_t count;
+    site_best sites[TRIALS];
+} promise;
 
 typedef struct {
     const sp_search *search;
@@ -114,13 +121,33 @@ static void scan_site(remedying *r, const sp_draft *draft, uint32_t site)
     }
 }
 
-static void scan(remedying *r, const sp_draft *draft)
+static sp_ranks *ranks_of(const remedying *r)
+{
+    return r->search->options->run.ranks;
+}
+
+/* Of all sites, of which each rank scans its own. */
+static bool scan(remedying *r, const sp_draft *draft, sp_error *error)
 {
     size_t sites = r->search->sites->count;
+    sp_told told = {0};
+    sp_heard heard;
+    memset(r->best, 0, sites * sizeof *r->best);
 #pragma omp parallel for num_threads(r->threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
-        scan_site(r, draft, (uint32_t)i);
+        if (sp_ranks_mine(ranks_of(r), i))
+            scan_site(r, draft, (uint32_t)i);
     sp_sweepers_forget(r->sweepers, r->threads);
+    for (size_t i = 0; i < sites; i++)
+        if (sp_ranks_mine(ranks_of(r), i))
+            sp_tell(&told, &r->best[i], sizeof r->best[i]);
+    if (!sp_ranks_gather(ranks_of(r), "shadow", &told, &heard, error))
+        return false;
+    for (size_t i = 0; i < sites; i++)
+        if (!sp_ranks_mine(ranks_of(r), i))
+            sp_hear(&heard, sp_ranks_owner(ranks_of(r), i), &r->best[i], sizeof r->best[i]);
+    sp_heard_free(&heard);
+    return true;
 }
 
 /* Takes the site that promises most, the first of equals; NULL where none promises anything. */
@@ -171,25 +198,69 @@ static bool measure(const remedying *r, const sp_draft *draft, sp_pose pose, uin
     return done;
 }
 
-static bool find_one(remedying *r, const sp_draft *draft, uint32_t shadow, sp_remedy *remedy, sp_error *error)
+static bool look_for(remedying *r, const sp_draft *draft, uint32_t shadow, promise *found, sp_error *error)
 {
     sp_draft dry;
-    *remedy = (sp_remedy){.area = 0};
+    size_t trials = sp_evaluator_fidelity(r->fine)->method == SP_METHOD_INVERSE ? TRIALS : 1;
+    *found = (promise){.count = 0};
     if (!sp_draft_copy(r->search, draft, &dry, error))
         return false;
     mask(r, shadow, &dry);
-    scan(r, &dry);
+    bool done = scan(r, &dry, error);
     sp_draft_free(&dry);
-    bool done = true;
-    size_t trials = sp_evaluator_fidelity(r->fine)->method == SP_METHOD_INVERSE ? TRIALS : 1;
-    for (size_t i = 0; done && i < trials; i++) {
-        site_best *best = take_best(r);
-        if (!best || (remedy->nozzle.type && remedy->area >= best->gain))
-            break; /* what it promises is rarely too little */
-        done = measure(r, draft, best->pose, shadow, remedy, error);
-        best->gain = 0;
-    }
+    for (site_best *best; done && found->count < trials && (best = take_best(r)); best->gain = 0)
+        found->sites[found->count++] = *best;
     return done;
+}
+
+static bool try_out(const remedying *r, const sp_draft *draft, uint32_t shadow, const promise *found, sp_remedy *remedy,
+                    sp_error *error)
+{
+    *remedy = (sp_remedy){.area = 0};
+    for (size_t i = 0; i < found->count; i++) {
+        if (remedy->nozzle.type && remedy->area >= found->sites[i].gain)
+            break; /* what it promises is rarely too little */
+        if (!measure(r, draft, found->sites[i].pose, shadow, remedy, error))
+            return false;
+    }
+    return true;
+}
+
+/* What the others have found for their shadows, first to end. */
+static bool share(const remedying *r, sp_remedy *remedies, size_t first, size_t end, sp_error *error)
+{
+    sp_told told = {0};
+    sp_heard heard;
+    for (size_t i = first; i < end; i++)
+        if (sp_ranks_mine(ranks_of(r), i)) {
+            sp_tell(&told, &remedies[i], sizeof remedies[i]);
+            sp_tell_nozzle(r->search, &remedies[i].nozzle, &told);
+        }
+    if (!sp_ranks_gather(ranks_of(r), "remedies", &told, &heard, error))
+        return false;
+    for (size_t i = first; i < end; i++) {
+        size_t rank = sp_ranks_owner(ranks_of(r), i);
+        if (!sp_ranks_mine(ranks_of(r), i) && sp_hear(&heard, rank, &remedies[i], sizeof remedies[i]))
+            sp_hear_nozzle(r->search, &heard, rank, &remedies[i].nozzle);
+    }
+    sp_heard_free(&heard);
+    return true;
+}
+
+/* Those of a few shadows, first to end: all ranks look for what promises most, then each tries that for its own. */
+static bool find_some(remedying *r, const sp_draft *draft, size_t first, size_t end, sp_remedy *remedies,
+                      sp_error *error)
+{
+    promise found[SP_REMEDIES];
+    bool done = true;
+    for (size_t i = first; i < end; i++)
+        remedies[i] = (sp_remedy){.area = 0};
+    for (size_t i = first; done && i < end; i++)
+        done = look_for(r, draft, (uint32_t)i + 1, &found[i], error);
+    for (size_t i = first; done && i < end; i++)
+        if (sp_ranks_mine(ranks_of(r), i))
+            done = try_out(r, draft, (uint32_t)i + 1, &found[i], &remedies[i], error);
+    return done && share(r, remedies, first, end, error);
 }
 
 bool sp_remedies_find(const sp_search *search, const sp_evaluator *fine, const sp_draft *draft,
@@ -204,8 +275,10 @@ bool sp_remedies_find(const sp_search *search, const sp_evaluator *fine, const s
     found = found < SP_REMEDIES ? found : SP_REMEDIES;
     bool done = remedying_create(&r, shadows, found, error);
     while (done && *count < found && sp_watch_has_time(watch, "remedies", (double)*count / (double)found)) {
-        done = find_one(&r, draft, (uint32_t)*count + 1, &remedies[*count], error);
-        *count += done;
+        size_t end = *count + sp_ranks_count(ranks_of(&r));
+        end = end < found ? end : found;
+        done = find_some(&r, draft, *count, end, remedies, error);
+        *count = done && !sp_ranks_lost(ranks_of(&r)) ? end : *count;
     }
     remedying_free(&r);
     free(shadows);

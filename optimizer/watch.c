@@ -1,6 +1,7 @@
 #include "watch.h"
 
 #include "mesh/grow.h"
+#include "ranks/gather.h"
 
 #include <math.h>
 #include <omp.h>
@@ -9,7 +10,7 @@
 #include <string.h>
 #include <time.h>
 
-#define LEISURE 100.0 /* s of time limit, added up over the threads: with less a placement hurries */
+#define LEISURE 100.0 /* s of time limit, added up over the threads of all ranks: with less a placement hurries */
 
 static double read_clock(clockid_t clock)
 {
@@ -29,13 +30,37 @@ sp_watch sp_watch_start(const sp_run *run)
     return (sp_watch){.run = *run,
                       .start = start,
                       .share = 1,
+                      .level = omp_get_level(),
                       .stage_start = start,
                       .stage_processor = read_clock(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
-double sp_watch_elapsed(const sp_watch *watch)
+/* Whether this rank decides alone, and where not whether it can ask the others. */
+static bool is_alone(const sp_watch *watch)
 {
-    return now() - watch->start;
+    return sp_ranks_count(watch->run.ranks) == 1 || sp_ranks_apart(watch->run.ranks);
+}
+static bool can_ask(const sp_watch *watch)
+{
+    return !is_alone(watch) && omp_get_level() == watch->level;
+}
+
+/* What all ranks know: who was asked to stop, who has left something out, and how late it is. Where they do not answer,
+ * or one has failed, it is time to stop, too. */
+static double agree(sp_watch *watch)
+{
+    double elapsed = now() - watch->start;
+    double known[] = {watch->asked || watch->cancelled, watch->interrupted, elapsed};
+    if (!sp_ranks_highest(watch->run.ranks, "watch", known, 3, NULL) || sp_ranks_lost(watch->run.ranks))
+        known[0] = 1;
+    watch->cancelled = known[0] > 0;
+    watch->interrupted = watch->cancelled || known[1] > 0;
+    return known[2];
+}
+
+double sp_watch_elapsed(sp_watch *watch)
+{
+    return can_ask(watch) ? agree(watch) : now() - watch->start;
 }
 
 void sp_watch_allow(sp_watch *watch, double share)
@@ -43,24 +68,45 @@ void sp_watch_allow(sp_watch *watch, double share)
     watch->share = share;
 }
 
-double sp_watch_left(const sp_watch *watch)
+double sp_watch_left(sp_watch *watch)
 {
     double limit = watch->run.time_limit;
     return limit > 0 ? watch->share * limit - sp_watch_elapsed(watch) : INFINITY;
 }
 
+static void ask_callback(sp_watch *watch, const char *stage, double done)
+{
+    if (!watch->cancelled && !watch->asked && watch->run.progress)
+        watch->asked = !watch->run.progress(watch->run.user, stage, done);
+}
+
 /* `loses`: being out of time leaves something out. */
+static bool decide(sp_watch *watch, double elapsed, bool loses)
+{
+    double limit = watch->run.time_limit;
+    watch->over = limit > 0 && elapsed > watch->share * limit;
+    if (watch->over && loses)
+        watch->interrupted = true;
+    return !watch->cancelled && !watch->over;
+}
+
 static bool goes_on(sp_watch *watch, const char *stage, double done, bool loses)
 {
     bool on;
+    if (can_ask(watch)) {
+        ask_callback(watch, stage, done);
+        return decide(watch, agree(watch), loses);
+    }
 #pragma omp critical(sp_watch)
     {
-        if (!watch->cancelled && watch->run.progress && !watch->run.progress(watch->run.user, stage, done))
-            watch->cancelled = watch->interrupted = true;
-        bool over = sp_watch_left(watch) < 0;
-        if (over && loses)
-            watch->interrupted = true;
-        on = !watch->cancelled && !over;
+        ask_callback(watch, stage, done);
+        if (is_alone(watch)) {
+            if (watch->asked || sp_ranks_lost(watch->run.ranks))
+                watch->cancelled = watch->interrupted = true;
+            on = decide(watch, now() - watch->start, loses);
+        } else {
+            on = !watch->cancelled && !watch->over;
+        }
     }
     return on;
 }
@@ -96,7 +142,7 @@ bool sp_watch_stage(sp_watch *watch, const char *name, sp_error *error)
 
 bool sp_run_hurries(const sp_run *run)
 {
-    return run->time_limit > 0 && run->time_limit * sp_threads(run) < LEISURE;
+    return run->time_limit > 0 && run->time_limit * sp_threads(run) * (double)sp_ranks_count(run->ranks) < LEISURE;
 }
 
 int sp_threads(const sp_run *run)

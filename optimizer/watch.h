@@ -12,18 +12,25 @@ typedef struct {
     double share;     /* of the time limit, if there is one, that may be spent by now */
     bool cancelled;   /* the progress callback said so */
     bool interrupted; /* cancelled, or something was left out for want of time */
+    bool asked;       /* the callback said so to this rank, of which the others have not heard yet */
+    bool over;        /* the ranks have agreed that the time is over */
+    int level;        /* parallel regions around the caller: in further ones nothing can be agreed */
     size_t stage_count, stage_capacity;
     sp_stage *stages;
     double stage_start, stage_processor; /* s, of the monotonic clock and of the process's processor time */
 } sp_watch;
 
+/* Of several ranks each decision below is one that all agree on, so that all do the same: outside of parallel regions
+ * they ask one another, and no rank goes on where one of them would not; inside what was last agreed on holds. Between
+ * sp_ranks_part and sp_ranks_rejoin each decides for itself, and the next decision that is agreed on counts that in. */
+
 sp_watch sp_watch_start(const sp_run *run);
 /* Seconds since the start. */
-double sp_watch_elapsed(const sp_watch *watch);
+double sp_watch_elapsed(sp_watch *watch);
 /* From now on this share of the time limit may be spent. */
 void sp_watch_allow(sp_watch *watch, double share);
 /* Seconds until that is spent, negative afterwards; INFINITY without a limit. */
-double sp_watch_left(const sp_watch *watch);
+double sp_watch_left(sp_watch *watch);
 /* Reports progress; false once cancelled or out of time. Safe to call from many threads. */
 bool sp_watch_goes_on(sp_watch *watch, const char *stage, double done);
 /* The same for what may end anywhere, so that being out of time leaves nothing out. */
@@ -32,7 +39,7 @@ bool sp_watch_has_time(sp_watch *watch, const char *stage, double done);
 bool sp_watch_stage(sp_watch *watch, const char *name, sp_error *error);
 
 /* Whether the time limit is too short for all that a placement does at leisure: a matter of the limit and the threads
- * alone, so that equal runs choose the same. */
+ * of all ranks alone, so that equal runs choose the same. */
 bool sp_run_hurries(const sp_run *run);
 /* The number of threads that a run asks for. */
 int sp_threads(const sp_run *run);

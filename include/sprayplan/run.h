@@ -2,6 +2,8 @@
 #ifndef SPRAYPLAN_RUN_H
 #define SPRAYPLAN_RUN_H
 
+#include <sprayplan/ranks.h>
+
 #include <stdbool.h>
 
 /* {0} is a sensible default: all cores, silent, never cancelled, no time limit. */
@@ -13,6 +15,7 @@ typedef struct {
     bool (*progress)(void *user, const char *stage, double done);
     void *user;        /* handed to progress */
     double time_limit; /* s of wall time for sp_place; 0: none */
+    sp_ranks *ranks;   /* with which sp_place shares its work; NULL: none. The answer does not depend on it. */
 } sp_run;
 
 #endif

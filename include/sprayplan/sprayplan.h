@@ -22,6 +22,7 @@
 #include <sprayplan/nozzle.h>
 #include <sprayplan/place.h>
 #include <sprayplan/points.h>
+#include <sprayplan/ranks.h>
 #include <sprayplan/report.h>
 #include <sprayplan/result.h>
 #include <sprayplan/run.h>

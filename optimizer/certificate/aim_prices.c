@@ -1,5 +1,6 @@
 #include "certificate/aim_prices.h"
 
+#include "ranks/gather.h"
 #include "scoring/scoring.h"
 
 #include <omp.h>
@@ -258,22 +259,55 @@ static void price_alike(const sp_aim_prices *prices, scratch *own, entry *entrie
     }
 }
 
-static void price_open(sp_aim_prices *prices, const sp_prices *u)
+static sp_ranks *ranks_of(const sp_aim_prices *prices)
+{
+    return prices->search->options->run.ranks;
+}
+
+/* The others' bounds, and the prices of middles. */
+static bool share_open(sp_aim_prices *prices, sp_error *error)
+{
+    cell_list *open = &prices->open;
+    sp_told told = {0};
+    sp_heard heard;
+    for (size_t i = 0; sp_ranks_count(ranks_of(prices)) > 1 && i < open->count; i++)
+        if (sp_ranks_mine(ranks_of(prices), open->items[i].cell.site)) {
+            sp_tell(&told, &open->items[i].cell.upper, sizeof(double));
+            sp_tell(&told, &open->items[i].middle, sizeof(double));
+        }
+    if (!sp_ranks_gather(ranks_of(prices), "aims", &told, &heard, error))
+        return false;
+    for (size_t i = 0; i < open->count; i++) {
+        entry *cell = &open->items[i];
+        if (sp_ranks_mine(ranks_of(prices), cell->cell.site))
+            continue;
+        sp_hear(&heard, sp_ranks_owner(ranks_of(prices), cell->cell.site), &cell->cell.upper, sizeof(double));
+        sp_hear(&heard, sp_ranks_owner(ranks_of(prices), cell->cell.site), &cell->middle, sizeof(double));
+    }
+    sp_heard_free(&heard);
+    return true;
+}
+
+/* All open cells, each rank those of its own sites. */
+static bool price_open(sp_aim_prices *prices, const sp_prices *u, sp_error *error)
 {
     cell_list *open = &prices->open;
     size_t groups = 0;
+    sp_ranks_part(ranks_of(prices));
     for (size_t i = 0; i < open->count; i++)
         if (!i || !alike(&open->items[i - 1].cell, &open->items[i].cell))
             open->items[groups++].group = i;
 #pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
     for (size_t g = 0; g < groups; g++) {
         size_t first = open->items[g].group, end = g + 1 < groups ? open->items[g + 1].group : open->count;
-        if (sp_cover_goes_on(prices->cover))
+        if (sp_ranks_mine(ranks_of(prices), open->items[first].cell.site) && sp_cover_goes_on(prices->cover))
             price_alike(prices, &prices->scratches[omp_get_thread_num()], &open->items[first], end - first, u);
     }
     for (int i = 0; i < prices->threads; i++)
         sp_visibility_leave(prices->search->visibility, &prices->scratches[i].desk);
     prices->looked_at += open->count;
+    sp_ranks_rejoin(ranks_of(prices));
+    return share_open(prices, error);
 }
 
 /* Remembers the middles: as what is known, and as what may be handed out. */
@@ -431,7 +465,8 @@ static bool price_aims(void *user, const sp_prices *u, const double *needed, boo
         return sp_fail_memory(error);
     read_offers(prices, offers);
     while (prices->open.count) {
-        price_open(prices, u);
+        if (!price_open(prices, u, error))
+            return false;
         if (!sp_cover_goes_on(prices->cover))
             return true;
         note_middles(prices);

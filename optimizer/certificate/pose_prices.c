@@ -1,6 +1,7 @@
 #include "certificate/pose_prices.h"
 
 #include "ranking.h"
+#include "ranks/gather.h"
 
 #include "scoring/footprints.h"
 #include "scoring/scoring.h"
@@ -423,6 +424,60 @@ static void price_found(const sp_pose_order *order, const sp_prices *u, const ui
     }
 }
 
+static sp_ranks *ranks_of(const sp_pose_prices *prices)
+{
+    return prices->search->options->run.ranks;
+}
+
+/* The others' prices of the blocks of their sites, where `price` is not NULL, and where `bests` is set the best of
+ * these.
+ */
+static bool share_prices(sp_pose_prices *prices, float *price, bool bests, sp_error *error)
+{
+    const sp_pose_order *order = prices->order;
+    size_t makes = prices->search->candidates->make_count, cells = prices->search->sites->count * makes;
+    sp_told told = {0};
+    sp_heard heard;
+    for (size_t i = 0; sp_ranks_count(ranks_of(prices)) > 1 && i < cells; i++) {
+        if (!sp_ranks_mine(ranks_of(prices), i / makes))
+            continue;
+        const sp_pose_block *block = order->block_of[i] == SIZE_MAX ? NULL : &order->blocks[order->block_of[i]];
+        if (price && block)
+            sp_tell(&told, price + block->start, (block[1].start - block->start) * sizeof *price);
+        if (bests)
+            sp_tell(&told, &prices->bests[i], sizeof prices->bests[i]);
+    }
+    if (!sp_ranks_gather(ranks_of(prices), "prices", &told, &heard, error))
+        return false;
+    for (size_t i = 0; i < cells; i++) {
+        size_t rank = sp_ranks_owner(ranks_of(prices), i / makes);
+        if (sp_ranks_mine(ranks_of(prices), i / makes))
+            continue;
+        const sp_pose_block *block = order->block_of[i] == SIZE_MAX ? NULL : &order->blocks[order->block_of[i]];
+        if (price && block)
+            sp_hear(&heard, rank, price + block->start, (block[1].start - block->start) * sizeof *price);
+        if (bests)
+            sp_hear(&heard, rank, &prices->bests[i], sizeof prices->bests[i]);
+    }
+    sp_heard_free(&heard);
+    return true;
+}
+
+/* The prices of each rank's sites, see price_site. */
+static void price_sites(sp_pose_prices *prices, const sp_prices *u, const double *needed, size_t stride,
+                        const sp_offers *offers)
+{
+    size_t sites = prices->search->sites->count;
+    sp_ranks_part(ranks_of(prices));
+#pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
+    for (size_t i = 0; i < sites; i++)
+        if (sp_ranks_mine(ranks_of(prices), i) && sp_cover_goes_on(prices->cover))
+            price_site(prices, &prices->scratches[omp_get_thread_num()], (uint32_t)i, u, needed, stride, offers);
+    sp_ranks_rejoin(ranks_of(prices));
+    for (int i = 0; i < prices->threads; i++)
+        sp_visibility_leave(prices->search->visibility, &prices->scratches[i].desk);
+}
+
 static bool price_poses(void *user, const sp_prices *u, const double *needed, bool all, sp_offers *offers,
                         sp_rows *rows, sp_error *error)
 {
@@ -431,13 +486,9 @@ static bool price_poses(void *user, const sp_prices *u, const double *needed, bo
     size_t makes = search->candidates->make_count, sites = search->sites->count;
     memset(prices->last, 0, prices->order->line.count * sizeof *prices->last);
     price_found(prices->order, u, NULL, prices->last);
-#pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
-    for (size_t i = 0; i < sites; i++)
-        if (sp_cover_goes_on(prices->cover))
-            price_site(prices, &prices->scratches[omp_get_thread_num()], (uint32_t)i, u, needed, all ? 1 : STRIDE,
-                       offers);
-    for (int i = 0; i < prices->threads; i++)
-        sp_visibility_leave(search->visibility, &prices->scratches[i].desk);
+    price_sites(prices, u, needed, all ? 1 : STRIDE, offers);
+    if (!share_prices(prices, all ? prices->last : NULL, true, error))
+        return false;
     if (!sp_cover_goes_on(prices->cover))
         return true;
     for (size_t i = 0; i < sites * makes; i++)
@@ -471,20 +522,21 @@ static void price_block(sp_pose_prices *prices, scratch *own, size_t block, cons
 
 static bool price_line(void *user, const sp_prices *u, const uint8_t *alive, float *price, sp_error *error)
 {
-    (void)error;
     sp_pose_prices *prices = user;
     const sp_pose_order *order = prices->order;
     size_t makes = prices->search->candidates->make_count, sites = prices->search->sites->count;
+    sp_ranks_part(ranks_of(prices));
 #pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
     for (size_t site = 0; site < sites; site++)
-        for (size_t k = 0; k < makes && sp_cover_goes_on(prices->cover); k++)
+        for (size_t k = 0; k < makes && sp_ranks_mine(ranks_of(prices), site) && sp_cover_goes_on(prices->cover); k++)
             if (order->block_of[site * makes + k] != SIZE_MAX)
                 price_block(prices, &prices->scratches[omp_get_thread_num()], order->block_of[site * makes + k], u,
                             alive, price);
     for (int i = 0; i < prices->threads; i++)
         sp_visibility_leave(prices->search->visibility, &prices->scratches[i].desk);
+    sp_ranks_rejoin(ranks_of(prices));
     price_found(order, u, alive, price);
-    return true;
+    return share_prices(prices, price, false, error);
 }
 
 static bool row_of_line(void *user, size_t position, sp_rows *rows, sp_error *error)

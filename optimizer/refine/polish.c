@@ -1,6 +1,7 @@
 #include "refine/polish.h"
 
 #include "refine/compass.h"
+#include "scoring/draft_told.h"
 #include "scoring/scoring.h"
 #include "search/walk.h"
 
@@ -259,29 +260,79 @@ static bool keeps_up(const sp_trial *trials, size_t count, size_t i)
 
 typedef bool (*trial_step)(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error);
 
-/* Takes the step for every trial, or for those that are better; the last, which have most nozzles, first, so that no
- * thread is left alone with one of these. */
+static sp_ranks *ranks_of(const sp_polishing *polishing)
+{
+    return polishing->search->options->run.ranks;
+}
+
+/* Takes the step for every trial that is this rank's, or for those that are better; the last, which have most nozzles,
+ * first, so that no thread is left alone with one of these. */
 static bool for_each(const sp_polishing *polishing, sp_trial *trials, size_t count, bool better, trial_step step,
                      sp_error *error)
 {
     sp_error failure = {0};
+    sp_ranks *ranks = ranks_of(polishing);
+    sp_ranks_part(ranks);
 #pragma omp parallel for num_threads(polishing->threads) schedule(dynamic, 1)
     for (size_t k = 0; k < count; k++) {
         size_t i = count - 1 - k;
         sp_error mine = {0};
-        if ((!better || trials[i].better) && !step(polishing, omp_get_thread_num(), &trials[i], &mine)) {
+        if (sp_ranks_mine(ranks, i) && (!better || trials[i].better) &&
+            !step(polishing, omp_get_thread_num(), &trials[i], &mine)) {
 #pragma omp critical(sp_polish_failure)
             failure = mine;
         }
     }
+    sp_ranks_rejoin(ranks);
     if (failure.kind == SP_OK)
         return true;
     return sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
 }
 
+/* What the others' trials came to on few patches: nothing where that is not heard. */
+static bool share_merits(const sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error)
+{
+    sp_ranks *ranks = ranks_of(polishing);
+    sp_told told = {0};
+    sp_heard heard;
+    for (size_t i = 0; i < count; i++)
+        if (sp_ranks_mine(ranks, i)) {
+            sp_tell(&told, &trials[i].better, sizeof trials[i].better);
+            sp_tell(&told, &trials[i].covered, sizeof trials[i].covered);
+        }
+    if (!sp_ranks_gather(ranks, "merits", &told, &heard, error))
+        return false;
+    for (size_t i = 0; i < count; i++)
+        if (!sp_ranks_mine(ranks, i) && sp_hear(&heard, sp_ranks_owner(ranks, i), &trials[i].better, sizeof(bool)))
+            sp_hear(&heard, sp_ranks_owner(ranks, i), &trials[i].covered, sizeof(double));
+    sp_heard_free(&heard);
+    return true;
+}
+
+/* The others' drafts, of all trials or of those that are better. */
+static bool share_drafts(const sp_polishing *polishing, sp_trial *trials, size_t count, bool better, sp_error *error)
+{
+    const sp_search *search = polishing->search;
+    sp_ranks *ranks = ranks_of(polishing);
+    sp_told told = {0};
+    sp_heard heard;
+    for (size_t i = 0; sp_ranks_count(ranks) > 1 && i < count; i++)
+        if (sp_ranks_mine(ranks, i) && (!better || trials[i].better))
+            sp_tell_draft(search, &trials[i].draft, &told);
+    if (!sp_ranks_gather(ranks, "trials", &told, &heard, error))
+        return false;
+    bool done = true;
+    for (size_t i = 0; done && i < count; i++)
+        if (!sp_ranks_mine(ranks, i) && (!better || trials[i].better))
+            done = sp_hear_draft(search, &heard, sp_ranks_owner(ranks, i), &trials[i].draft, error);
+    sp_heard_free(&heard);
+    return done;
+}
+
 bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error)
 {
-    bool done = for_each(polishing, trials, count, false, polish, error);
+    bool done =
+        for_each(polishing, trials, count, false, polish, error) && share_merits(polishing, trials, count, error);
     bool *keeps = calloc(count ? count : 1, sizeof *keeps);
     if (!keeps)
         done = sp_fail_memory(error);
@@ -290,7 +341,8 @@ bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error
     for (size_t i = 0; done && i < count; i++)
         trials[i].better = keeps[i];
     free(keeps);
-    done = done && for_each(polishing, trials, count, true, take_over, error);
+    done = done && for_each(polishing, trials, count, true, take_over, error) &&
+           share_drafts(polishing, trials, count, true, error);
     for (size_t i = 0; i < count; i++)
         sp_draft_free(&trials[i].refined);
     return done;
@@ -319,7 +371,8 @@ static bool sharpen(const sp_polishing *polishing, int thread, sp_trial *trial, 
 
 bool sp_sharpen(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error)
 {
-    return for_each(polishing, trials, count, false, sharpen, error);
+    return for_each(polishing, trials, count, false, sharpen, error) &&
+           share_drafts(polishing, trials, count, false, error);
 }
 
 bool sp_look_anew(sp_polishing *polishing, sp_draft *draft, sp_error *error)

@@ -41,8 +41,8 @@ bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_
                          sp_polishing *polishing, sp_error *error);
 void sp_polishing_free(sp_polishing *polishing);
 
-/* Polishes every trial on few patches, and the best for each amount of water on the search's own. What comes out does
- * not depend on the number of threads. */
+/* Polishes every trial on few patches, and the best for each amount of water on the search's own. Trials are dealt out
+ * to ranks. What comes out does not depend on the number of threads or ranks. */
 bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error);
 /* Polishes every trial's draft sharply on the final patches, where it never gets worse. */
 bool sp_sharpen(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error);

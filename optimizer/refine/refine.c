@@ -129,13 +129,15 @@ static bool sharpen(sp_refining *refining, bool saves, bool near)
             entry->point.area >= front->target * (1 - NEAR))
             done = sp_try_also(refining, &trials, &entry->draft, budget, SP_TRIAL_POLISH);
     }
-    done = done && sp_sharpen(&refining->polishing, trials.items, trials.count, refining->error);
+    sp_front_point *points = NULL;
+    done = done && sp_sharpen(&refining->polishing, trials.items, trials.count, refining->error) &&
+           (points = sp_trials_measure_ahead(refining, &trials, false));
     for (size_t i = 0; done && i < trials.count; i++) {
-        sp_front_point point;
-        done = sp_front_measure(front, refining->search, &trials.items[i].draft, &point, refining->error);
-        if (done && saves && point.area >= front->target)
+        done = sp_front_note(front, refining->search, &trials.items[i].draft, &points[i], refining->error);
+        if (done && saves && points[i].area >= front->target)
             done = sp_save_flow(refining, &trials.items[i].draft);
     }
+    free(points);
     sp_trials_free(&trials);
     return done;
 }

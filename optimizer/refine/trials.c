@@ -101,15 +101,34 @@ bool sp_find_others(sp_refining *refining, sp_trials *trials)
     return done;
 }
 
+sp_front_point *sp_trials_measure_ahead(sp_refining *refining, const sp_trials *trials, bool better)
+{
+    const sp_front *front = refining->front;
+    const sp_draft **drafts = calloc(trials->count + 1, sizeof *drafts);
+    sp_front_point *points = malloc((trials->count + 1) * sizeof *points);
+    bool done = (drafts && points) || sp_fail_memory(refining->error);
+    for (size_t i = 0; done && i < trials->count; i++)
+        if (!better || (trials->items[i].better && may_count(front, &trials->items[i].draft)))
+            drafts[i] = &trials->items[i].draft;
+    done = done && sp_front_measure_ahead(front, refining->search, drafts, trials->count, points, refining->error);
+    free(drafts);
+    if (done)
+        return points;
+    free(points);
+    return NULL;
+}
+
 bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials, sp_draft *best)
 {
     const sp_search *search = refining->search;
-    bool done = sp_polish(&refining->polishing, trials->items, trials->count, refining->error);
+    sp_front_point *points = NULL;
+    bool done = sp_polish(&refining->polishing, trials->items, trials->count, refining->error) &&
+                (points = sp_trials_measure_ahead(refining, trials, true));
     for (size_t i = 0; done && i < trials->count; i++) {
         sp_draft *draft = &trials->items[i].draft;
         if (!trials->items[i].better || !may_count(refining->front, draft))
             continue;
-        done = sp_front_measure(refining->front, search, draft, NULL, refining->error);
+        done = sp_front_note(refining->front, search, draft, &points[i], refining->error);
         if (done && best && sp_covers_more(search, draft, best)) {
             sp_draft copy;
             done = sp_draft_copy(search, draft, &copy, refining->error);
@@ -119,5 +138,6 @@ bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials, sp_draft *bes
             }
         }
     }
+    free(points);
     return done;
 }

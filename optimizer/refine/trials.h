@@ -39,6 +39,9 @@ bool sp_find_others(sp_refining *refining, sp_trials *trials);
 /* Polishes the trials and lets the front have them. *best, where not NULL, becomes a copy of the one that covers most,
  * if that is more than it does itself. */
 bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials, sp_draft *best);
+/* What the trials' drafts are measured as, as far as ranks have done that ahead (see sp_front_measure_ahead); `better`:
+ * of those that got better and may count. [trials->count], the caller frees; NULL on error. */
+sp_front_point *sp_trials_measure_ahead(sp_refining *refining, const sp_trials *trials, bool better);
 /* Keeps those of which `kept` [count] is true, in their order. */
 void sp_trials_keep(sp_trials *trials, const bool *kept);
 void sp_trials_free(sp_trials *trials);

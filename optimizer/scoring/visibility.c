@@ -1,5 +1,7 @@
 #include "scoring/visibility.h"
 
+#include "ranks/gather.h"
+
 #include <pthread.h>
 #include <stdlib.h>
 
@@ -22,7 +24,7 @@
 #define CELLS                                                                                                          \
     4000               /* arrivals of cells in a view that has not been traced yet: nearer to a wall than a hundredth  \
                         * of a texel there may be more */
-#define BATCH 16       /* sites traced between two looks at clock and memory */
+#define BATCH 16       /* sites of a rank traced between two looks at clock and memory */
 #define TIME_SHARE 0.5 /* of a time limit, that tracing may take */
 
 struct sp_desks {
@@ -155,23 +157,73 @@ static bool pass_on(const sp_error *failure, sp_error *error)
     return sp_fail(error, failure->kind, failure->file, failure->line, failure->column, "%s", failure->message);
 }
 
-/* The sites first to end of the strided order. */
+static sp_ranks *ranks_of(const sp_survey *survey)
+{
+    return survey->visibility->options->run.ranks;
+}
+
+/* View `i` of those in the strided order. */
+static size_t view_at(const sp_survey *survey, size_t i)
+{
+    size_t launches = survey->visibility->launch_count;
+    return strided(i / launches, survey->visibility->site_count) * launches + i % launches;
+}
+
+static bool is_mine(const sp_survey *survey, size_t at)
+{
+    return sp_ranks_mine(ranks_of(survey), at / survey->visibility->launch_count);
+}
+
+/* What is in sight in the others' views, and how large these are. */
+static bool share_batch(sp_survey *survey, size_t first, size_t end, sp_error *error)
+{
+    sp_visibility *visibility = survey->visibility;
+    sp_told told = {0};
+    sp_heard heard;
+    for (size_t i = first; sp_ranks_count(ranks_of(survey)) > 1 && i < end; i++) {
+        size_t at = view_at(survey, i);
+        if (!is_mine(survey, at))
+            continue;
+        sp_tell(&told, &survey->sizes[at], sizeof survey->sizes[at]);
+        sp_tell(&told, &survey->cells[at], sizeof survey->cells[at]);
+        sp_tell(&told, &survey->any_marked[at], sizeof survey->any_marked[at]);
+        sp_tell(&told, sights_of(visibility, at), visibility->sight_bytes);
+        sp_tell(&told, &visibility->known[at], sizeof visibility->known[at]);
+    }
+    if (!sp_ranks_gather(ranks_of(survey), "views", &told, &heard, error))
+        return false;
+    for (size_t i = first; i < end; i++) {
+        size_t at = view_at(survey, i), rank = sp_ranks_owner(ranks_of(survey), at / visibility->launch_count);
+        if (!is_mine(survey, at) && sp_hear(&heard, rank, &survey->sizes[at], sizeof survey->sizes[at]) &&
+            sp_hear(&heard, rank, &survey->cells[at], sizeof survey->cells[at]) &&
+            sp_hear(&heard, rank, &survey->any_marked[at], sizeof survey->any_marked[at]) &&
+            sp_hear(&heard, rank, sights_of(visibility, at), visibility->sight_bytes))
+            sp_hear(&heard, rank, &visibility->known[at], sizeof visibility->known[at]);
+    }
+    sp_heard_free(&heard);
+    return true;
+}
+
+/* The sites first to end of the strided order, each rank its own. */
 static bool survey_batch(sp_survey *survey, size_t first, size_t end, bool keep, sp_error *error)
 {
     sp_visibility *visibility = survey->visibility;
-    size_t launches = visibility->launch_count, sites = visibility->site_count;
+    size_t launches = visibility->launch_count;
 #pragma omp parallel for num_threads(survey->threads) schedule(dynamic, 1)
     for (size_t i = first * launches; i < end * launches; i++)
-        survey_view(survey, strided(i / launches, sites) * launches + i % launches, keep);
+        if (is_mine(survey, view_at(survey, i)))
+            survey_view(survey, view_at(survey, i), keep);
+    if (!pass_on(&survey->failure, error) || !share_batch(survey, first * launches, end * launches, error))
+        return false;
     for (size_t i = first * launches; i < end * launches; i++) {
-        size_t at = strided(i / launches, sites) * launches + i % launches;
+        size_t at = view_at(survey, i);
         visibility->largest = survey->sizes[at] > visibility->largest ? survey->sizes[at] : visibility->largest;
         visibility->cells = survey->cells[at] > visibility->cells ? survey->cells[at] : visibility->cells;
         survey->twice_at_all |= survey->any_marked[at];
         if (visibility->views[at].start)
             survey->kept += (double)sp_view_bytes(survey->sizes[at], survey->any_marked[at]);
     }
-    return pass_on(&survey->failure, error);
+    return true;
 }
 
 /* All sites as far as time allows. Views are kept while it is certain that there is room for them, for those of a
@@ -186,7 +238,8 @@ static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
     survey->threads = sp_threads(&options->run);
     if ((double)survey->threads * work > room)
         survey->threads = 1;
-    for (size_t first = 0; first < sites; first += BATCH) {
+    size_t batch = BATCH * sp_ranks_count(options->run.ranks);
+    for (size_t first = 0; first < sites; first += batch) {
         /* out of time the first batch is traced all the same, so that there is something to choose from */
         if (!sp_watch_goes_on(watch, "visibility", (double)first / (double)sites) && (first || watch->cancelled))
             break;
@@ -194,9 +247,9 @@ static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
             watch->interrupted = true;
             break;
         }
-        double batch = BATCH * (double)visibility->launch_count * (double)sp_view_bytes(most, true);
-        bool keep = survey->kept + batch + (double)survey->threads * work <= room;
-        if (!survey_batch(survey, first, first + BATCH < sites ? first + BATCH : sites, keep, error))
+        double views = BATCH * (double)visibility->launch_count * (double)sp_view_bytes(most, true);
+        bool keep = survey->kept + views + (double)survey->threads * work <= room;
+        if (!survey_batch(survey, first, first + batch < sites ? first + batch : sites, keep, error))
             return false;
         visibility->bytes =
             fmax(visibility->bytes,

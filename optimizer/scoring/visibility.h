@@ -1,6 +1,7 @@
 /* Visibility: what each mounting point can reach by each launch, whatever the nozzle's axis, roll and type. Traced once
  * and kept as far as the options' memory allows; of what does not fit only what is in sight is kept, two bits a patch,
- * and the rest is worked out again whenever it is looked at, and is the same then. */
+ * and the rest is worked out again whenever it is looked at, and is the same then. Of several ranks each traces its own
+ * mounting points, and keeps these before the others', of which all hear what is in sight. */
 #ifndef OPTIMIZER_VISIBILITY_H
 #define OPTIMIZER_VISIBILITY_H
 

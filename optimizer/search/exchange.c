@@ -14,8 +14,13 @@ static bool replace(const sp_search *search, const sp_pool *pool, double budget,
     sp_placed own = sp_draft_take(search, draft, i);
     double step = GAIN_LEAST * search->all;
     double least = sp_field_gain(search, draft, own.field) + step;
+    double gain;
     sp_pose pose;
-    if (sp_pool_best(search, pool, draft, 0, budget, least, bench, &pose) <= least)
+    if (!sp_pool_best(search, pool, draft, 0, budget, least, bench, &pose, &gain, error)) {
+        free(own.field);
+        return false;
+    }
+    if (gain <= least)
         return sp_draft_add(search, draft, own, error);
     if (!sp_draft_add_pose(search, draft, pose, error)) {
         free(own.field);

@@ -1,5 +1,6 @@
 #include "search/find.h"
 
+#include "scoring/draft_told.h"
 #include "search/fewest.h"
 #include "search/guess.h"
 #include "search/walk.h"
@@ -118,7 +119,12 @@ static bool start_at(const sp_finding *finding, const sp_draft *greedy, const sp
     return true;
 }
 
-/* Walks on from every draft within its budget, many at a time. */
+static sp_ranks *ranks_of(const sp_finding *finding)
+{
+    return finding->search->options->run.ranks;
+}
+
+/* Walks on from every draft that is this rank's within its budget, many at a time. */
 static bool walk_all(const sp_finding *finding, const double *budgets, sp_draft *drafts, size_t count)
 {
     sp_error failure = {0};
@@ -128,7 +134,8 @@ static bool walk_all(const sp_finding *finding, const double *budgets, sp_draft 
     for (size_t k = 0; k < count; k++) {
         size_t i = count - 1 - k;
         sp_error mine = {0};
-        if (!sp_walk(finding->search, budgets[i], WALK, i + 1, finding->watch, &drafts[i], &mine)) {
+        if (sp_ranks_mine(ranks_of(finding), i) &&
+            !sp_walk(finding->search, budgets[i], WALK, i + 1, finding->watch, &drafts[i], &mine)) {
 #pragma omp critical(sp_find_failure)
             failure = mine;
         }
@@ -136,6 +143,40 @@ static bool walk_all(const sp_finding *finding, const double *budgets, sp_draft 
     if (failure.kind == SP_OK)
         return true;
     return sp_fail(finding->error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
+}
+
+/* What the others have found. */
+static bool share_drafts(const sp_finding *finding, sp_draft *drafts, size_t count)
+{
+    sp_ranks *ranks = ranks_of(finding);
+    sp_told told = {0};
+    sp_heard heard;
+    for (size_t i = 0; sp_ranks_count(ranks) > 1 && i < count; i++)
+        if (sp_ranks_mine(ranks, i))
+            sp_tell_draft(finding->search, &drafts[i], &told);
+    if (!sp_ranks_gather(ranks, "walks", &told, &heard, finding->error))
+        return false;
+    bool done = true;
+    for (size_t i = 0; done && i < count; i++)
+        if (!sp_ranks_mine(ranks, i))
+            done = sp_hear_draft(finding->search, &heard, sp_ranks_owner(ranks, i), &drafts[i], finding->error);
+    sp_heard_free(&heard);
+    return done;
+}
+
+static bool measure_all(const sp_finding *finding, const sp_draft *drafts, size_t count)
+{
+    const sp_draft **each = malloc((count + 1) * sizeof *each);
+    sp_front_point *points = malloc((count + 1) * sizeof *points);
+    bool done = (each && points) || sp_fail_memory(finding->error);
+    for (size_t i = 0; done && i < count; i++)
+        each[i] = &drafts[i];
+    done = done && sp_front_measure_ahead(finding->front, finding->search, each, count, points, finding->error);
+    for (size_t i = 0; done && i < count; i++)
+        done = sp_front_note(finding->front, finding->search, &drafts[i], &points[i], finding->error);
+    free(each);
+    free(points);
+    return done;
 }
 
 /* The best found within each budget, measured. */
@@ -147,9 +188,11 @@ static bool search_budgets(const sp_finding *finding, const sp_draft *greedy, co
     for (size_t i = 0; done && i < count; i++)
         done = sp_draft_create(finding->search, &drafts[i], finding->error) &&
                start_at(finding, greedy, &guessed[i], budgets[i], &drafts[i]);
+    sp_ranks_part(ranks_of(finding));
     done = done && walk_all(finding, budgets, drafts, count);
-    for (size_t i = 0; done && i < count; i++)
-        done = sp_front_measure(finding->front, finding->search, &drafts[i], NULL, finding->error);
+    sp_ranks_rejoin(ranks_of(finding));
+    done = done && share_drafts(finding, drafts, count);
+    done = done && measure_all(finding, drafts, count);
     for (size_t i = 0; drafts && i < count; i++)
         sp_draft_free(&drafts[i]);
     free(drafts);

@@ -1,6 +1,7 @@
 #include "search/front.h"
 
 #include "mesh/grow.h"
+#include "ranks/gather.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -77,38 +78,78 @@ static size_t fittings_of(const sp_search *search, const sp_draft *draft)
     return count;
 }
 
-bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
-                      sp_error *error)
+static bool measure(const sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
+                    sp_error *error)
 {
     sp_layout *layout = sp_draft_layout(search, draft, error);
     sp_coverage *coverage = layout ? sp_evaluate(front->fine, layout, error) : NULL;
-    sp_front_point measured = {0};
     if (coverage)
-        measured = (sp_front_point){.flow = coverage->flow,
-                                    .area = coverage->covered_area,
-                                    .nozzles = layout->count,
-                                    .counted = NAN,
-                                    .bound = NAN,
-                                    .every_aim_bound = NAN,
-                                    .fittings = fittings_of(search, draft),
-                                    .outlay = coverage->flow + sp_draft_costs(search, draft)};
+        *point = (sp_front_point){.flow = coverage->flow,
+                                  .area = coverage->covered_area,
+                                  .nozzles = layout->count,
+                                  .counted = NAN,
+                                  .bound = NAN,
+                                  .every_aim_bound = NAN,
+                                  .fittings = fittings_of(search, draft),
+                                  .outlay = coverage->flow + sp_draft_costs(search, draft)};
     bool done = coverage != NULL;
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
-    if (!done || !note(&front->by_water, by_water, tie_of(front), search, draft, &measured, error) ||
-        !note(&front->by_number, by_number, tie_of(front), search, draft, &measured, error))
+    return done;
+}
+
+bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
+                      sp_error *error)
+{
+    sp_front_point own = {.area = -1};
+    if (!sp_front_note(front, search, draft, &own, error))
         return false;
     if (point)
-        *point = measured;
-    if (front->found && !sp_front_better(front, &measured, &front->measured))
+        *point = own;
+    return true;
+}
+
+bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, const sp_draft *const *drafts, size_t count,
+                            sp_front_point *points, sp_error *error)
+{
+    sp_ranks *ranks = search->options->run.ranks;
+    sp_told told = {0};
+    sp_heard heard;
+    bool done = true;
+    for (size_t i = 0; i < count; i++)
+        points[i] = (sp_front_point){.area = -1};
+    for (size_t i = 0; done && sp_ranks_count(ranks) > 1 && i < count; i++)
+        if (drafts[i] && sp_ranks_mine(ranks, i)) {
+            done = measure(front, search, drafts[i], &points[i], error);
+            sp_tell(&told, &points[i], sizeof points[i]);
+        }
+    if (!done)
+        sp_told_free(&told);
+    if (!done || !sp_ranks_gather(ranks, "points", &told, &heard, error))
+        return false;
+    for (size_t i = 0; i < count; i++)
+        if (drafts[i] && !sp_ranks_mine(ranks, i))
+            sp_hear(&heard, sp_ranks_owner(ranks, i), &points[i], sizeof points[i]);
+    sp_heard_free(&heard);
+    return true;
+}
+
+bool sp_front_note(sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
+                   sp_error *error)
+{
+    if ((point->area < 0 && !measure(front, search, draft, point, error)) ||
+        !note(&front->by_water, by_water, tie_of(front), search, draft, point, error) ||
+        !note(&front->by_number, by_number, tie_of(front), search, draft, point, error))
+        return false;
+    if (front->found && !sp_front_better(front, point, &front->measured))
         return true;
     sp_draft copy;
     if (!sp_draft_copy(search, draft, &copy, error))
         return false;
     sp_draft_free(&front->best);
     front->best = copy;
-    front->measured = measured;
-    front->bias = measured.area - draft->covered;
+    front->measured = *point;
+    front->bias = point->area - draft->covered;
     front->found = true;
     return true;
 }

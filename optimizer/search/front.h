@@ -39,6 +39,13 @@ bool sp_front_better(const sp_front *front, const sp_front_point *a, const sp_fr
 /* Measures the draft, notes it, and keeps a copy where it is the best yet. *point may be NULL. */
 bool sp_front_measure(sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
                       sp_error *error);
+/* Of several ranks each measures some of the drafts, NULL for none, and notes nothing: points [count], of which those
+ * that nobody has measured, and all where there is but one rank, have an area of -1. */
+bool sp_front_measure_ahead(const sp_front *front, const sp_search *search, const sp_draft *const *drafts, size_t count,
+                            sp_front_point *points, sp_error *error);
+/* As sp_front_measure, with what measuring ahead gave, if it gave anything. */
+bool sp_front_note(sp_front *front, const sp_search *search, const sp_draft *draft, sp_front_point *point,
+                   sp_error *error);
 /* False where the next entry by water covers more with hardly more. */
 bool sp_front_counts(const sp_front *front, size_t i);
 /* The points by water that count, and those by number, without one of no water; malloc'd, the caller frees. */

@@ -2,9 +2,11 @@
 
 #include "mesh/grow.h"
 #include "ranking.h"
+#include "ranks/gather.h"
 
 #include <omp.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define GAIN_LEAST 1e-6   /* of the area: less is no reason for a nozzle */
 #define POOL_PER_ROUND 64 /* best mounting points of a round whose poses are remembered */
@@ -188,7 +190,13 @@ static void scan_site(sp_rounds *rounds, const sp_draft *draft, sp_sweeper *swee
     }
 }
 
-/* A merit that this round surely reaches: that of the last round's best poses, scored again. */
+static sp_ranks *ranks_of(const sp_rounds *rounds)
+{
+    return rounds->search->options->run.ranks;
+}
+
+/* A merit that this round surely reaches: that of the last round's best poses, scored again, each rank those of its own
+ * sites. */
 static double round_floor(sp_rounds *rounds, const sp_draft *draft)
 {
     const sp_search *search = rounds->search;
@@ -198,7 +206,7 @@ static double round_floor(sp_rounds *rounds, const sp_draft *draft)
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 16) reduction(max : least)
     for (size_t i = 0; i < count; i++) {
         const sp_round_best *best = &rounds->best[i];
-        if (best->merit <= 0)
+        if (best->merit <= 0 || !sp_ranks_mine(ranks_of(rounds), best->pose.site))
             continue;
         uint32_t mount = search->sites->items[best->pose.site].mount;
         if (!affords(search, draft, mount, best->pose.make, rounds->budget) ||
@@ -211,16 +219,40 @@ static double round_floor(sp_rounds *rounds, const sp_draft *draft)
     return least;
 }
 
-static void scan(sp_rounds *rounds, const sp_draft *draft)
+/* The best poses of the others' sites. */
+static bool share_bests(sp_rounds *rounds, sp_error *error)
+{
+    size_t makes = rounds->search->candidates->make_count, count = rounds->search->sites->count * makes;
+    sp_told told = {0};
+    sp_heard heard;
+    for (size_t i = 0; i < count; i++)
+        if (sp_ranks_mine(ranks_of(rounds), i / makes))
+            sp_tell(&told, &rounds->best[i], sizeof rounds->best[i]);
+    if (!sp_ranks_gather(ranks_of(rounds), "round", &told, &heard, error))
+        return false;
+    for (size_t i = 0; i < count; i++)
+        if (!sp_ranks_mine(ranks_of(rounds), i / makes))
+            sp_hear(&heard, sp_ranks_owner(ranks_of(rounds), i / makes), &rounds->best[i], sizeof rounds->best[i]);
+    sp_heard_free(&heard);
+    return true;
+}
+
+/* Each rank scans its own sites, whose rooms it alone knows. */
+static bool scan(sp_rounds *rounds, const sp_draft *draft, sp_error *error)
 {
     double least = rounds->started ? round_floor(rounds, draft) : 0;
+    if (!sp_ranks_highest(ranks_of(rounds), "floor", &least, 1, error))
+        return false;
     rounds->started = true;
     size_t sites = rounds->search->sites->count;
+    memset(rounds->best, 0, sites * rounds->search->candidates->make_count * sizeof *rounds->best);
     int threads = rounds->threads;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
-        scan_site(rounds, draft, &rounds->sweepers[omp_get_thread_num()], (uint32_t)i, least);
+        if (sp_ranks_mine(ranks_of(rounds), i))
+            scan_site(rounds, draft, &rounds->sweepers[omp_get_thread_num()], (uint32_t)i, least);
     sp_sweepers_forget(rounds->sweepers, rounds->threads);
+    return share_bests(rounds, error);
 }
 
 /* Of the first round every site's and make's best is remembered, of later ones the best few. */
@@ -273,9 +305,9 @@ bool sp_greedy(const sp_search *search, double power, double target, double budg
             rounds.search = &exact;
             forget_rooms(&rounds);
         }
-        scan(&rounds, draft);
+        done = scan(&rounds, draft, error);
         const sp_round_best *best = round_best(&rounds);
-        if (best->merit <= 0 || best->gain < least)
+        if (!done || best->merit <= 0 || best->gain < least)
             break;
         done = remember(&rounds, first, pool, error) && sp_draft_add_pose(search, draft, best->pose, error);
         first = false;
@@ -304,9 +336,37 @@ void sp_bench_free(sp_bench *bench)
     *bench = (sp_bench){0};
 }
 
-/* Scores all of the pool, exactly where they may be the best or equal to it; `least` as sp_pool_best's. */
-static void score_pool(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
-                       double least, sp_bench *bench)
+/* The scores of the others' poses that are above 0. */
+static bool share_scores(const sp_search *search, const sp_pool *pool, sp_bench *bench, sp_error *error)
+{
+    sp_ranks *ranks = search->options->run.ranks;
+    sp_told told = {0};
+    sp_heard heard;
+    uint32_t count = 0;
+    if (sp_ranks_count(ranks) == 1)
+        return true;
+    for (size_t i = 0; i < pool->count; i++)
+        count += bench->scores[i] > 0;
+    sp_tell(&told, &count, sizeof count);
+    for (uint32_t i = 0; i < pool->count; i++)
+        if (bench->scores[i] > 0) {
+            sp_tell(&told, &i, sizeof i);
+            sp_tell(&told, &bench->scores[i], sizeof bench->scores[i]);
+        }
+    if (!sp_ranks_gather(ranks, "scores", &told, &heard, error))
+        return false;
+    for (size_t rank = 0; rank < heard.count; rank++)
+        for (uint32_t i, k = sp_hear(&heard, rank, &count, sizeof count) ? count : 0; k > 0; k--)
+            if (sp_hear(&heard, rank, &i, sizeof i) && i < pool->count)
+                sp_hear(&heard, rank, &bench->scores[i], sizeof bench->scores[i]);
+    sp_heard_free(&heard);
+    return true;
+}
+
+/* Scores all of the pool, each rank the poses of its own sites, exactly where they may be the best or equal to it;
+ * `least` as sp_pool_best's. */
+static bool score_pool(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
+                       double least, sp_bench *bench, sp_error *error)
 {
     double tie = SP_SCORE_TIE * search->all;
 #pragma omp parallel num_threads(bench->threads)
@@ -316,6 +376,9 @@ static void score_pool(const sp_search *search, const sp_pool *pool, const sp_dr
 #pragma omp for schedule(dynamic, 32)
         for (size_t i = 0; i < pool->count; i++) {
             sp_pose pose = pool->items[i];
+            bench->scores[i] = 0;
+            if (!sp_ranks_mine(search->options->run.ranks, pose.site))
+                continue;
             double price = price_of(search, &pose, power), enough = fmax(least, merit * price) - tie;
             uint32_t mount = search->sites->items[pose.site].mount;
             bool allowed = affords(search, draft, mount, pose.make, budget) && sp_draft_has_place(search, draft, mount);
@@ -325,22 +388,26 @@ static void score_pool(const sp_search *search, const sp_pool *pool, const sp_dr
         }
     }
     sp_sweepers_forget(bench->sweepers, bench->threads);
+    return share_scores(search, pool, bench, error);
 }
 
-double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
-                    double least, sp_bench *bench, sp_pose *best)
+bool sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
+                  double least, sp_bench *bench, sp_pose *best, double *gain, sp_error *error)
 {
     const double *scores = bench->scores;
     double merit = 0, tie = SP_SCORE_TIE * search->all;
-    score_pool(search, pool, draft, power, budget, least, bench);
+    *gain = 0;
+    if (!score_pool(search, pool, draft, power, budget, least, bench, error))
+        return false;
     for (size_t i = 0; i < pool->count; i++)
         merit = fmax(merit, scores[i] / price_of(search, &pool->items[i], power));
     for (size_t i = 0; merit > 0 && i < pool->count; i++)
         if (scores[i] > 0 && scores[i] + tie >= merit * price_of(search, &pool->items[i], power)) {
             *best = pool->items[i];
-            return scores[i];
+            *gain = scores[i];
+            return true;
         }
-    return 0;
+    return true;
 }
 
 bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, double target, double budget,
@@ -350,7 +417,9 @@ bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, 
     bool done = true;
     while (done && draft->covered < target) {
         sp_pose pose;
-        if (sp_pool_best(search, pool, draft, power, budget, 0, bench, &pose) < least)
+        double gain;
+        done = sp_pool_best(search, pool, draft, power, budget, 0, bench, &pose, &gain, error);
+        if (!done || gain < least)
             break;
         done = sp_draft_add_pose(search, draft, pose, error);
     }

@@ -34,8 +34,8 @@ bool sp_greedy(const sp_search *search, double power, double target, double budg
 bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, double target, double budget,
                     sp_bench *bench, sp_draft *draft, sp_error *error);
 /* The pool's pose of most gain per outlay^power, the first of equals, that the draft may still take within the budget;
- * its gain in m², 0 for none that gains at least `least`. */
-double sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
-                    double least, sp_bench *bench, sp_pose *best);
+ * *gain in m², 0 for none that gains at least `least`. */
+bool sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
+                  double least, sp_bench *bench, sp_pose *best, double *gain, sp_error *error);
 
 #endif

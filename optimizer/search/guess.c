@@ -1,6 +1,7 @@
 #include "search/guess.h"
 
 #include "ranking.h"
+#include "ranks/gather.h"
 
 #include <omp.h>
 #include <stdlib.h>
@@ -121,14 +122,59 @@ static const start *promising(const guessing *g, size_t b, size_t rank)
     return NULL;
 }
 
-static void follow_all(guessing *g, size_t from)
+static sp_ranks *ranks_of(const guessing *g)
 {
+    return g->watch->run.ranks;
+}
+
+static void tell_path(const path *p, sp_told *told)
+{
+    sp_tell(told, &p->count, sizeof p->count);
+    sp_tell(told, p->row, p->count * sizeof *p->row);
+    sp_tell(told, p->outlay, p->count * sizeof *p->outlay);
+    sp_tell(told, p->covered, p->count * sizeof *p->covered);
+}
+
+static void hear_path(sp_heard *heard, size_t rank, path *p)
+{
+    size_t count;
+    if (sp_hear(heard, rank, &count, sizeof count) && count <= SP_LINEUP_MOST &&
+        sp_hear(heard, rank, p->row, count * sizeof *p->row) &&
+        sp_hear(heard, rank, p->outlay, count * sizeof *p->outlay) &&
+        sp_hear(heard, rank, p->covered, count * sizeof *p->covered))
+        p->count = count;
+}
+
+/* What the others' paths have become. */
+static bool share_paths(guessing *g, size_t from, sp_error *error)
+{
+    sp_told told = {0};
+    sp_heard heard;
+    for (size_t i = from; i < g->path_count; i++)
+        if (sp_ranks_mine(ranks_of(g), i))
+            tell_path(&g->paths[i], &told);
+    if (!sp_ranks_gather(ranks_of(g), "paths", &told, &heard, error))
+        return false;
+    for (size_t i = from; i < g->path_count; i++)
+        if (!sp_ranks_mine(ranks_of(g), i))
+            hear_path(&heard, sp_ranks_owner(ranks_of(g), i), &g->paths[i]);
+    sp_heard_free(&heard);
+    return true;
+}
+
+static bool follow_all(guessing *g, size_t from, sp_error *error)
+{
+    sp_ranks_part(ranks_of(g));
 #pragma omp parallel for num_threads(g->threads) schedule(dynamic, 1)
     for (size_t i = from; i < g->path_count; i++)
-        if (sp_watch_goes_on(g->watch, "front", 0))
+        if (sp_ranks_mine(ranks_of(g), i) && sp_watch_goes_on(g->watch, "front", 0))
             follow(g, &g->scratch[omp_get_thread_num()], &g->paths[i]);
+    sp_ranks_rejoin(ranks_of(g));
+    if (!share_paths(g, from, error))
+        return false;
     for (size_t i = from; i < g->path_count; i++)
         enter(g, &g->paths[i]);
+    return true;
 }
 
 /* Adds paths that begin with the lineup's nozzles and one more, of those that gain most per root of the outlay, by
@@ -168,13 +214,13 @@ static bool guess(guessing *g, sp_error *error)
 {
     sp_lineup *lineup = &g->scratch[0];
     g->paths[g->path_count++].power = 1;
-    follow_all(g, 0);
+    if (!follow_all(g, 0, error))
+        return false;
     double work = work_of(g, g->paths[0].count), all = PATHS_WORK / work;
     size_t firsts = (size_t)fmin(FIRST_MOST, fmax(1, 0.25 * all));
     sp_lineup_set(lineup, NULL, 0);
-    if (!add_guesses(g, lineup, firsts, error))
+    if (!add_guesses(g, lineup, firsts, error) || !follow_all(g, 1, error))
         return false;
-    follow_all(g, 1);
     size_t second = g->path_count;
     size_t seconds = (size_t)fmin(SECOND_MOST, 0.25 * all / (double)(g->count + 1));
     for (size_t b = 0; b < g->count; b++) {
@@ -188,8 +234,7 @@ static bool guess(guessing *g, sp_error *error)
         if (!add_guesses(g, lineup, seconds, error))
             return false;
     }
-    follow_all(g, second);
-    return true;
+    return follow_all(g, second, error);
 }
 
 /* What the beginnings for one outlay become. */
@@ -208,6 +253,38 @@ static void improve(const guessing *g, size_t b, sp_lineup *own, sp_lineup *scra
         sp_lineup_regroup(best, g->budgets[b], scratch);
 }
 
+/* The best beginnings improved, dealt out by outlay. */
+static bool improve_all(const guessing *g, sp_lineup *lineups, sp_error *error)
+{
+    sp_ranks *ranks = ranks_of(g);
+    sp_told told = {0};
+    sp_heard heard;
+    sp_ranks_part(ranks);
+#pragma omp parallel for num_threads(g->threads) schedule(dynamic, 1)
+    for (size_t b = 0; b < g->count; b++) {
+        sp_lineup *scratch = &g->scratch[2 * omp_get_thread_num()];
+        if (sp_ranks_mine(ranks, b))
+            improve(g, b, &scratch[0], &scratch[1], &lineups[b]);
+    }
+    sp_ranks_rejoin(ranks);
+    for (size_t b = 0; b < g->count; b++)
+        if (sp_ranks_mine(ranks, b)) {
+            sp_tell(&told, &lineups[b].count, sizeof lineups[b].count);
+            sp_tell(&told, lineups[b].row, lineups[b].count * sizeof *lineups[b].row);
+        }
+    if (!sp_ranks_gather(ranks, "guesses", &told, &heard, error))
+        return false;
+    for (size_t b = 0; b < g->count; b++) {
+        uint32_t row[SP_LINEUP_MOST];
+        size_t count, rank = sp_ranks_owner(ranks, b);
+        if (!sp_ranks_mine(ranks, b) && sp_hear(&heard, rank, &count, sizeof count) && count <= SP_LINEUP_MOST &&
+            sp_hear(&heard, rank, row, count * sizeof *row))
+            sp_lineup_set(&lineups[b], row, count);
+    }
+    sp_heard_free(&heard);
+    return true;
+}
+
 bool sp_guess(const sp_table *table, const double *budgets, size_t count, sp_watch *watch, sp_lineup *lineups,
               sp_error *error)
 {
@@ -218,14 +295,7 @@ bool sp_guess(const sp_table *table, const double *budgets, size_t count, sp_wat
         done = sp_lineup_create(table, &lineups[created], error);
         created += done;
     }
-    done = done && guess(&g, error);
-    if (done) {
-#pragma omp parallel for num_threads(g.threads) schedule(dynamic, 1)
-        for (size_t b = 0; b < count; b++) {
-            sp_lineup *scratch = &g.scratch[2 * omp_get_thread_num()];
-            improve(&g, b, &scratch[0], &scratch[1], &lineups[b]);
-        }
-    }
+    done = done && guess(&g, error) && improve_all(&g, lineups, error);
     guessing_free(&g);
     for (size_t i = 0; !done && i < created; i++)
         sp_lineup_free(&lineups[i]);

@@ -73,6 +73,12 @@ sp_run cli_search_run(const cli_options *options);
 bool cli_interrupted(void);
 void cli_progress_end(void);
 
+/* ranks.c: joins the processes that mpirun started, until it leaves them; NULL where there are none. Only the first is
+ * to write and to print. */
+bool cli_join(sp_error *error);
+sp_ranks *cli_ranks(void);
+void cli_leave(void);
+
 /* progress.c: seconds, by the clock and of the processor, of what a command does, in order; a stage that comes again
  * adds up. */
 typedef struct {
@@ -87,7 +93,8 @@ void cli_clock_stage(cli_clock *clock, const char *name);
 void cli_meter_start(void);
 size_t cli_meter_peak(void); /* the most since the start, beyond what was held then */
 
-/* main.c: the error on standard error; the exit status that it means. */
+/* main.c: the error on standard error; the exit status that it means. Where several ranks fail alike one of them tells
+ * it. */
 int cli_fail(const sp_error *error);
 
 /* One a command. */

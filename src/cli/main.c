@@ -29,6 +29,8 @@ int cli_fail(const sp_error *error)
 {
     char text[1400];
     cli_progress_end();
+    if (!sp_ranks_fail(cli_ranks()))
+        return EXIT_DONE;
     sp_error_text(error, text, sizeof text);
     fprintf(stderr, "%s\n", text);
     switch (error->kind) {

@@ -12,6 +12,7 @@ typedef struct {
     sp_coverage *manual;     /* NULL where the scene has no nozzles */
     sp_proposal **proposals; /* [count], one for each alternative, or the only one */
     size_t count, best;
+    bool ended; /* some rank was interrupted, or could not go on */
 } placement;
 
 /* What a proposal is counted on. */
@@ -88,10 +89,17 @@ static void say_what_is_missing(const sp_proposal *proposal)
                 100 * coverage->fraction, coverage->covered_area, percent * proposal->asked_area);
 }
 
+/* Whether this rank has reason to end. */
+static bool ends(void)
+{
+    return cli_interrupted() || sp_ranks_lost(cli_ranks());
+}
+
 static void say_interrupted(const cli_scene *opened, const placement *found)
 {
     size_t asked = sp_scene_alternative_count(opened->scene);
-    fprintf(stderr, "sprayplan: interrupted; this is the best layout so far");
+    fprintf(stderr, "sprayplan: %s; this is the best layout so far",
+            sp_ranks_lost(cli_ranks()) ? "interrupted, the other ranks being gone" : "interrupted");
     if (found->count < asked)
         fprintf(stderr, ", without %zu of the %zu alternatives", asked - found->count, asked);
     fprintf(stderr, "\n");
@@ -115,7 +123,7 @@ static int report(const cli_options *options, const cli_scene *opened, const pla
     free(designs);
     if (!good)
         return cli_fail_in(opened, error);
-    if (cli_interrupted()) {
+    if (found->ended || cli_interrupted()) {
         say_interrupted(opened, found);
         return EXIT_INTERRUPTED;
     }
@@ -156,7 +164,7 @@ static bool propose(const cli_options *options, const cli_scene *opened, const c
     found->proposals = calloc(count, sizeof(sp_proposal *));
     if (!found->proposals)
         return sp_fail_memory(error);
-    for (size_t i = 0; i < count && (i == 0 || !cli_interrupted()); i++) {
+    for (size_t i = 0; i < count && !found->ended; i++) {
         sp_place_options how = alternatives ? sp_scene_alternative_options(opened->scene, i) : all;
         how.run = cli_search_run(options);
         how.run.time_limit = time_left(options, clock, found, count - i);
@@ -168,6 +176,7 @@ static bool propose(const cli_options *options, const cli_scene *opened, const c
             return false;
         }
         found->count++;
+        found->ended = sp_ranks_any(cli_ranks(), ends());
     }
     found->best = sp_place_best((const sp_proposal *const *)found->proposals, found->count);
     return true;
@@ -244,6 +253,16 @@ static bool can_write(const cli_options *options, const cli_scene *opened, sp_er
     return good;
 }
 
+/* What is done with what was found, by the first rank alone. */
+static int conclude(const cli_options *options, const cli_scene *opened, cli_clock *clock, placement *found,
+                    sp_error *error)
+{
+    bool good = count_manual_again(opened, found, error) && follow_liquid(opened, found, error) &&
+                measure_errors(opened, found, error) &&
+                (options->quiet || warn_of_own(opened, sp_scene_layout(opened->scene), error));
+    return good ? report(options, opened, found, clock, error) : cli_fail_in(opened, error);
+}
+
 static int place(const cli_options *options, const cli_scene *opened, cli_clock *clock, sp_error *error)
 {
     placement found = {0};
@@ -257,10 +276,9 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
         cli_clock_stage(clock, "simulate");
         good = propose(options, opened, clock, &found, error);
     }
-    good = good && count_manual_again(opened, &found, error) && follow_liquid(opened, &found, error) &&
-           measure_errors(opened, &found, error);
-    good = good && (options->quiet || warn_of_own(opened, own, error));
-    int status = good ? report(options, opened, &found, clock, error) : cli_fail_in(opened, error);
+    int status = !good              ? cli_fail_in(opened, error)
+                 : sp_ranks_first() ? conclude(options, opened, clock, &found, error)
+                                    : EXIT_DONE;
     for (size_t i = 0; i < found.count; i++)
         sp_proposal_destroy(found.proposals[i]);
     free(found.proposals);
@@ -270,5 +288,16 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
 
 int cli_place(const cli_options *options)
 {
-    return cli_with_scene(options, true, place);
+    sp_error error = {0};
+    cli_options own = *options;
+    if (!sp_ranks_first()) {
+        own.quiet = true;
+        own.json = false;
+        own.output = NULL;
+    }
+    if (!cli_join(&error)) /* of those that cannot the first alone says so */
+        return sp_ranks_first() ? cli_fail(&error) : EXIT_DONE;
+    int status = cli_with_scene(&own, true, place);
+    cli_leave();
+    return status;
 }

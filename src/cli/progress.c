@@ -100,6 +100,7 @@ sp_run cli_search_run(const cli_options *options)
 {
     sp_run run = cli_run(options);
     run.progress = search_progress;
+    run.ranks = cli_ranks();
     searching = true;
     return run;
 }

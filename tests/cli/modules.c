@@ -31,6 +31,11 @@ static void a_part_that_is_missing_is_named(void **state)
     /* before the search, which would find no mounting point */
     run("{ ./alone place room.yaml --set place.clearance=9 >.out 2>.err; test $? -eq 1; }");
     missing("sprayplan-ceres.so");
+    /* the first of those that mpirun started says it, the others nothing */
+    run("{ OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=0 ./alone place room.yaml >.out 2>.err; test $? -eq 1; }");
+    missing("sprayplan-mpi.so");
+    run("OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=1 ./alone place room.yaml >.out 2>.err && test ! -s .out && "
+        "test ! -s .err");
 }
 
 /* Installed anywhere, it finds its modules there, and links none of what they are for. */
@@ -40,7 +45,7 @@ static void an_installed_program_finds_its_modules(void **state)
     run("cmake --install '" BINARY_DIR "' --prefix \"$PWD/usr\" >.out");
     run("usr/bin/sprayplan simulate room.yaml -o pictures >.out && test -s pictures/coverage.png");
     run("usr/bin/sprayplan place room.yaml >.out");
-    run("! ldd usr/bin/sprayplan | grep -E 'OpenImageIO|ceres|glog|libTK'");
+    run("! ldd usr/bin/sprayplan | grep -E 'OpenImageIO|ceres|glog|libTK|libmpi'");
     run("test ! -e '" BINARY_DIR
         "/libexec' || usr/libexec/sprayplan/sprayplan-cad 2>&1 | grep -q 'starts this program'");
 }
