@@ -8,10 +8,11 @@
 #include <string.h>
 
 #define UNITS 0xffff      /* of the largest texel */
-#define UPWARDS (1 + 1e-9) /* more than the sums here are rounded by */
+#define UPWARDS (1 + 1e-9)       /* more than the sums here are rounded by */
+#define EDGES_UPWARDS (1 + 1e-6) /* the same, of numbers in single precision */
 
 /* Texels by falling area, 64 a word. */
-static void place_texels(const sp_cover *cover, sp_ranked *order, size_t count, sp_bit_rows *sets)
+static void place_texels(sp_ranked *order, size_t count, sp_bit_rows *sets)
 {
     sp_rank_falling(order, count);
     sets->unit = count ? order[0].merit / UNITS * UPWARDS : 1;
@@ -20,7 +21,6 @@ static void place_texels(const sp_cover *cover, sp_ranked *order, size_t count, 
         if (i % 64 == 0)
             sets->area[i / 64] = (uint32_t)ceil(order[i].merit / sets->unit);
     }
-    (void)cover;
 }
 
 bool sp_bit_rows_create(const sp_cover *cover, sp_bit_rows *sets, sp_error *error)
@@ -38,7 +38,7 @@ bool sp_bit_rows_create(const sp_cover *cover, sp_bit_rows *sets, sp_error *erro
     }
     sets->words = (count + 63) / 64;
     if (done)
-        place_texels(cover, order, count, sets);
+        place_texels(order, count, sets);
     free(order);
     if (done)
         return true;
@@ -52,34 +52,71 @@ void sp_bit_rows_free(sp_bit_rows *sets)
     free(sets->place);
     free(sets->bits);
     free(sets->edge);
+    free(sets->start);
+    free(sets->edge_at);
+    free(sets->edge_covers);
     *sets = (sp_bit_rows){0};
+}
+
+static bool make_room(sp_bit_rows *sets, size_t edges)
+{
+    if (sets->count == sets->capacity) {
+        size_t capacity = sets->capacity ? 2 * sets->capacity : 256;
+        if (!sp_reallocate(&sets->bits, capacity * sets->words + 1, sizeof *sets->bits) ||
+            !sp_reallocate(&sets->edge, capacity, sizeof *sets->edge) ||
+            !sp_reallocate(&sets->start, capacity + 1, sizeof *sets->start))
+            return false;
+        sets->capacity = capacity;
+    }
+    if (edges <= sets->room - sets->edges)
+        return true;
+    size_t room = 2 * (sets->edges + edges);
+    if (!sp_reallocate(&sets->edge_at, room, sizeof *sets->edge_at) ||
+        !sp_reallocate(&sets->edge_covers, room, sizeof *sets->edge_covers))
+        return false;
+    sets->room = room;
+    return true;
 }
 
 bool sp_bit_rows_add(sp_bit_rows *sets, const sp_cover *cover, const sp_rows *rows, size_t row, double least,
                      sp_error *error)
 {
-    if (sets->count == sets->capacity) {
-        size_t capacity = sets->capacity ? 2 * sets->capacity : 1024;
-        if (!sp_reallocate(&sets->bits, capacity * sets->words + 1, sizeof *sets->bits) ||
-            !sp_reallocate(&sets->edge, capacity, sizeof *sets->edge))
-            return sp_fail_memory(error);
-        sets->capacity = capacity;
-    }
+    if (!make_room(sets, rows->start[row + 1] - rows->start[row]))
+        return sp_fail_memory(error);
     uint64_t *bits = sets->bits + sets->count * sets->words;
-    double edge = 0;
     memset(bits, 0, sets->words * sizeof *bits);
+    sets->start[sets->count] = sets->edges;
     for (size_t i = rows->start[row]; i < rows->start[row + 1]; i++) {
         uint32_t place = sets->place[rows->texel[i]];
-        double share = (double)rows->share[i];
+        float share = rows->share[i];
         if (place == UINT32_MAX)
             continue;
-        if (share >= least)
+        if ((double)share >= least)
             bits[place / 64] |= (uint64_t)1 << place % 64;
-        else if (share < 0)
-            edge -= share * (double)cover->area[rows->texel[i]];
+        if (share >= 0)
+            continue;
+        sets->edge_at[sets->edges] = place;
+        sets->edge_covers[sets->edges++] = -share * cover->area[rows->texel[i]];
     }
-    sets->edge[sets->count++] = edge * UPWARDS;
+    sets->start[++sets->count] = sets->edges;
+    sets->edge[sets->count - 1] = sp_bit_rows_edge(sets, sets->count - 1, bits);
     return true;
+}
+
+double sp_bit_rows_bytes(const sp_bit_rows *sets)
+{
+    return (double)sets->capacity * (double)sets->words * sizeof *sets->bits +
+           (double)sets->room * (sizeof *sets->edge_at + sizeof *sets->edge_covers);
+}
+
+double sp_bit_rows_edge(const sp_bit_rows *sets, size_t row, const uint64_t *had)
+{
+    double sum = 0;
+    for (size_t i = sets->start[row]; i < sets->start[row + 1]; i++) {
+        uint32_t place = sets->edge_at[i];
+        sum += (had[place / 64] >> place % 64 & 1) ? 0 : (double)sets->edge_covers[i];
+    }
+    return sum * EDGES_UPWARDS;
 }
 
 static inline uint64_t count_gain(const uint64_t *row, const uint64_t *had, const uint32_t *area, size_t words)
