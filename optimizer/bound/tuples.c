@@ -19,6 +19,7 @@
 #define UPWARDS (1 + 1e-9)     /* more than sums here are rounded by */
 #define SHARE_LEAST (1 - 1e-5) /* of weight / W: more than shares, and their sums, are rounded by */
 #define SHARE_UPWARDS (1 + 1e-6)
+#define TARGETS 1000 /* that are told apart */
 #define NO_SET UINT32_MAX
 #define BY_PRICES 5 /* prices that layouts are told by: those given, the texels' areas, and what lies between */
 #define SIFTED 3    /* times by all of them, as what is shut out lowers what others could add */
@@ -27,8 +28,8 @@ typedef struct {
     size_t position, kind;
     uint32_t weight, set; /* set: of the sets, NO_SET: not yet */
     size_t port;
-    float price[BY_PRICES];
-    double alone; /* m², of the set */
+    float price[BY_PRICES], above; /* above: m², up to which targets are that prices leave it for */
+    double alone;                  /* m², of the set */
 } item;
 
 /* A layout whose union comes above the target. */
@@ -39,8 +40,9 @@ typedef struct {
 struct sp_tuples {
     const sp_cover *cover;
     const sp_line *line;
-    size_t water;
-    double target;
+    size_t water, most;
+    double floor, bound, target;
+    double least; /* of targets, for which all candidates in question are items */
     size_t priced; /* of BY_PRICES, that tell anything */
     double rest[BY_PRICES];         /* m² that the prices leave, base included */
     double *most_priced[BY_PRICES]; /* [kinds][steps + 1], see fill_kind: what candidates could add to sums of prices */
@@ -121,7 +123,25 @@ static bool all_above(const sp_tuples *o, const double *priced, const float *mor
     return above;
 }
 
-/* Leaves alive what the k-th prices do; they are of no use to anything else. */
+/* The highest target that a candidate could be part of a layout above, by the k-th prices. */
+static double above_by(const sp_tuples *o, size_t k, double price, size_t kind)
+{
+    return (o->rest[k] + price + o->most_priced[k][(o->water - o->line->weight[kind]) / o->unit]) * UPWARDS;
+}
+
+/* The lowest target, from the floor on, that no more than so many of the numbers lie above. */
+static double target_for(const sp_tuples *o, size_t most, const float *above, size_t count)
+{
+    size_t over[TARGETS + 1] = {0}, sum = 0, i = TARGETS;
+    double step = (o->bound - o->floor) / TARGETS;
+    for (size_t k = 0; k < count && step > 0; k++)
+        over[(size_t)fmin(TARGETS, fmax(0, ceil(((double)above[k] - o->floor) / step)))]++;
+    for (; i > 0 && (sum += over[i]) <= most; i--)
+        ;
+    return o->floor + (double)i * step;
+}
+
+/* Leaves alive what the k-th prices do. */
 static void shut_out(const sp_tuples *o, size_t k, const float *price, uint8_t *alive)
 {
     const sp_line *line = o->line;
@@ -164,9 +184,16 @@ static bool list_items(sp_tuples *o, const uint8_t *alive, float *const price[BY
             if (!sp_grow(&o->items, &o->capacity, o->count + 1, sizeof *o->items))
                 return sp_fail_memory(error);
             item *own = &o->items[o->count++];
-            *own = (item){i, kind, line->weight[kind], NO_SET, line->run_port[r], {0}, 0};
-            for (size_t k = 0; k < o->priced; k++)
+            *own = (item){.position = i,
+                          .kind = kind,
+                          .weight = line->weight[kind],
+                          .set = NO_SET,
+                          .port = line->run_port[r],
+                          .above = INFINITY};
+            for (size_t k = 0; k < o->priced; k++) {
                 own->price[k] = price[k][i];
+                own->above = fminf(own->above, nextafterf((float)above_by(o, k, (double)price[k][i], kind), INFINITY));
+            }
         }
     }
     return true;
@@ -186,6 +213,17 @@ static void sift(sp_tuples *o, uint8_t *alive, float *const price[BY_PRICES])
         fill_prices(o, k, price[k]);
 }
 
+/* Raises the floor until no more candidates than may be are left by prices as they were found; `above` [positions] is
+ * overwritten. */
+static void raise_floor(sp_tuples *o, const float *found, float *above)
+{
+    const sp_line *line = o->line;
+    for (size_t kind = 0; kind < line->kind_count; kind++)
+        for (size_t i = line->kind_start[kind]; i < line->kind_start[kind + 1]; i++)
+            above[i] = line->weight[kind] > o->water ? 0 : (float)above_by(o, 0, (double)found[i], kind);
+    o->target = target_for(o, o->most, above, line->count);
+}
+
 /* What is left by prices as they were found, then by all. */
 static bool price_items(sp_tuples *o, const sp_prices *u, const float *found, uint8_t *alive,
                         float *const price[BY_PRICES], sp_error *error)
@@ -197,6 +235,7 @@ static bool price_items(sp_tuples *o, const sp_prices *u, const float *found, ui
     if (done && holds) {
         o->rest[0] = o->cover->base + sp_cover_rest(o->cover, u);
         fill_prices(o, 0, found);
+        raise_floor(o, found, price[0]);
         shut_out(o, 0, found, alive);
         done = price_by(o, u, alive, price[0], error);
     }
@@ -206,6 +245,7 @@ static bool price_items(sp_tuples *o, const sp_prices *u, const float *found, ui
         return done;
     if (holds)
         mix(o, price);
+    o->least = o->target;
     sift(o, alive, price);
     return list_items(o, alive, price, error);
 }
@@ -229,15 +269,21 @@ static bool find_items(sp_tuples *o, const sp_prices *u, const float *found, sp_
     return done;
 }
 
-sp_tuples *sp_tuples_create(const sp_cover *cover, const sp_line *line, size_t water, double floor, const sp_prices *u,
-                            const float *price, sp_error *error)
+sp_tuples *sp_tuples_create(const sp_cover *cover, const sp_line *line, const sp_tuple_task *task, sp_error *error)
 {
     sp_tuples *o = calloc(1, sizeof *o);
     if (!o) {
         sp_fail_memory(error);
         return NULL;
     }
-    *o = (sp_tuples){.cover = cover, .line = line, .water = water, .target = floor};
+    *o = (sp_tuples){.cover = cover,
+                     .line = line,
+                     .water = task->water,
+                     .most = task->most,
+                     .floor = task->floor,
+                     .bound = fmax(task->bound, task->floor),
+                     .target = task->floor};
+    size_t water = task->water;
     o->lightest = line->kind_count ? line->weight[line->kind_count - 1] : 0;
     if (!o->lightest || water / o->lightest > STEPS_MOST)
         return o;
@@ -251,7 +297,7 @@ sp_tuples *sp_tuples_create(const sp_cover *cover, const sp_line *line, size_t w
         done &= o->most_priced[k] != NULL;
     }
     done = done || sp_fail_memory(error);
-    if (done && find_items(o, u, price, error) && sp_bit_rows_create(cover, &o->sets, error))
+    if (done && find_items(o, task->u, task->price, error) && sp_bit_rows_create(cover, &o->sets, error))
         return o;
     sp_tuples_destroy(o);
     return NULL;
@@ -631,10 +677,22 @@ static bool check_found(sp_tuples *o, double *most, sp_error *error)
     return done;
 }
 
+double sp_tuples_target(const sp_tuples *o, size_t candidates)
+{
+    float *above = malloc((o->count + 1) * sizeof *above);
+    double target = o->bound;
+    for (size_t i = 0; above && i < o->count; i++)
+        above[i] = o->items[i].above;
+    if (above && o->steps)
+        target = fmax(o->least, target_for(o, candidates, above, o->count));
+    free(above);
+    return target;
+}
+
 bool sp_tuples_bound(sp_tuples *o, double target, double work_most, sp_tuple_answer *answer, sp_error *error)
 {
     *answer = (sp_tuple_answer){.bound = target};
-    if (!o->steps)
+    if (!o->steps || target < o->least)
         return true;
     o->target = target;
     o->work = 0;
@@ -647,4 +705,3 @@ bool sp_tuples_bound(sp_tuples *o, double target, double work_most, sp_tuple_ans
     answer->complete = done && !o->over && sp_cover_goes_on(o->cover);
     return done;
 }
-size_t sp_tuples_able(const sp_tuples *o) { return o->able_count; }

@@ -14,11 +14,21 @@
 /* The candidates that layouts of so much water could be made of. */
 typedef struct sp_tuples sp_tuples;
 
-/* For layouts of at most `water` units that cover more than `floor`, m². price[position] is what a candidate is worth at
- * prices u, or more. Borrows cover and line. */
-sp_tuples *sp_tuples_create(const sp_cover *cover, const sp_line *line, size_t water, double floor, const sp_prices *u,
-                            const float *price, sp_error *error);
+typedef struct {
+    size_t water;       /* units that a layout takes at most */
+    double floor;       /* m² that a layout found covers: what covers no more need not be looked at */
+    double bound;       /* m² that none is known to exceed */
+    size_t most;        /* candidates at a time */
+    const sp_prices *u; /* read while sp_tuples_create runs, as the next one */
+    const float *price; /* [line->count], what a candidate is worth at u, or more */
+} sp_tuple_task;
+
+/* Borrows cover and line. */
+sp_tuples *sp_tuples_create(const sp_cover *cover, const sp_line *line, const sp_tuple_task *task, sp_error *error);
 void sp_tuples_destroy(sp_tuples *tuples);
+/* The lowest target for which no more than so many candidates, at most task->most, come into question by their prices;
+ * the bound where there is none. */
+double sp_tuples_target(const sp_tuples *tuples, size_t candidates);
 
 typedef struct {
     bool complete; /* else nothing is proved: it took too much, or was broken off */
@@ -26,8 +36,7 @@ typedef struct {
     double work;   /* that it took, in words of 64 texels: the same on any number of threads where it is complete */
 } sp_tuple_answer;
 
-/* For a target no lower than the floor. */
+/* For a target no lower than sp_tuples_target tells for task->most. */
 bool sp_tuples_bound(sp_tuples *tuples, double target, double work_most, sp_tuple_answer *answer, sp_error *error);
 
-size_t sp_tuples_able(const sp_tuples *o);
 #endif

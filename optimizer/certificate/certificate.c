@@ -19,12 +19,19 @@
 #define WORK_EACH 2e4      /* the same, besides, for every candidate */
 #define WORK_BEGIN 3e3     /* that a solve and a pricing of all take, for every candidate */
 #define WORK_POINT 2e3     /* that a point may take at first, for every candidate */
-#define WORK_STEP 3        /* times what a target took the next one is likely to take */
+#define WORK_STEP 5        /* times what a target took the next one is likely to take */
+#define CANDIDATES_FIRST 800 /* that layouts are made of one by one, at first */
+#define CANDIDATES_STEP 4    /* times as many then */
+#define CANDIDATES_MOST 102400
 #define WORK_MORE 8        /* times as much in the next pass, with --prove */
-#define HALF 0.5           /* of what is open, by which a target lies below the last */
-#define WATER_LIKE 1.1     /* times less water is so much alike that the same prices do */
+#define WATER_NEAR 1.25    /* times less water is so near that the same prices say something */
+#define WATER_LIKE 1.1     /* the same, and need not be priced for again */
 #define WORK_PROVING 1e14  /* with --prove, where no time limit ends it */
 #define PASSES_PROVING 5
+#define ROUNDS_POINT 3     /* with --prove, for a point */
+#define STEP_RAISED 0.1    /* of the way to the proposal's water, that the least is sought to be raised by at first */
+#define STEP_LEAST 0.02
+#define LESS 1e-9          /* of an area, that covers as much */
 #define ROUNDS_LIFTED 3    /* at least, so that the lifts have settled */
 #define ROUNDS_PROVING 2   /* with --prove, at the proposal's water, and trials of water */
 #define ROUNDS_WATER_PROVING 1
@@ -41,6 +48,12 @@ typedef struct {
     double found;  /* m² that a layout found with no more water covers */
     bool had_turn; /* in this pass */
 } point;
+
+/* What may be done, in words of sp_tuples: in all, and one by one at a point; and pricings of all for it. */
+typedef struct {
+    double work, each;
+    size_t rounds;
+} effort;
 
 typedef struct {
     sp_problem problem;
@@ -135,10 +148,10 @@ static double open_at(const certifying *c, size_t i)
 }
 
 /* True of a point of as much water as another, or so little less that prices for that one do. */
-static bool is_like(const certifying *c, size_t i, size_t other)
+static bool is_like(const certifying *c, size_t i, size_t other, double times)
 {
     double water = (double)c->points[i].water, most = (double)c->points[other].water;
-    return water <= most && most < WATER_LIKE * water;
+    return water <= most && most < times * water;
 }
 
 /* The point whose like, it among them, have most open together that had no turn; point_count where none has any. */
@@ -151,7 +164,7 @@ static size_t next_point(const certifying *c)
         if (!c->points[i].water || c->points[i].had_turn || open_at(c, i) <= OPEN_LEAST)
             continue;
         for (size_t k = 0; k < c->point_count; k++)
-            open += is_like(c, k, i) && !c->points[k].had_turn && open_at(c, k) > OPEN_LEAST ? open_at(c, k) : 0;
+            open += is_like(c, k, i, WATER_NEAR) && !c->points[k].had_turn && open_at(c, k) > OPEN_LEAST ? open_at(c, k) : 0;
         if (open > most) {
             found = i;
             most = open;
@@ -160,18 +173,18 @@ static size_t next_point(const certifying *c)
     return found;
 }
 
-/* Prices all candidates for a point. Where the gap is wide prices are sought on groups of texels first: these get
- * further in as much time, but do not see what a narrow gap is about. */
-static bool price_for(certifying *c, size_t i, sp_error *error)
+/* Prices all candidates for so much water, `open` of whose bound nothing found comes up to. Where that is wide prices
+ * are sought on groups of texels first: these get further in as much time, but do not see what a narrow gap is about. */
+static bool price_for(certifying *c, size_t water, double open, size_t rounds, sp_error *error)
 {
     size_t iterations = c->bound.iterations;
-    if (open_at(c, i) > OPEN_WIDE) {
+    bool done = true;
+    if (open > OPEN_WIDE) {
         c->bound.coarse = ITERATIONS_COARSE;
         c->bound.iterations = ITERATIONS_FINE;
     }
-    if (getenv("SP_V"))
-        fprintf(stderr, "price for %.1f L/min from %.2f s\n", (double)c->points[i].water * c->problem.units.unit * 6e4, (double)clock() / CLOCKS_PER_SEC);
-    bool done = sp_bound_lower(&c->bound, c->points[i].water, error);
+    for (size_t round = 0; done && round < rounds && has_time(c, c->done); round++)
+        done = sp_bound_lower(&c->bound, water, error);
     c->bound.coarse = 0;
     c->bound.iterations = iterations;
     return done;
@@ -185,61 +198,90 @@ static void note_bound(certifying *c, size_t water, double bound)
     sp_bound_settle(&c->bound);
 }
 
-/* Looks at the layouts at a point one by one, by the prices that the bound was last proved with: that none is above
- * half of what is open, then half of that, and so on while there is work left. */
-static bool look_at(certifying *c, size_t i, double work_most, double *work, sp_error *error)
+/* Looks at the layouts of so much water one by one, by the prices that the bound was last proved with, for those that
+ * cover more than `found`, as long as the bound is more than `least` (share) above it: for the lowest targets that a few
+ * candidates come up to, then more, while there is work left. */
+static bool look_at(certifying *c, size_t water, double found, double least, double work_most, double *work,
+                    sp_error *error)
 {
-    const point *own = &c->points[i];
-    sp_tuple_answer answer = {.complete = true};
-    sp_tuples *tuples = sp_tuples_create(&c->problem.cover, &c->problem.line, own->water, own->found,
-                                         &c->bound.dual.price, sp_pose_prices_last(c->problem.prices), error);
-    bool done = tuples != NULL;
-    for (double left = work_most; done && answer.complete && open_at(c, i) > OPEN_LEAST &&
-                                  left > WORK_STEP * answer.work && has_time(c, c->done);
-         left -= answer.work) {
-        double part = open_at(c, i) < 2 * OPEN_LEAST ? 0 : HALF;
-        double target = own->found + part * (c->bound.by_water[own->water] - own->found);
-        done = sp_tuples_bound(tuples, target, left, &answer, error);
-        *work += answer.work;
+    const double *bound = &c->bound.by_water[water];
+    const sp_tuple_task task = {water,           found, *bound, CANDIDATES_MOST, &c->bound.dual.price,
+                                sp_pose_prices_last(c->problem.prices)};
+    sp_tuple_answer answer = {.complete = true, .bound = *bound};
+    sp_tuples *tuples = sp_tuples_create(&c->problem.cover, &c->problem.line, &task, error);
+    bool done = tuples != NULL, better = false;
+    for (size_t count = CANDIDATES_FIRST; done && answer.complete && !better && *bound > found * (1 + least) &&
+                                          count <= CANDIDATES_MOST && work_most > WORK_STEP * answer.work &&
+                                          has_time(c, c->done);
+         count *= CANDIDATES_STEP) {
+        double target = sp_tuples_target(tuples, count);
+        answer.work = 0;
+        if (!(target < *bound))
+            continue;
+        done = sp_tuples_bound(tuples, target, work_most, &answer, error);
         if (getenv("SP_V"))
-            fprintf(stderr, "  %.1f L/min target %.2f gap %.1f%%: %s cand %zu bound %.2f work %.3g, %.2f s\n", (double)own->water * c->problem.units.unit * 6e4, 100 * target / own->found, 100 - 100 * own->found / target, answer.complete ? "ok" : "no", sp_tuples_able(tuples), 100 * answer.bound / own->found, answer.work, (double)clock() / CLOCKS_PER_SEC);
+            fprintf(stderr, "  %.1f L/min target %.2f gap %.1f%%: %s cand %zu bound %.2f work %.3g, %.2f s\n", (double)water * c->problem.units.unit * 6e4, 100 * target / found, 100 - 100 * found / target, answer.complete ? "ok" : "no", count, 100 * answer.bound / found, answer.work, (double)clock() / CLOCKS_PER_SEC);
+        *work += answer.work;
+        work_most -= answer.work;
         if (done && answer.complete)
-            note_bound(c, own->water, answer.bound);
-        if (answer.bound > target)
-            break;
+            note_bound(c, water, answer.bound);
+        /* one that was found is the best there is, or one covers more than what was found */
+        better = answer.bound > target || target <= found;
     }
     sp_tuples_destroy(tuples);
     return done;
 }
 
-/* A turn of a point and of all that are like it. */
-static bool take_turn(certifying *c, size_t i, double work_most, double *work, sp_error *error)
+/* A turn of a point and of those that are like it. */
+static bool take_turn(certifying *c, size_t i, effort most, double *work, sp_error *error)
 {
-    *work += WORK_BEGIN * (double)c->problem.line.count;
-    if (!price_for(c, i, error))
+    const point *own = &c->points[i];
+    *work += WORK_BEGIN * (double)(most.rounds * c->problem.line.count);
+    if (!price_for(c, own->water, open_at(c, i), most.rounds, error))
         return false;
-    for (size_t k = 0; k < c->point_count && c->bound.complete; k++)
-        if (is_like(c, k, i) && c->points[k].water && !c->points[k].had_turn) {
-            c->points[k].had_turn = true;
-            if (open_at(c, k) > OPEN_LEAST && !look_at(c, k, work_most, work, error))
-                return false;
-        }
+    for (size_t k = 0; k < c->point_count && c->bound.complete; k++) {
+        point *like = &c->points[k];
+        if (!like->water || like->had_turn || !is_like(c, k, i, WATER_NEAR))
+            continue;
+        like->had_turn = is_like(c, k, i, WATER_LIKE);
+        if (open_at(c, k) > OPEN_LEAST && !look_at(c, like->water, like->found, OPEN_LEAST, most.each, work, error))
+            return false;
+    }
     c->points[i].had_turn = true;
     return true;
 }
 
-/* The points of the front in turn, in so many passes. */
-static bool lower_front(certifying *c, double work_most, size_t passes, sp_error *error)
+/* The points of the front in turn. */
+static bool lower_front(certifying *c, effort most, sp_error *error)
 {
-    double work = 0, each = WORK_POINT * (double)c->problem.line.count;
-    for (size_t pass = 0; pass < passes && work < work_most; pass++, each *= WORK_MORE) {
-        for (size_t i = 0; i < c->point_count; i++)
-            c->points[i].had_turn = false;
-        for (size_t i; (i = next_point(c)) < c->point_count && work < work_most;)
-            if (!has_time(c, 0.6 + 0.4 * work / work_most))
-                return true;
-            else if (!take_turn(c, i, each, &work, error))
-                return false;
+    double work = 0;
+    for (size_t i = 0; i < c->point_count; i++)
+        c->points[i].had_turn = false;
+    for (size_t i; (i = next_point(c)) < c->point_count && work < most.work;)
+        if (!has_time(c, 0.6 + 0.4 * fmin(1, work / most.work)))
+            return true;
+        else if (!take_turn(c, i, most, &work, error))
+            return false;
+    return true;
+}
+
+/* Raises the water below which nothing covers what the proposal does, step by step. */
+static bool raise_water(certifying *c, double area, size_t most, effort effort, sp_error *error)
+{
+    double work = 0, step = STEP_RAISED;
+    for (size_t water; step > STEP_LEAST && work < effort.work && has_time(c, c->done);) {
+        water = sp_bound_water(&c->bound, area);
+        if (!water || water >= most)
+            return true;
+        size_t higher = water + (size_t)ceil(step * (double)(most - water));
+        work += WORK_BEGIN * (double)(effort.rounds * c->problem.line.count);
+        if (!price_for(c, higher, 0, effort.rounds, error) ||
+            (c->bound.complete && c->bound.by_water[higher] >= area &&
+             !look_at(c, higher, area * (1 - LESS), 0, effort.each, &work, error)))
+            return false;
+        if (getenv("SP_V"))
+            fprintf(stderr, "water %.2f tried %.2f now %.2f\n", 6e4 * (double)water * c->problem.units.unit, 6e4 * (double)higher * c->problem.units.unit, 6e4 * (double)sp_bound_water(&c->bound, area) * c->problem.units.unit);
+        step *= sp_bound_water(&c->bound, area) > higher ? 1 : 0.5;
     }
     return true;
 }
@@ -255,13 +297,17 @@ static bool prove(certifying *c, size_t water, double area, sp_error *error)
                 lower_water(c, area, water, ROUNDS_PROVING, ROUNDS_WATER_PROVING, error);
     c->bound.iterations = iterations;
     c->bound.tolerance = tolerance;
-    return done && lower_front(c, WORK_PROVING, PASSES_PROVING, error);
+    effort most = {WORK_PROVING, WORK_MORE * WORK_POINT * (double)c->problem.line.count, ROUNDS_POINT};
+    for (int pass = 0; done && pass < PASSES_PROVING; pass++, most.each *= WORK_MORE)
+        done = lower_front(c, most, error) && raise_water(c, area, water, most, error);
+    return done;
 }
 
 /* What is proved without being asked for more: the proposal's water, one nozzle's, less water, then the front. */
 static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
 {
-    double left = sp_watch_left(c->watch);
+    double left = sp_watch_left(c->watch), candidates = (double)c->problem.line.count;
+    const effort most = {WORK_LEAST + WORK_EACH * candidates, WORK_POINT * candidates, 1};
     for (size_t round = 0; round < ROUNDS_EXPLORING && has_time(c, 0.02 * (double)round); round++)
         if (sp_watch_left(c->watch) < left * (1 - EXPLORING_MOST))
             break;
@@ -270,7 +316,7 @@ static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
     return sp_bound_lower(&c->bound, water, error) && sp_bound_lower_single(&c->bound, error) &&
            lower(c, water, ROUNDS_FIRST - 1, 0.1, error) &&
            lower_water(c, area, water, TRIALS_WATER, ROUNDS_WATER, error) &&
-           lower_front(c, WORK_LEAST + WORK_EACH * (double)c->problem.line.count, 1, error);
+           lower_front(c, most, error);
 }
 
 /* Notes the bounds of the candidates. */

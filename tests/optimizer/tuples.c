@@ -127,14 +127,15 @@ static void set_prices(instance *in, int way, size_t water, sp_lifts *lifts, sp_
     }
 }
 
-static sp_tuples *tuples_of(const stored_line *s, size_t water, double floor, const sp_prices *u)
+static sp_tuples *tuples_of(const stored_line *s, size_t water, double floor, double bound, const sp_prices *u)
 {
     sp_error error = {0};
     float *price = malloc((s->line.count + 1) * sizeof *price);
     uint8_t *alive = malloc(s->line.count + 1);
     memset(alive, 1, s->line.count + 1);
     assert_true(s->line.price(s->line.user, u, alive, price, &error));
-    sp_tuples *tuples = sp_tuples_create(s->cover, &s->line, water, floor, u, price, &error);
+    const sp_tuple_task task = {water, floor, bound, s->line.count, u, price};
+    sp_tuples *tuples = sp_tuples_create(s->cover, &s->line, &task, &error);
     assert_non_null(tuples);
     free(price);
     free(alive);
@@ -149,7 +150,7 @@ static void check(instance *in, size_t water, const sp_prices *u, uint64_t *rand
     stored_line s;
     double best = best_of(in, water), floor = (0.3 + 0.2 * instance_random(random)) * best;
     stored_line_create(&in->cover, &in->rows, &s);
-    sp_tuples *tuples = tuples_of(&s, water, floor, u);
+    sp_tuples *tuples = tuples_of(&s, water, floor, 2 * best, u);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         sp_tuple_answer answer;
         double target = parts[i] * best;
