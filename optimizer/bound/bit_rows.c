@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define UNITS 0xffff      /* of the largest texel */
+#define UNITS 0xffff             /* of the largest texel */
 #define UPWARDS (1 + 1e-9)       /* more than the sums here are rounded by */
 #define EDGES_UPWARDS (1 + 1e-6) /* the same, of numbers in single precision */
 
@@ -129,12 +129,12 @@ static inline uint64_t count_gain(const uint64_t *row, const uint64_t *had, cons
 
 #if defined __x86_64__ && defined __GNUC__
 __attribute__((target("popcnt"))) static uint64_t count_gain_popcnt(const uint64_t *row, const uint64_t *had,
-                                                                     const uint32_t *area, size_t words)
+                                                                    const uint32_t *area, size_t words)
 {
     return count_gain(row, had, area, words);
 }
-__attribute__((target("avx512f,avx512dq,avx512vl,avx512vpopcntdq,prefer-vector-width=512"))) static uint64_t count_gain_wide(
-    const uint64_t *row, const uint64_t *had, const uint32_t *area, size_t words)
+__attribute__((target("avx512f,avx512dq,avx512vl,avx512vpopcntdq,prefer-vector-width=512"))) static uint64_t
+count_gain_wide(const uint64_t *row, const uint64_t *had, const uint32_t *area, size_t words)
 {
     return count_gain(row, had, area, words);
 }

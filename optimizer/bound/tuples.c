@@ -12,7 +12,7 @@
 #define STEPS_LEAST 96         /* of the water, by which what is left of it is told apart */
 #define STEPS_MOST 256         /* with more nozzles than that, none are few */
 #define FOUND_MOST 100000      /* layouts whose union comes above the target */
-#define BYTES_MOST 5e8         /* of sets */
+#define BYTES_MOST 4e8         /* of sets */
 #define WORK_ROW 2e5           /* words that take as long as a row */
 #define WORK_PASSED 16         /* and as a candidate that is passed by */
 #define WORK_TOLD 1e8          /* that a thread may keep to itself */
@@ -42,8 +42,8 @@ struct sp_tuples {
     const sp_line *line;
     size_t water, most;
     double floor, bound, target;
-    double least; /* of targets, for which all candidates in question are items */
-    size_t priced; /* of BY_PRICES, that tell anything */
+    double least;                   /* of targets, for which all candidates in question are items */
+    size_t priced;                  /* of BY_PRICES, that tell anything */
     double rest[BY_PRICES];         /* m² that the prices leave, base included */
     double *most_priced[BY_PRICES]; /* [kinds][steps + 1], see fill_kind: what candidates could add to sums of prices */
     item *items;                    /* heavier ones first */
@@ -62,7 +62,7 @@ struct sp_tuples {
 /* The candidates that could still join a layout in the making: heavier ones first, then those of most merit, which is
  * what each would add to its union at most, m². */
 typedef struct {
-    uint64_t *had;   /* [words] */
+    uint64_t *had;      /* [words] */
     sp_ranked *entries; /* [items] */
     size_t count;
     size_t *end;  /* [kinds], of the kind's entries */
@@ -158,8 +158,8 @@ static bool price_by(sp_tuples *o, const sp_prices *u, const uint8_t *alive, flo
     return o->line->price(o->line->user, u, alive, price, error);
 }
 
-/* Prices between the first two: what holds for both does for these, and the best completions by one need not be those by
- * the other. */
+/* Prices between the first two: what holds for both does for these, and the best completions by one need not be those
+ * by the other. */
 static void mix(sp_tuples *o, float *const price[BY_PRICES])
 {
     for (; o->priced < BY_PRICES; o->priced++) {
@@ -339,8 +339,9 @@ static bool list_able(sp_tuples *o, sp_error *error)
         if (own->set != NO_SET)
             continue;
         one.count = one.used = 0;
-        done = o->line->row(o->line->user, own->position, &one, error) &&
-               sp_bit_rows_add(&o->sets, o->cover, &one, 0, SHARE_LEAST * (double)own->weight / (double)o->water, error);
+        done =
+            o->line->row(o->line->user, own->position, &one, error) &&
+            sp_bit_rows_add(&o->sets, o->cover, &one, 0, SHARE_LEAST * (double)own->weight / (double)o->water, error);
         if (!done)
             break;
         own->set = (uint32_t)(o->sets.count - 1);
@@ -518,7 +519,7 @@ static void grow(worker *own, size_t depth, double covered, const double *priced
     for (size_t i = 0; i < at->count && !is_over(own); i++)
         if (!choose(own, depth, i, covered, priced, water))
             i = at->end[own->all->items[at->entries[i].at].kind] - 1;
-    if (depth == 1 || own->work > WORK_TOLD)
+    if (own->work > WORK_TOLD)
         tell_work(own);
 }
 
@@ -572,6 +573,8 @@ static bool enumerate(sp_tuples *o, sp_error *error)
             worker *own = &workers[omp_get_thread_num()];
             if (!is_over(own))
                 choose(own, 0, i, o->cover->base, none, o->water);
+            if (own->work > WORK_TOLD)
+                tell_work(own);
         }
         for (int i = 0; i < threads; i++)
             tell_work(&workers[i]);
@@ -699,9 +702,10 @@ bool sp_tuples_bound(sp_tuples *o, double target, double work_most, sp_tuple_ans
     o->work_most = work_most;
     o->over = false;
     o->found_count = 0;
-    bool done = list_able(o, error) && (o->over || enumerate(o, error)) &&
-                (o->over || check_found(o, &answer->bound, error));
-    answer->work = o->work;
+    bool done = list_able(o, error), begun = !o->over;
+    done = done && (!begun || enumerate(o, error)) && (o->over || check_found(o, &answer->bound, error));
     answer->complete = done && !o->over && sp_cover_goes_on(o->cover);
+    /* what was done of what is broken off depends on threads: all that it might have been counts */
+    answer->work = answer->complete ? o->work : begun ? work_most : 0;
     return done;
 }

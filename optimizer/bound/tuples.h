@@ -3,9 +3,9 @@
  *
  * Within a budget W shares of a layout's nozzles come to 1 only where one of them is its weight / W at least. So no
  * layout covers more than the union of the texels to which its nozzles bring that much, and what their edges cover
- * besides; and what a nozzle adds to a union only falls as that grows. Candidates are chosen one after the other, heavier
- * ones first, in every way that could still come above a target by what is left to gain and by texels' prices; what does
- * is covered exactly. */
+ * besides; and what a nozzle adds to a union only falls as that grows. Candidates are chosen one after the other,
+ * heavier ones first, in every way that could still come above a target by what is left to gain and by texels' prices;
+ * what does is covered exactly. */
 #ifndef OPTIMIZER_TUPLES_H
 #define OPTIMIZER_TUPLES_H
 

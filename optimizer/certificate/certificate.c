@@ -5,38 +5,40 @@
 #include "certificate/problem.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <time.h>
 #include <stdlib.h>
 
-#define ROUNDS_EXPLORING 4 /* of looking at some of the poses first */
-#define EXPLORING_MOST 0.2 /* of the time left, for those */
-#define ROUNDS_FIRST 2     /* of pricing all poses, at the proposal's water */
-#define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
-#define TRIALS_WATER 2     /* such waters */
-#define STEP_WATER 0.4     /* of the way to the proposal's water, for the first of them */
-#define WORK_LEAST 3e9     /* at the front's points, in words of sp_tuples */
-#define WORK_EACH 2e4      /* the same, besides, for every candidate */
-#define WORK_BEGIN 3e3     /* that a solve and a pricing of all take, for every candidate */
-#define WORK_POINT 2e3     /* that a point may take at first, for every candidate */
-#define WORK_STEP 5        /* times what a target took the next one is likely to take */
+#define ROUNDS_EXPLORING 4   /* of looking at some of the poses first */
+#define EXPLORING_MOST 0.2   /* of the time left, for those */
+#define ROUNDS_FIRST 2       /* of pricing all poses, at the proposal's water */
+#define ROUNDS_WATER 1       /* at a water that may be too little for the proposal's coverage */
+#define TRIALS_WATER 2       /* such waters */
+#define STEP_WATER 0.4       /* of the way to the proposal's water, for the first of them */
+#define WORK_LEAST 3e9       /* at the front's points, in words of sp_tuples */
+#define WORK_EACH 1e4        /* the same, besides, for every candidate */
+#define WORK_BEGIN 3e3       /* that a solve and a pricing of all take, for every candidate */
+#define WORK_LOOK 4e2        /* that it takes to find the candidates of a point, the same */
+#define WORK_POINT 2e3       /* that a point may take at first, for every candidate */
+#define WORK_STEP 5          /* times what a target took the next one is likely to take */
 #define CANDIDATES_FIRST 800 /* that layouts are made of one by one, at first */
 #define CANDIDATES_STEP 4    /* times as many then */
-#define CANDIDATES_MOST 102400
-#define WORK_MORE 8        /* times as much in the next pass, with --prove */
-#define WATER_NEAR 1.25    /* times less water is so near that the same prices say something */
-#define WATER_LIKE 1.1     /* the same, and need not be priced for again */
-#define WORK_PROVING 1e14  /* with --prove, where no time limit ends it */
-#define PASSES_PROVING 5
-#define ROUNDS_POINT 3     /* with --prove, for a point */
-#define STEP_RAISED 0.1    /* of the way to the proposal's water, that the least is sought to be raised by at first */
-#define STEP_LEAST 0.02
-#define LESS 1e-9          /* of an area, that covers as much */
-#define ROUNDS_LIFTED 3    /* at least, so that the lifts have settled */
-#define ROUNDS_PROVING 2   /* with --prove, at the proposal's water, and trials of water */
+#define CANDIDATES 12800     /* most that come into question for it */
+#define WATER_NEAR 1.25      /* times less water is so near that the same prices say something */
+#define WATER_LIKE 1.1       /* the same, and need not be priced for again */
+#define ROUNDS_LIFTED 3      /* at least, so that the lifts have settled */
+/* with --prove: */
+#define ROUNDS_PROVING 2 /* at the proposal's water, and trials of water */
 #define ROUNDS_WATER_PROVING 1
 #define ITERATIONS_PROVING 500
 #define TOLERANCE_PROVING 2e-5
+#define WORK_PROVING 2e12 /* of a pass over the front, or of raising the least water, where no time limit ends it */
+#define PASSES_PROVING 2
+#define WORK_MORE 8              /* times as much for a point as in the pass before */
+#define ROUNDS_POINT 3           /* for a point */
+#define CANDIDATES_PROVING 51200 /* most that come into question for it */
+#define STEP_RAISED 0.1 /* of the way to the proposal's water, that the least is sought to be raised by at first */
+#define STEP_LEAST 0.02 /* and at last */
+#define LESS 1e-9       /* of an area, that is as much */
+/* of all: */
 #define OPEN_WIDE 0.04        /* gap of a point, above which groups of texels see enough of it */
 #define ITERATIONS_COARSE 400 /* on these */
 #define ITERATIONS_FINE 50    /* after them */
@@ -49,10 +51,11 @@ typedef struct {
     bool had_turn; /* in this pass */
 } point;
 
-/* What may be done, in words of sp_tuples: in all, and one by one at a point; and pricings of all for it. */
+/* What may be done, in words of sp_tuples: in all, and one by one at a point; and for it pricings of all, and
+ * candidates that its layouts are made of. */
 typedef struct {
     double work, each;
-    size_t rounds;
+    size_t rounds, candidates;
 } effort;
 
 typedef struct {
@@ -164,7 +167,8 @@ static size_t next_point(const certifying *c)
         if (!c->points[i].water || c->points[i].had_turn || open_at(c, i) <= OPEN_LEAST)
             continue;
         for (size_t k = 0; k < c->point_count; k++)
-            open += is_like(c, k, i, WATER_NEAR) && !c->points[k].had_turn && open_at(c, k) > OPEN_LEAST ? open_at(c, k) : 0;
+            if (is_like(c, k, i, WATER_NEAR) && !c->points[k].had_turn && open_at(c, k) > OPEN_LEAST)
+                open += open_at(c, k);
         if (open > most) {
             found = i;
             most = open;
@@ -174,7 +178,8 @@ static size_t next_point(const certifying *c)
 }
 
 /* Prices all candidates for so much water, `open` of whose bound nothing found comes up to. Where that is wide prices
- * are sought on groups of texels first: these get further in as much time, but do not see what a narrow gap is about. */
+ * are sought on groups of texels first: these get further in as much time, but do not see what a narrow gap is about.
+ */
 static bool price_for(certifying *c, size_t water, double open, size_t rounds, sp_error *error)
 {
     size_t iterations = c->bound.iterations;
@@ -199,30 +204,28 @@ static void note_bound(certifying *c, size_t water, double bound)
 }
 
 /* Looks at the layouts of so much water one by one, by the prices that the bound was last proved with, for those that
- * cover more than `found`, as long as the bound is more than `least` (share) above it: for the lowest targets that a few
- * candidates come up to, then more, while there is work left. */
-static bool look_at(certifying *c, size_t water, double found, double least, double work_most, double *work,
-                    sp_error *error)
+ * cover more than `found`, as long as the bound is more than `least` (share) above it: for the lowest targets that a
+ * few candidates come up to, then more, while there is work left. */
+static bool look_at(certifying *c, size_t water, double found, double least, effort most, double *work, sp_error *error)
 {
     const double *bound = &c->bound.by_water[water];
-    const sp_tuple_task task = {water,           found, *bound, CANDIDATES_MOST, &c->bound.dual.price,
-                                sp_pose_prices_last(c->problem.prices)};
+    const sp_tuple_task task = {
+        water, found, *bound, most.candidates, &c->bound.dual.price, sp_pose_prices_last(c->problem.prices)};
     sp_tuple_answer answer = {.complete = true, .bound = *bound};
     sp_tuples *tuples = sp_tuples_create(&c->problem.cover, &c->problem.line, &task, error);
     bool done = tuples != NULL, better = false;
-    for (size_t count = CANDIDATES_FIRST; done && answer.complete && !better && *bound > found * (1 + least) &&
-                                          count <= CANDIDATES_MOST && work_most > WORK_STEP * answer.work &&
-                                          has_time(c, c->done);
+    *work += WORK_LOOK * (double)c->problem.line.count;
+    for (size_t count = CANDIDATES_FIRST;
+         done && answer.complete && !better && *bound > found * (1 + least) && count <= most.candidates &&
+         most.each > WORK_STEP * answer.work && has_time(c, c->done);
          count *= CANDIDATES_STEP) {
         double target = sp_tuples_target(tuples, count);
         answer.work = 0;
         if (!(target < *bound))
             continue;
-        done = sp_tuples_bound(tuples, target, work_most, &answer, error);
-        if (getenv("SP_V"))
-            fprintf(stderr, "  %.1f L/min target %.2f gap %.1f%%: %s cand %zu bound %.2f work %.3g, %.2f s\n", (double)water * c->problem.units.unit * 6e4, 100 * target / found, 100 - 100 * found / target, answer.complete ? "ok" : "no", count, 100 * answer.bound / found, answer.work, (double)clock() / CLOCKS_PER_SEC);
+        done = sp_tuples_bound(tuples, target, most.each, &answer, error);
         *work += answer.work;
-        work_most -= answer.work;
+        most.each -= answer.work;
         if (done && answer.complete)
             note_bound(c, water, answer.bound);
         /* one that was found is the best there is, or one covers more than what was found */
@@ -244,7 +247,7 @@ static bool take_turn(certifying *c, size_t i, effort most, double *work, sp_err
         if (!like->water || like->had_turn || !is_like(c, k, i, WATER_NEAR))
             continue;
         like->had_turn = is_like(c, k, i, WATER_LIKE);
-        if (open_at(c, k) > OPEN_LEAST && !look_at(c, like->water, like->found, OPEN_LEAST, most.each, work, error))
+        if (open_at(c, k) > OPEN_LEAST && !look_at(c, like->water, like->found, OPEN_LEAST, most, work, error))
             return false;
     }
     c->points[i].had_turn = true;
@@ -277,10 +280,8 @@ static bool raise_water(certifying *c, double area, size_t most, effort effort, 
         work += WORK_BEGIN * (double)(effort.rounds * c->problem.line.count);
         if (!price_for(c, higher, 0, effort.rounds, error) ||
             (c->bound.complete && c->bound.by_water[higher] >= area &&
-             !look_at(c, higher, area * (1 - LESS), 0, effort.each, &work, error)))
+             !look_at(c, higher, area * (1 - LESS), 0, effort, &work, error)))
             return false;
-        if (getenv("SP_V"))
-            fprintf(stderr, "water %.2f tried %.2f now %.2f\n", 6e4 * (double)water * c->problem.units.unit, 6e4 * (double)higher * c->problem.units.unit, 6e4 * (double)sp_bound_water(&c->bound, area) * c->problem.units.unit);
         step *= sp_bound_water(&c->bound, area) > higher ? 1 : 0.5;
     }
     return true;
@@ -297,7 +298,8 @@ static bool prove(certifying *c, size_t water, double area, sp_error *error)
                 lower_water(c, area, water, ROUNDS_PROVING, ROUNDS_WATER_PROVING, error);
     c->bound.iterations = iterations;
     c->bound.tolerance = tolerance;
-    effort most = {WORK_PROVING, WORK_MORE * WORK_POINT * (double)c->problem.line.count, ROUNDS_POINT};
+    effort most = {WORK_PROVING, WORK_MORE * WORK_POINT * (double)c->problem.line.count, ROUNDS_POINT,
+                   CANDIDATES_PROVING};
     for (int pass = 0; done && pass < PASSES_PROVING; pass++, most.each *= WORK_MORE)
         done = lower_front(c, most, error) && raise_water(c, area, water, most, error);
     return done;
@@ -307,7 +309,7 @@ static bool prove(certifying *c, size_t water, double area, sp_error *error)
 static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
 {
     double left = sp_watch_left(c->watch), candidates = (double)c->problem.line.count;
-    const effort most = {WORK_LEAST + WORK_EACH * candidates, WORK_POINT * candidates, 1};
+    const effort most = {WORK_LEAST + WORK_EACH * candidates, WORK_POINT * candidates, 1, CANDIDATES};
     for (size_t round = 0; round < ROUNDS_EXPLORING && has_time(c, 0.02 * (double)round); round++)
         if (sp_watch_left(c->watch) < left * (1 - EXPLORING_MOST))
             break;
@@ -315,8 +317,7 @@ static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
             return false;
     return sp_bound_lower(&c->bound, water, error) && sp_bound_lower_single(&c->bound, error) &&
            lower(c, water, ROUNDS_FIRST - 1, 0.1, error) &&
-           lower_water(c, area, water, TRIALS_WATER, ROUNDS_WATER, error) &&
-           lower_front(c, most, error);
+           lower_water(c, area, water, TRIALS_WATER, ROUNDS_WATER, error) && lower_front(c, most, error);
 }
 
 /* Notes the bounds of the candidates. */

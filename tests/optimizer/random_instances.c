@@ -203,9 +203,10 @@ static double measure(effort e, bool single, double plenty)
     for (size_t round = 0; round < e.rounds; round++)
         assert_true(sp_bound_lower(&bound, WATER, &error));
     double area = bound.by_water[WATER], bounded = seconds();
-    print_message("%zu candidates, %zu texels, %s, plenty %g: found %.4f in %.1f s; bound %.4f in %.1f s, gap %.2f %%\n",
-                  e.candidates, e.edge * e.edge, single ? "single" : "sum", plenty, found, searched - start, area,
-                  bounded - searched, 100 * (1 - found / area));
+    print_message(
+        "%zu candidates, %zu texels, %s, plenty %g: found %.4f in %.1f s; bound %.4f in %.1f s, gap %.2f %%\n",
+        e.candidates, e.edge * e.edge, single ? "single" : "sum", plenty, found, searched - start, area,
+        bounded - searched, 100 * (1 - found / area));
     assert_true(area >= found);
     sp_bound_free(&bound);
     instance_free(&in);
