@@ -643,7 +643,8 @@ static int by_items(const void *a, const void *b)
 static bool check(sp_tuples *o, brought *kept, double *most, sp_error *error)
 {
     const tuple *last = NULL;
-    qsort(o->found, o->found_count, sizeof *o->found, by_items);
+    if (o->found_count)
+        qsort(o->found, o->found_count, sizeof *o->found, by_items);
     for (size_t i = 0; i < o->found_count && sp_cover_goes_on(o->cover); i++) {
         const tuple *now = &o->found[i];
         size_t same = 0;

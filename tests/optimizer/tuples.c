@@ -98,7 +98,8 @@ static double best_of(const instance *in, size_t water)
     return b.best;
 }
 
-/* Prices that hold, good or not: none, those that a bound was proved with, or any at all. */
+/* Prices that hold, good or not: none, those that a bound was proved with, or any at all; or that hold for one nozzle
+ * alone, and are of no use. */
 static void set_prices(instance *in, int way, size_t water, sp_lifts *lifts, sp_prices *u, uint64_t *random)
 {
     sp_error error = {0};
@@ -114,6 +115,13 @@ static void set_prices(instance *in, int way, size_t water, sp_lifts *lifts, sp_
         *lifts = bound.lifts;
         u->lifts = u->lifts ? lifts : NULL;
         sp_bound_free(&bound);
+    }
+    sp_lifts_create(1, lifts);
+    u->lifts = way == 3 ? lifts : NULL;
+    for (size_t t = 0; way == 3 && t < in->cover.texel_count; t++) {
+        u->plain[t] = 0;
+        u->lifted[t] = in->area[t];
+        u->kind[t] = SP_LIFT_ALL_OR_NOTHING;
     }
     if (way == 2) {
         sp_lifts_create(in->cover.nozzles, lifts);
@@ -189,7 +197,7 @@ static void no_layout_covers_more(void **state)
         if (i % 6 == 5)
             in.cover.repeats = false;
         water -= i % 8 == 7 ? 14 : 0;
-        set_prices(&in, (int)(i / 2 % 3), water, &lifts, &u, &random);
+        set_prices(&in, (int)(i / 2 % 4), water, &lifts, &u, &random);
         check(&in, water, &u, &random);
         sp_prices_free(&u);
         instance_free(&in);
