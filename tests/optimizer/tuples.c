@@ -107,6 +107,15 @@ static void set_prices(instance *in, int way, size_t water, sp_lifts *lifts, sp_
     sp_pricer pricer = stored_pricer(&s);
     sp_bound bound;
     assert_true(sp_prices_create(&in->cover, u, &error));
+    if (way == 3) {
+        sp_lifts_create(1, lifts);
+        u->lifts = lifts;
+        for (size_t t = 0; t < in->cover.texel_count; t++) {
+            u->plain[t] = 0;
+            u->lifted[t] = in->area[t];
+            u->kind[t] = SP_LIFT_ALL_OR_NOTHING;
+        }
+    }
     if (way == 1) {
         assert_true(sp_bound_create(&in->cover, &pricer, &bound, &error));
         for (int round = 0; round < 4; round++)
@@ -115,13 +124,6 @@ static void set_prices(instance *in, int way, size_t water, sp_lifts *lifts, sp_
         *lifts = bound.lifts;
         u->lifts = u->lifts ? lifts : NULL;
         sp_bound_free(&bound);
-    }
-    sp_lifts_create(1, lifts);
-    u->lifts = way == 3 ? lifts : NULL;
-    for (size_t t = 0; way == 3 && t < in->cover.texel_count; t++) {
-        u->plain[t] = 0;
-        u->lifted[t] = in->area[t];
-        u->kind[t] = SP_LIFT_ALL_OR_NOTHING;
     }
     if (way == 2) {
         sp_lifts_create(in->cover.nozzles, lifts);
