@@ -14,10 +14,11 @@
 #define TRIALS_WATER 2       /* such waters */
 #define STEP_WATER 0.4       /* of the way to the proposal's water, for the first of them */
 #define WORK_LEAST 3e9       /* at the front's points, in words of sp_tuples */
-#define WORK_EACH 1e4        /* the same, besides, for every candidate */
+#define WORK_EACH 1.5e4      /* the same, besides, for every candidate */
 #define WORK_BEGIN 3e3       /* that a solve and a pricing of all take, for every candidate */
 #define WORK_LOOK 4e2        /* that it takes to find the candidates of a point, the same */
-#define WORK_POINT 2e3       /* that a point may take at first, for every candidate */
+#define WORK_POINT_LEAST 3e8 /* that a point may take at first */
+#define WORK_POINT 2e3       /* the same, besides, for every candidate */
 #define WORK_STEP 5          /* times what a target took the next one is likely to take */
 #define CANDIDATES_FIRST 800 /* that layouts are made of one by one, at first */
 #define CANDIDATES_STEP 4    /* times as many then */
@@ -157,7 +158,8 @@ static bool is_like(const certifying *c, size_t i, size_t other, double times)
     return water <= most && most < times * water;
 }
 
-/* The point whose like, it among them, have most open together that had no turn; point_count where none has any. */
+/* The point whose like, it among them, have most open together, for their water, that had no turn: the fewer nozzles,
+ * the more a turn says. point_count where none has any. */
 static size_t next_point(const certifying *c)
 {
     size_t found = c->point_count;
@@ -168,7 +170,7 @@ static size_t next_point(const certifying *c)
             continue;
         for (size_t k = 0; k < c->point_count; k++)
             if (is_like(c, k, i, WATER_NEAR) && !c->points[k].had_turn && open_at(c, k) > OPEN_LEAST)
-                open += open_at(c, k);
+                open += open_at(c, k) / (double)c->points[k].water;
         if (open > most) {
             found = i;
             most = open;
@@ -287,6 +289,12 @@ static bool raise_water(certifying *c, double area, size_t most, effort effort, 
     return true;
 }
 
+/* What a point may take at first. */
+static double work_at_point(const certifying *c)
+{
+    return WORK_POINT_LEAST + WORK_POINT * (double)c->problem.line.count;
+}
+
 /* The bounds at the proposal once more, more carefully, then the front's. */
 static bool prove(certifying *c, size_t water, double area, sp_error *error)
 {
@@ -298,8 +306,7 @@ static bool prove(certifying *c, size_t water, double area, sp_error *error)
                 lower_water(c, area, water, ROUNDS_PROVING, ROUNDS_WATER_PROVING, error);
     c->bound.iterations = iterations;
     c->bound.tolerance = tolerance;
-    effort most = {WORK_PROVING, WORK_MORE * WORK_POINT * (double)c->problem.line.count, ROUNDS_POINT,
-                   CANDIDATES_PROVING};
+    effort most = {WORK_PROVING, WORK_MORE * work_at_point(c), ROUNDS_POINT, CANDIDATES_PROVING};
     for (int pass = 0; done && pass < PASSES_PROVING; pass++, most.each *= WORK_MORE)
         done = lower_front(c, most, error) && raise_water(c, area, water, most, error);
     return done;
@@ -309,7 +316,7 @@ static bool prove(certifying *c, size_t water, double area, sp_error *error)
 static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
 {
     double left = sp_watch_left(c->watch), candidates = (double)c->problem.line.count;
-    const effort most = {WORK_LEAST + WORK_EACH * candidates, WORK_POINT * candidates, 1, CANDIDATES};
+    const effort most = {WORK_LEAST + WORK_EACH * candidates, work_at_point(c), 1, CANDIDATES};
     for (size_t round = 0; round < ROUNDS_EXPLORING && has_time(c, 0.02 * (double)round); round++)
         if (sp_watch_left(c->watch) < left * (1 - EXPLORING_MOST))
             break;
