@@ -158,8 +158,8 @@ static bool is_like(const certifying *c, size_t i, size_t other, double times)
     return water <= most && most < times * water;
 }
 
-/* The point whose like, it among them, have most open together, for their water, that had no turn: the fewer nozzles,
- * the more a turn says. point_count where none has any. */
+/* The point whose like, it among them, have most open together, for their water squared, that had no turn: the fewer
+ * nozzles, the more a turn says. point_count where none has any. */
 static size_t next_point(const certifying *c)
 {
     size_t found = c->point_count;
@@ -170,7 +170,7 @@ static size_t next_point(const certifying *c)
             continue;
         for (size_t k = 0; k < c->point_count; k++)
             if (is_like(c, k, i, WATER_NEAR) && !c->points[k].had_turn && open_at(c, k) > OPEN_LEAST)
-                open += open_at(c, k) / (double)c->points[k].water;
+                open += open_at(c, k) / pow((double)c->points[k].water, 2);
         if (open > most) {
             found = i;
             most = open;
