@@ -16,7 +16,8 @@
 #define SWEPT_MORE 1e-5f   /* more than single precision puts a swept share, or flux, wrong */
 #define PART_MORE 5e-5f    /* more than single precision puts a share at an edge wrong */
 #define ROWS_AT_A_TIME 300
-#define TOLD_LEAST 0.5 /* of what a pose must be worth to matter: below this an upper bound is enough to be shut out */
+#define TOLD_LEAST 0.5 /* of what a pose must be worth to matter: below this an upper bound is enough to be shut out   \
+                        */
 #define STRIDE 7       /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
 
 /* The pose of highest price of a site and make. */
