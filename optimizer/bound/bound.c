@@ -19,9 +19,8 @@ bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *b
         return false;
     }
     bound->by_water = malloc((cover->water + 1) * sizeof *bound->by_water);
-    bound->by_nozzles = malloc((cover->nozzles + 1) * sizeof *bound->by_nozzles);
     bound->needed = malloc(cover->tier_count * sizeof *bound->needed);
-    bool done = (bound->by_water && bound->by_nozzles && bound->needed) || sp_fail_memory(error);
+    bool done = (bound->by_water && bound->needed) || sp_fail_memory(error);
     if (!done || !sp_knapsack_create(cover->nozzles, cover->water, &bound->knapsack, error)) {
         sp_bound_free(bound);
         return false;
@@ -34,8 +33,6 @@ bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *b
         whole += (double)cover->area[t];
     for (size_t w = 0; w <= cover->water; w++)
         bound->by_water[w] = (w < bound->lightest ? cover->base : whole) * (1 + 1e-11);
-    for (size_t n = 0; n <= cover->nozzles; n++)
-        bound->by_nozzles[n] = (n ? whole : cover->base) * (1 + 1e-11);
     return true;
 }
 
@@ -45,7 +42,6 @@ void sp_bound_free(sp_bound *bound)
     sp_dual_free(&bound->dual);
     sp_offers_free(&bound->offers);
     free(bound->by_water);
-    free(bound->by_nozzles);
     free(bound->needed);
     sp_knapsack_free(&bound->knapsack);
     *bound = (sp_bound){0};
@@ -101,8 +97,6 @@ static bool prove(sp_bound *bound, size_t water, sp_error *error)
     size_t nozzles = bound->dual.price.lifts ? bound->lifts.nozzles : cover->nozzles;
     for (size_t w = 0; w < row && (nozzles == cover->nozzles || w / bound->lightest <= nozzles); w++)
         bound->by_water[w] = fmin(bound->by_water[w], rest + sp_knapsack_value(&bound->knapsack, cover->nozzles, w));
-    for (size_t n = 0; n <= nozzles; n++)
-        bound->by_nozzles[n] = fmin(bound->by_nozzles[n], rest + sp_knapsack_value(&bound->knapsack, n, cover->water));
     bound->proved = rest + sp_knapsack_value(&bound->knapsack, cover->nozzles, water);
     sp_bound_settle(bound);
     return true;
@@ -200,13 +194,5 @@ size_t sp_bound_water(const sp_bound *bound, double area)
     for (size_t w = 0; w <= bound->cover->water; w++)
         if (bound->by_water[w] >= area)
             return w;
-    return SIZE_MAX;
-}
-
-size_t sp_bound_nozzles(const sp_bound *bound, double area)
-{
-    for (size_t n = 0; n <= bound->cover->nozzles; n++)
-        if (bound->by_nozzles[n] >= area)
-            return n;
     return SIZE_MAX;
 }

@@ -21,8 +21,7 @@ typedef struct {
     const sp_pricer *pricer;
     sp_rows rows; /* the few; a caller may put some in at the start */
     sp_dual dual;
-    double *by_water;   /* [cover->water + 1], with all the nozzles; never falls */
-    double *by_nozzles; /* [cover->nozzles + 1], with all the water */
+    double *by_water; /* [cover->water + 1], with all the nozzles; never falls */
     double *needed;
     sp_knapsack knapsack;
     sp_offers offers;
@@ -51,14 +50,5 @@ void sp_bound_settle(sp_bound *bound);
 bool sp_bound_lower_single(sp_bound *bound, sp_error *error);
 /* The least water with which the bound does not rule out that `area` (m²) is covered; SIZE_MAX where it always does. */
 size_t sp_bound_water(const sp_bound *bound, double area);
-size_t sp_bound_nozzles(const sp_bound *bound, double area);
-
-/* Candidates that all lie in memory, as an sp_pricer. */
-typedef struct {
-    const sp_cover *cover;
-    const sp_rows *rows;
-    size_t most; /* rows to hand out at a time */
-} sp_stored;
-sp_pricer sp_stored_pricer(sp_stored *stored);
 
 #endif

@@ -74,8 +74,7 @@ bool sp_dual_iterate(sp_dual *dual, const sp_rows *rows, const sp_dual_task *tas
         if (i % LOOK == 0 && (sp_hybrid_look(&h, i) || !sp_cover_goes_on(dual->cover)))
             break;
     }
-    if (!task->slot_count)
-        memcpy(dual->dual_resource, h.dual_resource, h.resources * sizeof *h.dual_resource);
+    memcpy(dual->dual_resource, h.dual_resource, h.resources * sizeof *h.dual_resource);
     sp_hybrid_free(&h);
     return true;
 }

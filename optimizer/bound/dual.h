@@ -17,7 +17,7 @@ typedef struct {
     double *choice;        /* [rows], fraction of each row in the average of the last solve */
     sp_prices u;           /* where the iterations stand */
     double *x;             /* [rows] */
-    double *dual_resource; /* [2 + ports], of water, number and ports; begins anew in a solve with slots */
+    double *dual_resource; /* [2 + ports], of water, number and ports */
     double weight;         /* primal weight: steps in price over steps in choice */
 } sp_dual;
 
@@ -30,20 +30,14 @@ static inline double sp_dual_choice(const sp_dual *dual, size_t row)
 bool sp_dual_create(const sp_cover *cover, sp_dual *dual, sp_error *error);
 void sp_dual_free(sp_dual *dual);
 
-#define SP_NO_SLOT UINT32_MAX
-#define SP_SHUT_OUT (UINT32_MAX - 1)
-
 /* What a solve is about. */
 typedef struct {
-    size_t nozzles, water; /* at most, of rows in no slot; no more than the cover's */
-    size_t slot_count;
-    const uint32_t *slot_room; /* [slot_count], of how many rows of the slot may be chosen, besides */
-    const uint32_t *slot_of;   /* [rows], SP_NO_SLOT, or SP_SHUT_OUT: may not be chosen; NULL: all in no slot */
-    size_t iterations;         /* at most */
-    double tolerance;          /* ends where bound and linear program are this near, as a share of the bound */
-    const sp_lifts *lifts;     /* for as many nozzles at least, or NULL */
-    size_t coarse;             /* iterations on groups of texels, at most, before these */
-    const float *lifted;       /* [rows->used], the shares lifted; NULL: as lifts and kinds make them */
+    size_t nozzles, water; /* at most, above 0; no more than the cover's */
+    size_t iterations;     /* at most */
+    double tolerance;      /* ends where bound and linear program are this near, as a share of the bound */
+    const sp_lifts *lifts; /* for as many nozzles at least, or NULL */
+    size_t coarse;         /* iterations on groups of texels, at most, before these */
+    const float *lifted;   /* [rows->used], the shares lifted; NULL: as lifts and kinds make them */
 } sp_dual_task;
 
 /* Goes on from where the last solve ended; rows that are new since then start at 0. Primal-dual hybrid gradient with

@@ -20,7 +20,7 @@ static bool allocate(sp_hybrid *h, sp_error *error)
 {
     const sp_cover *cover = h->dual->cover;
     size_t rows = h->rows->count, texels = cover->texel_count;
-    h->resources = 2 + cover->port_count + h->task->slot_count;
+    h->resources = 2 + cover->port_count;
     h->tau = calloc(6 * rows + 6 * texels + 6 * h->resources + 1, sizeof *h->tau);
     h->cover = calloc(2 * texels + 1, sizeof *h->cover);
     if (!h->tau || !h->cover)
@@ -40,7 +40,6 @@ static bool allocate(sp_hybrid *h, sp_error *error)
     h->use = h->load + h->resources;
     h->resource_sum = h->use + h->resources;
     h->dual_resource = h->resource_sum + h->resources;
-    h->slot_best = h->dual_resource + h->resources;
     return sp_offers_create(cover->tier_count, cover->weight, cover->port_count, h->task->nozzles + 1, cover->repeats,
                             &h->offers, error) &&
            sp_prices_create(cover, &h->u_last, error) && sp_prices_create(cover, &h->u_mean, error);
@@ -69,22 +68,10 @@ static bool lift_rows(sp_hybrid *h, sp_error *error)
     return true;
 }
 
-/* Nozzles that all limits together let in. */
-static double nozzles_of(const sp_hybrid *h)
-{
-    double nozzles = (double)h->task->nozzles;
-    for (size_t i = 0; i < h->task->slot_count; i++)
-        nozzles += (double)h->task->slot_room[i];
-    return nozzles;
-}
-
 sp_takes sp_hybrid_takes(const sp_hybrid *h, size_t row)
 {
     const sp_cover *cover = h->dual->cover;
-    uint32_t slot = sp_hybrid_slot(h, row);
-    double one = h->scale / nozzles_of(h);
-    if (slot != SP_NO_SLOT)
-        return (sp_takes){1, {2 + cover->port_count + slot}, {one}};
+    double one = h->scale / (double)h->task->nozzles;
     sp_takes takes = {2, {0, 1}, {h->scale * cover->weight[h->rows->tier[row]] / (double)h->task->water, one}};
     if (h->rows->port[row] != SP_NO_PORT) {
         takes.resource[2] = 2 + h->rows->port[row];
@@ -96,21 +83,13 @@ sp_takes sp_hybrid_takes(const sp_hybrid *h, size_t row)
 
 double sp_hybrid_limit(const sp_hybrid *h, size_t resource)
 {
-    size_t ports = h->dual->cover->port_count;
-    double one = h->scale / nozzles_of(h);
-    if (resource == 0)
-        return h->scale;
-    if (resource == 1)
-        return one * (double)h->task->nozzles;
-    return resource < 2 + ports ? one : one * (double)h->task->slot_room[resource - 2 - ports];
+    return resource < 2 ? h->scale : h->scale / (double)h->task->nozzles;
 }
 
 static bool can_choose(const sp_hybrid *h, size_t row)
 {
-    uint32_t slot = sp_hybrid_slot(h, row);
-    if (slot == SP_SHUT_OUT || h->rows->start[row + 1] == h->rows->start[row])
-        return false;
-    return slot != SP_NO_SLOT || (h->task->nozzles && h->dual->cover->weight[h->rows->tier[row]] <= h->task->water);
+    return h->rows->start[row + 1] > h->rows->start[row] &&
+           h->dual->cover->weight[h->rows->tier[row]] <= h->task->water;
 }
 
 /* Sums of columns, into tau, and of the texels' rows, into sigma. */
@@ -147,7 +126,7 @@ static void set_steps(sp_hybrid *h)
 {
     double mean;
     add_shares(h, &mean);
-    h->scale = mean > 0 ? 0.5 * mean * nozzles_of(h) : 1;
+    h->scale = mean > 0 ? 0.5 * mean * (double)h->task->nozzles : 1;
     for (size_t r = 0; r < h->resources; r++)
         h->load[r] = 0;
     for (size_t c = 0; c < h->rows->count; c++) {
@@ -179,8 +158,7 @@ bool sp_hybrid_create(sp_dual *dual, const sp_rows *rows, const sp_dual_task *ta
         h->u_start[t] = (double)dual->u.plain[t];
         h->u_start[dual->texels + t] = (double)dual->u.lifted[t];
     }
-    if (!task->slot_count)
-        memcpy(h->dual_resource, dual->dual_resource, h->resources * sizeof *h->dual_resource);
+    memcpy(h->dual_resource, dual->dual_resource, h->resources * sizeof *h->dual_resource);
     set_steps(h);
     return true;
 }

@@ -4,7 +4,7 @@
 
 #include "bound/dual.h"
 
-/* Everything that a run needs. Resources: water, number, ports, slots. */
+/* Everything that a run needs. Resources: water, number, ports. */
 typedef struct {
     sp_dual *dual;
     const sp_rows *rows;
@@ -21,7 +21,6 @@ typedef struct {
     float *cover; /* [2 texels], Σ share x */
     double *x_start, *u_start;
     sp_knapsack knapsack;
-    double *slot_best; /* [slots] */
     sp_offers offers;
     double scale; /* of the resource rows, so that their steps keep up with the texels' */
     size_t resources, since;
@@ -35,11 +34,6 @@ void sp_hybrid_step(sp_hybrid *h);
 /* Looks at where the steps stand and at their average, and notes in the dual what is best; true where bound and linear
  * program are near enough. */
 bool sp_hybrid_look(sp_hybrid *h, size_t iteration);
-
-static inline uint32_t sp_hybrid_slot(const sp_hybrid *h, size_t row)
-{
-    return h->task->slot_of ? h->task->slot_of[row] : SP_NO_SLOT;
-}
 
 /* What one unit of a row takes: of how many resources, which, and how much. */
 typedef struct {

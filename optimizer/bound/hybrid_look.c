@@ -9,27 +9,13 @@
 /* The bound of prices u at which the rows are worth `price` / `over`. */
 static double bound_of(sp_hybrid *h, const sp_prices *u, const double *price, double over)
 {
-    const sp_dual_task *task = h->task;
     sp_offers_clear(&h->offers);
-    for (size_t i = 0; i < task->slot_count; i++)
-        h->slot_best[i] = 0;
-    for (size_t c = 0; c < h->rows->count; c++) {
-        uint32_t slot = task->slot_of ? task->slot_of[c] : SP_NO_SLOT;
-        if (!(h->tau[c] > 0 && price[c] > 0))
-            continue;
-        if (slot == SP_NO_SLOT)
+    for (size_t c = 0; c < h->rows->count; c++)
+        if (h->tau[c] > 0 && price[c] > 0)
             sp_offers_add(&h->offers, h->rows->port[c], h->rows->tier[c], price[c] / over);
-        else
-            h->slot_best[slot] = fmax(h->slot_best[slot], price[c] / over);
-    }
-    double bound = h->dual->cover->base + sp_cover_rest(h->dual->cover, u);
-    for (size_t i = 0; i < task->slot_count; i++)
-        bound += task->slot_room[i] * h->slot_best[i];
-    if (task->nozzles) {
-        sp_knapsack_fill(&h->knapsack, &h->offers, task->water);
-        bound += sp_knapsack_value(&h->knapsack, task->nozzles, task->water);
-    }
-    return bound;
+    sp_knapsack_fill(&h->knapsack, &h->offers, h->task->water);
+    return h->dual->cover->base + sp_cover_rest(h->dual->cover, u) +
+           sp_knapsack_value(&h->knapsack, h->task->nozzles, h->task->water);
 }
 
 /* What fractions x / over cover once brought within the limits. */

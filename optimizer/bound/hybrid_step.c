@@ -105,10 +105,8 @@ static void step_texel(sp_hybrid *h, size_t t)
 
 static double most_of(const sp_hybrid *h, size_t row)
 {
-    uint32_t slot = sp_hybrid_slot(h, row);
-    if (!h->dual->cover->repeats || (slot == SP_NO_SLOT && h->rows->port[row] != SP_NO_PORT))
-        return 1;
-    return slot == SP_NO_SLOT ? (double)h->task->nozzles : (double)h->task->slot_room[slot];
+    bool once = !h->dual->cover->repeats || h->rows->port[row] != SP_NO_PORT;
+    return once ? 1 : (double)h->task->nozzles;
 }
 
 static void step_rows(sp_hybrid *h)

@@ -1,56 +1,76 @@
 #include "certificate/certificate.h"
 
-#include "bound/branch.h"
+#include "bound/tuples.h"
 #include "certificate/aim_bound.h"
 #include "certificate/problem.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define ROUNDS_EXPLORING 4 /* of looking at some of the poses first */
-#define EXPLORING_MOST 0.2 /* of the time left, for those */
-#define ROUNDS_FIRST 2     /* of pricing all poses, at the proposal's water */
-#define ROUNDS_WATER 1     /* at a water that may be too little for the proposal's coverage */
-#define TRIALS_WATER 2     /* such waters */
-#define STEP_WATER 0.4     /* of the way to the proposal's water, for the first of them */
-#define WORK_LEAST 3e5     /* of branch and bound at the front's points, see sp_tree */
-#define WORK_EACH 6        /* the same, besides, in pricings of all candidates */
-#define WORK_PROVING 1e10  /* with --prove, where no time limit ends it */
-#define WATER_LIKE 1.7     /* times more or less water still counts as about as much */
-#define WATER_SAME 1.1     /* the same, and need not be priced for again */
-#define WATER_NEAR 1.2     /* the same, of prices that are good for both */
-#define WORK_FIRST 1.5     /* of a point, in pricings of all candidates */
-#define ALIVE_FEW 0.5      /* of all candidates: fewer are alive than it takes to price all again */
-#define WORK_PAST 1.0      /* what a point has taken counts so much, beside what its next step takes */
-#define ROUNDS_LIFTED 3    /* at least, so that the lifts have settled */
-#define ROUNDS_PROVING 2   /* with --prove, at the proposal's water, and trials of water */
+#define ROUNDS_EXPLORING 4   /* of looking at some of the poses first */
+#define EXPLORING_MOST 0.2   /* of the time left, for those */
+#define ROUNDS_FIRST 2       /* of pricing all poses, at the proposal's water */
+#define ROUNDS_WATER 1       /* at a water that may be too little for the proposal's coverage */
+#define TRIALS_WATER 2       /* such waters */
+#define STEP_WATER 0.4       /* of the way to the proposal's water, for the first of them */
+#define WORK_LEAST 3e9       /* at the front's points, in words of sp_tuples */
+#define WORK_EACH 1.5e4      /* the same, besides, for every candidate */
+#define WORK_BEGIN 3e3       /* that a solve and a pricing of all take, for every candidate */
+#define WORK_LOOK 4e2        /* that it takes to find the candidates of a point, the same */
+#define WORK_POINT_LEAST 3e8 /* that a point may take at first */
+#define WORK_POINT 2e3       /* the same, besides, for every candidate */
+#define WORK_STEP 5          /* times what a target took the next one is likely to take */
+#define CANDIDATES_FIRST 800 /* that layouts are made of one by one, at first */
+#define CANDIDATES_STEP 4    /* times as many then */
+#define CANDIDATES 12800     /* most that come into question for it */
+#define WATER_NEAR 1.25      /* times less water is so near that the same prices say something */
+#define WATER_LIKE 1.1       /* the same, and need not be priced for again */
+#define ROUNDS_LIFTED 3      /* at least, so that the lifts have settled */
+/* with --prove: */
+#define ROUNDS_PROVING 2 /* at the proposal's water, and trials of water */
 #define ROUNDS_WATER_PROVING 1
 #define ITERATIONS_PROVING 500
 #define TOLERANCE_PROVING 2e-5
+#define WORK_PROVING 2e12 /* of a pass over the front, or of raising the least water, where no time limit ends it */
+#define PASSES_PROVING 2
+#define WORK_MORE 8              /* times as much for a point as in the pass before */
+#define ROUNDS_POINT 3           /* for a point */
+#define CANDIDATES_PROVING 51200 /* most that come into question for it */
+#define STEP_RAISED 0.1 /* of the way to the proposal's water, that the least is sought to be raised by at first */
+#define STEP_LEAST 0.02 /* and at last */
+#define LESS 1e-9       /* of an area, that is as much */
+/* of all: */
 #define OPEN_WIDE 0.04        /* gap of a point, above which groups of texels see enough of it */
 #define ITERATIONS_COARSE 400 /* on these */
 #define ITERATIONS_FINE 50    /* after them */
 #define OPEN_LEAST 1e-3       /* gap of a point of the front that is worth a turn */
 
+/* A layout of the front, or the proposal. */
+typedef struct {
+    size_t water;  /* units that it may take */
+    double found;  /* m² that a layout found with no more water covers */
+    bool had_turn; /* in this pass */
+} point;
+
+/* What may be done, in words of sp_tuples: in all, and one by one at a point; and for it pricings of all, and
+ * candidates that its layouts are made of. */
+typedef struct {
+    double work, each;
+    size_t rounds, candidates;
+} effort;
+
 typedef struct {
     sp_problem problem;
     sp_watch *watch;
     sp_bound bound;
-    sp_branching branching;
-    sp_tree *trees; /* [front->by_water.count + 1], by points, then the proposal's; empty where it takes no water */
-    bool *begun;    /* the same, whether all candidates were priced for it */
-    double *found;  /* the same, m² that a layout found with no more water covers */
-    double done;    /* how far it all is, 0 to 1 */
+    size_t point_count;
+    point *points;
+    double done; /* how far it all is, 0 to 1 */
 } certifying;
 
 static void certifying_free(certifying *c)
 {
-    for (size_t i = 0; c->trees && i <= c->problem.front->by_water.count; i++)
-        sp_tree_free(&c->trees[i]);
-    free(c->trees);
-    free(c->found);
-    free(c->begun);
-    sp_branching_free(&c->branching);
+    free(c->points);
     sp_bound_free(&c->bound);
     sp_problem_free(&c->problem);
 }
@@ -72,32 +92,21 @@ static double found_within(const certifying *c, size_t water)
     return most;
 }
 
-/* One for every point of the front and the proposal, where water for a nozzle is. */
-static bool plant_trees(certifying *c, sp_error *error)
-{
-    for (size_t i = 0; i <= c->problem.front->by_water.count; i++) {
-        size_t water = sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->outlay);
-        c->found[i] = found_within(c, water);
-        if (water && !sp_tree_create(&c->branching, water, c->bound.by_water[water], c->found[i], &c->trees[i], error))
-            return false;
-    }
-    return true;
-}
-
 static bool prepare(certifying *c, sp_error *error)
 {
     sp_problem *problem = &c->problem;
-    size_t count = problem->front->by_water.count + 1;
     problem->cover.goes_on = goes_on;
     problem->cover.user = c;
-    c->trees = calloc(count, sizeof *c->trees);
-    c->found = malloc(count * sizeof *c->found);
-    c->begun = calloc(count, sizeof *c->begun);
-    if (!c->trees || !c->found || !c->begun)
+    c->point_count = problem->front->by_water.count + 1;
+    c->points = calloc(c->point_count, sizeof *c->points);
+    if (!c->points)
         return sp_fail_memory(error);
+    for (size_t i = 0; i < c->point_count; i++) {
+        c->points[i].water = sp_problem_budget(problem, sp_front_draft(problem->front, i)->outlay);
+        c->points[i].found = found_within(c, c->points[i].water);
+    }
     return sp_bound_create(&problem->cover, &problem->pricer, &c->bound, error) &&
-           sp_rows_append(&c->bound.rows, &problem->nozzles, error) &&
-           sp_branching_create(&problem->cover, &problem->line, &c->branching, error) && plant_trees(c, error);
+           sp_rows_append(&c->bound.rows, &problem->nozzles, error);
 }
 
 static bool has_time(certifying *c, double done)
@@ -106,24 +115,11 @@ static bool has_time(certifying *c, double done)
     return goes_on(c);
 }
 
-/* Tells the trees of the prices that the bound was last proved with, those of about as much water: to others they say
- * little. */
-static bool tell_trees(certifying *c, size_t water, sp_error *error)
-{
-    for (size_t i = 0; i <= c->problem.front->by_water.count && c->bound.complete; i++)
-        if ((double)c->trees[i].water * WATER_LIKE > (double)water &&
-            (double)c->trees[i].water < WATER_LIKE * (double)water &&
-            !sp_tree_hear(&c->branching, &c->trees[i], &c->bound.dual.price, sp_pose_prices_last(c->problem.prices),
-                          error))
-            return false;
-    return true;
-}
-
 /* Lowers the bound at this water. `done`: how far the certificate is. */
 static bool lower(certifying *c, size_t water, size_t rounds, double done, sp_error *error)
 {
     for (size_t round = 0; round < rounds && has_time(c, done); round++) {
-        if (!sp_bound_lower(&c->bound, water, error) || !tell_trees(c, water, error))
+        if (!sp_bound_lower(&c->bound, water, error))
             return false;
         if (c->bound.closed && round >= ROUNDS_LIFTED)
             break;
@@ -149,107 +145,157 @@ static bool lower_water(certifying *c, double area, size_t most, size_t trials, 
     return true;
 }
 
-/* A point whose tree has not yet heard of prices that leave little alive is best begun with a pricing of all. */
-static bool begins_anew(const certifying *c, size_t i)
-{
-    const sp_tree *tree = &c->trees[i];
-    return !c->begun[i] && !(tree->next_work > 0 && tree->next_work < ALIVE_FEW * (double)c->problem.line.count);
-}
-
 /* What of the bound at a point nothing found comes up to. */
 static double open_at(const certifying *c, size_t i)
 {
-    return fmax(0,
-                1 - c->found[i] /
-                        c->bound.by_water[sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->outlay)]);
+    return fmax(0, 1 - c->points[i].found / c->bound.by_water[c->points[i].water]);
 }
 
-/* The same of all points of about as much water, which prices for one of them are good for. */
-static double open_about(const certifying *c, size_t i)
+/* True of a point of as much water as another, or so little less that prices for that one do. */
+static bool is_like(const certifying *c, size_t i, size_t other, double times)
 {
-    double open = 0, water = (double)c->trees[i].water;
-    for (size_t k = 0; k <= c->problem.front->by_water.count; k++) {
-        double other = (double)c->trees[k].water;
-        open += other < WATER_NEAR * water && water < WATER_NEAR * other ? open_at(c, k) : 0;
-    }
-    return open;
+    double water = (double)c->points[i].water, most = (double)c->points[other].water;
+    return water <= most && most < times * water;
 }
 
-/* Of the front's points and the proposal the one whose turn it is: the wider its gap and the less work
- * it takes and took, the sooner; front->by_water.count + 1 where none is left open. */
+/* The point whose like, it among them, have most open together, for their water squared, that had no turn: the fewer
+ * nozzles, the more a turn says. point_count where none has any. */
 static size_t next_point(const certifying *c)
 {
-    size_t found = c->problem.front->by_water.count + 1;
+    size_t found = c->point_count;
     double most = 0;
-    for (size_t i = 0; i <= c->problem.front->by_water.count; i++) {
-        const sp_tree *tree = &c->trees[i];
-        double open = open_at(c, i), score;
-        if (begins_anew(c, i))
-            score = open_about(c, i) / (WORK_FIRST * (double)c->problem.line.count + WORK_PAST * tree->work);
-        else
-            score = open / (tree->next_work + WORK_PAST * tree->work);
-        if (!sp_tree_closed(tree) && open > OPEN_LEAST && score > most) {
+    for (size_t i = 0; i < c->point_count; i++) {
+        double open = 0;
+        if (!c->points[i].water || c->points[i].had_turn || open_at(c, i) <= OPEN_LEAST)
+            continue;
+        for (size_t k = 0; k < c->point_count; k++)
+            if (is_like(c, k, i, WATER_NEAR) && !c->points[k].had_turn && open_at(c, k) > OPEN_LEAST)
+                open += open_at(c, k) / pow((double)c->points[k].water, 2);
+        if (open > most) {
             found = i;
-            most = score;
+            most = open;
         }
     }
     return found;
 }
 
-/* Prices all candidates, which all trees hear of. Where the gap is wide prices are sought on groups of texels first:
- * these get further in as much time, but do not see what a narrow gap is about. */
-static bool begin_tree(certifying *c, size_t i, sp_error *error)
+/* Prices all candidates for so much water, `open` of whose bound nothing found comes up to. Where that is wide prices
+ * are sought on groups of texels first: these get further in as much time, but do not see what a narrow gap is about.
+ */
+static bool price_for(certifying *c, size_t water, double open, size_t rounds, sp_error *error)
 {
-    size_t water = sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->outlay),
-           iterations = c->bound.iterations;
-    for (size_t k = 0; k <= c->problem.front->by_water.count; k++) {
-        double other = (double)c->trees[k].water;
-        c->begun[k] |= other < WATER_SAME * (double)water && (double)water < WATER_SAME * other;
-    }
-    c->trees[i].work += WORK_FIRST * (double)c->problem.line.count;
-    if (open_at(c, i) > OPEN_WIDE) {
+    size_t iterations = c->bound.iterations;
+    bool done = true;
+    if (open > OPEN_WIDE) {
         c->bound.coarse = ITERATIONS_COARSE;
         c->bound.iterations = ITERATIONS_FINE;
     }
-    bool done = sp_bound_lower(&c->bound, water, error);
+    for (size_t round = 0; done && round < rounds && has_time(c, c->done); round++)
+        done = sp_bound_lower(&c->bound, water, error);
     c->bound.coarse = 0;
     c->bound.iterations = iterations;
-    return done && tell_trees(c, water, error) && sp_branching_take(&c->branching, &c->bound.rows, error);
+    return done;
 }
 
-/* A turn at a point: after the first each is a step of its tree, which lowers all bounds up to its water. */
-static bool grow_tree(certifying *c, size_t i, sp_error *error)
+/* Lowers all bounds up to so much water. */
+static void note_bound(certifying *c, size_t water, double bound)
 {
-    sp_tree *tree = &c->trees[i];
-    if (begins_anew(c, i))
-        return begin_tree(c, i, error);
-    if (!sp_tree_step(&c->branching, tree, error))
-        return false;
-    double bound = sp_tree_bound(tree);
-    for (size_t w = 0; w <= tree->water; w++)
+    for (size_t w = 0; w <= water; w++)
         c->bound.by_water[w] = fmin(c->bound.by_water[w], bound);
     sp_bound_settle(&c->bound);
+}
+
+/* Looks at the layouts of so much water one by one, by the prices that the bound was last proved with, for those that
+ * cover more than `found`, as long as the bound is more than `least` (share) above it: for the lowest targets that a
+ * few candidates come up to, then more, while there is work left. */
+static bool look_at(certifying *c, size_t water, double found, double least, effort most, double *work, sp_error *error)
+{
+    const double *bound = &c->bound.by_water[water];
+    const sp_tuple_task task = {
+        water, found, *bound, most.candidates, &c->bound.dual.price, sp_pose_prices_last(c->problem.prices)};
+    sp_tuple_answer answer = {.complete = true, .bound = *bound};
+    sp_tuples *tuples = sp_tuples_create(&c->problem.cover, &c->problem.line, &task, error);
+    bool done = tuples != NULL, better = false;
+    *work += WORK_LOOK * (double)c->problem.line.count;
+    for (size_t count = CANDIDATES_FIRST;
+         done && answer.complete && !better && *bound > found * (1 + least) && count <= most.candidates &&
+         most.each > WORK_STEP * answer.work && has_time(c, c->done);
+         count *= CANDIDATES_STEP) {
+        double target = sp_tuples_target(tuples, count);
+        answer.work = 0;
+        if (!(target < *bound))
+            continue;
+        done = sp_tuples_bound(tuples, target, most.each, &answer, error);
+        *work += answer.work;
+        most.each -= answer.work;
+        if (done && answer.complete)
+            note_bound(c, water, answer.bound);
+        /* one that was found is the best there is, or one covers more than what was found */
+        better = answer.bound > target || target <= found;
+    }
+    sp_tuples_destroy(tuples);
+    return done;
+}
+
+/* A turn of a point and of those that are like it. */
+static bool take_turn(certifying *c, size_t i, effort most, double *work, sp_error *error)
+{
+    const point *own = &c->points[i];
+    *work += WORK_BEGIN * (double)(most.rounds * c->problem.line.count);
+    if (!price_for(c, own->water, open_at(c, i), most.rounds, error))
+        return false;
+    for (size_t k = 0; k < c->point_count && c->bound.complete; k++) {
+        point *like = &c->points[k];
+        if (!like->water || like->had_turn || !is_like(c, k, i, WATER_NEAR))
+            continue;
+        like->had_turn = is_like(c, k, i, WATER_LIKE);
+        if (open_at(c, k) > OPEN_LEAST && !look_at(c, like->water, like->found, OPEN_LEAST, most, work, error))
+            return false;
+    }
+    c->points[i].had_turn = true;
     return true;
 }
 
-/* Branch and bound at the points of the front in turn. */
-static bool lower_front(certifying *c, double work, sp_error *error)
+/* The points of the front in turn. */
+static bool lower_front(certifying *c, effort most, sp_error *error)
 {
-    if (!sp_branching_take(&c->branching, &c->bound.rows, error))
-        return false;
-    for (double done = 0; done < work;) {
-        size_t i = next_point(c);
-        if (i > c->problem.front->by_water.count || !has_time(c, 0.6 + 0.4 * done / work))
-            break;
-        double before = c->trees[i].work;
-        if (!grow_tree(c, i, error))
+    double work = 0;
+    for (size_t i = 0; i < c->point_count; i++)
+        c->points[i].had_turn = false;
+    for (size_t i; (i = next_point(c)) < c->point_count && work < most.work;)
+        if (!has_time(c, 0.6 + 0.4 * fmin(1, work / most.work)))
+            return true;
+        else if (!take_turn(c, i, most, &work, error))
             return false;
-        done += c->trees[i].work - before;
+    return true;
+}
+
+/* Raises the water below which nothing covers what the proposal does, step by step. */
+static bool raise_water(certifying *c, double area, size_t most, effort effort, sp_error *error)
+{
+    double work = 0, step = STEP_RAISED;
+    for (size_t water; step > STEP_LEAST && work < effort.work && has_time(c, c->done);) {
+        water = sp_bound_water(&c->bound, area);
+        if (!water || water >= most)
+            return true;
+        size_t higher = water + (size_t)ceil(step * (double)(most - water));
+        work += WORK_BEGIN * (double)(effort.rounds * c->problem.line.count);
+        if (!price_for(c, higher, 0, effort.rounds, error) ||
+            (c->bound.complete && c->bound.by_water[higher] >= area &&
+             !look_at(c, higher, area * (1 - LESS), 0, effort, &work, error)))
+            return false;
+        step *= sp_bound_water(&c->bound, area) > higher ? 1 : 0.5;
     }
     return true;
 }
 
-/* The bounds at the proposal once more, more carefully, then branch and bound. */
+/* What a point may take at first. */
+static double work_at_point(const certifying *c)
+{
+    return WORK_POINT_LEAST + WORK_POINT * (double)c->problem.line.count;
+}
+
+/* The bounds at the proposal once more, more carefully, then the front's. */
 static bool prove(certifying *c, size_t water, double area, sp_error *error)
 {
     size_t iterations = c->bound.iterations;
@@ -260,23 +306,25 @@ static bool prove(certifying *c, size_t water, double area, sp_error *error)
                 lower_water(c, area, water, ROUNDS_PROVING, ROUNDS_WATER_PROVING, error);
     c->bound.iterations = iterations;
     c->bound.tolerance = tolerance;
-    return done && lower_front(c, WORK_PROVING, error);
+    effort most = {WORK_PROVING, WORK_MORE * work_at_point(c), ROUNDS_POINT, CANDIDATES_PROVING};
+    for (int pass = 0; done && pass < PASSES_PROVING; pass++, most.each *= WORK_MORE)
+        done = lower_front(c, most, error) && raise_water(c, area, water, most, error);
+    return done;
 }
 
 /* What is proved without being asked for more: the proposal's water, one nozzle's, less water, then the front. */
 static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
 {
-    double left = sp_watch_left(c->watch);
+    double left = sp_watch_left(c->watch), candidates = (double)c->problem.line.count;
+    const effort most = {WORK_LEAST + WORK_EACH * candidates, work_at_point(c), 1, CANDIDATES};
     for (size_t round = 0; round < ROUNDS_EXPLORING && has_time(c, 0.02 * (double)round); round++)
         if (sp_watch_left(c->watch) < left * (1 - EXPLORING_MOST))
             break;
         else if (!sp_bound_explore(&c->bound, water, error))
             return false;
-    return sp_bound_lower(&c->bound, water, error) && tell_trees(c, water, error) &&
-           sp_bound_lower_single(&c->bound, error) && tell_trees(c, c->bound.lightest, error) &&
+    return sp_bound_lower(&c->bound, water, error) && sp_bound_lower_single(&c->bound, error) &&
            lower(c, water, ROUNDS_FIRST - 1, 0.1, error) &&
-           lower_water(c, area, water, TRIALS_WATER, ROUNDS_WATER, error) &&
-           lower_front(c, WORK_LEAST + WORK_EACH * (double)c->problem.line.count, error);
+           lower_water(c, area, water, TRIALS_WATER, ROUNDS_WATER, error) && lower_front(c, most, error);
 }
 
 /* Notes the bounds of the candidates. */

@@ -33,8 +33,6 @@ void sp_pose_order_free(sp_pose_order *order);
 size_t sp_pose_order_block(const sp_pose_order *order, size_t position);
 /* Which pose stands at a position of the block, of poses. */
 sp_pose sp_pose_order_at(const sp_pose_order *order, size_t block, size_t position);
-/* Where the range, of one kind and two positions at least, falls apart best: between makes, mounts, sites or axes. */
-size_t sp_pose_order_cut(const sp_pose_order *order, size_t first, size_t end);
 size_t sp_pose_order_position(const sp_pose_order *order, sp_pose pose);
 
 #endif

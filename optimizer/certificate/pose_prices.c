@@ -17,7 +17,8 @@
 #define SWEPT_MORE 1e-5f   /* more than single precision puts a swept share, or flux, wrong */
 #define PART_MORE 5e-5f    /* more than single precision puts a share at an edge wrong */
 #define ROWS_AT_A_TIME 300
-#define TOLD_LEAST 0.5 /* of what a pose must be worth to matter: below this trees need no more than an upper bound */
+#define TOLD_LEAST 0.5 /* of what a pose must be worth to matter: below this an upper bound is enough to be shut out   \
+                        */
 #define STRIDE 7       /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
 
 /* The pose of highest price of a site and make. */
@@ -552,17 +553,10 @@ static bool row_of_line(void *user, size_t position, sp_rows *rows, sp_error *er
                        own->share + own->start[row], own->start[row + 1] - own->start[row], error);
 }
 
-static size_t cut_line(void *user, size_t first, size_t end)
-{
-    const sp_pose_prices *prices = user;
-    return sp_pose_order_cut(prices->order, first, end);
-}
-
 bool sp_pose_line(sp_pose_prices *prices, const sp_pose_order *order, sp_line *line, sp_error *error)
 {
     *line = order->line;
     line->user = prices;
-    line->cut = cut_line;
     line->price = price_line;
     line->row = row_of_line;
     prices->order = order;

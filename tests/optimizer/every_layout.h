@@ -6,10 +6,10 @@
 
 #define EVERY_MOST 8 /* nozzles of a layout */
 
-/* The most that layouts cover: by water and by number, [water + 1] and [nozzles + 1]. */
+/* The most that layouts cover, by water: [water + 1]. */
 typedef struct {
     const instance *in;
-    double *by_water, *by_nozzles;
+    double *by_water;
     float *sum;
     size_t chosen[EVERY_MOST];
 } every_layout;
@@ -35,8 +35,6 @@ static inline void every_layout_try(every_layout *t, size_t count, size_t first,
     double area = every_covered(t, count);
     for (size_t w = water; w <= cover->water; w++)
         t->by_water[w] = fmax(t->by_water[w], area);
-    for (size_t n = count; n <= cover->nozzles; n++)
-        t->by_nozzles[n] = fmax(t->by_nozzles[n], area);
     if (count == cover->nozzles || count == EVERY_MOST)
         return;
     for (size_t c = first; c < rows->count; c++) {
@@ -55,7 +53,6 @@ static inline void every_layout_create(const instance *in, every_layout *t)
 {
     *t = (every_layout){.in = in};
     t->by_water = calloc(in->cover.water + 1, sizeof *t->by_water);
-    t->by_nozzles = calloc(in->cover.nozzles + 1, sizeof *t->by_nozzles);
     t->sum = malloc(in->cover.texel_count * sizeof *t->sum);
     every_layout_try(t, 0, 0, 0);
 }
@@ -63,7 +60,6 @@ static inline void every_layout_create(const instance *in, every_layout *t)
 static inline void every_layout_free(every_layout *t)
 {
     free(t->by_water);
-    free(t->by_nozzles);
     free(t->sum);
 }
 

@@ -1,10 +1,6 @@
 /* The gap between bound and a layout found by greedy, exchange and kicks, on random instances of a size that matters.
- * With arguments CANDIDATES EDGE ROUNDS KICKS STEPS it only measures that size: rounds of the bound, kicks of the
- * search, steps of branch and bound. */
-#include "instance.h"
-
-#include "bound/bound.h"
-#include "bound/branch.h"
+ * With arguments CANDIDATES EDGE ROUNDS KICKS it only measures that size: rounds of the bound, kicks of the search. */
+#include "stored.h"
 
 #include <stdio.h>
 #include <time.h>
@@ -22,7 +18,6 @@
 #define KICKS 20
 #endif
 #define ROUNDS 6
-#define STEPS 4
 #define LOOKED_AT 64 /* candidates of those that a sample of their texels promises most of */
 #define SAMPLE 3000  /* texels of a candidate, about */
 
@@ -190,27 +185,8 @@ static double best_found(const instance *in, size_t kicks)
     return area;
 }
 
-/* Goes on with branch and bound. */
-static double branch(const instance *in, double bound, double found, size_t steps)
-{
-    sp_error error = {0};
-    sp_stored_line stored;
-    sp_branching b;
-    sp_tree tree;
-    assert_true(sp_stored_line_create(&in->cover, &in->rows, &stored, &error));
-    assert_true(sp_branching_create(&in->cover, &stored.line, &b, &error));
-    assert_true(sp_tree_create(&b, WATER, bound, found, &tree, &error));
-    while (!sp_tree_closed(&tree) && tree.steps < steps)
-        assert_true(sp_tree_step(&b, &tree, &error));
-    double lower = sp_tree_bound(&tree);
-    sp_tree_free(&tree);
-    sp_branching_free(&b);
-    sp_stored_line_free(&stored);
-    return lower;
-}
-
 typedef struct {
-    size_t candidates, edge, rounds, kicks, steps;
+    size_t candidates, edge, rounds, kicks;
 } effort;
 
 static double measure(effort e, bool single, double plenty)
@@ -220,27 +196,24 @@ static double measure(effort e, bool single, double plenty)
     instance_create(&in, e.candidates, e.edge, single, NOZZLES, WATER, 0, plenty, SEED);
     in.cover.threads = 2;
     double start = seconds(), found = best_found(&in, e.kicks), searched = seconds();
-    sp_stored stored = {&in.cover, &in.rows, 300};
-    sp_pricer pricer = sp_stored_pricer(&stored);
+    stored all = {&in.cover, &in.rows, 300};
+    sp_pricer pricer = stored_pricer(&all);
     sp_bound bound;
     assert_true(sp_bound_create(&in.cover, &pricer, &bound, &error));
     for (size_t round = 0; round < e.rounds; round++)
         assert_true(sp_bound_lower(&bound, WATER, &error));
     double area = bound.by_water[WATER], bounded = seconds();
-    double proved = e.steps ? branch(&in, area, found, e.steps) : area;
-    print_message("%zu candidates, %zu texels, %s, plenty %g: found %.4f in %.1f s; bound %.4f in %.1f s, gap %.2f %%; "
-                  "by branching %.4f in %.1f s, gap %.2f %%\n",
-                  e.candidates, e.edge * e.edge, single ? "single" : "sum", plenty, found, searched - start, area,
-                  bounded - searched, 100 * (1 - found / area), proved, seconds() - bounded,
-                  100 * (1 - found / proved));
-    assert_true(area >= proved);
-    assert_true(proved >= found);
+    print_message(
+        "%zu candidates, %zu texels, %s, plenty %g: found %.4f in %.1f s; bound %.4f in %.1f s, gap %.2f %%\n",
+        e.candidates, e.edge * e.edge, single ? "single" : "sum", plenty, found, searched - start, area,
+        bounded - searched, 100 * (1 - found / area));
+    assert_true(area >= found);
     sp_bound_free(&bound);
     instance_free(&in);
-    return 1 - found / proved;
+    return 1 - found / area;
 }
 
-static const effort usual = {CANDIDATES, EDGE, ROUNDS, KICKS, STEPS};
+static const effort usual = {CANDIDATES, EDGE, ROUNDS, KICKS};
 
 static void one_nozzle_alone(void **state)
 {
@@ -256,10 +229,10 @@ static void all_together(void **state)
 
 int main(int count, char **arguments)
 {
-    if (count == 6) {
+    if (count == 5) {
         effort e;
-        size_t *const values[] = {&e.candidates, &e.edge, &e.rounds, &e.kicks, &e.steps};
-        for (int i = 0; i < 5; i++)
+        size_t *const values[] = {&e.candidates, &e.edge, &e.rounds, &e.kicks};
+        for (int i = 0; i < 4; i++)
             *values[i] = strtoul(arguments[i + 1], NULL, 10);
         for (int single = 0; single < 2; single++)
             for (int plenty = 0; plenty < 2; plenty++)

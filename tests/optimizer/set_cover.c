@@ -2,9 +2,7 @@
  * covering everything is a lower bound on the least cost. Reads instances of the OR-Library's form (Beasley,
  * OR-Library: distributing test problems by electronic mail, 1990): rows, columns, the columns' costs, then for each
  * row how many columns cover it and which. */
-#include "instance.h"
-
-#include "bound/bound.h"
+#include "stored.h"
 
 #include <stdio.h>
 
@@ -105,8 +103,8 @@ static size_t cost_bound(const set_cover *s, size_t most, size_t rounds)
                 texels[count++] = r;
         assert_true(sp_rows_add(&rows, c, SP_NO_PORT, (uint32_t)tier, texels, shares, count, &error));
     }
-    sp_stored stored = {&cover, &rows, 400};
-    sp_pricer pricer = sp_stored_pricer(&stored);
+    stored all = {&cover, &rows, 400};
+    sp_pricer pricer = stored_pricer(&all);
     sp_bound bound;
     assert_true(sp_bound_create(&cover, &pricer, &bound, &error));
     for (size_t round = 0; round < rounds; round++)
