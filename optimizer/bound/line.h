@@ -18,6 +18,7 @@ typedef struct {
     bool (*price)(void *user, const sp_prices *u, const uint8_t *alive, float *price, sp_error *error);
     /* Appends the candidate's row, its position as key. */
     bool (*row)(void *user, size_t position, sp_rows *rows, sp_error *error);
+    int threads; /* that may ask for rows at a time */
 } sp_line;
 
 /* What all lines have in common; frees nothing of the owner's. */

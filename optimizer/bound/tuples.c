@@ -11,9 +11,11 @@
 #define DEEP_MOST 6            /* nozzles of a layout that are chosen one by one */
 #define STEPS_LEAST 96         /* of the water, by which what is left of it is told apart */
 #define STEPS_MOST 256         /* with more nozzles than that, none are few */
+#define CHECKED_AT_A_TIME 64   /* layouts, before the clock is asked again */
 #define FOUND_MOST 100000      /* layouts whose union comes above the target */
 #define BYTES_MOST 4e8         /* of sets */
 #define WORK_ROW 2e5           /* words that take as long as a row */
+#define ROWS_AT_A_TIME 256     /* by all threads */
 #define WORK_PASSED 16         /* and as a candidate that is passed by */
 #define WORK_TOLD 1e8          /* that a thread may keep to itself */
 #define UPWARDS (1 + 1e-9)     /* more than sums here are rounded by */
@@ -316,17 +318,67 @@ void sp_tuples_destroy(sp_tuples *o)
     free(o);
 }
 
+/* The rows of those able, from `first` on, that have no sets yet. */
+static bool find_rows(const sp_tuples *o, size_t first, size_t end, sp_rows *rows, sp_error *error)
+{
+    sp_error failure = {0};
+    int threads = o->line->threads;
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+    for (size_t i = first; i < end; i++) {
+        const item *own = &o->items[o->able[i]];
+        sp_rows *row = &rows[i - first];
+        sp_error mine = {0};
+        row->count = row->used = 0;
+        if (own->set == NO_SET && !o->line->row(o->line->user, own->position, row, &mine)) {
+#pragma omp critical(sp_tuples_rows)
+            failure = mine;
+        }
+    }
+    return failure.kind == SP_OK ||
+           sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
+}
+
+/* The sets of these rows. */
+static bool add_sets(sp_tuples *o, size_t first, size_t end, const sp_rows *rows, const uint64_t *none, sp_error *error)
+{
+    for (size_t i = first; i < end; i++) {
+        item *own = &o->items[o->able[i]];
+        double least = SHARE_LEAST * (double)own->weight / (double)o->water;
+        if (own->set != NO_SET)
+            continue;
+        if (!sp_bit_rows_add(&o->sets, o->cover, &rows[i - first], 0, least, error))
+            return false;
+        own->set = (uint32_t)(o->sets.count - 1);
+        own->alone = (sp_bit_rows_gain(&o->sets, own->set, none) + o->sets.edge[own->set]) * UPWARDS;
+    }
+    o->over = sp_bit_rows_bytes(&o->sets) > BYTES_MOST;
+    return true;
+}
+
+static bool build_sets(sp_tuples *o, sp_error *error)
+{
+    uint64_t *none = calloc(o->sets.words + 1, sizeof *none);
+    sp_rows *rows = calloc(ROWS_AT_A_TIME, sizeof *rows);
+    bool done = (none && rows) || sp_fail_memory(error);
+    for (size_t i = 0; done && i < o->able_count && !o->over && sp_cover_goes_on(o->cover); i += ROWS_AT_A_TIME) {
+        size_t end = i + ROWS_AT_A_TIME < o->able_count ? i + ROWS_AT_A_TIME : o->able_count;
+        done = find_rows(o, i, end, rows, error) && add_sets(o, i, end, rows, none, error);
+    }
+    for (size_t i = 0; rows && i < ROWS_AT_A_TIME; i++)
+        sp_rows_free(&rows[i]);
+    free(rows);
+    free(none);
+    return done;
+}
+
 /* Lists what could be part of a layout above the target, sets built. */
 static bool list_able(sp_tuples *o, sp_error *error)
 {
     static const double none[BY_PRICES] = {0};
     free(o->able);
     o->able = malloc((o->count + 1) * sizeof *o->able);
-    uint64_t *had = calloc(o->sets.words + 1, sizeof *had);
-    sp_rows one = {0};
-    bool done = (o->able && had) || sp_fail_memory(error);
     o->able_count = 0;
-    for (size_t i = 0; done && i < o->count; i++) {
+    for (size_t i = 0; o->able && i < o->count; i++) {
         const item *own = &o->items[i];
         if (all_above(o, none, own->price, 0, o->water - own->weight)) {
             o->able[o->able_count++] = (uint32_t)i;
@@ -334,23 +386,9 @@ static bool list_able(sp_tuples *o, sp_error *error)
         }
     }
     o->over = o->work > o->work_most;
-    for (size_t i = 0; done && i < o->able_count && !o->over && sp_cover_goes_on(o->cover); i++) {
-        item *own = &o->items[o->able[i]];
-        if (own->set != NO_SET)
-            continue;
-        one.count = one.used = 0;
-        done =
-            o->line->row(o->line->user, own->position, &one, error) &&
-            sp_bit_rows_add(&o->sets, o->cover, &one, 0, SHARE_LEAST * (double)own->weight / (double)o->water, error);
-        if (!done)
-            break;
-        own->set = (uint32_t)(o->sets.count - 1);
-        own->alone = (sp_bit_rows_gain(&o->sets, own->set, had) + o->sets.edge[own->set]) * UPWARDS;
-        o->over = sp_bit_rows_bytes(&o->sets) > BYTES_MOST;
-    }
-    sp_rows_free(&one);
-    free(had);
-    return done;
+    if (!o->able)
+        return sp_fail_memory(error);
+    return build_sets(o, error);
 }
 
 static bool is_over(const worker *own)
@@ -645,7 +683,7 @@ static bool check(sp_tuples *o, brought *kept, double *most, sp_error *error)
     const tuple *last = NULL;
     if (o->found_count)
         qsort(o->found, o->found_count, sizeof *o->found, by_items);
-    for (size_t i = 0; i < o->found_count && sp_cover_goes_on(o->cover); i++) {
+    for (size_t i = 0; i < o->found_count && (i % CHECKED_AT_A_TIME || sp_cover_goes_on(o->cover)); i++) {
         const tuple *now = &o->found[i];
         size_t same = 0;
         brought whole = {NULL, NULL, 0};

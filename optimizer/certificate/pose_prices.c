@@ -229,7 +229,7 @@ static size_t write_pose(const sp_pose_prices *prices, sp_pose pose, uint32_t *t
 bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64_t key, size_t port, uint32_t tier,
                         sp_rows *rows, sp_error *error)
 {
-    const scratch *own = &prices->scratches[0];
+    const scratch *own = &prices->scratches[omp_get_thread_num()];
     size_t count = write_row(prices, field, own->texels, own->shares);
     return sp_rows_add(rows, key, port, tier, own->texels, own->shares, count, error);
 }
@@ -238,7 +238,7 @@ bool sp_pose_prices_row(const sp_pose_prices *prices, const float *field, uint64
 static bool add_footprint(const sp_pose_prices *prices, sp_pose pose, uint64_t key, size_t port, uint32_t tier,
                           sp_rows *rows, sp_error *error)
 {
-    const scratch *own = &prices->scratches[0];
+    const scratch *own = &prices->scratches[omp_get_thread_num()];
     size_t count = write_pose(prices, pose, own->texels, own->shares);
     return sp_rows_add(rows, key, port, tier, own->texels, own->shares, count, error);
 }
@@ -255,7 +255,7 @@ bool sp_pose_prices_found(const sp_pose_prices *prices, const sp_placed *placed,
 bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *rows, sp_error *error)
 {
     const sp_search *search = prices->search;
-    float *field = prices->scratches[0].field;
+    float *field = prices->scratches[omp_get_thread_num()].field;
     size_t key = sp_pose_order_position(prices->order, pose),
            port = prices->ports[search->sites->items[pose.site].mount];
     uint32_t tier = tier_at(prices, pose.site, pose.make);
@@ -559,6 +559,7 @@ bool sp_pose_line(sp_pose_prices *prices, const sp_pose_order *order, sp_line *l
     line->user = prices;
     line->price = price_line;
     line->row = row_of_line;
+    line->threads = prices->threads;
     prices->order = order;
     prices->last = calloc(order->line.count + 1, sizeof *prices->last);
     return prices->last || sp_fail_memory(error);

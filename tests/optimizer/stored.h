@@ -85,7 +85,8 @@ static inline void stored_line_create(const sp_cover *cover, const sp_rows *rows
                       .run_start = calloc(count + 1, sizeof(size_t)),
                       .run_port = malloc((count + 1) * sizeof(size_t)),
                       .price = stored_line_price,
-                      .row = stored_line_row};
+                      .row = stored_line_row,
+                      .threads = cover->threads};
     assert_true(s->order && line->kind_start && line->weight && line->run_start && line->run_port);
     sp_ranked *by_port = malloc((count + 1) * sizeof *by_port), *by_weight = malloc((count + 1) * sizeof *by_weight);
     assert_true(by_port && by_weight);
