@@ -80,8 +80,8 @@ typedef struct {
                     * kept is worked out again. The answer does not depend on it, but where clusters, measured types or
                     * rotating ones are among the types, whose poses are all kept, on texels that leave room for them;
                     * too little for one mounting point, or for those poses, is SP_ERROR_INPUT */
-    bool prove; /* goes on lowering the certificate's bounds by branch and bound, until the time limit or, where there
-                 * is none, until all are within 0.1 % of what was found or much was tried */
+    bool prove; /* goes on lowering the certificate's bounds, by more layouts looked at one by one, until the time limit
+                 * or, where there is none, until all are within 0.1 % of what was found or much was tried */
     size_t mount_count;
     const sp_mount *mounts; /* borrowed */
     size_t other_count;

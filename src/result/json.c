@@ -385,7 +385,7 @@ static bool put_forward_check(json_t *root, const sp_forward_check *found)
 static bool put_certificate(json_t *root, const sp_certificate *found, bool costly)
 {
     json_t *certificate = json_object();
-    bool done = put_text(certificate, "method", "lagrangian dual, branch and bound") &&
+    bool done = put_text(certificate, "method", "lagrangian dual, layouts of few nozzles one by one") &&
                 put_real(certificate, "coverage", found->counted / found->whole) &&
                 put_real(certificate, bound_keys[costly][0], found->area_bound / found->whole) &&
                 put_real(certificate, bound_keys[costly][1], 6e4 * found->water_bound) &&

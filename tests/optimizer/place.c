@@ -114,7 +114,7 @@ static void nothing_exceeds_the_certificate(void **state)
         assert_true(certificate->area_bound < 1.25 * best);
         for (size_t i = 0; i < proposal->front_count; i++)
             assert_true(proposal->front[i].bound >= proposal->front[i].counted);
-        /* with branch and bound to its end it still holds, and is no longer above the best there is */
+        /* with all layouts looked at it still holds, and is no longer above the best there is */
         j.options.prove = true;
         sp_proposal *proved = job_place(&j);
         assert_true(proved->certificate.area_bound <= certificate->area_bound);
@@ -419,7 +419,7 @@ static void same_layout(const sp_layout *a, const sp_layout *b)
     }
 }
 
-/* Of search, refinement, certificate and branch and bound. */
+/* Of search, refinement, certificate and its layouts one by one. */
 static void threads_do_not_matter(void **state)
 {
     (void)state;

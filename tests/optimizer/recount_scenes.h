@@ -251,7 +251,7 @@ static inline void any_liquid(recount_scene *s, double texel)
     scene_open(s, &b, texel);
 }
 
-/* Few poses, so that branch and bound comes near to its end. */
+/* Few poses, so that looking at layouts one by one comes near to its end. */
 static inline void proved(recount_scene *s, double texel)
 {
     room_builder b;
