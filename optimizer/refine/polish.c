@@ -78,7 +78,7 @@ bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_
 {
     const sp_patches *patches = sp_evaluator_patches(search->coarse);
     *polishing = (sp_polishing){
-        .search = search, .pool = pool, .watch = watch, .rough = *search, .threads = sp_threads(&search->options->run)};
+        .search = search, .watch = watch, .rough = *search, .threads = sp_threads(&search->options->run)};
     bool done = sp_tuned_create(search, pool, &polishing->tuned, error);
     if (done && (double)patches->count > 1.5 * ROUGH_PATCHES) {
         polishing->rough_evaluator = sp_evaluator_resample(

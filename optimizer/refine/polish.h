@@ -26,7 +26,6 @@ typedef struct {
 
 typedef struct {
     const sp_search *search;
-    const sp_pool *pool;
     sp_watch *watch;
     sp_evaluator *rough_evaluator; /* NULL: the search's patches are few enough */
     sp_search rough;
