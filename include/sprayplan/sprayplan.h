@@ -17,6 +17,7 @@
 #include <sprayplan/fitting.h>
 #include <sprayplan/flight.h>
 #include <sprayplan/image.h>
+#include <sprayplan/keys.h>
 #include <sprayplan/launch.h>
 #include <sprayplan/mesh.h>
 #include <sprayplan/nozzle.h>

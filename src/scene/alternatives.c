@@ -38,12 +38,11 @@ static const sp_mount *find_mount(const sp_scene *scene, const sp_reader *reader
 /* A name, or {mount: shell, max_nozzles: 1}, which says how many nozzles it takes here. */
 static const sp_mount *read_choice(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, size_t *most)
 {
-    static const sp_key keys[] = {{"mount", true}, {"max_nozzles", true}, {NULL, false}};
+    const sp_fields in = {reader, &sp_block_limited_mount, node};
     uint64_t count = 0;
     if (node->kind != SP_YAML_MAP)
         return find_mount(scene, reader, node);
-    if (!sp_read_keys(reader, node, "mounts", "a mount with a limit", keys) ||
-        !sp_read_count(reader, node, "max_nozzles", 1, SP_MAX_ITEMS, &count))
+    if (!sp_read_block(&in, "mounts") || !sp_read_count(&in, "max_nozzles", &count))
         return NULL;
     const sp_mount *mount = find_mount(scene, reader, sp_yaml_get(node, "mount"));
     *most = count;
@@ -91,13 +90,13 @@ static bool read_mounts(const sp_scene *scene, const sp_reader *reader, const sp
 static bool read_limits(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node,
                         sp_scene_alternative *alternative)
 {
+    const sp_fields in = {reader, &sp_block_alternative, node};
     sp_place_options *options = &alternative->options;
     uint64_t nozzles = options->max_nozzles;
     size_t types = 0, pressures = 0;
-    if (!sp_read_count(reader, node, "max_nozzles", 1, SP_MAX_ITEMS, &nozzles) ||
-        !sp_read_quantity(reader, node, "max_water", &sp_flow_unit, sp_above(0), &options->max_water) ||
+    if (!sp_read_count(&in, "max_nozzles", &nozzles) || !sp_read_quantity(&in, "max_water", &options->max_water) ||
         !sp_scene_read_types(scene, reader, node, "types", &alternative->types, &types) ||
-        !sp_scene_read_pressures(reader, sp_yaml_get(node, "pressure"), &alternative->pressures, &pressures))
+        !sp_scene_read_pressures(&in, &alternative->pressures, &pressures))
         return false;
     options->max_nozzles = nozzles;
     if (alternative->types) {
@@ -115,9 +114,10 @@ static bool read_limits(const sp_scene *scene, const sp_reader *reader, const sp
 static bool read_own_name(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node,
                           sp_scene_alternative *alternative)
 {
+    const sp_fields in = {reader, &sp_block_alternative, node};
     static const char *const taken[] = {"manual", "greedy", "proposed"};
     const sp_yaml *name = sp_yaml_get(node, "name");
-    if (!sp_read_name(reader, node, "name", alternative->name))
+    if (!sp_read_name(&in, "name", alternative->name))
         return false;
     for (size_t i = 0; i < sizeof taken / sizeof *taken; i++)
         if (strcmp(taken[i], alternative->name) == 0)
@@ -132,10 +132,8 @@ static bool read_own_name(const sp_scene *scene, const sp_reader *reader, const 
 static bool read_alternative(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node,
                              sp_scene_alternative *alternative)
 {
-    static const sp_key keys[] = {{"name", true},         {"mounts", false},    {"types", false}, {"pressure", false},
-                                  {"max_nozzles", false}, {"max_water", false}, {NULL, false}};
-    return sp_read_keys(reader, node, "alternatives", "an alternative", keys) &&
-           read_own_name(scene, reader, node, alternative) &&
+    const sp_fields in = {reader, &sp_block_alternative, node};
+    return sp_read_block(&in, "alternatives") && read_own_name(scene, reader, node, alternative) &&
            read_mounts(scene, reader, sp_yaml_get(node, "mounts"), alternative) &&
            read_limits(scene, reader, node, alternative);
 }

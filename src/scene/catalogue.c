@@ -5,13 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const pattern_names[] = {"full_cone", "hollow_cone", "flat_fan", "solid_stream",
-                                            "cluster",   "rotating",    "measured", NULL};
+static const char *pattern_name(sp_pattern pattern)
+{
+    return sp_key_of(&sp_block_type, "pattern")->words[pattern];
+}
 
-bool sp_scene_read_pattern(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+bool sp_scene_read_pattern(const sp_fields *in, sp_nozzle_type *type)
 {
     int pattern = 0;
-    if (!sp_read_choice(reader, node, "pattern", pattern_names, &pattern))
+    if (!sp_read_choice(in, "pattern", &pattern))
         return false;
     type->pattern = (sp_pattern)pattern;
     return true;
@@ -23,25 +25,26 @@ static bool check_pattern_key(const sp_reader *reader, const sp_yaml *node, cons
 {
     const sp_yaml *child = sp_yaml_get(node, key);
     if (type->pattern == owner && !child)
-        return sp_read_message(reader, node, key, "found nothing, expected this key in a %s", pattern_names[owner]);
+        return sp_read_message(reader, node, key, "found nothing, expected this key in a %s", pattern_name(owner));
     if (type->pattern != owner && child)
-        return sp_read_message(reader, child, key, "found in a %s, expected in a %s only", pattern_names[type->pattern],
-                               pattern_names[owner]);
+        return sp_read_message(reader, child, key, "found in a %s, expected in a %s only", pattern_name(type->pattern),
+                               pattern_name(owner));
     return true;
 }
 
 /* `key` is a list of two values, rising, around `value`; absent: the value alone. */
-static bool read_adjustable(const sp_reader *reader, const sp_yaml *node, const char *key,
-                            const sp_dimension *dimension, sp_range range, double value, double limits[2])
+static bool read_adjustable(const sp_fields *in, const char *key, double value, double limits[2])
 {
-    const sp_yaml *list = sp_yaml_get(node, key);
+    const sp_reader *reader = in->reader;
+    const sp_yaml *list = sp_yaml_get(in->map, key);
     limits[0] = limits[1] = value;
     if (!list)
         return true;
+    const sp_key *each = sp_key_of(in->block, key);
     if (list->kind != SP_YAML_LIST || list->count != 2)
-        return sp_read_fail(reader, list, key, "a list of two values such as [%s, ...]", dimension->example);
-    if (!sp_read_quantity_at(reader, list->first, key, dimension, range, &limits[0]) ||
-        !sp_read_quantity_at(reader, list->last, key, dimension, range, &limits[1]))
+        return sp_read_fail(reader, list, key, "a list of two values such as [%s, ...]", each->dimension->example);
+    if (!sp_read_quantity_at(reader, list->first, each, &limits[0]) ||
+        !sp_read_quantity_at(reader, list->last, each, &limits[1]))
         return false;
     if (!(limits[0] < limits[1]))
         return sp_read_message(reader, list, key, "found '%.60s' before '%.60s', expected the smaller first",
@@ -70,28 +73,28 @@ static bool check_angles(const sp_reader *reader, const sp_yaml *node, const sp_
     return true;
 }
 
-bool sp_scene_read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
+bool sp_scene_read_shape(const sp_fields *in, sp_nozzle_type *type)
 {
-    const double pi = acos(-1);
+    const sp_reader *reader = in->reader;
+    const sp_yaml *node = in->map;
     double limits[2];
     if (type->pattern == SP_PATTERN_ROTATING)
         return read_turning(reader, node, type);
     if (!check_angles(reader, node, type))
         return false;
     if (type->pattern == SP_PATTERN_SOLID_STREAM)
-        type->angle = pi / 180;
+        type->angle = M_PI / 180;
     else if (type->pattern != SP_PATTERN_CLUSTER && !sp_yaml_get(node, "angle"))
         return sp_read_message(reader, node, "angle", "found nothing, expected this key in a %s",
-                               pattern_names[type->pattern]);
+                               pattern_name(type->pattern));
     if (!check_pattern_key(reader, node, type, "rotation", SP_PATTERN_ROTATING) ||
         !check_pattern_key(reader, node, type, "hollow", SP_PATTERN_HOLLOW_CONE) ||
         !check_pattern_key(reader, node, type, "thickness", SP_PATTERN_FLAT_FAN) ||
         !check_pattern_key(reader, node, type, "members", SP_PATTERN_CLUSTER) ||
         !check_pattern_key(reader, node, type, "image", SP_PATTERN_MEASURED) ||
-        !sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_above_to(0, 2 * pi), &type->angle) ||
-        !sp_read_quantity(reader, node, "hollow", &sp_share_unit, sp_from_below(0, 1), &type->hollow) ||
-        !sp_read_quantity(reader, node, "thickness", &sp_angle_unit, sp_above_to(0, pi), &type->thickness) ||
-        !read_adjustable(reader, node, "angle_range", &sp_angle_unit, sp_above_to(0, 2 * pi), type->angle, limits))
+        !sp_read_quantity(in, "angle", &type->angle) || !sp_read_quantity(in, "hollow", &type->hollow) ||
+        !sp_read_quantity(in, "thickness", &type->thickness) ||
+        !read_adjustable(in, "angle_range", type->angle, limits))
         return false;
     type->angle_min = limits[0];
     type->angle_max = limits[1];
@@ -101,18 +104,15 @@ bool sp_scene_read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle
 /* The pattern that turns: its angles become the type's. */
 static bool read_jet(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
-    static const sp_key keys[] = {{"pattern", true}, {"angle", false}, {"hollow", false}, {"thickness", false},
-                                  {"tilt", false},   {"roll", false},  {NULL, false}};
-    const double pi = acos(-1);
+    const sp_fields in = {reader, &sp_block_jet, node};
     sp_rotation *rotation = &type->rotation;
     sp_nozzle_type jet = {0};
     const sp_yaml *pattern = sp_yaml_get(node, "pattern");
     if (sp_text_is(pattern, "rotating") || sp_text_is(pattern, "cluster") || sp_text_is(pattern, "measured"))
         return sp_read_fail(reader, pattern, "pattern", "full_cone, hollow_cone, flat_fan or solid_stream in a jet");
-    if ((node->kind == SP_YAML_MAP && !sp_scene_read_pattern(reader, node, &jet)) ||
-        !sp_read_keys(reader, node, "jet", "a jet", keys) || !sp_scene_read_shape(reader, node, &jet) ||
-        !sp_read_quantity(reader, node, "tilt", &sp_angle_unit, sp_between(0, pi), &rotation->tilt) ||
-        !sp_read_quantity(reader, node, "roll", &sp_angle_unit, sp_any(), &rotation->roll))
+    if ((node->kind == SP_YAML_MAP && !sp_scene_read_pattern(&in, &jet)) || !sp_read_block(&in, "jet") ||
+        !sp_scene_read_shape(&in, &jet) || !sp_read_quantity(&in, "tilt", &rotation->tilt) ||
+        !sp_read_quantity(&in, "roll", &rotation->roll))
         return false;
     rotation->jet = jet.pattern;
     type->angle = type->angle_min = type->angle_max = jet.angle;
@@ -123,8 +123,6 @@ static bool read_jet(const sp_reader *reader, const sp_yaml *node, sp_nozzle_typ
 
 static bool read_turning(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
-    static const sp_key keys[] = {{"jet", true},    {"jets", false},  {"gears", false},
-                                  {"speed", false}, {"turns", false}, {NULL, false}};
     static const char *const jets_own[] = {"angle", "hollow", "thickness", "angle_range"};
     for (size_t i = 0; i < sizeof jets_own / sizeof *jets_own; i++) {
         const sp_yaml *child = sp_yaml_get(node, jets_own[i]);
@@ -138,20 +136,20 @@ static bool read_turning(const sp_reader *reader, const sp_yaml *node, sp_nozzle
         !check_pattern_key(reader, node, type, "rotation", SP_PATTERN_ROTATING))
         return false;
     const sp_yaml *rotation = sp_yaml_get(node, "rotation");
-    return sp_read_keys(reader, rotation, "rotation", "a rotation", keys) &&
-           read_jet(reader, sp_yaml_get(rotation, "jet"), type) && sp_scene_read_gears(reader, rotation, type);
+    const sp_fields in = {reader, &sp_block_rotation, rotation};
+    return sp_read_block(&in, "rotation") && read_jet(reader, sp_yaml_get(rotation, "jet"), type) &&
+           sp_scene_read_gears(reader, rotation, type);
 }
 
 static bool read_flow(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
+    const sp_fields in = {reader, &sp_block_type, node};
     double limits[2];
     type->cv = 0.95;
     type->drop = 1e-3;
-    if (!sp_scene_read_flow(reader, node, type) ||
-        !sp_read_quantity(reader, node, "cv", &sp_ratio_unit, sp_above_to(0, 1), &type->cv) ||
-        !sp_read_quantity(reader, node, "drop", &sp_length_unit, sp_above(0), &type->drop) ||
-        !sp_scene_read_trajectory(reader, node, &type->trajectory) ||
-        !read_adjustable(reader, node, "flow_range", &sp_flow_unit, sp_above(0), type->flow, limits))
+    if (!sp_scene_read_flow(reader, node, type) || !sp_read_quantity(&in, "cv", &type->cv) ||
+        !sp_read_quantity(&in, "drop", &type->drop) || !sp_scene_read_trajectory(&in, &type->trajectory) ||
+        !read_adjustable(&in, "flow_range", type->flow, limits))
         return false;
     type->flow_min = limits[0];
     type->flow_max = limits[1];
@@ -161,20 +159,18 @@ static bool read_flow(const sp_reader *reader, const sp_yaml *node, sp_nozzle_ty
 /* What can be set of it; of what cannot be changed there are no steps. */
 static bool read_steps(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
-    static const sp_key keys[] = {{"angle", false}, {"flow", false}, {"pressure", false}, {NULL, false}};
-    static const char *const ranges[] = {"angle_range", "flow_range"};
+    static const char *const settings[] = {"angle", "flow"}, *const ranges[] = {"angle_range", "flow_range"};
     const sp_yaml *step = sp_yaml_get(node, "step");
+    const sp_fields in = {reader, &sp_block_type_step, step};
     if (!step)
         return true;
-    if (!sp_read_keys(reader, step, "step", "a step", keys) ||
-        !sp_read_step(reader, step, "angle", &sp_angle_unit, 1e-6, &type->angle_step) ||
-        !sp_read_step(reader, step, "flow", &sp_flow_unit, 1e-9, &type->flow_step) ||
-        !sp_read_step(reader, step, "pressure", &sp_pressure_unit, 1, &type->pressure_step))
+    if (!sp_read_block(&in, "step") || !sp_read_step(&in, "angle", &type->angle_step) ||
+        !sp_read_step(&in, "flow", &type->flow_step) || !sp_read_step(&in, "pressure", &type->pressure_step))
         return false;
     for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
-        const sp_yaml *child = sp_yaml_get(step, keys[i].name);
+        const sp_yaml *child = sp_yaml_get(step, settings[i]);
         if (child && !sp_yaml_get(node, ranges[i]))
-            return sp_read_message(reader, child, keys[i].name, "found in a type without %s, expected beside it only",
+            return sp_read_message(reader, child, settings[i], "found in a type without %s, expected beside it only",
                                    ranges[i]);
     }
     return true;
@@ -183,16 +179,18 @@ static bool read_steps(const sp_reader *reader, const sp_yaml *node, sp_nozzle_t
 /* How it is mounted, and what is ordered with it. */
 static bool read_body(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
-    return sp_read_name(reader, node, "thread", type->thread) && sp_read_name(reader, node, "insert", type->insert) &&
-           sp_read_quantity(reader, node, "body", &sp_length_unit, sp_above(0), &type->body);
+    const sp_fields in = {reader, &sp_block_type, node};
+    return sp_read_name(&in, "thread", type->thread) && sp_read_name(&in, "insert", type->insert) &&
+           sp_read_quantity(&in, "body", &type->body);
 }
 
 /* Where to buy it. */
 static bool read_source(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
+    const sp_fields in = {reader, &sp_block_type, node};
     static const char expected[] = "an address such as https://example.com/nozzle";
     const sp_yaml *child = sp_yaml_get(node, "url");
-    if (!sp_read_name(reader, node, "order_code", type->order_code))
+    if (!sp_read_name(&in, "order_code", type->order_code))
         return false;
     if (!child)
         return true;
@@ -205,20 +203,13 @@ static bool read_source(const sp_reader *reader, const sp_yaml *node, sp_nozzle_
 
 static bool read_type(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type)
 {
-    static const sp_key keys[] = {
-        {"name", true},         {"pattern", true},     {"angle", false},      {"hollow", false}, {"thickness", false},
-        {"flow", true},         {"at", true},          {"exponent", false},   {"cv", false},     {"drop", false},
-        {"angle_range", false}, {"flow_range", false}, {"order_code", false}, {"url", false},    {"image", false},
-        {"members", false},     {"rotation", false},   {"thread", false},     {"insert", false}, {"body", false},
-        {"step", false},        {"trajectory", false}, {NULL, false}};
+    const sp_fields in = {reader, &sp_block_type, node};
     *type = (sp_nozzle_type){0};
     /* Which keys belong to it depends on its pattern. */
-    return (node->kind != SP_YAML_MAP || sp_scene_read_pattern(reader, node, type)) &&
-           sp_read_keys(reader, node, "nozzles", "a catalogue type", keys) &&
-           sp_read_name(reader, node, "name", type->name) && sp_scene_read_shape(reader, node, type) &&
-           read_flow(reader, node, type) && read_source(reader, node, type) && read_body(reader, node, type) &&
-           read_steps(reader, node, type) && sp_scene_read_members(scene, reader, node, type) &&
-           sp_scene_read_image(scene, reader, node, type);
+    return (node->kind != SP_YAML_MAP || sp_scene_read_pattern(&in, type)) && sp_read_block(&in, "nozzles") &&
+           sp_read_name(&in, "name", type->name) && sp_scene_read_shape(&in, type) && read_flow(reader, node, type) &&
+           read_source(reader, node, type) && read_body(reader, node, type) && read_steps(reader, node, type) &&
+           sp_scene_read_members(scene, reader, node, type) && sp_scene_read_image(scene, reader, node, type);
 }
 
 static bool read_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *list)
@@ -245,9 +236,8 @@ static bool read_types(sp_scene *scene, const sp_reader *reader, const sp_yaml *
 
 bool sp_scene_read_types_of(sp_scene *scene, const sp_reader *reader, const sp_yaml *catalogue)
 {
-    static const sp_key keys[] = {{"nozzles", true}, {NULL, false}};
-    return sp_read_keys(reader, catalogue, "catalogue", "a catalogue", keys) &&
-           read_types(scene, reader, sp_yaml_get(catalogue, "nozzles"));
+    const sp_fields in = {reader, &sp_block_catalogue, catalogue};
+    return sp_read_block(&in, "catalogue") && read_types(scene, reader, sp_yaml_get(catalogue, "nozzles"));
 }
 
 bool sp_scene_read_catalogue(sp_scene *scene, const sp_reader *reader)

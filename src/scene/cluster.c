@@ -13,17 +13,15 @@ typedef struct {
 
 static bool read_ring(const sp_reader *reader, const sp_yaml *node, ring *ring)
 {
-    static const sp_key keys[] = {{"count", true}, {"polar", true}, {"radius", false}, {"phase", false}, {NULL, false}};
     const sp_yaml *map = sp_yaml_get(node, "ring"), *axis = sp_yaml_get(node, "axis");
+    const sp_fields in = {reader, &sp_block_ring, map};
     if (!map)
         return true;
     if (axis)
         return sp_read_message(reader, axis, "axis", "found beside a ring, expected one of them");
-    return sp_read_keys(reader, map, "ring", "a ring", keys) &&
-           sp_read_count(reader, map, "count", 1, SP_MEMBERS, &ring->count) &&
-           sp_read_quantity(reader, map, "polar", &sp_angle_unit, sp_between(0, acos(-1)), &ring->polar) &&
-           sp_read_quantity(reader, map, "radius", &sp_length_unit, sp_from(0), &ring->radius) &&
-           sp_read_quantity(reader, map, "phase", &sp_angle_unit, sp_any(), &ring->phase);
+    return sp_read_block(&in, "ring") && sp_read_count(&in, "count", &ring->count) &&
+           sp_read_quantity(&in, "polar", &ring->polar) && sp_read_quantity(&in, "radius", &ring->radius) &&
+           sp_read_quantity(&in, "phase", &ring->phase);
 }
 
 /* The image of a member, which has the body's exit speed. */
@@ -39,21 +37,17 @@ static bool read_image(sp_scene *scene, const sp_reader *reader, const sp_yaml *
 
 static bool read_member(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_member *member, ring *ring)
 {
-    static const sp_key keys[] = {{"pattern", true}, {"angle", false},  {"hollow", false}, {"thickness", false},
-                                  {"axis", false},   {"offset", false}, {"roll", false},   {"share", false},
-                                  {"ring", false},   {"image", false},  {NULL, false}};
-    if (!sp_read_keys(reader, node, "members", "a member of a cluster", keys))
+    const sp_fields in = {reader, &sp_block_member, node};
+    if (!sp_read_block(&in, "members"))
         return false;
     const sp_yaml *pattern = sp_yaml_get(node, "pattern");
     if (sp_text_is(pattern, "cluster") || sp_text_is(pattern, "rotating"))
         return sp_read_fail(reader, pattern, "pattern",
                             "full_cone, hollow_cone, flat_fan, solid_stream or measured in a cluster");
-    return sp_scene_read_pattern(reader, node, &member->type) && sp_scene_read_shape(reader, node, &member->type) &&
-           read_image(scene, reader, node, &member->type) && sp_read_axis(reader, node, "axis", &member->axis) &&
-           sp_read_vector(reader, node, "offset", &sp_length_unit, &member->offset) &&
-           sp_read_quantity(reader, node, "roll", &sp_angle_unit, sp_any(), &member->roll) &&
-           sp_read_quantity(reader, node, "share", &sp_ratio_unit, sp_above_to(0, 1e6), &member->share) &&
-           read_ring(reader, node, ring);
+    return sp_scene_read_pattern(&in, &member->type) && sp_scene_read_shape(&in, &member->type) &&
+           read_image(scene, reader, node, &member->type) && sp_read_axis(&in, "axis", &member->axis) &&
+           sp_read_vector(&in, "offset", &member->offset) && sp_read_quantity(&in, "roll", &member->roll) &&
+           sp_read_quantity(&in, "share", &member->share) && read_ring(reader, node, ring);
 }
 
 /* Member `i` of a ring, in the place of one that stands in its middle. */

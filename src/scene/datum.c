@@ -19,13 +19,11 @@ static bool square(const sp_reader *reader, const sp_yaml *node, sp_datum *datum
 
 bool sp_scene_read_datum(sp_scene *scene, const sp_reader *reader)
 {
-    static const sp_key keys[] = {{"name", false}, {"origin", false}, {"axis", false}, {"zero", false}, {NULL, false}};
     const sp_yaml *node = sp_yaml_get(scene->tree, "datum");
+    const sp_fields in = {reader, &sp_block_datum, node};
     sp_datum *datum = &scene->setup.datum;
     datum->axis = scene->setup.up;
-    return !node ||
-           (sp_read_keys(reader, node, "datum", "a datum", keys) && sp_read_name(reader, node, "name", datum->name) &&
-            sp_read_vector(reader, node, "origin", &sp_length_unit, &datum->origin) &&
-            sp_read_axis(reader, node, "axis", &datum->axis) && sp_read_axis(reader, node, "zero", &datum->zero) &&
-            square(reader, node, datum));
+    return !node || (sp_read_block(&in, "datum") && sp_read_name(&in, "name", datum->name) &&
+                     sp_read_vector(&in, "origin", &datum->origin) && sp_read_axis(&in, "axis", &datum->axis) &&
+                     sp_read_axis(&in, "zero", &datum->zero) && square(reader, node, datum));
 }

@@ -12,15 +12,16 @@ static bool is_list(const sp_yaml *node)
 }
 
 /* A list of rising quantities; how many are the caller's to know. */
-static bool read_rising(const sp_reader *reader, const sp_yaml *list, const char *key, const sp_dimension *dimension,
-                        double values[POINTS_MOST])
+static bool read_rising(const sp_fields *in, const char *key, double values[POINTS_MOST])
 {
+    const sp_key *each = sp_key_of(in->block, key);
+    const sp_yaml *list = sp_yaml_get(in->map, key);
     size_t count = 0;
     for (const sp_yaml *node = list->first; node; node = node->next, count++) {
-        if (!sp_read_quantity_at(reader, node, key, dimension, sp_above(0), &values[count]))
+        if (!sp_read_quantity_at(in->reader, node, each, &values[count]))
             return false;
         if (count && !(values[count] > values[count - 1]))
-            return sp_read_fail(reader, node, key, "more than the one before it");
+            return sp_read_fail(in->reader, node, key, "more than the one before it");
     }
     return true;
 }
@@ -61,9 +62,10 @@ static bool check_fit(const sp_reader *reader, const sp_yaml *flows, const doubl
 }
 
 /* Several points tell the exponent, too. */
-static bool read_points(const sp_reader *reader, const sp_yaml *map, const sp_yaml *flows, const sp_yaml *pressures,
-                        sp_nozzle_type *type)
+static bool read_points(const sp_fields *in, sp_nozzle_type *type)
 {
+    const sp_reader *reader = in->reader;
+    const sp_yaml *map = in->map, *flows = sp_yaml_get(map, "flow"), *pressures = sp_yaml_get(map, "at");
     double flow[POINTS_MOST], at[POINTS_MOST];
     const sp_yaml *exponent = sp_yaml_get(map, "exponent");
     if (!is_list(flows) || !is_list(pressures) || flows->count != pressures->count || flows->count < 2 ||
@@ -74,8 +76,7 @@ static bool read_points(const sp_reader *reader, const sp_yaml *map, const sp_ya
         return sp_read_message(reader, exponent, "exponent",
                                "found beside several points, which tell it; expected "
                                "this key beside one alone");
-    if (!read_rising(reader, flows, "flow", &sp_flow_unit, flow) ||
-        !read_rising(reader, pressures, "at", &sp_pressure_unit, at))
+    if (!read_rising(in, "flow", flow) || !read_rising(in, "at", at))
         return false;
     fit(flow, at, flows->count, type);
     return check_fit(reader, flows, flow, at, type);
@@ -83,11 +84,11 @@ static bool read_points(const sp_reader *reader, const sp_yaml *map, const sp_ya
 
 bool sp_scene_read_flow(const sp_reader *reader, const sp_yaml *map, sp_nozzle_type *type)
 {
+    const sp_fields in = {reader, &sp_block_type, map};
     const sp_yaml *flow = sp_yaml_get(map, "flow"), *at = sp_yaml_get(map, "at");
     type->exponent = 0.5;
     if (is_list(flow) || is_list(at))
-        return read_points(reader, map, flow, at, type);
-    return sp_read_quantity(reader, map, "flow", &sp_flow_unit, sp_above(0), &type->flow) &&
-           sp_read_quantity(reader, map, "at", &sp_pressure_unit, sp_above(0), &type->at) &&
-           sp_read_quantity(reader, map, "exponent", &sp_ratio_unit, sp_above_to(0, 1), &type->exponent);
+        return read_points(&in, type);
+    return sp_read_quantity(&in, "flow", &type->flow) && sp_read_quantity(&in, "at", &type->at) &&
+           sp_read_quantity(&in, "exponent", &type->exponent);
 }

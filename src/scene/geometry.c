@@ -51,6 +51,7 @@ static bool read_unit(const sp_reader *reader, const sp_yaml *node, double *unit
 /* The keys that a file has because it is a CAD file, or may not have. */
 static bool read_cad(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, piece *p)
 {
+    const sp_fields in = {reader, &sp_block_geometry, node};
     static const char *const keys[] = {"chord", "angle"};
     const sp_yaml *unit = sp_yaml_get(node, "unit");
     double texel = scene->setup.fidelity.texel;
@@ -63,20 +64,18 @@ static bool read_cad(const sp_scene *scene, const sp_reader *reader, const sp_ya
                                "found beside a STEP or IGES file, which knows its own, expected beside others only");
     p->cut.chord_most = texel / (10 * p->transform.scale);
     p->cut.run = scene->run;
-    return sp_read_quantity(reader, node, "chord", &sp_length_unit, sp_above(0), &p->cut.chord) &&
-           sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_above_to(0, M_PI / 2), &p->cut.angle);
+    return sp_read_quantity(&in, "chord", &p->cut.chord) && sp_read_quantity(&in, "angle", &p->cut.angle);
 }
 
 static bool read_rotation(const sp_reader *reader, const sp_yaml *node, sp_transform *transform)
 {
-    static const sp_key keys[] = {{"axis", true}, {"angle", true}, {NULL, false}};
     const sp_yaml *rotate = sp_yaml_get(node, "rotate");
+    const sp_fields in = {reader, &sp_block_rotate, rotate};
     sp_vec3 axis = {0, 0, 1};
     double angle = 0;
     if (!rotate)
         return true;
-    if (!sp_read_keys(reader, rotate, "rotate", "a rotation", keys) || !sp_read_axis(reader, rotate, "axis", &axis) ||
-        !sp_read_quantity(reader, rotate, "angle", &sp_angle_unit, sp_any(), &angle))
+    if (!sp_read_block(&in, "rotate") || !sp_read_axis(&in, "axis", &axis) || !sp_read_quantity(&in, "angle", &angle))
         return false;
     sp_transform_rotation(transform, axis, angle);
     return true;
@@ -84,21 +83,13 @@ static bool read_rotation(const sp_reader *reader, const sp_yaml *node, sp_trans
 
 static bool read_piece(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, piece *p)
 {
-    static const sp_key keys[] = {{"file", true},         {"unit", false},   {"scale", false},       {"role", false},
-                                  {"translate", false},   {"rotate", false}, {"restitution", false}, {"rebound", false},
-                                  {"clean_parts", false}, {"sweep", false},  {"chord", false},       {"angle", false},
-                                  {NULL, false}};
-    static const char *const roles[] = {"clean", "obstacle", NULL};
+    const sp_fields in = {reader, &sp_block_geometry, node};
     int role = 0;
     *p = (piece){.unit = 1, .transform = sp_transform_default(), .rebound = 1, .cut = sp_cad_options_default()};
-    if (!sp_read_keys(reader, node, "geometry", "a geometry file", keys) || !read_kind(reader, node, &p->cad) ||
-        !read_unit(reader, node, &p->unit) ||
-        !sp_read_quantity(reader, node, "scale", &sp_ratio_unit, sp_above(0), &p->transform.scale) ||
-        !sp_read_choice(reader, node, "role", roles, &role) ||
-        !sp_read_vector(reader, node, "translate", &sp_length_unit, &p->transform.translate) ||
-        !read_rotation(reader, node, &p->transform) ||
-        !sp_read_quantity(reader, node, "restitution", &sp_share_unit, sp_between(0, 1), &p->restitution) ||
-        !sp_read_quantity(reader, node, "rebound", &sp_share_unit, sp_between(0, 1), &p->rebound) ||
+    if (!sp_read_block(&in, "geometry") || !read_kind(reader, node, &p->cad) || !read_unit(reader, node, &p->unit) ||
+        !sp_read_quantity(&in, "scale", &p->transform.scale) || !sp_read_choice(&in, "role", &role) ||
+        !sp_read_vector(&in, "translate", &p->transform.translate) || !read_rotation(reader, node, &p->transform) ||
+        !sp_read_quantity(&in, "restitution", &p->restitution) || !sp_read_quantity(&in, "rebound", &p->rebound) ||
         !sp_scene_read_sweep(scene, reader, node, &p->moves) || !read_cad(scene, reader, node, p))
         return false;
     p->obstacle = role == 1;

@@ -8,7 +8,7 @@
 /* `angle` overrides the type's within its range. */
 static bool read_angle(const sp_reader *reader, const sp_yaml *node, sp_nozzle *nozzle)
 {
-    const double pi = acos(-1);
+    const sp_fields in = {reader, &sp_block_nozzle, node};
     const sp_nozzle_type *type = nozzle->type;
     const sp_yaml *child = sp_yaml_get(node, "angle");
     if (!child)
@@ -16,18 +16,19 @@ static bool read_angle(const sp_reader *reader, const sp_yaml *node, sp_nozzle *
     if (!(type->angle_min < type->angle_max))
         return sp_read_fail(reader, child, "angle",
                             "this key only with an adjustable type, and '%s' has no angle_range", type->name);
-    if (!sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_above_to(0, 2 * pi), &nozzle->angle))
+    if (!sp_read_quantity(&in, "angle", &nozzle->angle))
         return false;
     const double slack = 1e-12 * type->angle_max;
     if (nozzle->angle < type->angle_min - slack || nozzle->angle > type->angle_max + slack)
         return sp_read_fail(reader, child, "angle", "an angle within the range of '%s', %g deg to %g deg", type->name,
-                            type->angle_min * 180 / pi, type->angle_max * 180 / pi);
+                            type->angle_min * 180 / M_PI, type->angle_max * 180 / M_PI);
     return true;
 }
 
 /* `flow` overrides the type's within its range, which is rated: for water at `at`. */
 static bool read_flow(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_nozzle *nozzle)
 {
+    const sp_fields in = {reader, &sp_block_nozzle, node};
     const sp_nozzle_type *type = nozzle->type;
     const sp_yaml *child = sp_yaml_get(node, "flow");
     if (!child)
@@ -35,7 +36,7 @@ static bool read_flow(const sp_scene *scene, const sp_reader *reader, const sp_y
     if (!(type->flow_min < type->flow_max))
         return sp_read_fail(reader, child, "flow", "this key only with an adjustable type, and '%s' has no flow_range",
                             type->name);
-    if (!sp_read_quantity(reader, node, "flow", &sp_flow_unit, sp_above(0), &nozzle->flow))
+    if (!sp_read_quantity(&in, "flow", &nozzle->flow))
         return false;
     double low = sp_type_flow(type, type->flow_min, nozzle->pressure, &scene->setup.liquid);
     double high = sp_type_flow(type, type->flow_max, nozzle->pressure, &scene->setup.liquid);
@@ -48,20 +49,14 @@ static bool read_flow(const sp_scene *scene, const sp_reader *reader, const sp_y
 
 static bool read_nozzle(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_nozzle *nozzle)
 {
-    static const sp_key keys[] = {{"name", true},   {"type", true},     {"position", true}, {"axis", true},
-                                  {"roll", false},  {"pressure", true}, {"angle", false},   {"flow", false},
-                                  {"speed", false}, {"jets", false},    {"keep", false},    {NULL, false}};
-    return sp_read_keys(reader, node, "nozzles", "a nozzle", keys) &&
-           sp_read_name(reader, node, "name", nozzle->name) &&
+    const sp_fields in = {reader, &sp_block_nozzle, node};
+    return sp_read_block(&in, "nozzles") && sp_read_name(&in, "name", nozzle->name) &&
            (nozzle->type = sp_scene_find_type(scene, reader, sp_yaml_get(node, "type"), "type")) &&
-           sp_read_vector(reader, node, "position", &sp_length_unit, &nozzle->position) &&
-           sp_read_axis(reader, node, "axis", &nozzle->axis) &&
-           sp_read_quantity(reader, node, "roll", &sp_angle_unit, sp_any(), &nozzle->roll) &&
-           sp_read_quantity(reader, node, "pressure", &sp_pressure_unit, sp_above(0), &nozzle->pressure) &&
+           sp_read_vector(&in, "position", &nozzle->position) && sp_read_axis(&in, "axis", &nozzle->axis) &&
+           sp_read_quantity(&in, "roll", &nozzle->roll) && sp_read_quantity(&in, "pressure", &nozzle->pressure) &&
            read_angle(reader, node, nozzle) && read_flow(scene, reader, node, nozzle) &&
-           sp_read_quantity(reader, node, "speed", &sp_speed_unit, sp_above(0), &nozzle->speed) &&
-           sp_read_count(reader, node, "jets", 1, SP_MAX_JETS, &nozzle->jets) &&
-           sp_read_flag(reader, node, "keep", &nozzle->keep);
+           sp_read_quantity(&in, "speed", &nozzle->speed) && sp_read_count(&in, "jets", &nozzle->jets) &&
+           sp_read_flag(&in, "keep", &nozzle->keep);
 }
 
 bool sp_scene_read_nozzles(sp_scene *scene, const sp_reader *reader)

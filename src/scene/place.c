@@ -8,11 +8,6 @@
 /* Mounting points of one line or box: a slip in `spacing` must not ask for more memory than there is. */
 static const double max_points = 1e6;
 
-static bool read_tilt(const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
-{
-    return sp_read_quantity(reader, node, "tilt", &sp_angle_unit, sp_between(0, acos(-1)), &mount->tilt);
-}
-
 static bool check_spacing(const sp_reader *reader, const sp_yaml *node, double spacing, sp_vec3 extent)
 {
     double points = 1, sizes[3] = {extent.x, extent.y, extent.z};
@@ -34,14 +29,12 @@ static bool check_spacing(const sp_reader *reader, const sp_yaml *node, double s
 
 static bool read_depth(const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"from", false}, {"to", true}, {"spacing", false}, {NULL, false}};
     const sp_yaml *depth = sp_yaml_get(node, "depth");
+    const sp_fields in = {reader, &sp_block_depth, depth};
     if (!depth)
         return true;
-    if (!sp_read_keys(reader, depth, "depth", "a lance", keys) ||
-        !sp_read_quantity(reader, depth, "from", &sp_length_unit, sp_from(0), &mount->depth_from) ||
-        !sp_read_quantity(reader, depth, "to", &sp_length_unit, sp_from(0), &mount->depth_to) ||
-        !sp_read_quantity(reader, depth, "spacing", &sp_length_unit, sp_above(0), &mount->depth_spacing))
+    if (!sp_read_block(&in, "depth") || !sp_read_quantity(&in, "from", &mount->depth_from) ||
+        !sp_read_quantity(&in, "to", &mount->depth_to) || !sp_read_quantity(&in, "spacing", &mount->depth_spacing))
         return false;
     if (mount->depth_to < mount->depth_from)
         return sp_read_fail(reader, sp_yaml_get(depth, "to"), "to", "a length of at least `from`, %g m",
@@ -52,8 +45,9 @@ static bool read_depth(const sp_reader *reader, const sp_yaml *node, sp_mount *m
 /* The bore, and that what was named to fit passes it. */
 static bool read_bore(const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
+    const sp_fields in = {reader, &sp_block_port, node};
     const sp_yaml *types = sp_yaml_get(node, "types");
-    if (!sp_read_quantity(reader, node, "bore", &sp_length_unit, sp_above(0), &mount->bore))
+    if (!sp_read_quantity(&in, "bore", &mount->bore))
         return false;
     const sp_yaml *child = types ? types->first : NULL;
     for (size_t i = 0; i < mount->type_count && child; i++, child = child->next)
@@ -67,22 +61,19 @@ static bool read_bore(const sp_reader *reader, const sp_yaml *node, sp_mount *mo
 /* What of a lance can be set. */
 static bool read_lance_steps(const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"depth", false}, {"tilt", false}, {NULL, false}};
     const sp_yaml *step = sp_yaml_get(node, "step");
-    return !step || (sp_read_keys(reader, step, "step", "a step", keys) &&
-                     sp_read_step(reader, step, "depth", &sp_length_unit, 1e-6, &mount->depth_step) &&
-                     sp_read_step(reader, step, "tilt", &sp_angle_unit, 1e-6, &mount->tilt_step));
+    const sp_fields in = {reader, &sp_block_lance_step, step};
+    return !step || (sp_read_block(&in, "step") && sp_read_step(&in, "depth", &mount->depth_step) &&
+                     sp_read_step(&in, "tilt", &mount->tilt_step));
 }
 
-static bool read_port(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+static bool read_port(sp_scene *scene, const sp_fields *in, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"name", true},   {"position", true}, {"axis", false}, {"tilt", false},
-                                  {"depth", false}, {"types", false},   {"bore", false}, {"step", false},
-                                  {"cost", false},  {NULL, false}};
+    const sp_reader *reader = in->reader;
+    const sp_yaml *node = in->map;
     const sp_nozzle_type ***types = &scene->mount_types[scene->mount_count];
-    if (!sp_read_keys(reader, node, "port", "a port", keys) ||
-        !sp_read_vector(reader, node, "position", &sp_length_unit, &mount->position) ||
-        !sp_read_axis(reader, node, "axis", &mount->axis) || !read_tilt(reader, node, mount) ||
+    if (!sp_read_block(in, "port") || !sp_read_vector(in, "position", &mount->position) ||
+        !sp_read_axis(in, "axis", &mount->axis) || !sp_read_quantity(in, "tilt", &mount->tilt) ||
         !read_depth(reader, node, mount) ||
         !sp_scene_read_types(scene, reader, node, "types", types, &mount->type_count))
         return false;
@@ -110,50 +101,41 @@ static bool find_part(const sp_scene *scene, const sp_reader *reader, const sp_y
     return sp_read_fail(reader, node, "part", "a part of that geometry: %s", names);
 }
 
-static bool read_surface(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+static bool read_surface(sp_scene *scene, const sp_fields *in, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"geometry", true},     {"part", false}, {"spacing", true},
-                                  {"standoff", false},    {"tilt", false}, {"name", false},
-                                  {"max_nozzles", false}, {"cost", false}, {NULL, false}};
+    const sp_reader *reader = in->reader;
+    const sp_yaml *node = in->map;
     uint64_t geometry = 0;
     mount->axis = sp_v(0, 0, 0);
     mount->part = SP_NONE;
-    if (!sp_read_keys(reader, node, "surface", "a surface", keys) ||
-        !sp_read_count(reader, node, "geometry", 0, sp_yaml_get(scene->tree, "geometry")->count - 1, &geometry) ||
-        !sp_read_quantity(reader, node, "spacing", &sp_length_unit, sp_above(0), &mount->spacing) ||
-        !sp_read_quantity(reader, node, "standoff", &sp_length_unit, sp_from(0), &mount->standoff) ||
-        !read_tilt(reader, node, mount))
+    if (!sp_read_block(in, "surface") || !sp_read_count(in, "geometry", &geometry) ||
+        !sp_read_quantity(in, "spacing", &mount->spacing) || !sp_read_quantity(in, "standoff", &mount->standoff) ||
+        !sp_read_quantity(in, "tilt", &mount->tilt))
         return false;
     mount->geometry = (uint32_t)geometry;
     const sp_yaml *part = sp_yaml_get(node, "part");
     return !part || find_part(scene, reader, part, mount);
 }
 
-static bool read_line(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+static bool read_line(sp_scene *scene, const sp_fields *in, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"from", true},         {"to", true},    {"spacing", false},
-                                  {"axis", false},        {"tilt", false}, {"name", false},
-                                  {"max_nozzles", false}, {"cost", false}, {NULL, false}};
+    const sp_reader *reader = in->reader;
+    const sp_yaml *node = in->map;
     (void)scene;
-    return sp_read_keys(reader, node, "line", "a line", keys) &&
-           sp_read_vector(reader, node, "from", &sp_length_unit, &mount->from) &&
-           sp_read_vector(reader, node, "to", &sp_length_unit, &mount->to) &&
-           sp_read_quantity(reader, node, "spacing", &sp_length_unit, sp_above(0), &mount->spacing) &&
-           sp_read_axis(reader, node, "axis", &mount->axis) && read_tilt(reader, node, mount) &&
+    return sp_read_block(in, "line") && sp_read_vector(in, "from", &mount->from) &&
+           sp_read_vector(in, "to", &mount->to) && sp_read_quantity(in, "spacing", &mount->spacing) &&
+           sp_read_axis(in, "axis", &mount->axis) && sp_read_quantity(in, "tilt", &mount->tilt) &&
            check_spacing(reader, node, mount->spacing, sp_v(sp_distance(mount->from, mount->to), 0, 0));
 }
 
-static bool read_box(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+static bool read_box(sp_scene *scene, const sp_fields *in, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"min", true},          {"max", true},   {"spacing", false},
-                                  {"axis", false},        {"tilt", false}, {"name", false},
-                                  {"max_nozzles", false}, {"cost", false}, {NULL, false}};
+    const sp_reader *reader = in->reader;
+    const sp_yaml *node = in->map;
     (void)scene;
-    if (!sp_read_keys(reader, node, "box", "a box", keys) ||
-        !sp_read_vector(reader, node, "min", &sp_length_unit, &mount->from) ||
-        !sp_read_vector(reader, node, "max", &sp_length_unit, &mount->to) ||
-        !sp_read_quantity(reader, node, "spacing", &sp_length_unit, sp_above(0), &mount->spacing) ||
-        !sp_read_axis(reader, node, "axis", &mount->axis) || !read_tilt(reader, node, mount))
+    if (!sp_read_block(in, "box") || !sp_read_vector(in, "min", &mount->from) ||
+        !sp_read_vector(in, "max", &mount->to) || !sp_read_quantity(in, "spacing", &mount->spacing) ||
+        !sp_read_axis(in, "axis", &mount->axis) || !sp_read_quantity(in, "tilt", &mount->tilt))
         return false;
     sp_vec3 extent = sp_sub(mount->to, mount->from);
     if (extent.x < 0 || extent.y < 0 || extent.z < 0)
@@ -162,11 +144,13 @@ static bool read_box(sp_scene *scene, const sp_reader *reader, const sp_yaml *no
 }
 
 /* What mounts of any kind have. */
-static bool read_common(const sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
+static bool read_common(const sp_scene *scene, const sp_fields *in, sp_mount *mount)
 {
+    const sp_reader *reader = in->reader;
+    const sp_yaml *node = in->map;
     uint64_t most = 0;
-    if (!sp_read_name(reader, node, "name", mount->name) ||
-        !sp_read_count(reader, node, "max_nozzles", 1, SP_MAX_ITEMS, &most) ||
+    if (!sp_read_name(in, "name", mount->name) ||
+        (mount->kind != SP_MOUNT_PORT && !sp_read_count(in, "max_nozzles", &most)) ||
         !sp_scene_read_cost(scene, reader, node, &mount->cost))
         return false;
     mount->most = most;
@@ -181,19 +165,20 @@ static bool read_common(const sp_scene *scene, const sp_reader *reader, const sp
 
 static bool read_mount(sp_scene *scene, const sp_reader *reader, const sp_yaml *node, sp_mount *mount)
 {
-    static const sp_key keys[] = {{"port", false}, {"surface", false}, {"line", false}, {"box", false}, {NULL, false}};
-    static bool (*const readers[])(sp_scene *, const sp_reader *, const sp_yaml *,
-                                   sp_mount *) = {read_port, read_surface, read_line, read_box};
-    if (!sp_read_keys(reader, node, "mounts", "a mount", keys))
+    const sp_fields in = {reader, &sp_block_mount, node};
+    static bool (*const readers[])(sp_scene *, const sp_fields *, sp_mount *) = {read_port, read_surface, read_line,
+                                                                                 read_box};
+    if (!sp_read_block(&in, "mounts"))
         return false;
     if (node->count != 1)
         return sp_read_message(reader, node, "mounts", "found %zu keys, expected one of port, surface, line, box",
                                node->count);
     int kind = 0;
-    while (strcmp(keys[kind].name, node->first->key) != 0)
+    while (strcmp(sp_block_mount.keys[kind].name, node->first->key) != 0)
         kind++;
     *mount = (sp_mount){.kind = (sp_mount_kind)kind, .axis = sp_scale(scene->setup.up, -1)};
-    bool good = readers[kind](scene, reader, node->first, mount) && read_common(scene, reader, node->first, mount);
+    const sp_fields own = {reader, sp_block_mount.keys[kind].block, node->first};
+    bool good = readers[kind](scene, &own, mount) && read_common(scene, &own, mount);
     mount->position = sp_sub(mount->position, scene->setup.origin);
     mount->from = sp_sub(mount->from, scene->setup.origin);
     mount->to = sp_sub(mount->to, scene->setup.origin);
@@ -223,8 +208,11 @@ static bool read_mounts(sp_scene *scene, const sp_reader *reader, const sp_yaml 
     return true;
 }
 
-bool sp_scene_read_pressures(const sp_reader *reader, const sp_yaml *node, double **pressures, size_t *count)
+bool sp_scene_read_pressures(const sp_fields *in, double **pressures, size_t *count)
 {
+    const sp_reader *reader = in->reader;
+    const sp_key *key = sp_key_of(in->block, "pressure");
+    const sp_yaml *node = sp_yaml_get(in->map, "pressure");
     if (!node)
         return true;
     bool list = node->kind == SP_YAML_LIST;
@@ -237,16 +225,14 @@ bool sp_scene_read_pressures(const sp_reader *reader, const sp_yaml *node, doubl
     if (!*pressures)
         return sp_fail_memory(reader->error);
     for (const sp_yaml *child = list ? node->first : node; child; child = list ? child->next : NULL)
-        if (!sp_read_quantity_at(reader, child, "pressure", &sp_pressure_unit, sp_above(0), &(*pressures)[(*count)++]))
+        if (!sp_read_quantity_at(reader, child, key, &(*pressures)[(*count)++]))
             return false;
     return true;
 }
 
 static bool read_refine(const sp_reader *reader, const sp_yaml *node, sp_refine *refine)
 {
-    static const sp_key keys[] = {{"position", false}, {"axis", false}, {"roll", false},
-                                  {"angle", false},    {"flow", false}, {NULL, false}};
-    const double pi = acos(-1);
+    const sp_fields in = {reader, &sp_block_refine, node};
     if (!node)
         return true;
     if (sp_text_is(node, "none")) {
@@ -255,24 +241,19 @@ static bool read_refine(const sp_reader *reader, const sp_yaml *node, sp_refine 
     }
     if (node->kind != SP_YAML_MAP)
         return sp_read_fail(reader, node, "refine", "none, or keys such as {position: 50 mm, axis: 15 deg}");
-    return sp_read_keys(reader, node, "refine", "refinement", keys) &&
-           sp_read_quantity(reader, node, "position", &sp_length_unit, sp_from(0), &refine->position) &&
-           sp_read_quantity(reader, node, "axis", &sp_angle_unit, sp_between(0, pi), &refine->axis) &&
-           sp_read_flag(reader, node, "roll", &refine->roll) &&
-           sp_read_quantity(reader, node, "angle", &sp_angle_unit, sp_between(0, 2 * pi), &refine->angle) &&
-           sp_read_quantity(reader, node, "flow", &sp_share_unit, sp_from(0), &refine->flow);
+    return sp_read_block(&in, "refine") && sp_read_quantity(&in, "position", &refine->position) &&
+           sp_read_quantity(&in, "axis", &refine->axis) && sp_read_flag(&in, "roll", &refine->roll) &&
+           sp_read_quantity(&in, "angle", &refine->angle) && sp_read_quantity(&in, "flow", &refine->flow);
 }
 
 static bool read_aims(const sp_reader *reader, const sp_yaml *node, sp_place_options *place)
 {
-    static const char *const objectives[] = {"area_per_water", "min_water", "max_coverage", NULL};
+    const sp_fields in = {reader, &sp_block_place, node};
     int objective = place->objective;
     uint64_t nozzles = place->max_nozzles;
-    if (!sp_read_choice(reader, node, "objective", objectives, &objective) ||
-        !sp_read_quantity(reader, node, "coverage", &sp_share_unit, sp_above_to(0, 1), &place->coverage) ||
-        !sp_read_count(reader, node, "max_nozzles", 1, SP_MAX_ITEMS, &nozzles) ||
-        !sp_read_quantity(reader, node, "max_water", &sp_flow_unit, sp_above(0), &place->max_water) ||
-        !sp_read_quantity(reader, node, "clearance", &sp_length_unit, sp_from(0), &place->clearance))
+    if (!sp_read_choice(&in, "objective", &objective) || !sp_read_quantity(&in, "coverage", &place->coverage) ||
+        !sp_read_count(&in, "max_nozzles", &nozzles) || !sp_read_quantity(&in, "max_water", &place->max_water) ||
+        !sp_read_quantity(&in, "clearance", &place->clearance))
         return false;
     place->objective = (sp_objective)objective;
     place->max_nozzles = nozzles;
@@ -295,15 +276,12 @@ static bool read_place_types(sp_scene *scene, const sp_reader *reader, const sp_
 
 bool sp_scene_read_place(sp_scene *scene, const sp_reader *reader)
 {
-    static const sp_key keys[] = {{"objective", false},    {"coverage", false},   {"max_nozzles", false},
-                                  {"max_water", false},    {"types", false},      {"pressure", false},
-                                  {"clearance", false},    {"mounts", false},     {"refine", false},
-                                  {"alternatives", false}, {"water_cost", false}, {NULL, false}};
     const sp_yaml *node = sp_yaml_get(scene->tree, "place");
+    const sp_fields in = {reader, &sp_block_place, node};
     sp_place_options *place = &scene->place;
     if (node &&
-        (!sp_read_keys(reader, node, "place", "the placement", keys) || !read_aims(reader, node, place) ||
-         !sp_scene_read_pressures(reader, sp_yaml_get(node, "pressure"), &scene->pressures, &place->pressure_count) ||
+        (!sp_read_block(&in, "place") || !read_aims(reader, node, place) ||
+         !sp_scene_read_pressures(&in, &scene->pressures, &place->pressure_count) ||
          !sp_scene_read_water_cost(scene, reader, node) || !read_mounts(scene, reader, sp_yaml_get(node, "mounts")) ||
          !read_refine(reader, sp_yaml_get(node, "refine"), &place->refine)))
         return false;

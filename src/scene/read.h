@@ -2,6 +2,7 @@
 #ifndef SCENE_READ_H
 #define SCENE_READ_H
 
+#include "keys/blocks.h"
 #include "scene/units.h"
 #include "scene/yaml.h"
 
@@ -14,45 +15,12 @@ typedef struct {
     sp_error *error;
 } sp_reader;
 
+/* A map of a scene or catalogue, and the keys that it may have. */
 typedef struct {
-    const char *name; /* NULL ends a list of keys */
-    bool required;
-} sp_key;
-
-/* The values allowed, in SI. */
-typedef struct {
-    double low, high;
-    bool low_out, high_out; /* the ends themselves are not allowed */
-} sp_range;
-
-static inline sp_range sp_any(void)
-{
-    return (sp_range){-INFINITY, INFINITY, false, false};
-}
-static inline sp_range sp_from(double low)
-{
-    return (sp_range){low, INFINITY, false, false};
-}
-static inline sp_range sp_above(double low)
-{
-    return (sp_range){low, INFINITY, true, false};
-}
-static inline sp_range sp_between(double low, double high)
-{
-    return (sp_range){low, high, false, false};
-}
-static inline sp_range sp_above_to(double low, double high)
-{
-    return (sp_range){low, high, true, false};
-}
-static inline sp_range sp_from_below(double low, double high)
-{
-    return (sp_range){low, high, false, true};
-}
-
-extern const sp_dimension sp_length_unit, sp_angle_unit, sp_ratio_unit, sp_share_unit, sp_pressure_unit, sp_flow_unit,
-    sp_flux_unit, sp_width_flow_unit, sp_dose_unit, sp_speed_unit, sp_density_unit, sp_viscosity_unit, sp_tension_unit,
-    sp_acceleration_unit, sp_turning_unit;
+    const sp_reader *reader;
+    const sp_block *block;
+    const sp_yaml *map;
+} sp_fields;
 
 /* "key: found WHAT STANDS AT node, expected ..." at the node's place. False always. */
 bool sp_read_fail(const sp_reader *reader, const sp_yaml *node, const char *key, const char *format, ...)
@@ -61,30 +29,26 @@ bool sp_read_fail(const sp_reader *reader, const sp_yaml *node, const char *key,
 bool sp_read_message(const sp_reader *reader, const sp_yaml *node, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* The node is a map (or nothing, if no key is required) with none but these keys, each once, none required missing.
- * `key` names it in errors, `what` says what it describes ("a nozzle"). */
-bool sp_read_keys(const sp_reader *reader, const sp_yaml *node, const char *key, const char *what, const sp_key *keys);
+/* The map (or nothing, if no key is required) has none but the block's keys, each once, none required missing. `key`
+ * names it in errors. */
+bool sp_read_block(const sp_fields *in, const char *key);
 bool sp_read_is_list(const sp_reader *reader, const sp_yaml *node, const char *key, const char *of);
 
-/* The following leave *value as it is, and succeed, where the map has no such key. */
-bool sp_read_quantity(const sp_reader *reader, const sp_yaml *map, const char *key, const sp_dimension *dimension,
-                      sp_range range, double *value);
-bool sp_read_quantity_at(const sp_reader *reader, const sp_yaml *node, const char *key, const sp_dimension *dimension,
-                         sp_range range, double *value);
-/* How far apart settings lie, at least `least` in SI. */
-bool sp_read_step(const sp_reader *reader, const sp_yaml *map, const char *key, const sp_dimension *dimension,
-                  double least, sp_step *step);
-bool sp_read_vector(const sp_reader *reader, const sp_yaml *map, const char *key, const sp_dimension *dimension,
-                    sp_vec3 *value);
+/* The following read what the block says of the key. They leave *value, which holds what is so without the key, as it
+ * is, and succeed, where the map has no such key. */
+bool sp_read_quantity(const sp_fields *in, const char *key, double *value);
+/* Of a list of quantities. */
+bool sp_read_quantity_at(const sp_reader *reader, const sp_yaml *node, const sp_key *key, double *value);
+/* How far apart settings lie. */
+bool sp_read_step(const sp_fields *in, const char *key, sp_step *step);
+bool sp_read_vector(const sp_fields *in, const char *key, sp_vec3 *value);
 /* Any length but 0; made a unit vector. One that is a unit vector already to the last digits stays as it is. */
-bool sp_read_axis(const sp_reader *reader, const sp_yaml *map, const char *key, sp_vec3 *value);
-bool sp_read_name(const sp_reader *reader, const sp_yaml *map, const char *key, char name[SP_NAME]);
-bool sp_read_count(const sp_reader *reader, const sp_yaml *map, const char *key, uint64_t low, uint64_t high,
-                   uint64_t *value);
-bool sp_read_flag(const sp_reader *reader, const sp_yaml *map, const char *key, bool *value);
-/* `choices` ends with NULL; *value is the index of the one found. */
-bool sp_read_choice(const sp_reader *reader, const sp_yaml *map, const char *key, const char *const *choices,
-                    int *value);
+bool sp_read_axis(const sp_fields *in, const char *key, sp_vec3 *value);
+bool sp_read_name(const sp_fields *in, const char *key, char name[SP_NAME]);
+bool sp_read_count(const sp_fields *in, const char *key, uint64_t *value);
+bool sp_read_flag(const sp_fields *in, const char *key, bool *value);
+/* *value is the index of the word found. */
+bool sp_read_choice(const sp_fields *in, const char *key, int *value);
 
 /* Text of a scalar, NULL with an error for anything else. */
 const char *sp_read_text(const sp_reader *reader, const sp_yaml *node, const char *key, const char *expected);

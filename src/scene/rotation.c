@@ -1,12 +1,7 @@
 /* rotation: of a catalogue type that turns about two axes. */
 #include "scene/state.h"
 
-#define MOST_JETS 16
-#define MOST_TEETH 1000
-#define MOST_TURNS 1000000
 #define WIDEST 90 /* deg: the mean over a jet is told well up to there */
-
-static const sp_dimension teeth_unit = {"a number of teeth", "1", "43", true};
 
 static bool read_teeth(const sp_reader *reader, const sp_yaml *node, unsigned gears[2])
 {
@@ -15,7 +10,7 @@ static bool read_teeth(const sp_reader *reader, const sp_yaml *node, unsigned ge
     const sp_yaml *child = node->first;
     for (int i = 0; i < 2; i++, child = child->next) {
         double teeth;
-        if (!sp_read_quantity_at(reader, child, "gears", &teeth_unit, sp_between(1, MOST_TEETH), &teeth))
+        if (!sp_read_quantity_at(reader, child, sp_key_of(&sp_block_rotation, "gears"), &teeth))
             return false;
         if (teeth != floor(teeth))
             return sp_read_fail(reader, child, "gears", "a whole number of teeth");
@@ -57,16 +52,15 @@ static bool check_jet(const sp_reader *reader, const sp_yaml *rotation, const sp
 
 bool sp_scene_read_gears(const sp_reader *reader, const sp_yaml *rotation, sp_nozzle_type *type)
 {
+    const sp_fields in = {reader, &sp_block_rotation, rotation};
     const sp_yaml *gears = sp_yaml_get(rotation, "gears");
     if (!gears)
         return refuse_without_gears(reader, rotation);
     if (!sp_yaml_get(rotation, "jets"))
         return sp_read_message(reader, rotation, "jets", "found nothing, expected this key beside gears");
     uint64_t jets = 0, turns = 0;
-    if (!read_teeth(reader, gears, type->rotation.gears) ||
-        !sp_read_count(reader, rotation, "jets", 1, MOST_JETS, &jets) ||
-        !sp_read_quantity(reader, rotation, "speed", &sp_turning_unit, sp_above(0), &type->rotation.speed) ||
-        !sp_read_count(reader, rotation, "turns", 1, MOST_TURNS, &turns))
+    if (!read_teeth(reader, gears, type->rotation.gears) || !sp_read_count(&in, "jets", &jets) ||
+        !sp_read_quantity(&in, "speed", &type->rotation.speed) || !sp_read_count(&in, "turns", &turns))
         return false;
     type->rotation.jets = (unsigned)jets;
     type->rotation.turns = (unsigned)turns;

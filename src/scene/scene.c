@@ -7,11 +7,8 @@
 
 bool sp_scene_read(sp_scene *scene, const sp_reader *reader)
 {
-    static const sp_key keys[] = {{"up", false},        {"geometry", true}, {"cavity", false},   {"caps", false},
-                                  {"liquid", false},    {"air", false},     {"gravity", false},  {"criterion", false},
-                                  {"catalogue", false}, {"nozzles", false}, {"simulate", false}, {"place", false},
-                                  {"datum", false},     {"report", false},  {NULL, false}};
-    bool good = sp_read_keys(reader, scene->tree, "scene", "a scene", keys) && sp_scene_read_physics(scene, reader) &&
+    const sp_fields in = {reader, &sp_block_scene, scene->tree};
+    bool good = sp_read_block(&in, "scene") && sp_scene_read_physics(scene, reader) &&
                 sp_scene_read_datum(scene, reader) && sp_scene_read_catalogue(scene, reader) &&
                 sp_scene_read_nozzles(scene, reader) && sp_scene_read_simulate(scene, reader) &&
                 sp_scene_read_geometry(scene, reader) && sp_scene_read_place(scene, reader) &&

@@ -9,23 +9,22 @@ static bool is_auto(const sp_yaml *map, const char *key)
 /* Whole numbers and lengths that may also be auto, which the defaults are already. */
 static bool read_sizes(const sp_reader *reader, const sp_yaml *node, sp_fidelity *fidelity)
 {
+    const sp_fields in = {reader, &sp_block_simulate, node};
     uint64_t reflections = 0;
     bool counted = sp_yaml_get(node, "reflections") && !is_auto(node, "reflections");
-    if (counted && !sp_read_count(reader, node, "reflections", 0, 1000, &reflections))
+    if (counted && !sp_read_count(&in, "reflections", &reflections))
         return false;
     if (counted)
         fidelity->reflections = (int)reflections;
-    if (!is_auto(node, "jets") && !sp_read_count(reader, node, "jets", 1, SP_MAX_JETS, &fidelity->jets))
+    if (!is_auto(node, "jets") && !sp_read_count(&in, "jets", &fidelity->jets))
         return false;
-    return is_auto(node, "texel") ||
-           sp_read_quantity(reader, node, "texel", &sp_length_unit, sp_above(0), &fidelity->texel);
+    return is_auto(node, "texel") || sp_read_quantity(&in, "texel", &fidelity->texel);
 }
 
-bool sp_scene_read_trajectory(const sp_reader *reader, const sp_yaml *map, sp_trajectory *trajectory)
+bool sp_scene_read_trajectory(const sp_fields *in, sp_trajectory *trajectory)
 {
-    static const char *const trajectories[] = {"auto", "line", "parabola", "drag", NULL};
     int choice = *trajectory;
-    if (!sp_read_choice(reader, map, "trajectory", trajectories, &choice))
+    if (!sp_read_choice(in, "trajectory", &choice))
         return false;
     *trajectory = (sp_trajectory)choice;
     return true;
@@ -33,24 +32,16 @@ bool sp_scene_read_trajectory(const sp_reader *reader, const sp_yaml *map, sp_tr
 
 bool sp_scene_read_simulate(sp_scene *scene, const sp_reader *reader)
 {
-    static const sp_key keys[] = {{"trajectory", false}, {"evaluator", false}, {"reflections", false}, {"jets", false},
-                                  {"texel", false},      {"splat", false},     {"accuracy", false},    {"seed", false},
-                                  {"atlas", false},      {NULL, false}};
-    static const char *const methods[] = {"auto", "forward", "inverse", NULL};
-    static const char *const splats[] = {"nearest", "linear", NULL};
-    static const char *const atlases[] = {"unfold", "reuse", NULL};
     const sp_yaml *node = sp_yaml_get(scene->tree, "simulate");
+    const sp_fields in = {reader, &sp_block_simulate, node};
     sp_fidelity *fidelity = &scene->setup.fidelity;
     int method = fidelity->method, splat = fidelity->splat, atlas = 0;
     if (!node)
         return true;
-    if (!sp_read_keys(reader, node, "simulate", "the simulation", keys) ||
-        !sp_scene_read_trajectory(reader, node, &fidelity->trajectory) ||
-        !sp_read_choice(reader, node, "evaluator", methods, &method) || !read_sizes(reader, node, fidelity) ||
-        !sp_read_choice(reader, node, "splat", splats, &splat) ||
-        !sp_read_choice(reader, node, "atlas", atlases, &atlas) ||
-        !sp_read_quantity(reader, node, "accuracy", &sp_share_unit, sp_above_to(0, 1), &fidelity->accuracy) ||
-        !sp_read_count(reader, node, "seed", 0, UINT64_MAX, &fidelity->seed))
+    if (!sp_read_block(&in, "simulate") || !sp_scene_read_trajectory(&in, &fidelity->trajectory) ||
+        !sp_read_choice(&in, "evaluator", &method) || !read_sizes(reader, node, fidelity) ||
+        !sp_read_choice(&in, "splat", &splat) || !sp_read_choice(&in, "atlas", &atlas) ||
+        !sp_read_quantity(&in, "accuracy", &fidelity->accuracy) || !sp_read_count(&in, "seed", &fidelity->seed))
         return false;
     fidelity->method = (sp_method)method;
     fidelity->splat = (sp_splat)splat;

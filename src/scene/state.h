@@ -6,9 +6,6 @@
 
 #include <sprayplan/scene.h>
 
-enum { SP_MAX_ITEMS = 10000 }; /* of nozzles, types, mounts, geometry files */
-#define SP_MAX_JETS UINT64_C(1000000000000)
-
 /* An image of the catalogue's types. */
 typedef struct {
     char *path; /* seen from the working directory */
@@ -75,8 +72,8 @@ bool sp_scene_read_report(sp_scene *scene, const sp_reader *reader);
 /* cost.c: `water_cost` of place, before mounts; and `cost` of a mount, m³/s. Absent: none. */
 bool sp_scene_read_water_cost(sp_scene *scene, const sp_reader *reader, const sp_yaml *place);
 bool sp_scene_read_cost(const sp_scene *scene, const sp_reader *reader, const sp_yaml *mount, double *cost);
-/* A pressure or a list of them, malloc'd; no node: none. */
-bool sp_scene_read_pressures(const sp_reader *reader, const sp_yaml *node, double **pressures, size_t *count);
+/* `pressure`: one or a list of them, malloc'd; absent: none. */
+bool sp_scene_read_pressures(const sp_fields *in, double **pressures, size_t *count);
 /* alternatives.c: the list in `place:`, all else of which has been read; no node: none. */
 bool sp_scene_read_alternatives(sp_scene *scene, const sp_reader *reader, const sp_yaml *list);
 void sp_scene_free_alternatives(sp_scene *scene);
@@ -92,11 +89,11 @@ bool sp_scene_override(sp_yaml *tree, const char *setting, sp_error *error);
 /* What the tree of a catalogue says. */
 bool sp_scene_read_types_of(sp_scene *scene, const sp_reader *reader, const sp_yaml *catalogue);
 /* What a catalogue type, or a member of a cluster, sprays: `pattern`, and the angles that belong to it. */
-bool sp_scene_read_pattern(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
-bool sp_scene_read_shape(const sp_reader *reader, const sp_yaml *node, sp_nozzle_type *type);
+bool sp_scene_read_pattern(const sp_fields *in, sp_nozzle_type *type);
+bool sp_scene_read_shape(const sp_fields *in, sp_nozzle_type *type);
 /* flow_points.c: flow, pressure and exponent of a catalogue type. */
 /* `trajectory`: auto, line, parabola or drag; unchanged where it is not there. */
-bool sp_scene_read_trajectory(const sp_reader *reader, const sp_yaml *map, sp_trajectory *trajectory);
+bool sp_scene_read_trajectory(const sp_fields *in, sp_trajectory *trajectory);
 bool sp_scene_read_flow(const sp_reader *reader, const sp_yaml *map, sp_nozzle_type *type);
 /* patternation.c: the image of a measured type, whose angle has been read, into the scene. With speeds it becomes a
  * cluster of patterns in one place, each as fast as its layer, malloc'd into type->members, which no member of one can

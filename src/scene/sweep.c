@@ -8,15 +8,13 @@ static bool equal(sp_vec3 a, sp_vec3 b)
 
 bool sp_scene_read_sweep(sp_scene *scene, const sp_reader *reader, const sp_yaml *piece, bool *moves)
 {
-    static const sp_key keys[] = {{"from", true}, {"to", true}, {"speed", true}, {NULL, false}};
     const sp_yaml *node = sp_yaml_get(piece, "sweep");
+    const sp_fields in = {reader, &sp_block_sweep, node};
     sp_sweep sweep = {.speed = 0}, *known = &scene->setup.sweep;
     if (!node)
         return true;
-    if (!sp_read_keys(reader, node, "sweep", "a sweep", keys) ||
-        !sp_read_vector(reader, node, "from", &sp_length_unit, &sweep.from) ||
-        !sp_read_vector(reader, node, "to", &sp_length_unit, &sweep.to) ||
-        !sp_read_quantity(reader, node, "speed", &sp_speed_unit, sp_above(0), &sweep.speed))
+    if (!sp_read_block(&in, "sweep") || !sp_read_vector(&in, "from", &sweep.from) ||
+        !sp_read_vector(&in, "to", &sweep.to) || !sp_read_quantity(&in, "speed", &sweep.speed))
         return false;
     if (!(sp_distance(sweep.from, sweep.to) > 0))
         return sp_read_message(reader, sp_yaml_get(node, "to"), "to", "found the same place as from, expected another");

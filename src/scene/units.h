@@ -3,18 +3,11 @@
 #define SCENE_UNITS_H
 
 #include <sprayplan/error.h>
+#include <sprayplan/keys.h>
 
 #include <stddef.h>
 
 typedef struct sp_units sp_units;
-
-/* What a value measures. */
-typedef struct {
-    const char *name;    /* "a pressure" */
-    const char *unit;    /* SI, as udunits writes it: "Pa"; "1" without dimension, "rad" for angles */
-    const char *example; /* "2 bar" */
-    bool bare;           /* a number alone is in that unit */
-} sp_dimension;
 
 /* udunits' own system with `deg` and `gpm` added. */
 sp_units *sp_units_create(sp_error *error);
