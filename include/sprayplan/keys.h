@@ -67,9 +67,10 @@ struct sp_block {
     const sp_key *keys;
 };
 
-typedef enum { SP_TOPIC_SCENE, SP_TOPIC_CATALOGUE, SP_TOPIC_RESULT } sp_topic;
+typedef enum { SP_TOPIC_SCENE, SP_TOPIC_CATALOGUE, SP_TOPIC_RESULT, SP_TOPIC_FILES } sp_topic;
 
-/* The outermost block of a scene file, a catalogue or result.json; NULL for no topic. */
+/* The outermost block of a scene file, a catalogue, result.json, or of the files that are written, whose keys are names
+ * of files and what stands in them; NULL for no topic. */
 SP_API const sp_block *sp_topic_block(sp_topic topic);
 
 enum { SP_KEY_FORM = 400 }; /* bytes, the terminating zero included */

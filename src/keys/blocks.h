@@ -25,6 +25,8 @@ extern const sp_block sp_block_catalogue, sp_block_type, sp_block_type_step, sp_
     sp_block_rotation, sp_block_jet;
 /* result.c */
 extern const sp_block sp_block_result;
+/* files.c */
+extern const sp_block sp_block_files;
 
 /* keys.c: the key of that name, which the block has. */
 const sp_key *sp_key_of(const sp_block *block, const char *name);
