@@ -5,22 +5,44 @@ static void says_its_version(void **state)
 {
     (void)state;
     expect("--version", 0, "sprayplan 0.1.0\n", "");
+    expect("-V", 0, "sprayplan 0.1.0\n", "");
     expect("check --version", 0, "sprayplan 0.1.0\n", "");
+    expect("-qV", 0, "sprayplan 0.1.0\n", "");
 }
 
+/* Both ways to ask give the same, and no line is wider than a terminal. */
 static void help_goes_to_standard_output(void **state)
 {
     (void)state;
-    static const char *const calls[] = {"--help",       "check --help",   "simulate --help",
-                                        "place --help", "compare --help", "trace --help",
-                                        "atlas --help", "bench --help",   "study --help"};
-    for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {
-        outcome result = run_program(calls[i]);
+    static const char *const commands[] = {"",       "check ", "simulate ", "place ", "compare ",
+                                           "trace ", "atlas ", "bench ",    "study ", "help "};
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i) {
+        char line[64];
+        snprintf(line, sizeof line, "%s--help", commands[i]);
+        outcome result = run_program(line);
         assert_int_equal(result.status, 0);
         assert_ptr_equal(strstr(result.out, "usage: sprayplan"), result.out);
+        for (const char *at = result.out; *at; at += strcspn(at, "\n") + 1)
+            assert_in_range(strcspn(at, "\n"), 0, 80);
+        snprintf(line, sizeof line, "help %s", commands[i]);
+        expect(line, 0, result.out, "");
         assert_string_equal(result.err, "");
         forget(&result);
     }
+    outcome result = run_program("help place");
+    assert_non_null(strstr(result.out, "--time-limit S"));
+    assert_non_null(strstr(result.out, "-q, --quiet"));
+    assert_null(strstr(result.out, "--rays"));
+    forget(&result);
+}
+
+static void options_stand_anywhere(void **state)
+{
+    (void)state;
+    json_t *object = expect_json("--json --set simulate.texel=100mm check room.yaml", 0);
+    assert_string_equal(json_string_value(json_object_get(object, "command")), "check");
+    json_decref(object);
+    expect("-q check -- room.yaml", 0, "", "");
 }
 
 static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
@@ -30,7 +52,20 @@ static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
         const char *arguments, *complaint;
     } calls[] = {
         {"", "usage: sprayplan"},
-        {"paint room.yaml", "unknown command \"paint\""},
+        {"paint room.yaml", "unknown command \"paint\"\n"},
+        {"plcae room.yaml", "unknown command \"plcae\"; did you mean place?\n"},
+        {"help simulat", "unknown command \"simulat\"; did you mean simulate?\n"},
+        {"help check place", "help: found 2 file names"},
+        {"--json", "found no command"},
+        {"place room.yaml --time-limt 3", "unknown option --time-limt; did you mean --time-limit?\n"},
+        {"place room.yaml --time 3", "unknown option --time; did you mean --time-limit?\n"},
+        {"--prove check room.yaml", "check does not take --prove"},
+        {"check room.yaml -x", "unknown option -x\n"},
+        {"check room.yaml -qx", "unknown option -x\n"},
+        {"check room.yaml --json=yes", "--json: found \"yes\", expected no value"},
+        {"check room.yaml -o", "-o: found nothing behind it, expected DIR"},
+        {"check --threads", "--threads: found nothing behind it, expected N"},
+        {"check -- room.yaml --json", "found 2 file names, expected one"},
         {"study", "found 0 file names, expected one"},
         {"study room.yaml room.yaml", "found 2 file names, expected one"},
         {"study room.yaml --prove", "study does not take --prove"},
@@ -127,6 +162,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(says_its_version),
         cmocka_unit_test(help_goes_to_standard_output),
+        cmocka_unit_test(options_stand_anywhere),
         cmocka_unit_test(wrong_usage_ends_with_2_and_prints_nothing),
         cmocka_unit_test(bad_input_ends_with_3_and_says_where),
     };
