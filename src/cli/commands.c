@@ -151,3 +151,10 @@ size_t cli_command_named(const char *name)
             return i;
     return SIZE_MAX;
 }
+
+void cli_option_syntax(const cli_option *option, char text[CLI_SYNTAX])
+{
+    snprintf(text, CLI_SYNTAX, "%s%.1s%s%s%s%s%s", option->letter ? "-" : "", &option->letter,
+             option->letter && option->name ? ", " : "", option->name ? "--" : "", option->name ? option->name : "",
+             option->value ? " " : "", option->value ? option->value : "");
+}

@@ -59,13 +59,6 @@ static void print_terms(FILE *to, const char *title, const cli_term *terms)
         print_term(to, terms->term, terms->text);
 }
 
-void cli_option_syntax(const cli_option *option, char text[CLI_SYNTAX])
-{
-    snprintf(text, CLI_SYNTAX, "%s%.1s%s%s%s%s%s", option->letter ? "-" : "", &option->letter,
-             option->letter && option->name ? ", " : "", option->name ? "--" : "", option->name ? option->name : "",
-             option->value ? " " : "", option->value ? option->value : "");
-}
-
 static void print_options(FILE *to, unsigned commands, bool common)
 {
     for (size_t i = 0; i < cli_option_count; i++) {

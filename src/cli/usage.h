@@ -68,7 +68,7 @@ typedef struct {
 
 extern const cli_option cli_options_known[];
 extern const size_t cli_option_count;
-/* Takes part in every command. */
+/* Every command takes it. */
 bool cli_option_is_common(const cli_option *option);
 
 /* A row of a list of terms, as of exit statuses. */
@@ -83,11 +83,12 @@ extern const char cli_purpose[];
 /* SIZE_MAX where no command is called that. */
 size_t cli_command_named(const char *name);
 
-/* usage.c: the texts. */
-void cli_print_usage(FILE *to);
-void cli_print_command_usage(FILE *to, cli_command_id command);
 /* `-o, --set KEY=VALUE`, without whatever of these the option lacks. */
 enum { CLI_SYNTAX = 64 };
 void cli_option_syntax(const cli_option *option, char text[CLI_SYNTAX]);
+
+/* usage.c: the texts. */
+void cli_print_usage(FILE *to);
+void cli_print_command_usage(FILE *to, cli_command_id command);
 
 #endif

@@ -157,6 +157,50 @@ static void bad_input_ends_with_3_and_says_where(void **state)
         }
 }
 
+/* Runs a command of the shell in the workplace; its status, and what it prints in .out. */
+static int run_shell(const char *command)
+{
+    char line[1024];
+    snprintf(line, sizeof line, "cd '%s' && { %s; } >.out 2>&1", workplace, command);
+    int status = system(line);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/* As far as the page is made here, and there is something to read it. */
+static void the_manual_page_is_sound(void **state)
+{
+    (void)state;
+    static const char *const readers[] = {"groff -man -ww -z -Tutf8", "mandoc -Tlint -Wwarning"};
+    static const char page[] = BINARY_DIR "/man/man1/sprayplan.1";
+    bool read = false;
+    if (access(page, R_OK) != 0)
+        skip();
+    for (size_t i = 0; i < sizeof readers / sizeof *readers; ++i) {
+        char line[600];
+        snprintf(line, sizeof line, "command -v %.*s", (int)strcspn(readers[i], " "), readers[i]);
+        if (run_shell(line) != 0)
+            continue;
+        snprintf(line, sizeof line, "%s '%s'", readers[i], page);
+        assert_int_equal(run_shell(line), 0);
+        char *complaints = read_file(".out", NULL);
+        assert_string_equal(complaints, "");
+        free(complaints);
+        read = true;
+    }
+    if (!read || run_shell("MANWIDTH=80 man -l " BINARY_DIR "/man/man1/sprayplan.1 | col -b") != 0)
+        skip();
+    char *text = read_file(".out", NULL);
+    static const char *const said[] = {"sprayplan place [OPTION]... SCENE",
+                                       "--time-limit S",
+                                       "-q, --quiet",
+                                       "layout-1.yaml",
+                                       "OMP_NUM_THREADS",
+                                       "130 "};
+    for (size_t i = 0; i < sizeof said / sizeof *said; ++i)
+        assert_non_null(strstr(text, said[i]));
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -165,6 +209,7 @@ int main(void)
         cmocka_unit_test(options_stand_anywhere),
         cmocka_unit_test(wrong_usage_ends_with_2_and_prints_nothing),
         cmocka_unit_test(bad_input_ends_with_3_and_says_where),
+        cmocka_unit_test(the_manual_page_is_sound),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }
