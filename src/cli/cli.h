@@ -39,6 +39,19 @@ typedef struct {
     sp_accelerator accelerator;
 } cli_options;
 
+/* reading.c: - stands for standard input wherever a scene, a mesh or rays are read. */
+bool cli_is_standard_input(const char *path);
+/* What messages and results call it. */
+const char *cli_input_name(const char *path);
+/* Where the file is that is read, so that it is not written to. */
+const char *cli_input_path(const char *path);
+/* False, after a message on standard error, where it would have to be read twice. */
+bool cli_reads_once(const cli_options *options);
+sp_scene *cli_load_scene(const char *path, const cli_options *options, const sp_run *run, sp_error *error);
+sp_mesh *cli_load_mesh(const char *path, sp_error *error);
+/* To be closed, unless it is stdin. */
+FILE *cli_open(const char *path, sp_error *error);
+
 /* waiting.c: lets threads sleep where they wait for one another, instead of asking again and again, which takes the
  * processor from other programs and from one another. Before the first thread; starts the program anew with all of its
  * arguments, or returns where there is nothing to do or it cannot. */
@@ -94,14 +107,15 @@ int cli_study(const cli_options *options);
 int cli_help(const cli_options *options);
 
 /* inputs.c: files that were read. Their digests are taken as soon as they were, since they may be edited meanwhile;
- * what came through a pipe is gone, and is left out. */
+ * what came through a pipe or standard input is gone, and is left out. */
 typedef struct {
     sp_input *list; /* [count], their paths are ours */
     size_t count;
 } cli_inputs;
 /* Once each. False, with an error, where one cannot be read again. */
 bool cli_inputs_add(cli_inputs *inputs, const char *path, sp_error *error);
-bool cli_inputs_add_scene(cli_inputs *inputs, const sp_scene *scene, sp_error *error);
+/* `path`: of the scene, as it was given. */
+bool cli_inputs_add_scene(cli_inputs *inputs, const char *path, const sp_scene *scene, sp_error *error);
 bool cli_inputs_join(cli_inputs *inputs, const cli_inputs *more, sp_error *error);
 void cli_inputs_free(cli_inputs *inputs);
 

@@ -9,6 +9,11 @@ const char cli_purpose[] =
     "records "
     "what reaches every patch of it, and searches for the layout that covers the most area per unit water.";
 
+const char cli_conventions[] =
+    "Options may stand anywhere, also before the command, and behind -- stand none. A - in place of a file is standard "
+    "input, for scenes, meshes (OBJ, STL or PLY) and rays; other files that such a scene names are looked up from the "
+    "working directory.";
+
 const cli_command cli_commands[CLI_COMMANDS] = {
     [CLI_CHECK] = {"check", "SCENE", "what is in a scene, what is wrong with it, diagnosis of its mesh",
                    "Reads the scene, its catalogue and its geometry, and tells what is in them and what is doubtful: "

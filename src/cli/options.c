@@ -361,5 +361,5 @@ bool cli_parse(int count, char **arguments, cli_options *options)
         fprintf(stderr, "sprayplan: found no command\n");
         return false;
     }
-    return takes_all(&reader) && has_inputs(options);
+    return takes_all(&reader) && has_inputs(options) && cli_reads_once(options);
 }

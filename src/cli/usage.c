@@ -94,6 +94,8 @@ void cli_print_usage(FILE *to)
     }
     print_terms(to, "exit status", cli_statuses);
     fprintf(to, "\n");
+    print_wrapped(to, cli_conventions, 0, 0);
+    fprintf(to, "\n");
     print_wrapped(to, "`sprayplan help COMMAND` tells what a command does and which options of its own it takes.", 0,
                   0);
 }

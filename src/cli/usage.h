@@ -79,6 +79,8 @@ extern const cli_term cli_statuses[], cli_environment[], cli_files[]; /* the las
 
 /* What the program is for, one paragraph. */
 extern const char cli_purpose[];
+/* What holds of all command lines, one paragraph. */
+extern const char cli_conventions[];
 
 /* SIZE_MAX where no command is called that. */
 size_t cli_command_named(const char *name);

@@ -57,11 +57,13 @@ int main(int count, char **arguments)
     print_synopsis(to);
     roff_section(to, "DESCRIPTION");
     roff_paragraphs(to, cli_purpose);
+    fprintf(to, ".PP\n");
+    roff_paragraphs(to, cli_conventions);
     roff_section(to, "COMMANDS");
     for (int i = 0; i < CLI_COMMANDS; i++)
         print_command(to, (cli_command_id)i);
     roff_section(to, "OPTIONS");
-    roff_paragraphs(to, "Options may stand anywhere, also before the command. All commands take:");
+    roff_paragraphs(to, "All commands take:");
     print_options(to, ~0u, true);
     roff_section(to, "EXIT STATUS");
     print_terms(to, cli_statuses);
