@@ -99,7 +99,7 @@ static bool list_designs(comparison *all, const cli_options *options, sp_error *
     if (!all->designs || !all->names || !all->read_figures)
         return sp_fail_memory(error);
     for (int i = 0; i < options->input_count; i++)
-        if (!add_input(all, &all->inputs[i], options->inputs[i], error))
+        if (!add_input(all, &all->inputs[i], cli_input_name(options->inputs[i]), error))
             return false;
     return true;
 }
@@ -185,7 +185,7 @@ static bool compare(comparison *all, const cli_options *options, sp_error *error
     if (!share_figures(all, error))
         return false;
     sp_result result = {.command = "compare",
-                        .scene = options->inputs[0],
+                        .scene = cli_input_name(options->inputs[0]),
                         .design_count = all->design_count,
                         .designs = all->designs,
                         .stage_count = all->clock.count,

@@ -112,7 +112,7 @@ static int report(const cli_options *options, const cli_scene *opened, const pla
     const sp_proposal *best = found->proposals[found->best];
     const sp_scene *scene = opened->scene;
     sp_result result = {.command = "place",
-                        .scene = options->inputs[0],
+                        .scene = cli_input_name(options->inputs[0]),
                         .designs = designs,
                         .proposal = best,
                         .stage_count = clock->count,
@@ -297,7 +297,10 @@ int cli_place(const cli_options *options)
     }
     if (!cli_join(&error)) /* of those that cannot the first alone says so */
         return sp_ranks_first() ? cli_fail(&error) : EXIT_DONE;
-    int status = cli_with_scene(&own, true, place);
+    if (cli_ranks() && cli_is_standard_input(own.inputs[0]))
+        sp_fail(&error, SP_ERROR_INPUT, NULL, 0, 0,
+                "standard input: found several processes, expected one: only the first of them has it");
+    int status = error.kind ? cli_fail(&error) : cli_with_scene(&own, true, place);
     cli_leave();
     return status;
 }

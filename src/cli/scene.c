@@ -6,10 +6,10 @@ bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *opti
 {
     *opened = (cli_scene){0};
     const sp_run run = cli_run(options);
-    opened->scene = sp_scene_load_with(path, options->overrides, options->override_count, &run, error);
+    opened->scene = cli_load_scene(path, options, &run, error);
     if (!opened->scene)
         return false;
-    if ((options->output || options->json) && !cli_inputs_add_scene(&opened->inputs, opened->scene, error)) {
+    if ((options->output || options->json) && !cli_inputs_add_scene(&opened->inputs, path, opened->scene, error)) {
         cli_scene_close(opened);
         return false;
     }

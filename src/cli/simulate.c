@@ -16,7 +16,7 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
     cli_clock_stage(clock, "measured error");
     sp_design design = cli_design(opened, "manual", opened->evaluator, layout, coverage);
     sp_result result = {.command = "simulate",
-                        .scene = options->inputs[0],
+                        .scene = cli_input_name(options->inputs[0]),
                         .design_count = 1,
                         .designs = &design,
                         .stage_count = clock->count,

@@ -22,7 +22,8 @@ static const sp_key deposits_keys[] = {
     {.name = "chart", .kind = SP_KEY_NUMBER, .says = "The number of its chart"},
     {NULL}};
 static const sp_block deposits = {"deposits", "channels of the texture atlas",
-                                  "Floats, one pixel a texel; NaN where no surface that counts lies. In SI units",
+                                  "Floats in SI units, one pixel a texel, 0 where no surface that counts lies; a part "
+                                  "of the file is a page, `-back` of sheets' back sides",
                                   deposits_keys};
 
 static const sp_key surface_keys[] = {

@@ -112,6 +112,10 @@ static bool read_surface(sp_scene *scene, const sp_fields *in, sp_mount *mount)
         !sp_read_quantity(in, "spacing", &mount->spacing) || !sp_read_quantity(in, "standoff", &mount->standoff) ||
         !sp_read_quantity(in, "tilt", &mount->tilt))
         return false;
+    size_t files = sp_yaml_get(scene->tree, "geometry")->count;
+    if (geometry >= files)
+        return sp_read_fail(reader, sp_yaml_get(node, "geometry"), "geometry", "a whole number from 0 to %zu",
+                            files - 1);
     mount->geometry = (uint32_t)geometry;
     const sp_yaml *part = sp_yaml_get(node, "part");
     return !part || find_part(scene, reader, part, mount);
