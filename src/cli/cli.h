@@ -22,7 +22,7 @@ typedef struct {
     int input_count;
     char *const *arguments; /* all that follows the program's name */
     int argument_count;
-    bool json, quiet, help, version, prove, no_live;
+    bool json, quiet, help, version, prove, no_live, schema;
     int threads;
     double time_limit;  /* s, 0: none */
     double memory;      /* bytes, 0: not given */

@@ -56,8 +56,11 @@ const cli_command cli_commands[CLI_COMMANDS] = {
     [CLI_BENCH] = {"bench", "MESH", "build, trace and atlas timings of every accelerator on a mesh",
                    "Traces the same rays with every accelerator in turn and prints what building and tracing took.",
                    "sprayplan bench vessel.obj --mode cone", 1, 1},
-    [CLI_HELP] = {"help", "[COMMAND]", "what a command does and which options it takes",
-                  "Prints the same as COMMAND --help; without a COMMAND, what there is.", "sprayplan help place", 0, 1},
+    [CLI_HELP] =
+        {"help", "[COMMAND|TOPIC]", "what a command does, or what the keys of a file mean",
+         "Of a command prints the same as COMMAND --help; of a topic (scene, catalogue, result, files) every key, "
+         "what it may be, what is so without it and what it means; without either, what there is.",
+         "sprayplan help scene", 0, 1},
 };
 
 #define OF(command) (1u << (command))
@@ -102,6 +105,8 @@ const cli_option cli_options_known[] = {
     {CLI_ACCEL, 0, "accel", "WHICH", OF(CLI_TRACE), "The accelerator: bvh (default), sah, naive or none."},
     {CLI_MODE, 0, "mode", "MODE", OF(CLI_BENCH), "cone, grid, incoherent or surface. Default: all."},
     {CLI_TRAJECTORY, 0, "trajectory", "WHICH", OF(CLI_BENCH), "line or parabola. Default: both."},
+    {CLI_SCHEMA, 0, "schema", NULL, OF(CLI_HELP),
+     "Print a JSON Schema of a scene, a catalogue or a result (default: scene), by which editors check and complete."},
     {CLI_JSON, 0, "json", NULL, ALL, "Print one JSON object on standard output, and nothing else there."},
     {CLI_THREADS, 0, "threads", "N", ALL,
      "How many threads to use. Default: one per core. The answer does not depend on it."},

@@ -4,10 +4,29 @@
 #include "topics.h"
 
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
+
+static int print_schema(const char *name)
+{
+    sp_error error = {0};
+    const cli_topic *topic = cli_topic_named(name);
+    if (!topic || topic->topic == SP_TOPIC_FILES) {
+        fprintf(stderr, "sprayplan: --schema: found \"%s\", expected scene, catalogue or result\n", name);
+        return EXIT_USAGE;
+    }
+    char *schema = sp_topic_schema(topic->topic, &error);
+    if (!schema)
+        return cli_fail(&error);
+    fputs(schema, stdout);
+    free(schema);
+    return EXIT_DONE;
+}
 
 int cli_help(const cli_options *options)
 {
+    if (options->schema)
+        return print_schema(options->input_count ? options->inputs[0] : "scene");
     if (options->input_count == 0) {
         cli_print_usage(stdout);
         return EXIT_DONE;
@@ -18,11 +37,11 @@ int cli_help(const cli_options *options)
         cli_print_command_usage(stdout, (cli_command_id)command);
         return EXIT_DONE;
     }
-    for (const cli_topic *topic = cli_topics; topic->name; topic++)
-        if (!strcmp(topic->name, name)) {
-            topic->print(stdout);
-            return EXIT_DONE;
-        }
+    const cli_topic *topic = cli_topic_named(name);
+    if (topic) {
+        cli_print_topic(stdout, topic);
+        return EXIT_DONE;
+    }
     cli_unknown_command(name);
     return EXIT_USAGE;
 }

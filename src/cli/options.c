@@ -161,6 +161,9 @@ static bool take_option(cli_option_id option, const char *value, cli_options *op
         return parse_gravity(value, &options->gravity);
     case CLI_ACCEL:
         return parse_accelerator(value, &options->accelerator);
+    case CLI_SCHEMA:
+        options->schema = true;
+        return true;
     case CLI_HELP_ASKED:
         options->help = true;
         return true;

@@ -49,6 +49,7 @@ typedef enum {
     CLI_ACCEL,
     CLI_MODE,
     CLI_TRAJECTORY,
+    CLI_SCHEMA,
     CLI_JSON,
     CLI_THREADS,
     CLI_QUIET,

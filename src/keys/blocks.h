@@ -9,7 +9,7 @@
 
 extern const sp_dimension sp_length_unit, sp_angle_unit, sp_ratio_unit, sp_share_unit, sp_pressure_unit, sp_flow_unit,
     sp_flux_unit, sp_width_flow_unit, sp_dose_unit, sp_speed_unit, sp_density_unit, sp_viscosity_unit, sp_tension_unit,
-    sp_acceleration_unit, sp_turning_unit;
+    sp_acceleration_unit, sp_turning_unit, sp_teeth_unit;
 
 enum { SP_MAX_ITEMS = 10000 }; /* of nozzles, types, mounts, geometry files */
 #define SP_MAX_JETS 1e12

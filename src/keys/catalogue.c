@@ -17,25 +17,25 @@ static const char *const words_trajectory[] = {"auto", "line", "parabola", "drag
 #define ANGLE                                                                                                          \
     {                                                                                                                  \
         .name = "angle", .kind = SP_KEY_QUANTITY, .dimension = &sp_angle_unit, .range = SP_ABOVE_TO(0, 2 * M_PI),      \
-        .absent = "1 deg of a solid_stream, none of cluster and rotating, required of others",                         \
+        .absent = "1 deg of a solid_stream; others need it, but for cluster and rotating",                             \
         .says = "The whole opening angle, as catalogues print it; of a fan the wide one; of an image what its rows "   \
                 "go up to"                                                                                             \
     }
 #define HOLLOW                                                                                                         \
     {                                                                                                                  \
         .name = "hollow", .kind = SP_KEY_QUANTITY, .dimension = &sp_share_unit, .range = SP_FROM_BELOW(0, 1),          \
-        .absent = "required of a hollow_cone, of no other",                                                            \
-        .says = "The angle of the dry middle as a share of `angle`"                                                    \
+        .says = "Of a hollow_cone, which needs it: the angle of the dry middle as a share of `angle`"                  \
     }
 #define THICKNESS                                                                                                      \
     {                                                                                                                  \
         .name = "thickness", .kind = SP_KEY_QUANTITY, .dimension = &sp_angle_unit, .range = SP_ABOVE_TO(0, M_PI),      \
-        .absent = "required of a flat_fan, of no other", .says = "The fan's narrow opening angle"                      \
+        .says = "Of a flat_fan, which needs it: its narrow opening angle"                                              \
     }
 #define IMAGE                                                                                                          \
     {                                                                                                                  \
-        .name = "image", .kind = SP_KEY_TEXT, .absent = "required of measured, of no other",                           \
-        .says = "A file beside the catalogue (PNG, TIFF, OpenEXR, PFM): columns are azimuth from x towards y, rows "   \
+        .name = "image", .kind = SP_KEY_TEXT,                                                                          \
+        .says = "Of measured, which needs it: a file beside the catalogue (PNG, TIFF, OpenEXR, PFM): columns are "     \
+                "azimuth from x towards y, rows "                                                                      \
                 "polar angle from "                                                                                    \
                 "the axis to half of `angle`, values liquid per solid angle in any measure. A second channel is "      \
                 "speed, as a share of "                                                                                \
@@ -113,13 +113,13 @@ static const sp_key type_keys[] = {
     {.name = "members",
      .kind = SP_KEY_BLOCKS,
      .block = &sp_block_member,
-     .absent = "required of a cluster, of no other",
-     .says = "Its patterns, at most 1000, which share the flow"},
+
+     .says = "Of a cluster, which needs it: its patterns, at most 1000, which share the flow"},
     {.name = "rotation",
      .kind = SP_KEY_BLOCK,
      .block = &sp_block_rotation,
-     .absent = "required of rotating, of no other",
-     .says = "What turns, and how"},
+
+     .says = "Of rotating, which needs it: what turns, and how"},
     {.name = "thread", .kind = SP_KEY_TEXT, .absent = "none", .says = "For the sheet, such as G 1/2"},
     {.name = "insert", .kind = SP_KEY_TEXT, .absent = "none", .says = "For the sheet: what is fitted into the body"},
     {.name = "body",
@@ -226,10 +226,11 @@ static const sp_key rotation_keys[] = {
     {.name = "jets",
      .kind = SP_KEY_COUNT,
      .range = SP_BETWEEN(1, MOST_JETS),
-     .absent = "required beside `gears`, else none",
-     .says = "How many of it, evenly spread round the hub and pointing outwards"},
+
+     .says = "Beside `gears`, which need it: how many of it, evenly spread round the hub and pointing outwards"},
     {.name = "gears",
      .kind = SP_KEY_COUNTS,
+     .dimension = &sp_teeth_unit,
      .range = SP_BETWEEN(1, MOST_TEETH),
      .absent = "it turns about the nozzle's axis alone",
      .says = "Two axes: the hub turns as often as the first says about an axis across the nozzle's while the body "

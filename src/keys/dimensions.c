@@ -16,3 +16,4 @@ const sp_dimension sp_viscosity_unit = {"a viscosity", "Pa.s", "1 mPa.s", false}
 const sp_dimension sp_tension_unit = {"a surface tension", "N/m", "72 mN/m", false};
 const sp_dimension sp_acceleration_unit = {"an acceleration", "m/s2", "9.81 m/s2", false};
 const sp_dimension sp_turning_unit = {"a speed of rotation", "rad/s", "3 rpm", false};
+const sp_dimension sp_teeth_unit = {"a number of teeth", "1", "43", true};

@@ -113,7 +113,7 @@ static const sp_key files_keys[] = {
     {.name = "layout.yaml",
      .kind = SP_KEY_TEXT,
      .says = "The layout as a scene, of which `simulate` makes the same figures; alternatives that are not proposed "
-             "are layout-1.yaml, .."},
+             "are layout-1.yaml and so on"},
     {.name = "nozzles.csv",
      .kind = SP_KEY_BLOCK,
      .block = &nozzles_csv,

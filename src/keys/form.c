@@ -77,10 +77,10 @@ static void value_form(const sp_key *key, char form[SP_KEY_FORM])
         append(form, key->kind == SP_KEY_QUANTITIES ? ", or a list of them" : "");
         break;
     case SP_KEY_LIMITS:
-        snprintf(form, SP_KEY_FORM, "two of %s, the smaller first", key->dimension->name);
+        snprintf(form, SP_KEY_FORM, "[least, most], each %s such as %s", key->dimension->name, key->dimension->example);
         break;
     case SP_KEY_VECTOR:
-        snprintf(form, SP_KEY_FORM, "three of %s such as [0, 0, %s]", key->dimension->name, key->dimension->example);
+        snprintf(form, SP_KEY_FORM, "[x, y, z], each %s such as %s", key->dimension->name, key->dimension->example);
         break;
     case SP_KEY_COUNT:
         count_form(key, form);

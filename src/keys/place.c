@@ -58,8 +58,8 @@ static const sp_key place_keys[] = {
      .kind = SP_KEY_QUANTITIES,
      .dimension = &sp_pressure_unit,
      .range = SP_ABOVE(0),
-     .absent = "required beside `mounts`",
-     .says = "At which nozzles are placed; each of several may be chosen for each nozzle"},
+
+     .says = "At which nozzles are placed, needed beside `mounts`; each of several may be chosen for each nozzle"},
     {.name = "clearance",
      .kind = SP_KEY_QUANTITY,
      .dimension = &sp_length_unit,
@@ -168,25 +168,26 @@ static const sp_key port_keys[] = {
     {NULL}};
 const sp_block sp_block_port = {"port", "a port", NULL, port_keys};
 
-static const sp_key depth_keys[] = {{.name = "from",
-                                     .kind = SP_KEY_QUANTITY,
-                                     .dimension = &sp_length_unit,
-                                     .range = SP_FROM(0),
-                                     .standard = "0",
-                                     .says = "The least"},
-                                    {.name = "to",
-                                     .kind = SP_KEY_QUANTITY,
-                                     .required = true,
-                                     .dimension = &sp_length_unit,
-                                     .range = SP_FROM(0),
-                                     .says = "The most"},
-                                    {.name = "spacing",
-                                     .kind = SP_KEY_QUANTITY,
-                                     .dimension = &sp_length_unit,
-                                     .range = SP_ABOVE(0),
-                                     .absent = "required where the two differ",
-                                     .says = "Between depths that are tried first; refinement moves between"},
-                                    {NULL}};
+static const sp_key depth_keys[] = {
+    {.name = "from",
+     .kind = SP_KEY_QUANTITY,
+     .dimension = &sp_length_unit,
+     .range = SP_FROM(0),
+     .standard = "0",
+     .says = "The least"},
+    {.name = "to",
+     .kind = SP_KEY_QUANTITY,
+     .required = true,
+     .dimension = &sp_length_unit,
+     .range = SP_FROM(0),
+     .says = "The most"},
+    {.name = "spacing",
+     .kind = SP_KEY_QUANTITY,
+     .dimension = &sp_length_unit,
+     .range = SP_ABOVE(0),
+
+     .says = "Between depths that are tried first, needed where the two differ; refinement moves between"},
+    {NULL}};
 const sp_block sp_block_depth = {"depth", "a lance", NULL, depth_keys};
 
 static const sp_key lance_step_keys[] = {{.name = "depth",
@@ -233,8 +234,8 @@ const sp_block sp_block_surface = {"surface", "a surface", NULL, surface_keys};
 #define SPACING                                                                                                        \
     {                                                                                                                  \
         .name = "spacing", .kind = SP_KEY_QUANTITY, .dimension = &sp_length_unit, .range = SP_ABOVE(0),                \
-        .absent = "required where there is more than a point",                                                         \
-        .says = "Between points that are tried first, ends included; refinement moves between"                         \
+        .says = "Between points that are tried first, ends included; needed where there is more than a point. "        \
+                "Refinement moves between"                                                                             \
     }
 #define AXIS                                                                                                           \
     {                                                                                                                  \

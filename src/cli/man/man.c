@@ -1,7 +1,13 @@
-/* Writes sprayplan(1) on standard output, from the texts that --help prints. Built for that, and not installed. */
+/* Writes a manual page on standard output, from the texts that --help and `help TOPIC` print: sprayplan(1), or of a
+ * topic sprayplan-TOPIC(5). Built for that, and not installed. */
 #include "roff.h"
 
+#include "../topics.h"
+
 #include "../usage.h"
+
+#include <ctype.h>
+#include <string.h>
 
 static void print_options(FILE *to, unsigned commands, bool common)
 {
@@ -44,14 +50,9 @@ static void print_command(FILE *to, cli_command_id id)
     roff_example(to, command->example);
 }
 
-int main(int count, char **arguments)
+static void print_program(FILE *to, const char *date)
 {
-    if (count != 2) {
-        fprintf(stderr, "usage: sprayplan-man DATE\n");
-        return 2;
-    }
-    FILE *to = stdout;
-    roff_title(to, "SPRAYPLAN", 1, arguments[1], "User Commands");
+    roff_title(to, "SPRAYPLAN", 1, date, "User Commands");
     roff_section(to, "NAME");
     fprintf(to, "sprayplan \\- propose where to put spray nozzles\n");
     print_synopsis(to);
@@ -72,5 +73,56 @@ int main(int count, char **arguments)
     print_terms(to, cli_files);
     roff_section(to, "ENVIRONMENT");
     print_terms(to, cli_environment);
-    return fflush(to) != 0 || ferror(to) ? 1 : 0;
+    roff_section(to, "SEE ALSO");
+    for (const cli_topic *topic = cli_topics; topic->name; topic++)
+        fprintf(to, "%s.BR sprayplan\\-%s (5)", topic == cli_topics ? "" : ",\n", topic->name);
+    fputc('\n', to);
+}
+
+static void print_block(FILE *to, const char *path, const sp_block *block)
+{
+    if (strpbrk(path, ".[") || !block->says)
+        roff_subsection(to, path);
+    if (block->says) {
+        char text[1200];
+        snprintf(text, sizeof text, "%s.", block->says);
+        roff_text(to, text);
+    }
+}
+
+static void print_key(FILE *to, const char *name, const char *form, const char *text)
+{
+    roff_tagged(to, name, form);
+    fprintf(to, ".br\n");
+    roff_text(to, text);
+}
+
+static void print_topic(FILE *to, const cli_topic *topic, const char *date)
+{
+    static const cli_topic_style style = {print_block, print_key};
+    char title[40];
+    snprintf(title, sizeof title, "SPRAYPLAN-%s", topic->name);
+    for (char *at = title; *at; at++)
+        *at = (char)toupper((unsigned char)*at);
+    roff_title(to, title, 5, date, "File Formats");
+    roff_section(to, "NAME");
+    fprintf(to, "sprayplan\\-%s \\- %s\n", topic->name, topic->summary);
+    roff_section(to, "DESCRIPTION");
+    cli_write_topic(to, topic, &style);
+    roff_section(to, "SEE ALSO");
+    fprintf(to, ".BR sprayplan (1)\n");
+}
+
+int main(int count, char **arguments)
+{
+    const cli_topic *topic = count == 3 ? cli_topic_named(arguments[2]) : NULL;
+    if (count != 2 && !topic) {
+        fprintf(stderr, "usage: sprayplan-man DATE [TOPIC]\n");
+        return 2;
+    }
+    if (topic)
+        print_topic(stdout, topic, arguments[1]);
+    else
+        print_program(stdout, arguments[1]);
+    return fflush(stdout) != 0 || ferror(stdout) ? 1 : 0;
 }
