@@ -1,6 +1,7 @@
 /* geometry: files, transforms, parts, surfaces. */
 #include "scene/state.h"
 
+#include <assert.h>
 #include <fnmatch.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,6 +39,7 @@ static bool read_unit(const sp_reader *reader, const sp_yaml *node, double *unit
 {
     const sp_yaml *child = sp_yaml_get(node, "unit");
     char why[200] = "";
+    assert(*unit == 1 && strcmp(sp_key_of(&sp_block_geometry, "unit")->standard, "m") == 0);
     if (!child)
         return true;
     const char *text = sp_read_text(reader, child, "unit", "a unit of length such as mm");
