@@ -42,7 +42,8 @@ typedef enum {
     SP_KEY_BLOCKS,       /* a list of these */
     SP_KEY_NAMED_BLOCKS, /* a list of these, or of texts in their place */
     SP_KEY_NUMBER,       /* of results: in the unit that the key's name ends in, a share where it has none */
-    SP_KEY_NUMBERS       /* a list of these */
+    SP_KEY_NUMBERS,      /* a list of these */
+    SP_KEY_FILE          /* of a name; `block` is what stands in it, or NULL */
 } sp_key_kind;
 
 typedef struct sp_block sp_block;

@@ -63,6 +63,8 @@ static const char *plain_form(sp_key_kind kind)
         return "a number";
     case SP_KEY_NUMBERS:
         return "a list of numbers";
+    case SP_KEY_FILE:
+        return "a file";
     default:
         return "a block";
     }
