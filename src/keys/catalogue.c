@@ -43,7 +43,8 @@ static const char *const words_trajectory[] = {"auto", "line", "parabola", "drag
     }
 
 static const sp_key catalogue_keys[] = {
-    {.name = "nozzles", .kind = SP_KEY_BLOCKS, .required = true, .block = &sp_block_type, .says = "The types"}, {NULL}};
+    {.name = "nozzles", .kind = SP_KEY_BLOCKS, .required = true, .block = &sp_block_type, .says = "The types"},
+    {.name = NULL}};
 const sp_block sp_block_catalogue = {"catalogue", "a catalogue",
                                      "A catalogue is a YAML file that scenes name under `catalogue`. Quantities are "
                                      "written as in scenes. Liquid is uniform per "
@@ -138,7 +139,7 @@ static const sp_key type_keys[] = {
      .words = words_trajectory,
      .standard = "auto",
      .says = "How its liquid flies, whatever `simulate` says of the others; `auto` is as the others"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_type = {"type", "a catalogue type", NULL, type_keys};
 
 static const sp_key type_step_keys[] = {{.name = "angle",
@@ -159,7 +160,7 @@ static const sp_key type_step_keys[] = {{.name = "angle",
                                          .range = SP_FROM(1),
                                          .absent = "any",
                                          .says = "From 0"},
-                                        {NULL}};
+                                        {.name = NULL}};
 const sp_block sp_block_type_step = {"type_step", "a step", NULL, type_step_keys};
 
 static const sp_key member_keys[] = {
@@ -195,7 +196,7 @@ static const sp_key member_keys[] = {
      .absent = "one alone",
      .says = "So many equal members around the body's axis"},
     IMAGE,
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_member = {"member", "a member of a cluster", NULL, member_keys};
 
 static const sp_key ring_keys[] = {
@@ -218,7 +219,7 @@ static const sp_key ring_keys[] = {
      .range = SP_ANY,
      .standard = "0 deg",
      .says = "Of the first one, from the body's x towards its y"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_ring = {"ring", "a ring", NULL, ring_keys};
 
 static const sp_key rotation_keys[] = {
@@ -247,7 +248,7 @@ static const sp_key rotation_keys[] = {
      .range = SP_BETWEEN(1, MOST_TURNS),
      .absent = "until the tracks repeat",
      .says = "Of the body, beside `gears`: after which the gaps between tracks are told"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_rotation = {"rotation", "a rotation", NULL, rotation_keys};
 
 static const sp_key jet_keys[] = {
@@ -267,5 +268,5 @@ static const sp_key jet_keys[] = {
      .range = SP_ANY,
      .standard = "0 deg",
      .says = "About its own axis; at 0 a fan is wide in the plane of both axes. Not beside `gears`"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_jet = {"jet", "a jet", NULL, jet_keys};

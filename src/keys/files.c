@@ -20,7 +20,7 @@ static const sp_key deposits_keys[] = {
      .kind = SP_KEY_NUMBER,
      .says = "What runs down it, m3/s per m of width; 0 where the criterion does not ask"},
     {.name = "chart", .kind = SP_KEY_NUMBER, .says = "The number of its chart"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block deposits = {"deposits", "channels of the texture atlas",
                                   "Floats in SI units, one pixel a texel, 0 where no surface that counts lies; a part "
                                   "of the file is a page, `-back` of sheets' back sides",
@@ -34,7 +34,7 @@ static const sp_key surface_keys[] = {
     {.name = "flux", .kind = SP_KEY_NUMBER, .says = "Mean, m3/s per m2"},
     {.name = "speed", .kind = SP_KEY_NUMBER, .says = "Weighted by liquid, m/s"},
     {.name = "incidence", .kind = SP_KEY_NUMBER, .says = "Weighted by liquid, rad"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block surface = {"surface", "arrays of cells",
                                  "The wet sides of all triangles, in m; what is not cleaned is NaN", surface_keys};
 
@@ -42,7 +42,7 @@ static const sp_key texels_keys[] = {
     {.name = "normal", .kind = SP_KEY_NUMBERS, .says = "Towards the liquid"},
     {.name = "part", .kind = SP_KEY_NUMBER, .says = "Its part, counted in `part_names` from 0"},
     {.name = "side", .kind = SP_KEY_NUMBER, .says = "0: both sides as one, 1: the front, 2: the back"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block texels = {"texels", "arrays of points",
                                 "Every patch as a point, in m, with what deposits.exr holds under the same names and",
                                 texels_keys};
@@ -69,16 +69,22 @@ static const sp_key nozzles_csv_keys[] = {
     {.name = "fitting", .kind = SP_KEY_TEXT, .says = "The name of port or mount"},
     {.name = "depth_mm", .kind = SP_KEY_NUMBER, .says = "How far the lance reaches in"},
     {.name = "standoff_mm", .kind = SP_KEY_NUMBER, .says = "From the wall to the tip"},
-    {.name = "fitting_x_mm", .kind = SP_KEY_NUMBER, .says = "The port's mouth, or where to weld, along the zero of the datum"},
+    {.name = "fitting_x_mm",
+     .kind = SP_KEY_NUMBER,
+     .says = "The port's mouth, or where to weld, along the zero of the datum"},
     {.name = "fitting_y_mm", .kind = SP_KEY_NUMBER, .says = "The same a quarter turn on"},
     {.name = "fitting_height_mm", .kind = SP_KEY_NUMBER, .says = "The same along the axis of the datum"},
     {.name = "fitting_radius_mm", .kind = SP_KEY_NUMBER, .says = "Of a round vessel, from that axis"},
-    {.name = "fitting_azimuth_deg", .kind = SP_KEY_NUMBER, .says = "Of a round vessel, about that axis, from the zero of the datum"},
+    {.name = "fitting_azimuth_deg",
+     .kind = SP_KEY_NUMBER,
+     .says = "Of a round vessel, about that axis, from the zero of the datum"},
     {.name = "tip_x_mm", .kind = SP_KEY_NUMBER, .says = "The tip, along the zero of the datum"},
     {.name = "tip_y_mm", .kind = SP_KEY_NUMBER, .says = "The same a quarter turn on"},
     {.name = "tip_height_mm", .kind = SP_KEY_NUMBER, .says = "The same along the axis of the datum"},
     {.name = "tip_radius_mm", .kind = SP_KEY_NUMBER, .says = "Of a round vessel, from that axis"},
-    {.name = "tip_azimuth_deg", .kind = SP_KEY_NUMBER, .says = "Of a round vessel, about that axis, from the zero of the datum"},
+    {.name = "tip_azimuth_deg",
+     .kind = SP_KEY_NUMBER,
+     .says = "Of a round vessel, about that axis, from the zero of the datum"},
     {.name = "tilt_deg", .kind = SP_KEY_NUMBER, .says = "From straight down, against the axis of the datum"},
     {.name = "towards_deg", .kind = SP_KEY_NUMBER, .says = "The azimuth that the spray leans to"},
     {.name = "turn_deg",
@@ -86,7 +92,7 @@ static const sp_key nozzles_csv_keys[] = {
      .says = "Clockwise seen along the spray, from the level line a quarter turn on from there"},
     {.name = "circuit", .kind = SP_KEY_NUMBER, .says = "Nozzles of one pressure, from 1"},
     {.name = "circuit_l_min", .kind = SP_KEY_NUMBER, .says = "What that circuit has to supply"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block nozzles_csv = {"nozzles_csv", "columns of the sheet",
                                      "What a fitter welds, sets and orders; rounded to what can be set",
                                      nozzles_csv_keys};
@@ -102,7 +108,7 @@ static const sp_key swabs_keys[] = {
     {.name = "speed_m_s", .kind = SP_KEY_NUMBER, .says = "Mean"},
     {.name = "incidence_deg", .kind = SP_KEY_NUMBER, .says = "Mean"},
     {.name = "lack", .kind = SP_KEY_TEXT, .says = "As `lack` of a shadow in result.json"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block swabs = {
     "swabs", "columns",
     "The ten worst places of the layout, at least 5 % of the diagonal apart: where to take samples first", swabs_keys};
@@ -130,7 +136,7 @@ static const sp_key files_keys[] = {
      .kind = SP_KEY_FILE,
      .says = "A body for each nozzle, in the coordinates and unit of the scene's first geometry file"},
     {.name = "wet.png", .kind = SP_KEY_FILE, .says = "Of `check`: what the liquid can get at, cut open and whole"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_files = {"files", "files of a result",
                                  "Those of the proposed layout, of `simulate` of the scene's own; other layouts have "
                                  "theirs with -manual, -greedy. They appear together, whole or not at all",

@@ -89,7 +89,7 @@ static const sp_key place_keys[] = {
      .absent = "costs are given as water",
      .says = "What water is worth, such as 40 EUR per L/min, for the whole life of the plant; a currency has three "
              "letters"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_place = {"place", "the placement", NULL, place_keys};
 
 static const sp_key refine_keys[] = {
@@ -118,7 +118,7 @@ static const sp_key refine_keys[] = {
      .range = SP_FROM(0),
      .absent = "the type's whole `flow_range`",
      .says = "Of a type with `flow_range`, as a share of its flow"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_refine = {"refine", "refinement", NULL, refine_keys};
 
 static const sp_key mount_keys[] = {
@@ -135,7 +135,7 @@ static const sp_key mount_keys[] = {
      .kind = SP_KEY_BLOCK,
      .block = &sp_block_box,
      .says = "Points in a box, such as a frame over a belt"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_mount = {"mount", "a mount", "Just one of these keys", mount_keys};
 
 static const sp_key port_keys[] = {
@@ -165,7 +165,7 @@ static const sp_key port_keys[] = {
      .absent = "anything can be set",
      .says = "How far apart settings of the lance lie, which proposals keep to"},
     COST,
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_port = {"port", "a port", NULL, port_keys};
 
 static const sp_key depth_keys[] = {
@@ -187,7 +187,7 @@ static const sp_key depth_keys[] = {
      .range = SP_ABOVE(0),
 
      .says = "Between depths that are tried first, needed where the two differ; refinement moves between"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_depth = {"depth", "a lance", NULL, depth_keys};
 
 static const sp_key lance_step_keys[] = {{.name = "depth",
@@ -202,7 +202,7 @@ static const sp_key lance_step_keys[] = {{.name = "depth",
                                           .range = SP_FROM(1e-6),
                                           .absent = "any tilt",
                                           .says = "Tilts from the port's axis"},
-                                         {NULL}};
+                                         {.name = NULL}};
 const sp_block sp_block_lance_step = {"lance_step", "a step", NULL, lance_step_keys};
 
 static const sp_key surface_keys[] = {
@@ -228,7 +228,7 @@ static const sp_key surface_keys[] = {
     NAME,
     MOST,
     COST,
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_surface = {"surface", "a surface", NULL, surface_keys};
 
 #define SPACING                                                                                                        \
@@ -247,7 +247,7 @@ const sp_block sp_block_surface = {"surface", "a surface", NULL, surface_keys};
     }
 
 static const sp_key line_keys[] = {
-    CORNER("from", "One end"), CORNER("to", "The other"), SPACING, AXIS, TILT, NAME, MOST, COST, {NULL}};
+    CORNER("from", "One end"), CORNER("to", "The other"), SPACING, AXIS, TILT, NAME, MOST, COST, {.name = NULL}};
 const sp_block sp_block_line = {"line", "a line", NULL, line_keys};
 
 static const sp_key box_keys[] = {CORNER("min", "The corner of least coordinates"),
@@ -258,7 +258,7 @@ static const sp_key box_keys[] = {CORNER("min", "The corner of least coordinates
                                   NAME,
                                   MOST,
                                   COST,
-                                  {NULL}};
+                                  {.name = NULL}};
 const sp_block sp_block_box = {"box", "a box", NULL, box_keys};
 
 static const sp_key alternative_keys[] = {
@@ -289,7 +289,7 @@ static const sp_key alternative_keys[] = {
      .range = SP_ABOVE(0),
      .absent = "as `place` has it",
      .says = "Of all nozzles together"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_alternative = {"alternative", "an alternative", NULL, alternative_keys};
 
 static const sp_key limited_mount_keys[] = {
@@ -299,5 +299,5 @@ static const sp_key limited_mount_keys[] = {
      .required = true,
      .range = SP_BETWEEN(1, SP_MAX_ITEMS),
      .says = "How many nozzles it takes here"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_limited_mount = {"limited_mount", "a mount with a limit", NULL, limited_mount_keys};

@@ -10,7 +10,7 @@ static const char *const words_lack[] = {"no_nozzle_in_reach", "too_slow", "too_
 static const sp_key result_input_keys[] = {
     {.name = "file", .kind = SP_KEY_TEXT, .says = "As the command or the scene names it"},
     {.name = "sha256", .kind = SP_KEY_TEXT, .says = "Its digest"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block result_input = {"result_input", "an input", NULL, result_input_keys};
 
 static const sp_key unattainable_keys[] = {
@@ -21,7 +21,7 @@ static const sp_key unattainable_keys[] = {
     {.name = "too_little_flux",
      .kind = SP_KEY_NUMBER,
      .says = "All that is allowed together does not bring `flux`, m2"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block unattainable = {"unattainable", "area out of reach by reason", NULL, unattainable_keys};
 
 static const sp_key unattainable_part_keys[] = {
@@ -34,7 +34,7 @@ static const sp_key unattainable_part_keys[] = {
     {.name = "too_little_flux",
      .kind = SP_KEY_NUMBER,
      .says = "All that is allowed together does not bring `flux`, m2"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block unattainable_part = {"unattainable_part", "a part with area out of reach", NULL,
                                            unattainable_part_keys};
 
@@ -56,7 +56,7 @@ static const sp_key account_keys[] = {
      .kind = SP_KEY_NUMBER,
      .says = "What of closed shells is wet on both sides: something is wrong with the geometry"},
     {.name = "outdoors_m2", .kind = SP_KEY_NUMBER, .says = "What is seen through openings alone and is not counted"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block account = {"account", "what was made of the geometry", NULL, account_keys};
 
 static const sp_key result_geometry_keys[] = {
@@ -74,7 +74,7 @@ static const sp_key result_geometry_keys[] = {
      .block = &unattainable_part,
      .says = "The same by part, those of most area first"},
     {.name = "account", .kind = SP_KEY_BLOCK, .block = &account, .says = "What was made of the triangles"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block result_geometry = {"result_geometry", "the geometry", NULL, result_geometry_keys};
 
 static const sp_key chosen_keys[] = {{.name = "trajectory", .kind = SP_KEY_TEXT, .says = "Why"},
@@ -82,7 +82,7 @@ static const sp_key chosen_keys[] = {{.name = "trajectory", .kind = SP_KEY_TEXT,
                                      {.name = "reflections", .kind = SP_KEY_TEXT, .says = "Why"},
                                      {.name = "jets_per_nozzle", .kind = SP_KEY_TEXT, .says = "Why"},
                                      {.name = "texel_m", .kind = SP_KEY_TEXT, .says = "Why"},
-                                     {NULL}};
+                                     {.name = NULL}};
 static const sp_block chosen = {"auto", "why settings left to auto are as they are", NULL, chosen_keys};
 
 static const sp_key fidelity_keys[] = {
@@ -102,7 +102,7 @@ static const sp_key fidelity_keys[] = {
     {.name = "misjudged", .kind = SP_KEY_NUMBER, .says = "The same of area that is wrong either way"},
     {.name = "error_bound", .kind = SP_KEY_NUMBER, .says = "The same of what is proved of lines against parabolas"},
     {.name = "auto", .kind = SP_KEY_BLOCK, .block = &chosen, .says = "Why settings left to `auto` are as they are"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block fidelity = {"fidelity", "how it was computed", NULL, fidelity_keys};
 
 static const sp_key range_keys[] = {
@@ -110,7 +110,7 @@ static const sp_key range_keys[] = {
     {.name = "mean", .kind = SP_KEY_NUMBER, .says = "By area"},
     {.name = "p05", .kind = SP_KEY_NUMBER, .says = "What 95 % of the area has at least"},
     {.name = "max", .kind = SP_KEY_NUMBER, .says = "The greatest"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block range = {"range", "least, mean, 5th percentile and greatest", NULL, range_keys};
 
 static const sp_key price_keys[] = {
@@ -118,7 +118,7 @@ static const sp_key price_keys[] = {
     {.name = "total_l_min", .kind = SP_KEY_NUMBER, .says = "That and its water"},
     {.name = "money", .kind = SP_KEY_NUMBER, .says = "The same as money"},
     {.name = "currency", .kind = SP_KEY_TEXT, .says = "Of three letters"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block price = {"price", "what it costs", NULL, price_keys};
 
 static const sp_key liquid_ends_keys[] = {
@@ -126,7 +126,7 @@ static const sp_key liquid_ends_keys[] = {
     {.name = "on_other_surface", .kind = SP_KEY_NUMBER, .says = "On obstacles and dry sides"},
     {.name = "left", .kind = SP_KEY_NUMBER, .says = "Flies out of the geometry"},
     {.name = "not_followed", .kind = SP_KEY_NUMBER, .says = "Is thrown back from a wall and not followed further"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block liquid_ends = {"liquid_ends", "where the liquid goes", NULL, liquid_ends_keys};
 
 static const sp_key result_film_keys[] = {
@@ -139,14 +139,14 @@ static const sp_key result_film_keys[] = {
      .kind = SP_KEY_NUMBER,
      .says = "Arriving over the length around all wet walls seen from above: the measure of rules of thumb, not what "
              "the criterion asks for"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block result_film = {"result_film", "what runs down", NULL, result_film_keys};
 
 static const sp_key result_part_keys[] = {{.name = "part", .kind = SP_KEY_TEXT, .says = "Its name"},
                                           {.name = "area_m2", .kind = SP_KEY_NUMBER, .says = "To be cleaned"},
                                           {.name = "covered_area_m2", .kind = SP_KEY_NUMBER, .says = "Of it, covered"},
                                           {.name = "coverage", .kind = SP_KEY_NUMBER, .says = "Their ratio"},
-                                          {NULL}};
+                                          {.name = NULL}};
 static const sp_block result_part = {"result_part", "a part", NULL, result_part_keys};
 
 static const sp_key remedy_keys[] = {{.name = "covers_m2",
@@ -156,7 +156,7 @@ static const sp_key remedy_keys[] = {{.name = "covers_m2",
                                      {.name = "port", .kind = SP_KEY_TEXT, .says = "Its port, where it is in one"},
                                      {.name = "position_m", .kind = SP_KEY_NUMBERS, .says = "Its place"},
                                      {.name = "water_l_min", .kind = SP_KEY_NUMBER, .says = "Its flow"},
-                                     {NULL}};
+                                     {.name = NULL}};
 static const sp_block remedy = {"remedy", "one more nozzle for a shadow", NULL, remedy_keys};
 
 static const sp_key shadow_keys[] = {
@@ -171,7 +171,7 @@ static const sp_key shadow_keys[] = {
      .kind = SP_KEY_BLOCK,
      .block = &remedy,
      .says = "The candidate that covers most of it as one more nozzle; of `place`, of the ten largest"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block shadow = {"shadow", "a shadow: connected surface that is not covered", NULL, shadow_keys};
 
 static const sp_key tracks_keys[] = {
@@ -181,7 +181,7 @@ static const sp_key tracks_keys[] = {
     {.name = "mean_gap_m", .kind = SP_KEY_NUMBER, .says = "From there to the middle of the nearest track, by area"},
     {.name = "p95_gap_m", .kind = SP_KEY_NUMBER, .says = "What 95 % lie within"},
     {.name = "greatest_gap_m", .kind = SP_KEY_NUMBER, .says = "The greatest"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block tracks = {"tracks", "how far the surface is from the tracks of a two-axis head", NULL,
                                 tracks_keys};
 
@@ -202,7 +202,7 @@ static const sp_key result_nozzle_keys[] = {
     {.name = "new_fitting", .kind = SP_KEY_FLAG, .says = "true where it is in no port; of alternatives only"},
     {.name = "cost_l_min", .kind = SP_KEY_NUMBER, .says = "What its mount costs, as water"},
     {.name = "tracks", .kind = SP_KEY_BLOCK, .block = &tracks, .says = "Of a two-axis head"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block result_nozzle = {"result_nozzle", "a nozzle", NULL, result_nozzle_keys};
 
 static const sp_key result_layout_keys[] = {
@@ -238,14 +238,14 @@ static const sp_key result_layout_keys[] = {
      .block = &result_geometry,
      .says = "As the result's own, where the layouts of a comparison differ in it"},
     {.name = "fidelity", .kind = SP_KEY_BLOCK, .block = &fidelity, .says = "The same"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block result_layout = {"result_layout", "a layout", NULL, result_layout_keys};
 
 static const sp_key target_keys[] = {
     {.name = "coverage", .kind = SP_KEY_NUMBER, .says = "Asked for"},
     {.name = "coverage_aimed_at", .kind = SP_KEY_NUMBER, .says = "Less where less is attainable"},
     {.name = "reached", .kind = SP_KEY_FLAG, .says = "Whether the proposal covers that"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block target = {"target", "what was asked for", NULL, target_keys};
 
 static const sp_key front_point_keys[] = {
@@ -261,7 +261,7 @@ static const sp_key front_point_keys[] = {
     {.name = "coverage_bound_every_aim",
      .kind = SP_KEY_NUMBER,
      .says = "The same of every axis, roll, angle and flow at the candidates' mounting points"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block front_point = {"front_point", "a point of the front", NULL, front_point_keys};
 
 static const sp_key number_point_keys[] = {
@@ -270,7 +270,7 @@ static const sp_key number_point_keys[] = {
     {.name = "price_l_min", .kind = SP_KEY_NUMBER, .says = "With what mounts cost, where they do"},
     {.name = "coverage", .kind = SP_KEY_NUMBER, .says = "The best found"},
     {.name = "new_fittings", .kind = SP_KEY_COUNT, .says = "Of alternatives"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block number_point = {"number_point", "a point of the front by nozzles", NULL, number_point_keys};
 
 static const sp_key forward_check_keys[] = {
@@ -280,7 +280,7 @@ static const sp_key forward_check_keys[] = {
     {.name = "agrees", .kind = SP_KEY_FLAG, .says = "Whether the difference is within that"},
     {.name = "jets", .kind = SP_KEY_COUNT, .says = "How many were flown"},
     {.name = "texels", .kind = SP_KEY_COUNT, .says = "That both count on"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block forward_check = {"forward_check", "the proposal counted by jets", NULL, forward_check_keys};
 
 static const sp_key every_aim_keys[] = {
@@ -294,7 +294,7 @@ static const sp_key every_aim_keys[] = {
      .says = "In place of the first, where mounts cost something"},
     {.name = "price_bound_same_coverage_l_min", .kind = SP_KEY_NUMBER, .says = "In place of the second"},
     {.name = "gap", .kind = SP_KEY_NUMBER, .says = "(bound - found) / bound"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block every_aim = {"every_aim", "bounds for every aim", NULL, every_aim_keys};
 
 static const sp_key certificate_keys[] = {
@@ -314,7 +314,7 @@ static const sp_key certificate_keys[] = {
      .kind = SP_KEY_BLOCK,
      .block = &every_aim,
      .says = "A second proof, of every aim; not of clusters, rotating types and film"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block certificate = {"certificate", "how much better any layout could be",
                                      "Proved of layouts of the candidate poses and of the poses of layouts found, on "
                                      "the texels of the certificate, by inverse coverage",
@@ -323,7 +323,7 @@ static const sp_block certificate = {"certificate", "how much better any layout 
 static const sp_key stage_keys[] = {{.name = "name", .kind = SP_KEY_TEXT, .says = "What was done"},
                                     {.name = "seconds", .kind = SP_KEY_NUMBER, .says = "By the clock"},
                                     {.name = "processor_seconds", .kind = SP_KEY_NUMBER, .says = "Of all threads"},
-                                    {NULL}};
+                                    {.name = NULL}};
 static const sp_block stage = {"stage", "a stage", NULL, stage_keys};
 
 static const sp_key result_alternative_keys[] = {
@@ -346,7 +346,7 @@ static const sp_key result_alternative_keys[] = {
      .block = &certificate,
      .says = "How much better any layout could be; of `place`"},
     {.name = "stages", .kind = SP_KEY_BLOCKS, .block = &stage, .says = "How long it took"},
-    {NULL}};
+    {.name = NULL}};
 static const sp_block result_alternative = {"result_alternative", "an alternative", NULL, result_alternative_keys};
 
 static const sp_key result_keys[] = {
@@ -381,7 +381,7 @@ static const sp_key result_keys[] = {
      .block = &result_alternative,
      .says = "Of each what was found and proved"},
     {.name = "stages", .kind = SP_KEY_BLOCKS, .block = &stage, .says = "How long it took"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_result = {
     "result", "a result",
     "What simulate, place and compare find: result.json with -o, and what --json prints. Shares are 0 to 1, lengths m "

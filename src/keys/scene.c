@@ -95,7 +95,7 @@ static const sp_key scene_keys[] = {
      .block = &sp_block_report,
      .absent = "the flux",
      .says = "What pictures and models show; figures do not depend on it"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_scene = {"scene", "a scene",
                                  "A scene file is YAML, without aliases, anchors and tags. A quantity is a number with "
                                  "its unit: 2 bar, 12 L/min, 30 deg, "
@@ -170,7 +170,7 @@ static const sp_key geometry_keys[] = {
      .range = SP_ABOVE_TO(0, M_PI / 2),
      .standard = "10 deg",
      .says = "How far neighbouring triangles of a CAD file's surface may turn. Of STEP, IGES and BREP only"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_geometry = {"geometry", "a geometry file", NULL, geometry_keys};
 
 static const sp_key rotate_keys[] = {
@@ -181,7 +181,7 @@ static const sp_key rotate_keys[] = {
      .dimension = &sp_angle_unit,
      .range = SP_ANY,
      .says = "How far, anticlockwise seen against the axis"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_rotate = {"rotate", "a rotation", NULL, rotate_keys};
 
 static const sp_key sweep_keys[] = {{.name = "from",
@@ -200,7 +200,7 @@ static const sp_key sweep_keys[] = {{.name = "from",
                                      .dimension = &sp_speed_unit,
                                      .range = SP_ABOVE(0),
                                      .says = "Of the goods, from one to the other in a straight line"},
-                                    {NULL}};
+                                    {.name = NULL}};
 const sp_block sp_block_sweep = {"sweep", "a sweep", NULL, sweep_keys};
 
 static const sp_key cap_keys[] = {
@@ -216,7 +216,7 @@ static const sp_key cap_keys[] = {
      .dimension = &sp_length_unit,
      .range = SP_ABOVE(0),
      .says = "Wide enough to shut the opening"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_cap = {"cap", "a cap", NULL, cap_keys};
 
 static const sp_key liquid_keys[] = {{.name = "density",
@@ -237,7 +237,7 @@ static const sp_key liquid_keys[] = {{.name = "density",
                                       .range = SP_ABOVE(0),
                                       .standard = "72 mN/m",
                                       .says = "For film, and for where solid streams break up under drag"},
-                                     {NULL}};
+                                     {.name = NULL}};
 const sp_block sp_block_liquid = {"liquid", "the liquid", NULL, liquid_keys};
 
 static const sp_key air_keys[] = {{.name = "density",
@@ -252,7 +252,7 @@ static const sp_key air_keys[] = {{.name = "density",
                                    .range = SP_ABOVE(0),
                                    .standard = "18 uPa.s",
                                    .says = "Dynamic; for drag"},
-                                  {NULL}};
+                                  {.name = NULL}};
 const sp_block sp_block_air = {"air", "the air", NULL, air_keys};
 
 static const sp_key criterion_keys[] = {
@@ -293,7 +293,7 @@ static const sp_key criterion_keys[] = {
      .says =
          "A patch is covered where the others hold or so much liquid runs down it per metre of width. Rinses, does not "
          "scrub. Needs `cavity`"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_criterion = {"criterion", "the criterion", NULL, criterion_keys};
 
 static const sp_key datum_keys[] = {
@@ -312,7 +312,7 @@ static const sp_key datum_keys[] = {
      .absent = "x",
      .says = "The direction of azimuth 0, as far as it lies across the axis; azimuths count anticlockwise seen against "
              "the axis"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_datum = {"datum", "a datum", NULL, datum_keys};
 
 static const sp_key nozzle_keys[] = {
@@ -365,7 +365,7 @@ static const sp_key nozzle_keys[] = {
      .kind = SP_KEY_FLAG,
      .standard = "false",
      .says = "Every proposal contains it as it is; it counts towards number and water"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_nozzle = {"nozzle", "a nozzle", NULL, nozzle_keys};
 
 static const sp_key simulate_keys[] = {
@@ -422,7 +422,7 @@ static const sp_key simulate_keys[] = {
      .range = SP_FROM(0),
      .standard = "1",
      .says = "Of the jets' directions. The same seed gives the same bytes"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_simulate = {"simulate", "the simulation", NULL, simulate_keys};
 
 static const sp_key report_keys[] = {
@@ -446,5 +446,5 @@ static const sp_key report_keys[] = {
      .standard = "viridis",
      .says = "Both can be told by the colour-blind"},
     {.name = "wireframe", .kind = SP_KEY_FLAG, .standard = "false", .says = "Pictures show the edges of all triangles"},
-    {NULL}};
+    {.name = NULL}};
 const sp_block sp_block_report = {"report", "what a report shows", NULL, report_keys};

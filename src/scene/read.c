@@ -117,9 +117,10 @@ static bool in_range(sp_range range, double *value)
            (range.high_out ? *value < range.high : *value <= range.high);
 }
 
+#ifndef NDEBUG
 /* Whether the table's words for an absent key mean this value. Asserted wherever a key is absent, so that the table
  * cannot say anything else than what is so. */
-static inline bool is_standard(const sp_fields *in, const sp_key *key, double value)
+static bool is_standard(const sp_fields *in, const sp_key *key, double value)
 {
     double standard = 0;
     char why[TEXT];
@@ -129,6 +130,14 @@ static inline bool is_standard(const sp_fields *in, const sp_key *key, double va
     return !key->standard || (sp_units_read(in->reader->units, key->standard, key->dimension, &standard, why, TEXT) &&
                               fabs(standard - value) <= 1e-12 * fabs(standard));
 }
+
+static bool is_standard_vector(const sp_key *key, sp_vec3 value)
+{
+    sp_vec3 standard;
+    return !key->standard || (sscanf(key->standard, "[%lf, %lf, %lf]", &standard.x, &standard.y, &standard.z) == 3 &&
+                              value.x == standard.x && value.y == standard.y && value.z == standard.z);
+}
+#endif
 
 bool sp_read_quantity_at(const sp_reader *reader, const sp_yaml *node, const sp_key *key, double *value)
 {
@@ -182,13 +191,6 @@ static bool read_three(const sp_reader *reader, const sp_yaml *node, const sp_ke
     return true;
 }
 
-static inline bool is_standard_vector(const sp_key *key, sp_vec3 value)
-{
-    sp_vec3 standard;
-    return !key->standard || (sscanf(key->standard, "[%lf, %lf, %lf]", &standard.x, &standard.y, &standard.z) == 3 &&
-                              value.x == standard.x && value.y == standard.y && value.z == standard.z);
-}
-
 bool sp_read_vector(const sp_fields *in, const char *name, sp_vec3 *value)
 {
     const sp_key *key = sp_key_of(in->block, name);
@@ -200,11 +202,11 @@ bool sp_read_vector(const sp_fields *in, const char *name, sp_vec3 *value)
 
 bool sp_read_axis(const sp_fields *in, const char *name, sp_vec3 *value)
 {
-    const sp_key *key = sp_key_of(in->block, name);
     const sp_yaml *node = sp_yaml_get(in->map, name);
     const sp_key each = {.name = name, .dimension = &sp_ratio_unit, .range = SP_ANY};
     sp_vec3 read = *value;
-    assert(key->kind == SP_KEY_DIRECTION && (node || is_standard_vector(key, *value)));
+    assert(sp_key_of(in->block, name)->kind == SP_KEY_DIRECTION);
+    assert(node || is_standard_vector(sp_key_of(in->block, name), *value));
     if (!node)
         return true;
     if (!read_three(in->reader, node, &each, &read))
