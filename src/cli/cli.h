@@ -64,6 +64,14 @@ bool cli_parse(int count, char **arguments, cli_options *options);
 bool cli_unknown_command(const char *text);
 
 /* progress.c: Ctrl-C, SIGTERM and the bar on standard error. */
+/* The stages of a command, in order, NULL behind the last. One may be of several that the library names, as "exchange|
+ * front". From `first` on, `each` of them come `rounds` times. Kept. */
+void cli_progress_plan(const char *const *stages, size_t first, size_t each, size_t rounds);
+void cli_progress_rounds(size_t rounds);
+/* Which round begins, from 0. */
+void cli_progress_round(size_t round);
+/* A stage of which nobody tells how far it is. */
+void cli_progress_stage(const cli_options *options, const char *stage);
 sp_run cli_run(const cli_options *options);
 /* For a search that returns its best so far when it is interrupted; evaluations that run by cli_run() are not cut short
  * from then on. */

@@ -63,11 +63,18 @@ static sp_study *measure(const cli_options *options, const sp_scene *scene, sp_e
 int cli_study(const cli_options *options)
 {
     sp_error error = {0};
+    static const char *const stages[] = {"geometry", "reference", "runs", "report", NULL};
+    static const char *const all_stages[] = {"geometry", "reference", "runs", "place", "report", NULL};
     const sp_run run = cli_run(options);
+    cli_progress_plan(stages, 0, 0, 1);
+    cli_progress_stage(options, "geometry");
     sp_scene *scene = cli_load_scene(options->inputs[0], options, &run, &error);
     static const char *const files[] = {"study.json", "study.csv", "place.csv", "report.html", NULL};
+    if (sp_scene_has_place(scene))
+        cli_progress_plan(all_stages, 0, 0, 1);
     bool ready = scene && cli_output_ready(options, scene, files, &error);
     sp_study *study = ready ? measure(options, scene, &error) : NULL;
+    cli_progress_stage(options, "report");
     bool good = study && write_files(options, scene, study, &error) && print(options, study, &error);
     int status = !good ? cli_fail(&error) : study->interrupted && cli_interrupted() ? EXIT_INTERRUPTED : EXIT_DONE;
     if (good && study->interrupted)
