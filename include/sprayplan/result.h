@@ -259,6 +259,9 @@ SP_API bool sp_output_text(sp_output *output, const char *name, const char *text
 /* An error that names such a path names the file then that was to be written. NULL is accepted. */
 SP_API void sp_output_tell(const sp_output *output, sp_error *error);
 SP_API bool sp_output_bytes(sp_output *output, const char *name, const void *bytes, size_t size, sp_error *error);
+/* The names asked for so far, in order; owned by the output. */
+SP_API size_t sp_output_count(const sp_output *output);
+SP_API const char *sp_output_name(const sp_output *output, size_t index);
 /* Both end the output; NULL is accepted (commit then fails and keeps the error). Where a file cannot be moved, commit
  * puts back what it had replaced. */
 SP_API bool sp_output_commit(sp_output *output, sp_error *error);

@@ -176,15 +176,22 @@ bool cli_names_obj(const char *path);
 /* output.c: the folder that a file lies in, "." where its path names none; malloc'd, NULL where memory runs out. */
 char *cli_folder_of(const char *path);
 
+/* written.c: ends the output as sp_output_commit does; *written is then what cli_say_written is to say, NULL where it
+ * failed. The caller frees. */
+bool cli_commit(sp_output *output, const char *folder, char **written, sp_error *error);
+/* What was written, NULL for nothing: on standard output, beside JSON on standard error, where nothing more than that is
+ * there. */
+void cli_say_written(const cli_options *options, const char *written);
+
 /* report.c: what simulate, place and compare end with: files where -o says, and the result on standard output. `scenes`
  * [input_count], NULL for what is none. `layout`, which is written as a scene after the first one, NULL: no
  * layout.yaml; with alternatives so are those of the others. */
 bool cli_report(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
                 const cli_inputs *inputs, const sp_layout *layout, sp_error *error);
 
-/* output.c: the files, as cli_report. */
+/* output.c: the files, as cli_report; `written` as cli_commit. */
 bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
-               const sp_layout *layout, sp_error *error);
+               const sp_layout *layout, char **written, sp_error *error);
 /* What check leaves: wet.png. True without -o. */
 bool cli_write_wet(const cli_options *options, const cli_scene *opened, sp_error *error);
 /* An object, which it takes, on standard output. False where memory ran out: what could not be written shows at the

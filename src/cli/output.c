@@ -114,7 +114,7 @@ static bool write_report(const cli_options *options, const sp_result *result, co
 }
 
 bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
-               const sp_layout *layout, sp_error *error)
+               const sp_layout *layout, char **written, sp_error *error)
 {
     if (!options->output)
         return true;
@@ -123,7 +123,7 @@ bool cli_write(const cli_options *options, const sp_result *result, const sp_sce
         output && sp_output_supersede(output, error) && write_report(options, result, scenes, layout, output, error);
     good = good && (!layout || write_layouts(options, result, scenes[0], layout, output, error));
     if (good)
-        return sp_output_commit(output, error);
+        return cli_commit(output, options->output, written, error);
     sp_output_discard(output);
     return false;
 }

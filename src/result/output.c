@@ -180,6 +180,16 @@ const char *sp_output_path(sp_output *output, const char *name, sp_error *error)
     return entry ? entry->temporary : NULL;
 }
 
+size_t sp_output_count(const sp_output *output)
+{
+    return output->count;
+}
+
+const char *sp_output_name(const sp_output *output, size_t index)
+{
+    return output->entries[index].name;
+}
+
 void sp_output_tell(const sp_output *output, sp_error *error)
 {
     for (size_t i = 0; output && error && error->kind != SP_OK && i < output->count; i++)

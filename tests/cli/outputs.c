@@ -9,7 +9,7 @@ static void without_output_nothing_is_written(void **state)
     char *before = list_folder(".");
     outcome result = run_program("simulate room.yaml");
     assert_int_equal(result.status, 0);
-    assert_string_equal(result.err, "");
+    assert_string_equal(result.err, "sprayplan: nothing was written; -o DIR says where to\n");
     assert_non_null(strstr(result.out, "manual"));
     forget(&result);
     expect("simulate room.yaml --quiet", 0, "", "");
@@ -20,6 +20,29 @@ static void without_output_nothing_is_written(void **state)
     free(after);
 }
 
+#define WROTE(where)                                                                                                   \
+    where ": report.html, result.json, coverage.png, deposits.exr, model.glb, swabs.csv, surface.vtp, texels.vtp, "    \
+          "nozzles.stl, nozzles.csv, layout.yaml\n"
+
+/* Beside JSON on standard error, else last of all on standard output. */
+static void what_was_written_is_said(void **state)
+{
+    (void)state;
+    outcome result = run_program("simulate room.yaml " COARSE " -o said");
+    const char *at = strstr(result.out, WROTE("\nwrote said"));
+    assert_non_null(at);
+    assert_string_equal(at, WROTE("\nwrote said"));
+    assert_string_equal(result.err, "");
+    forget(&result);
+    result = run_program("atlas room.obj -o said/a.obj --texel 10mm");
+    assert_non_null(strstr(result.out, "\nwrote said: a.obj, a-page_0.png\n"));
+    forget(&result);
+    result = run_program("simulate room.yaml " COARSE " --json");
+    assert_string_equal(result.err, "");
+    forget(&result);
+    expect("simulate room.yaml " COARSE " --quiet -o said", 0, "", "");
+}
+
 static void simulate_writes_its_files(void **state)
 {
     (void)state;
@@ -27,6 +50,7 @@ static void simulate_writes_its_files(void **state)
     assert_int_equal(result.status, 0);
     char *written = read_file("simulated/result.json", NULL);
     assert_string_equal(written, result.out);
+    assert_string_equal(result.err, WROTE("sprayplan: wrote simulated"));
     free(written);
     forget(&result);
     char *names = list_folder("simulated");
@@ -169,6 +193,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(without_output_nothing_is_written),
         cmocka_unit_test(simulate_writes_its_files),
+        cmocka_unit_test(what_was_written_is_said),
         cmocka_unit_test(what_was_read_is_told),
         cmocka_unit_test(what_came_through_a_pipe_has_no_digest),
         cmocka_unit_test(json_is_the_same_with_files_and_without),
