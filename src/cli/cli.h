@@ -22,7 +22,7 @@ typedef struct {
     int input_count;
     char *const *arguments; /* all that follows the program's name */
     int argument_count;
-    bool json, quiet, help, version, prove, no_live;
+    bool json, quiet, help, version, prove, no_live, force;
     int threads;
     double time_limit;  /* s, 0: none */
     double memory;      /* bytes, 0: not given */
@@ -159,7 +159,7 @@ bool cli_measure(const sp_evaluator *evaluator, const sp_layout *layout, sp_cove
 int cli_fail_in(const cli_scene *opened, sp_error *error);
 
 /* output.c: whether files of these names (the last is NULL) can be written where -o says, asked before the work that
- * they are to hold. `scene`, whose files they must not replace, may be NULL. True without -o. */
+ * they are to hold; layouts that were edited are not written over without --force. `scene`, whose files they must not replace, may be NULL. True without -o. */
 bool cli_output_ready(const cli_options *options, const sp_scene *scene, const char *const *names, sp_error *error);
 extern const char *const cli_result_files[]; /* of simulate and place */
 /* The file that an alternative of place's is written to as a scene, where it is not the proposed one. */

@@ -152,6 +152,29 @@ static void nor_is_what_the_scene_names(void **state)
     free(after);
 }
 
+static void nor_what_was_edited(void **state)
+{
+    (void)state;
+    static const char complaint[] = "edited/layout.yaml: was edited since it was written, or is not sprayplan's; "
+                                    "expected another folder to write to, or to force it (--force)\n";
+    ensure("edited", "simulate room.yaml " COARSE);
+    char *layout = read_file("edited/layout.yaml", NULL);
+    expect("simulate room.yaml " COARSE " -o edited --quiet", 0, "", "");
+    char *same = read_file("edited/layout.yaml", NULL);
+    assert_string_equal(layout, same);
+    free(same);
+    layout[strlen(layout) - 1] = ' ';
+    write_file("edited/layout.yaml", layout);
+    expect("simulate room.yaml " COARSE " -o edited --quiet", 1, "", complaint);
+    expect("place room.yaml -o edited --set place.clearance=9", 1, "", complaint);
+    char *kept = read_file("edited/layout.yaml", NULL);
+    assert_string_equal(layout, kept);
+    free(kept);
+    expect("simulate room.yaml " COARSE " -o edited --quiet --force", 0, "", "");
+    expect("simulate room.yaml " COARSE " -o edited --quiet", 0, "", "");
+    free(layout);
+}
+
 /* Not after the minutes that a search may take: this one would find no mounting point. */
 static void where_nothing_can_be_written_is_said_first(void **state)
 {
@@ -199,6 +222,7 @@ int main(void)
         cmocka_unit_test(json_is_the_same_with_files_and_without),
         cmocka_unit_test(no_input_is_overwritten),
         cmocka_unit_test(nor_is_what_the_scene_names),
+        cmocka_unit_test(nor_what_was_edited),
         cmocka_unit_test(where_nothing_can_be_written_is_said_first),
         cmocka_unit_test(late_errors_are_located),
     };
