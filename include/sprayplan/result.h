@@ -250,8 +250,8 @@ SP_API sp_output *sp_output_open(const char *directory, sp_error *error);
  * error. */
 SP_API bool sp_output_protect(sp_output *output, const char *path, sp_error *error);
 /* The set is what a run has to say of a scene: commit removes what an earlier run left that is not replaced (figures,
- * pictures, models and pages, where the folder's result.json or study.json is ours), but for layout.yaml, which may
- * have been edited. */
+ * pictures, models and pages, where the folder's result.json or study.json is ours, and with them layout.yaml and those
+ * of alternatives, unless somebody has edited them). */
 SP_API bool sp_output_supersede(sp_output *output, sp_error *error);
 /* A path to write `name` (no slash in it) to; owned by the output. */
 SP_API const char *sp_output_path(sp_output *output, const char *name, sp_error *error);
@@ -259,6 +259,14 @@ SP_API bool sp_output_text(sp_output *output, const char *name, const char *text
 /* An error that names such a path names the file then that was to be written. NULL is accepted. */
 SP_API void sp_output_tell(const sp_output *output, sp_error *error);
 SP_API bool sp_output_bytes(sp_output *output, const char *name, const void *bytes, size_t size, sp_error *error);
+/* A scene for people to edit, as which it begins with the digest of all that follows: a file of that name which is not
+ * as it was written that way is replaced only where `force` says so, and fails otherwise. */
+SP_API bool sp_output_scene(sp_output *output, const char *name, const char *text, bool force, sp_error *error);
+/* The same question before there is a text. */
+SP_API bool sp_output_may_replace(sp_output *output, const char *name, bool force, sp_error *error);
+/* The names asked for so far, in order; owned by the output. */
+SP_API size_t sp_output_count(const sp_output *output);
+SP_API const char *sp_output_name(const sp_output *output, size_t index);
 /* Both end the output; NULL is accepted (commit then fails and keeps the error). Where a file cannot be moved, commit
  * puts back what it had replaced. */
 SP_API bool sp_output_commit(sp_output *output, sp_error *error);

@@ -70,7 +70,7 @@ static bool write_pages(const sp_atlas *atlas, sp_output *output, const char *st
     return true;
 }
 
-static bool write_files(const cli_atlas_work *work, const cli_options *options, sp_error *error)
+static bool write_files(const cli_atlas_work *work, const cli_options *options, char **written, sp_error *error)
 {
     const char *slash = strrchr(options->output, '/');
     const char *name = slash ? slash + 1 : options->output;
@@ -85,13 +85,14 @@ static bool write_files(const cli_atlas_work *work, const cli_options *options, 
     sp_output *output = cli_output_open(options, directory, NULL, 0, error);
     char *obj = output ? sp_atlas_obj(work->atlas, work->mesh, error) : NULL;
     bool good = obj && sp_output_text(output, name, obj, error) && write_pages(work->atlas, output, stem, error);
+    if (good)
+        good = cli_commit(output, directory, written, error);
+    else
+        sp_output_discard(output);
     free(obj);
     free(stem);
     free(directory);
-    if (good)
-        return sp_output_commit(output, error);
-    sp_output_discard(output);
-    return false;
+    return good;
 }
 
 double cli_atlas_seconds(const cli_atlas_work *work)
@@ -146,6 +147,7 @@ int cli_atlas(const cli_options *options)
 {
     sp_error error = {0};
     cli_atlas_work work = {0};
+    char *written = NULL;
     if (options->output && !cli_names_obj(options->output)) {
         fprintf(stderr, "sprayplan: atlas: -o: found \"%s\", expected a file name ending in .obj\n", options->output);
         return EXIT_USAGE;
@@ -153,11 +155,14 @@ int cli_atlas(const cli_options *options)
     sp_mesh *mesh = cli_load_mesh(options->inputs[0], &error);
     bool good = (options->reuse ? cli_atlas_reuse(&work, mesh, options->inputs[0], options->texel, &error)
                                 : cli_atlas_build(&work, mesh, options->texel, options->packing, &error)) &&
-                (!options->output || write_files(&work, options, &error));
+                (!options->output || write_files(&work, options, &written, &error));
     if (good && options->json)
         good = print_json(&work) || sp_fail_memory(&error);
     else if (good && !options->quiet)
         cli_atlas_print(&work);
+    if (good && written)
+        cli_say_written(options, written);
+    free(written);
     cli_atlas_clear(&work);
     sp_mesh_destroy(mesh);
     return good ? EXIT_DONE : cli_fail(&error);

@@ -64,6 +64,13 @@ static bool measure(const cli_options *options, const bench_wish *wish, const be
                     sp_error *error)
 {
     sp_run run = cli_run(options);
+    static const char *stages[MODES + 3] = {"build"};
+    size_t stage_count = 1;
+    for (int i = 0; i < MODES; i++)
+        if (wish->modes[i])
+            stages[stage_count++] = bench_mode_names[i];
+    stages[stage_count] = "study";
+    cli_progress_plan(stages, 0, 0, 1);
     bench_scaffold scaffold;
     bench_stage stage = {0};
     bench_trace trace = {0};

@@ -22,7 +22,7 @@ typedef struct {
     int input_count;
     char *const *arguments; /* all that follows the program's name */
     int argument_count;
-    bool json, quiet, help, version, prove, no_live, schema;
+    bool json, quiet, help, version, prove, no_live, force, schema;
     int threads;
     double time_limit;  /* s, 0: none */
     double memory;      /* bytes, 0: not given */
@@ -64,6 +64,14 @@ bool cli_parse(int count, char **arguments, cli_options *options);
 bool cli_unknown_command(const char *text);
 
 /* progress.c: Ctrl-C, SIGTERM and the bar on standard error. */
+/* The stages of a command, in order, NULL behind the last. One may be of several that the library names, as "exchange|
+ * front". From `first` on, `each` of them come `rounds` times. Kept. */
+void cli_progress_plan(const char *const *stages, size_t first, size_t each, size_t rounds);
+void cli_progress_rounds(size_t rounds);
+/* Which round begins, from 0. */
+void cli_progress_round(size_t round);
+/* A stage of which nobody tells how far it is. */
+void cli_progress_stage(const cli_options *options, const char *stage);
 sp_run cli_run(const cli_options *options);
 /* For a search that returns its best so far when it is interrupted; evaluations that run by cli_run() are not cut short
  * from then on. */
@@ -151,7 +159,7 @@ bool cli_measure(const sp_evaluator *evaluator, const sp_layout *layout, sp_cove
 int cli_fail_in(const cli_scene *opened, sp_error *error);
 
 /* output.c: whether files of these names (the last is NULL) can be written where -o says, asked before the work that
- * they are to hold. `scene`, whose files they must not replace, may be NULL. True without -o. */
+ * they are to hold; layouts that were edited are not written over without --force. `scene`, whose files they must not replace, may be NULL. True without -o. */
 bool cli_output_ready(const cli_options *options, const sp_scene *scene, const char *const *names, sp_error *error);
 extern const char *const cli_result_files[]; /* of simulate and place */
 /* The file that an alternative of place's is written to as a scene, where it is not the proposed one. */
@@ -168,15 +176,22 @@ bool cli_names_obj(const char *path);
 /* output.c: the folder that a file lies in, "." where its path names none; malloc'd, NULL where memory runs out. */
 char *cli_folder_of(const char *path);
 
+/* written.c: ends the output as sp_output_commit does; *written is then what cli_say_written is to say, NULL where it
+ * failed. The caller frees. */
+bool cli_commit(sp_output *output, const char *folder, char **written, sp_error *error);
+/* What was written, NULL for nothing: on standard output, beside JSON on standard error, where nothing more than that is
+ * there. */
+void cli_say_written(const cli_options *options, const char *written);
+
 /* report.c: what simulate, place and compare end with: files where -o says, and the result on standard output. `scenes`
  * [input_count], NULL for what is none. `layout`, which is written as a scene after the first one, NULL: no
  * layout.yaml; with alternatives so are those of the others. */
 bool cli_report(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
                 const cli_inputs *inputs, const sp_layout *layout, sp_error *error);
 
-/* output.c: the files, as cli_report. */
+/* output.c: the files, as cli_report; `written` as cli_commit. */
 bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
-               const sp_layout *layout, sp_error *error);
+               const sp_layout *layout, char **written, sp_error *error);
 /* What check leaves: wet.png. True without -o. */
 bool cli_write_wet(const cli_options *options, const cli_scene *opened, sp_error *error);
 /* An object, which it takes, on standard output. False where memory ran out: what could not be written shows at the

@@ -93,6 +93,8 @@ const cli_option cli_options_known[] = {
     {CLI_PROVE, 0, "prove", NULL, OF(CLI_PLACE), "Spend the time limit on closing the gap between proposal and bound."},
     {CLI_NO_LIVE, 0, "no-live", NULL, OF(CLI_SIMULATE) | OF(CLI_PLACE),
      "Leave the evaluator, by which the page evaluates changed layouts, out of report.html."},
+    {CLI_FORCE, 0, "force", NULL, OF(CLI_SIMULATE) | OF(CLI_PLACE),
+     "Replace layout.yaml, and those of alternatives, where they were edited since they were written."},
     {CLI_TEXEL, 0, "texel", "L", OF(CLI_ATLAS),
      "Edge length of a texel, as 10mm or 0.01 (m). Default: a million texels for the surface."},
     {CLI_PACK, 0, "pack", "HOW", OF(CLI_ATLAS),

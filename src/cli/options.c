@@ -134,6 +134,9 @@ static bool take_option(cli_option_id option, const char *value, cli_options *op
     case CLI_NO_LIVE:
         options->no_live = true;
         return true;
+    case CLI_FORCE:
+        options->force = true;
+        return true;
     case CLI_SET:
         return parse_override(value, options);
     case CLI_TEXEL:

@@ -61,7 +61,8 @@ bool cli_output_ready(const cli_options *options, const sp_scene *scene, const c
     sp_output *output = cli_output_open(options, options->output, &scene, 1, error);
     bool good = output != NULL;
     for (; *names && good; names++)
-        good = sp_output_path(output, *names, error);
+        good = !strncmp(*names, "layout", 6) ? sp_output_may_replace(output, *names, options->force, error)
+                                             : sp_output_path(output, *names, error) != NULL;
     sp_output_discard(output);
     return good;
 }
@@ -71,7 +72,7 @@ static bool write_layout(const cli_options *options, const sp_scene *scene, cons
 {
     const sp_fidelity *fidelity = sp_evaluator_fidelity(design->evaluator);
     char *text = sp_scene_text(scene, design->layout, fidelity, options->output, error);
-    bool good = text && sp_output_text(output, name, text, error);
+    bool good = text && sp_output_scene(output, name, text, options->force, error);
     free(text);
     return good;
 }
@@ -114,7 +115,7 @@ static bool write_report(const cli_options *options, const sp_result *result, co
 }
 
 bool cli_write(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
-               const sp_layout *layout, sp_error *error)
+               const sp_layout *layout, char **written, sp_error *error)
 {
     if (!options->output)
         return true;
@@ -123,7 +124,7 @@ bool cli_write(const cli_options *options, const sp_result *result, const sp_sce
         output && sp_output_supersede(output, error) && write_report(options, result, scenes, layout, output, error);
     good = good && (!layout || write_layouts(options, result, scenes[0], layout, output, error));
     if (good)
-        return sp_output_commit(output, error);
+        return cli_commit(output, options->output, written, error);
     sp_output_discard(output);
     return false;
 }

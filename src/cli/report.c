@@ -87,6 +87,7 @@ bool cli_report(const cli_options *options, const sp_result *result, const sp_sc
     background told = {.design_count = result->design_count,
                        .designs = malloc((result->design_count + 1) * sizeof *told.designs),
                        .command_line = command_line(options)};
+    char *written = NULL;
     bool good = (told.designs && told.command_line) || sp_fail_memory(error);
     if (told.designs)
         memcpy(told.designs, result->designs, result->design_count * sizeof *told.designs);
@@ -99,7 +100,10 @@ bool cli_report(const cli_options *options, const sp_result *result, const sp_sc
     full.input_count = inputs->count;
     full.command_line = told.command_line;
     full.date = told.date;
-    good = good && cli_write(options, &full, scenes, layout, error) && cli_print(options, &full, error);
+    good = good && cli_write(options, &full, scenes, layout, &written, error) && cli_print(options, &full, error);
+    if (good)
+        cli_say_written(options, written);
+    free(written);
     background_free(&told);
     return good;
 }

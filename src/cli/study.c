@@ -10,7 +10,8 @@ static bool add_file(sp_output *output, const char *name, char *text, sp_error *
     return good;
 }
 
-static bool write_files(const cli_options *options, const sp_scene *scene, const sp_study *study, sp_error *error)
+static bool write_files(const cli_options *options, const sp_scene *scene, const sp_study *study, char **written,
+                        sp_error *error)
 {
     if (!options->output)
         return true;
@@ -22,7 +23,7 @@ static bool write_files(const cli_options *options, const sp_scene *scene, const
                 (study->place_count == 0 || add_file(output, "place.csv", sp_study_place_csv(study, error), error)) &&
                 add_file(output, "report.html", sp_study_html(study, path, error), error);
     if (good)
-        return sp_output_commit(output, error);
+        return cli_commit(output, options->output, written, error);
     sp_output_discard(output);
     return false;
 }
@@ -63,12 +64,23 @@ static sp_study *measure(const cli_options *options, const sp_scene *scene, sp_e
 int cli_study(const cli_options *options)
 {
     sp_error error = {0};
+    static const char *const stages[] = {"geometry", "reference", "runs", "report", NULL};
+    static const char *const all_stages[] = {"geometry", "reference", "runs", "place", "report", NULL};
     const sp_run run = cli_run(options);
+    cli_progress_plan(stages, 0, 0, 1);
+    cli_progress_stage(options, "geometry");
     sp_scene *scene = cli_load_scene(options->inputs[0], options, &run, &error);
     static const char *const files[] = {"study.json", "study.csv", "place.csv", "report.html", NULL};
+    if (sp_scene_has_place(scene))
+        cli_progress_plan(all_stages, 0, 0, 1);
     bool ready = scene && cli_output_ready(options, scene, files, &error);
     sp_study *study = ready ? measure(options, scene, &error) : NULL;
-    bool good = study && write_files(options, scene, study, &error) && print(options, study, &error);
+    cli_progress_stage(options, "report");
+    char *written = NULL;
+    bool good = study && write_files(options, scene, study, &written, &error) && print(options, study, &error);
+    if (good)
+        cli_say_written(options, written);
+    free(written);
     int status = !good ? cli_fail(&error) : study->interrupted && cli_interrupted() ? EXIT_INTERRUPTED : EXIT_DONE;
     if (good && study->interrupted)
         fprintf(stderr, "sprayplan: %s; this is what there is so far\n",

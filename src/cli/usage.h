@@ -41,6 +41,7 @@ typedef enum {
     CLI_MEMORY,
     CLI_PROVE,
     CLI_NO_LIVE,
+    CLI_FORCE,
     CLI_TEXEL,
     CLI_PACK,
     CLI_REUSE,

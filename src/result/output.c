@@ -2,6 +2,7 @@
 #include "result/output.h"
 
 #include "mesh/file.h"
+#include "result/seal.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -178,6 +179,36 @@ const char *sp_output_path(sp_output *output, const char *name, sp_error *error)
 {
     const sp_output_entry *entry = entry_of(output, name, error);
     return entry ? entry->temporary : NULL;
+}
+
+bool sp_output_may_replace(sp_output *output, const char *name, bool force, sp_error *error)
+{
+    const sp_output_entry *entry = entry_of(output, name, error);
+    sp_seal seal = entry ? sp_seal_check(output->folder, name, error) : SP_SEAL_UNKNOWN;
+    if (seal == SP_SEAL_BROKEN && !force)
+        return sp_fail(
+            error, SP_ERROR_FILE, entry->target, 0, 0,
+            "was edited since it was written, or is not sprayplan's; expected another folder to write to, or to "
+            "force it (--force)");
+    return seal != SP_SEAL_UNKNOWN;
+}
+
+bool sp_output_scene(sp_output *output, const char *name, const char *text, bool force, sp_error *error)
+{
+    char *sealed = sp_output_may_replace(output, name, force, error) ? sp_seal_text(text, error) : NULL;
+    bool good = sealed && sp_output_text(output, name, sealed, error);
+    free(sealed);
+    return good;
+}
+
+size_t sp_output_count(const sp_output *output)
+{
+    return output->count;
+}
+
+const char *sp_output_name(const sp_output *output, size_t index)
+{
+    return output->entries[index].name;
 }
 
 void sp_output_tell(const sp_output *output, sp_error *error)

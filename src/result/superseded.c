@@ -1,6 +1,8 @@
 /* What an earlier run left beside the files that replace it: figures of one run and pictures of another are not to lie
- * in one folder. layout.yaml, which may have been edited since, stays. */
+ * in one folder. A layout that was edited since stays. */
 #include "result/output.h"
+
+#include "result/seal.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -54,29 +56,54 @@ static bool move_one(const sp_output *output, const sp_staging *staging, const c
            sp_fail(error, SP_ERROR_FILE, target, 0, 0, "cannot be removed: %s", strerror(errno));
 }
 
+typedef struct {
+    const sp_output *output;
+    const sp_staging *staging;
+    sp_error *error;
+} leaving;
+
+/* A layout as it was written. */
+static bool move_layout(void *user, const char *name)
+{
+    const leaving *l = user;
+    if (!sp_seal_is_for(name) || is_there(l->staging->fresh, name))
+        return true;
+    sp_seal seal = sp_seal_check(l->output->folder, name, l->error);
+    return seal == SP_SEAL_WHOLE ? move_one(l->output, l->staging, name, l->error) : seal != SP_SEAL_UNKNOWN;
+}
+
+/* The layouts before the figures, which tell that the set is ours. */
+static bool move_set(const leaving *l, size_t set)
+{
+    if (!is_ours(l->output->folder, sets[set].names[sets[set].count - 1]))
+        return true;
+    if (sets[set].names == result_files && !sp_each_name(l->output->folder, move_layout, (void *)l))
+        return sp_fail(l->error, SP_ERROR_FILE, l->output->directory, 0, 0, "cannot be read: %s", strerror(errno));
+    for (size_t i = 0; i < sets[set].count; i++)
+        if (!move_one(l->output, l->staging, sets[set].names[i], l->error))
+            return false;
+    return true;
+}
+
 bool sp_move_superseded(const sp_output *output, const sp_staging *staging, sp_error *error)
 {
+    const leaving l = {output, staging, error};
     if (!is_there(staging->folder, "supersedes"))
         return true;
-    for (size_t s = 0; s < sizeof sets / sizeof *sets; s++) {
-        if (!is_ours(output->folder, sets[s].names[sets[s].count - 1]))
-            continue;
-        for (size_t i = 0; i < sets[s].count; i++)
-            if (!move_one(output, staging, sets[s].names[i], error))
-                return false;
-    }
+    for (size_t s = 0; s < sizeof sets / sizeof *sets; s++)
+        if (!move_set(&l, s))
+            return false;
     unlinkat(staging->folder, "supersedes", 0);
     return true;
 }
 
+static bool put_one_back(void *user, const char *name)
+{
+    const sp_output *output = user;
+    return is_there(output->folder, name) || renameat(output->staging.old, name, output->folder, name) == 0;
+}
+
 bool sp_put_superseded_back(const sp_output *output)
 {
-    bool done = true;
-    for (size_t s = 0; s < sizeof sets / sizeof *sets; s++)
-        for (size_t i = 0; i < sets[s].count; i++) {
-            const char *name = sets[s].names[i];
-            if (is_there(output->staging.old, name) && !is_there(output->folder, name))
-                done = renameat(output->staging.old, name, output->folder, name) == 0 && done;
-        }
-    return done;
+    return sp_each_name(output->staging.old, put_one_back, (void *)output);
 }

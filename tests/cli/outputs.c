@@ -9,7 +9,7 @@ static void without_output_nothing_is_written(void **state)
     char *before = list_folder(".");
     outcome result = run_program("simulate room.yaml");
     assert_int_equal(result.status, 0);
-    assert_string_equal(result.err, "");
+    assert_string_equal(result.err, "sprayplan: nothing was written; -o DIR says where to\n");
     assert_non_null(strstr(result.out, "manual"));
     forget(&result);
     expect("simulate room.yaml --quiet", 0, "", "");
@@ -20,6 +20,29 @@ static void without_output_nothing_is_written(void **state)
     free(after);
 }
 
+#define WROTE(where)                                                                                                   \
+    where ": report.html, result.json, coverage.png, deposits.exr, model.glb, swabs.csv, surface.vtp, texels.vtp, "    \
+          "nozzles.stl, nozzles.csv, layout.yaml\n"
+
+/* Beside JSON on standard error, else last of all on standard output. */
+static void what_was_written_is_said(void **state)
+{
+    (void)state;
+    outcome result = run_program("simulate room.yaml " COARSE " -o said");
+    const char *at = strstr(result.out, WROTE("\nwrote said"));
+    assert_non_null(at);
+    assert_string_equal(at, WROTE("\nwrote said"));
+    assert_string_equal(result.err, "");
+    forget(&result);
+    result = run_program("atlas room.obj -o said/a.obj --texel 10mm");
+    assert_non_null(strstr(result.out, "\nwrote said: a.obj, a-page_0.png\n"));
+    forget(&result);
+    result = run_program("simulate room.yaml " COARSE " --json");
+    assert_string_equal(result.err, "");
+    forget(&result);
+    expect("simulate room.yaml " COARSE " --quiet -o said", 0, "", "");
+}
+
 static void simulate_writes_its_files(void **state)
 {
     (void)state;
@@ -27,6 +50,7 @@ static void simulate_writes_its_files(void **state)
     assert_int_equal(result.status, 0);
     char *written = read_file("simulated/result.json", NULL);
     assert_string_equal(written, result.out);
+    assert_string_equal(result.err, WROTE("sprayplan: wrote simulated"));
     free(written);
     forget(&result);
     char *names = list_folder("simulated");
@@ -128,6 +152,29 @@ static void nor_is_what_the_scene_names(void **state)
     free(after);
 }
 
+static void nor_what_was_edited(void **state)
+{
+    (void)state;
+    static const char complaint[] = "edited/layout.yaml: was edited since it was written, or is not sprayplan's; "
+                                    "expected another folder to write to, or to force it (--force)\n";
+    ensure("edited", "simulate room.yaml " COARSE);
+    char *layout = read_file("edited/layout.yaml", NULL);
+    expect("simulate room.yaml " COARSE " -o edited --quiet", 0, "", "");
+    char *same = read_file("edited/layout.yaml", NULL);
+    assert_string_equal(layout, same);
+    free(same);
+    layout[strlen(layout) - 1] = ' ';
+    write_file("edited/layout.yaml", layout);
+    expect("simulate room.yaml " COARSE " -o edited --quiet", 1, "", complaint);
+    expect("place room.yaml -o edited --set place.clearance=9", 1, "", complaint);
+    char *kept = read_file("edited/layout.yaml", NULL);
+    assert_string_equal(layout, kept);
+    free(kept);
+    expect("simulate room.yaml " COARSE " -o edited --quiet --force", 0, "", "");
+    expect("simulate room.yaml " COARSE " -o edited --quiet", 0, "", "");
+    free(layout);
+}
+
 /* Not after the minutes that a search may take: this one would find no mounting point. */
 static void where_nothing_can_be_written_is_said_first(void **state)
 {
@@ -169,11 +216,13 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(without_output_nothing_is_written),
         cmocka_unit_test(simulate_writes_its_files),
+        cmocka_unit_test(what_was_written_is_said),
         cmocka_unit_test(what_was_read_is_told),
         cmocka_unit_test(what_came_through_a_pipe_has_no_digest),
         cmocka_unit_test(json_is_the_same_with_files_and_without),
         cmocka_unit_test(no_input_is_overwritten),
         cmocka_unit_test(nor_is_what_the_scene_names),
+        cmocka_unit_test(nor_what_was_edited),
         cmocka_unit_test(where_nothing_can_be_written_is_said_first),
         cmocka_unit_test(late_errors_are_located),
     };

@@ -271,6 +271,83 @@ static void what_is_superseded_spares_inputs(void **state)
 }
 
 /* Without figures of ours nothing is known to be ours. */
+static char *read_back(const char *name)
+{
+    char path[256];
+    snprintf(path, sizeof path, FOLDER "/%s", name);
+    FILE *file = fopen(path, "rb");
+    char *text = calloc(1, 4096);
+    assert_true(file && text);
+    text[fread(text, 1, 4095, file)] = 0;
+    fclose(file);
+    return text;
+}
+
+static bool write_scene(const char *name, const char *text, bool force, sp_error *error)
+{
+    sp_output *output = sp_output_open(FOLDER, error);
+    if (output && sp_output_scene(output, name, text, force, error))
+        return sp_output_commit(output, error);
+    sp_output_discard(output);
+    return false;
+}
+
+static void edited_scenes_are_replaced_by_force_alone(void **state)
+{
+    (void)state;
+    sp_error error = {0};
+    set_up();
+    assert_true(write_scene("layout.yaml", "one: 1\n", true, &error));
+    assert_true(write_scene("layout.yaml", "two: 2\n", false, &error));
+    char *whole = read_back("layout.yaml"), more[4200], other[4200];
+    assert_non_null(strstr(whole, "\ntwo: 2\n"));
+    snprintf(more, sizeof more, "%sthree: 3\n", whole);
+    snprintf(other, sizeof other, "%s", whole);
+    *strrchr(other, '2') = '3';
+    const char *edits[] = {strstr(whole, "two"), "one: 1\n", "", more, other};
+    for (size_t i = 0; i < sizeof edits / sizeof *edits; i++) {
+        put("layout.yaml", edits[i]);
+        error = (sp_error){0};
+        assert_false(write_scene("layout.yaml", "one: 1\n", false, &error));
+        assert_int_equal(error.kind, SP_ERROR_FILE);
+        assert_string_equal(error.file, FOLDER "/layout.yaml");
+        char *kept = read_back("layout.yaml");
+        assert_string_equal(kept, edits[i]);
+        free(kept);
+        error = (sp_error){0};
+        assert_true(write_scene("layout.yaml", "two: 2\n", true, &error));
+        kept = read_back("layout.yaml");
+        assert_string_equal(kept, whole);
+        free(kept);
+    }
+    free(whole);
+}
+
+/* Figures of one run and scenes of another are not to lie in one folder, but what was edited is not lost. */
+static void superseded_scenes_go_unless_edited(void **state)
+{
+    (void)state;
+    sp_error error = {0};
+    static const char *const names[] = {"layout.yaml", "layout-1.yaml", "layout-2.yaml", "layout-x.yaml"};
+    set_up();
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        assert_true(write_scene(names[i], "one: 1\n", true, &error));
+    put("layout-2.yaml", "edited");
+    sp_output *output = sp_output_open(FOLDER, &error);
+    assert_true(output && sp_output_supersede(output, &error) &&
+                sp_output_scene(output, "layout-1.yaml", "two: 2\n", false, &error) &&
+                sp_output_commit(output, &error));
+    assert_int_equal(access(FOLDER "/layout.yaml", F_OK), -1);
+    assert_int_equal(access(FOLDER "/result.json", F_OK), -1);
+    char *one = read_back("layout-1.yaml"), *two = read_back("layout-2.yaml"), *other = read_back("layout-x.yaml");
+    assert_non_null(strstr(one, "two: 2"));
+    assert_string_equal(two, "edited");
+    assert_non_null(strstr(other, "one: 1"));
+    free(one);
+    free(two);
+    free(other);
+}
+
 static void what_others_made_is_not_superseded(void **state)
 {
     (void)state;
@@ -386,6 +463,8 @@ int main(void)
         cmocka_unit_test(what_was_left_spares_inputs),
         cmocka_unit_test(what_is_superseded_spares_inputs),
         cmocka_unit_test(what_others_made_is_not_superseded),
+        cmocka_unit_test(edited_scenes_are_replaced_by_force_alone),
+        cmocka_unit_test(superseded_scenes_go_unless_edited),
         cmocka_unit_test(runs_do_not_mix),
         cmocka_unit_test(nor_where_one_is_held_up),
     };
