@@ -8,6 +8,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -73,6 +74,9 @@ typedef struct {
  * files have limits of their own): polygons of so few bytes a corner that their mesh would are refused. Names of parts
  * are UTF-8; what is not is taken for Latin-1. The caller destroys. */
 SP_API sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error);
+/* The same of what is left of a stream, which may be a pipe and stays open; `name` stands for the path in messages.
+ * Whether it is PLY, STL or OBJ is told by what it begins with; CAD files are refused. */
+SP_API sp_mesh *sp_mesh_load_stream(FILE *stream, const char *name, double unit, sp_error *error);
 
 /* Builds a welded mesh from `vertex_count` points and `triangle_count` triangles, all copied. `part` may be NULL: all
  * in one part; `part_names` [part_count] likewise. Fails for indices out of range and numbers that are not finite or

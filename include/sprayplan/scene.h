@@ -7,6 +7,8 @@
 #include <sprayplan/image.h>
 #include <sprayplan/place.h>
 
+#include <stdio.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -24,6 +26,10 @@ SP_API sp_scene *sp_scene_load(const char *path, sp_error *error);
  * file. `run`: who is told how far CAD files have been read, and may cancel; NULL for nobody. */
 SP_API sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, size_t count, const sp_run *run,
                                     sp_error *error);
+/* The same of what is left of a stream, which may be a pipe and stays open. `name` stands for the scene's path in
+ * messages and results; other files are looked up from the working directory. */
+SP_API sp_scene *sp_scene_load_stream(FILE *stream, const char *name, const char *const *overrides, size_t count,
+                                      const sp_run *run, sp_error *error);
 /* Accepts NULL. Everything that the functions below return belongs to the scene. */
 SP_API void sp_scene_destroy(sp_scene *scene);
 

@@ -150,7 +150,7 @@ int cli_atlas(const cli_options *options)
         fprintf(stderr, "sprayplan: atlas: -o: found \"%s\", expected a file name ending in .obj\n", options->output);
         return EXIT_USAGE;
     }
-    sp_mesh *mesh = sp_mesh_load(options->inputs[0], 1, &error);
+    sp_mesh *mesh = cli_load_mesh(options->inputs[0], &error);
     bool good = (options->reuse ? cli_atlas_reuse(&work, mesh, options->inputs[0], options->texel, &error)
                                 : cli_atlas_build(&work, mesh, options->texel, options->packing, &error)) &&
                 (!options->output || write_files(&work, options, &error));

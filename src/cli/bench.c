@@ -51,7 +51,7 @@ static sp_mesh *load_mesh(const char *path, bench_load *load, sp_error *error)
 {
     cli_meter_start();
     double start = bench_now();
-    sp_mesh *mesh = sp_mesh_load(path, 1, error);
+    sp_mesh *mesh = cli_load_mesh(path, error);
     *load = (bench_load){.seconds = bench_now() - start, .peak_bytes = cli_meter_peak()};
     if (mesh)
         load->bytes = mesh->vertex_count * sizeof *mesh->vertices +
@@ -64,6 +64,13 @@ static bool measure(const cli_options *options, const bench_wish *wish, const be
                     sp_error *error)
 {
     sp_run run = cli_run(options);
+    static const char *stages[MODES + 3] = {"build"};
+    size_t stage_count = 1;
+    for (int i = 0; i < MODES; i++)
+        if (wish->modes[i])
+            stages[stage_count++] = bench_mode_names[i];
+    stages[stage_count] = "study";
+    cli_progress_plan(stages, 0, 0, 1);
     bench_scaffold scaffold;
     bench_stage stage = {0};
     bench_trace trace = {0};
@@ -77,7 +84,7 @@ static bool measure(const cli_options *options, const bench_wish *wish, const be
            bench_trace_all(&scaffold, &stage, wish, &run, &trace, error) &&
            cli_atlas_build(&atlas, mesh, 0, SP_PACKING_PIXELS, error) &&
            bench_study(&scaffold, &stage, atlas.atlas, &run, study, &study_count, error);
-    bench_result result = {options->inputs[0], load, &scaffold, &trace, study, study_count, &atlas};
+    bench_result result = {cli_input_name(options->inputs[0]), load, &scaffold, &trace, study, study_count, &atlas};
     cli_progress_end();
     if (good && options->json)
         good = bench_print_json(&result) || sp_fail_memory(error);

@@ -488,6 +488,7 @@ static int check(const cli_options *options, const cli_scene *opened, cli_clock 
         return cli_fail_in(opened, error);
     }
     found->opened = opened;
+    cli_progress_stage(options, "check");
     bool good = examine(options, found, error);
     free(found->part_area);
     free(found->part_sides);
@@ -502,5 +503,7 @@ static int check(const cli_options *options, const cli_scene *opened, cli_clock 
 
 int cli_check(const cli_options *options)
 {
+    static const char *const stages[] = {"geometry", "accelerator|wet sides|atlas", "check", NULL};
+    cli_progress_plan(stages, 0, 0, 1);
     return cli_with_scene(options, false, check);
 }

@@ -2,6 +2,8 @@
 #ifndef CLI_H
 #define CLI_H
 
+#include "usage.h"
+
 #include <sprayplan/sprayplan.h>
 
 #include <jansson.h>
@@ -14,11 +16,13 @@ enum { EXIT_DONE = 0, EXIT_OTHER = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_SHORT
 #define MAX_OVERRIDES 64
 
 typedef struct {
-    const char *const *inputs; /* what stands on the command line besides options */
+    cli_command_id command;
+    const char
+        *inputs[CLI_INPUTS_MOST]; /* [input_count], what stands on the command line besides command and options */
     int input_count;
-    char *const *arguments; /* the command and all that follows it */
+    char *const *arguments; /* all that follows the program's name */
     int argument_count;
-    bool json, quiet, version, prove, no_live;
+    bool json, quiet, help, version, prove, no_live;
     int threads;
     double time_limit;  /* s, 0: none */
     double memory;      /* bytes, 0: not given */
@@ -35,37 +39,39 @@ typedef struct {
     sp_accelerator accelerator;
 } cli_options;
 
-typedef struct {
-    const char *name;
-    const char *arguments; /* for the usage line */
-    const char *summary;
-    unsigned options; /* set of option_flag */
-    int (*run)(const cli_options *options);
-    int least_inputs, most_inputs;
-} cli_command;
-
-enum option_flag {
-    OPTION_OUTPUT = 1,
-    OPTION_SET = 2,
-    OPTION_ATLAS = 4, /* --texel, --pack, --reuse */
-    OPTION_RAYS = 8,  /* with --gravity and --accel */
-    OPTION_TIME_LIMIT = 16,
-    OPTION_BENCH = 32, /* --rays, --mode, --trajectory */
-    OPTION_MEMORY = 64,
-    OPTION_PROVE = 128,
-    OPTION_REPAIR = 256,
-    OPTION_NO_LIVE = 512,
-};
+/* reading.c: - stands for standard input wherever a scene, a mesh or rays are read. */
+bool cli_is_standard_input(const char *path);
+/* What messages and results call it. */
+const char *cli_input_name(const char *path);
+/* Where the file is that is read, so that it is not written to. */
+const char *cli_input_path(const char *path);
+/* False, after a message on standard error, where it would have to be read twice. */
+bool cli_reads_once(const cli_options *options);
+sp_scene *cli_load_scene(const char *path, const cli_options *options, const sp_run *run, sp_error *error);
+sp_mesh *cli_load_mesh(const char *path, sp_error *error);
+/* To be closed, unless it is stdin. */
+FILE *cli_open(const char *path, sp_error *error);
 
 /* waiting.c: lets threads sleep where they wait for one another, instead of asking again and again, which takes the
  * processor from other programs and from one another. Before the first thread; starts the program anew with all of its
  * arguments, or returns where there is nothing to do or it cannot. */
 void cli_sleep_while_waiting(char *const *arguments);
 
-/* options.c: fills options from the arguments after the command's name; false after a message on standard error. */
-bool cli_parse(const cli_command *command, int count, char **arguments, cli_options *options, bool *help);
+/* options.c: fills options from the arguments after the program's name; false after a message on standard error, with
+ * the command as far as it was read, else CLI_COMMANDS. */
+bool cli_parse(int count, char **arguments, cli_options *options);
+/* Says what may have been meant; returns false always. */
+bool cli_unknown_command(const char *text);
 
 /* progress.c: Ctrl-C, SIGTERM and the bar on standard error. */
+/* The stages of a command, in order, NULL behind the last. One may be of several that the library names, as "exchange|
+ * front". From `first` on, `each` of them come `rounds` times. Kept. */
+void cli_progress_plan(const char *const *stages, size_t first, size_t each, size_t rounds);
+void cli_progress_rounds(size_t rounds);
+/* Which round begins, from 0. */
+void cli_progress_round(size_t round);
+/* A stage of which nobody tells how far it is. */
+void cli_progress_stage(const cli_options *options, const char *stage);
 sp_run cli_run(const cli_options *options);
 /* For a search that returns its best so far when it is interrupted; evaluations that run by cli_run() are not cut short
  * from then on. */
@@ -106,16 +112,18 @@ int cli_trace(const cli_options *options);
 int cli_atlas(const cli_options *options);
 int cli_bench(const cli_options *options);
 int cli_study(const cli_options *options);
+int cli_help(const cli_options *options);
 
 /* inputs.c: files that were read. Their digests are taken as soon as they were, since they may be edited meanwhile;
- * what came through a pipe is gone, and is left out. */
+ * what came through a pipe or standard input is gone, and is left out. */
 typedef struct {
     sp_input *list; /* [count], their paths are ours */
     size_t count;
 } cli_inputs;
 /* Once each. False, with an error, where one cannot be read again. */
 bool cli_inputs_add(cli_inputs *inputs, const char *path, sp_error *error);
-bool cli_inputs_add_scene(cli_inputs *inputs, const sp_scene *scene, sp_error *error);
+/* `path`: of the scene, as it was given. */
+bool cli_inputs_add_scene(cli_inputs *inputs, const char *path, const sp_scene *scene, sp_error *error);
 bool cli_inputs_join(cli_inputs *inputs, const cli_inputs *more, sp_error *error);
 void cli_inputs_free(cli_inputs *inputs);
 

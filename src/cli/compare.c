@@ -45,8 +45,10 @@ static bool open_input(compared *input, const char *path, const cli_options *opt
         sp_scene_locate(input->opened.scene, error);
         return false;
     }
+    cli_progress_stage(options, "simulate");
     input->coverage = cli_simulated(&input->opened, layout, error);
     cli_clock_stage(clock, "simulate");
+    cli_progress_stage(options, "measured error");
     bool good = cli_measure(input->opened.evaluator, layout, input->coverage, error);
     cli_clock_stage(clock, "measured error");
     if (!good)
@@ -99,7 +101,7 @@ static bool list_designs(comparison *all, const cli_options *options, sp_error *
     if (!all->designs || !all->names || !all->read_figures)
         return sp_fail_memory(error);
     for (int i = 0; i < options->input_count; i++)
-        if (!add_input(all, &all->inputs[i], options->inputs[i], error))
+        if (!add_input(all, &all->inputs[i], cli_input_name(options->inputs[i]), error))
             return false;
     return true;
 }
@@ -174,10 +176,15 @@ static bool compare(comparison *all, const cli_options *options, sp_error *error
     static const char *const files[] = {"result.json", "report.html", "nozzles-all.csv", NULL};
     if (!cli_output_ready(options, NULL, files, error))
         return false;
-    for (int i = 0; i < options->input_count; i++)
+    static const char *const stages[] = {
+        "geometry", "accelerator|wet sides|atlas", "simulate|jets", "measured error", "report", NULL};
+    cli_progress_plan(stages, 0, 4, (size_t)options->input_count);
+    for (int i = 0; i < options->input_count; i++) {
+        cli_progress_round((size_t)i);
         if (!open_input(&all->inputs[i], options->inputs[i], options, &all->clock, error) ||
             !cli_inputs_join(&all->read, &all->inputs[i].opened.inputs, error))
             return false;
+    }
     for (int i = 0; i < options->input_count; i++)
         all->scenes[i] = all->inputs[i].opened.scene;
     if (!list_designs(all, options, error))
@@ -185,11 +192,12 @@ static bool compare(comparison *all, const cli_options *options, sp_error *error
     if (!share_figures(all, error))
         return false;
     sp_result result = {.command = "compare",
-                        .scene = options->inputs[0],
+                        .scene = cli_input_name(options->inputs[0]),
                         .design_count = all->design_count,
                         .designs = all->designs,
                         .stage_count = all->clock.count,
                         .stages = all->clock.stages};
+    cli_progress_stage(options, "report");
     return cli_report(options, &result, all->scenes, &all->read, NULL, error);
 }
 

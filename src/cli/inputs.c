@@ -45,13 +45,13 @@ bool cli_inputs_join(cli_inputs *inputs, const cli_inputs *more, sp_error *error
     return good;
 }
 
-bool cli_inputs_add_scene(cli_inputs *inputs, const sp_scene *scene, sp_error *error)
+bool cli_inputs_add_scene(cli_inputs *inputs, const char *path, const sp_scene *scene, sp_error *error)
 {
     bool good = true;
-    for (size_t i = 0; good && i < sp_scene_file_count(scene); i++) {
-        char *path = sp_scene_file_path(scene, i, error);
-        good = path && cli_inputs_add(inputs, path, error);
-        free(path);
+    for (size_t i = cli_is_standard_input(path); good && i < sp_scene_file_count(scene); i++) {
+        char *file = sp_scene_file_path(scene, i, error);
+        good = file && cli_inputs_add(inputs, file, error);
+        free(file);
     }
     return good;
 }

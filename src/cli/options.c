@@ -1,103 +1,12 @@
-/* Command-line options. */
+/* Command-line options. Long ones are to be written out: an abbreviation may come to mean something else. */
 #include "cli.h"
 
+#include "../scene/slips.h"
+
 #include <errno.h>
-#include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum {
-    JSON = 256,
-    THREADS,
-    TIME_LIMIT,
-    QUIET,
-    HELP,
-    VERSION,
-    SET,
-    TEXEL,
-    RAYS,
-    GRAVITY,
-    ACCEL,
-    MODE,
-    TRAJECTORY,
-    MEMORY,
-    PROVE,
-    PACK,
-    REUSE,
-    REPAIR,
-    NO_LIVE
-};
-
-static const struct option long_options[] = {
-    {"json", no_argument, NULL, JSON},
-    {"threads", required_argument, NULL, THREADS},
-    {"time-limit", required_argument, NULL, TIME_LIMIT},
-    {"quiet", no_argument, NULL, QUIET},
-    {"help", no_argument, NULL, HELP},
-    {"version", no_argument, NULL, VERSION},
-    {"set", required_argument, NULL, SET},
-    {"texel", required_argument, NULL, TEXEL},
-    {"pack", required_argument, NULL, PACK},
-    {"reuse", no_argument, NULL, REUSE},
-    {"repair", required_argument, NULL, REPAIR},
-    {"no-live", no_argument, NULL, NO_LIVE},
-    {"rays", required_argument, NULL, RAYS},
-    {"gravity", required_argument, NULL, GRAVITY},
-    {"accel", required_argument, NULL, ACCEL},
-    {"mode", required_argument, NULL, MODE},
-    {"trajectory", required_argument, NULL, TRAJECTORY},
-    {"memory", required_argument, NULL, MEMORY},
-    {"prove", no_argument, NULL, PROVE},
-    {NULL, 0, NULL, 0},
-};
-
-/* Which flags of cli_command.options an option belongs to; 0: every command has it. */
-static unsigned flag_of(int option)
-{
-    switch (option) {
-    case 'o':
-        return OPTION_OUTPUT;
-    case SET:
-        return OPTION_SET;
-    case TIME_LIMIT:
-        return OPTION_TIME_LIMIT;
-    case TEXEL:
-    case PACK:
-    case REUSE:
-        return OPTION_ATLAS;
-    case MEMORY:
-        return OPTION_MEMORY;
-    case PROVE:
-        return OPTION_PROVE;
-    case NO_LIVE:
-        return OPTION_NO_LIVE;
-    case REPAIR:
-        return OPTION_REPAIR;
-    case RAYS:
-        return OPTION_RAYS | OPTION_BENCH;
-    case MODE:
-    case TRAJECTORY:
-        return OPTION_BENCH;
-    case GRAVITY:
-    case ACCEL:
-        return OPTION_RAYS;
-    default:
-        return 0;
-    }
-}
-
-static const char *name_of(int option)
-{
-    static const char *const names[] = {[SET - JSON] = "--set",         [TIME_LIMIT - JSON] = "--time-limit",
-                                        [TEXEL - JSON] = "--texel",     [PACK - JSON] = "--pack",
-                                        [REUSE - JSON] = "--reuse",     [RAYS - JSON] = "--rays",
-                                        [GRAVITY - JSON] = "--gravity", [ACCEL - JSON] = "--accel",
-                                        [MODE - JSON] = "--mode",       [TRAJECTORY - JSON] = "--trajectory",
-                                        [MEMORY - JSON] = "--memory",   [PROVE - JSON] = "--prove",
-                                        [REPAIR - JSON] = "--repair",   [NO_LIVE - JSON] = "--no-live"};
-    return option == 'o' ? "-o" : names[option - JSON];
-}
 
 static bool wrong(const char *option, const char *found, const char *expected)
 {
@@ -203,87 +112,254 @@ static bool parse_override(const char *text, cli_options *options)
     return true;
 }
 
-static bool take_option(int option, const char *value, cli_options *options, bool *help)
+static bool take_option(cli_option_id option, const char *value, cli_options *options)
 {
     switch (option) {
-    case 'o':
+    case CLI_OUTPUT:
         options->output = value;
         return *value || wrong("-o", value, "a path");
-    case JSON:
+    case CLI_JSON:
         options->json = true;
         return true;
-    case THREADS:
+    case CLI_THREADS:
         return parse_threads(value, &options->threads);
-    case TIME_LIMIT:
+    case CLI_TIME_LIMIT:
         return parse_time_limit(value, &options->time_limit);
-    case QUIET:
+    case CLI_QUIET:
         options->quiet = true;
         return true;
-    case PROVE:
+    case CLI_PROVE:
         options->prove = true;
         return true;
-    case NO_LIVE:
+    case CLI_NO_LIVE:
         options->no_live = true;
         return true;
-    case SET:
+    case CLI_SET:
         return parse_override(value, options);
-    case TEXEL:
+    case CLI_TEXEL:
         return parse_texel(value, &options->texel);
-    case MEMORY:
+    case CLI_MEMORY:
         return parse_memory(value, &options->memory);
-    case PACK:
+    case CLI_PACK:
         return parse_packing(value, &options->packing);
-    case REUSE:
+    case CLI_REUSE:
         options->reuse = true;
         return true;
-    case REPAIR:
+    case CLI_REPAIR:
         options->repair = value;
         return cli_names_obj(value) || wrong("--repair", value, "a file name ending in .obj");
-    case RAYS:
+    case CLI_RAYS:
         options->rays = value;
         return true;
-    case MODE:
+    case CLI_MODE:
         options->mode = value;
         return true;
-    case TRAJECTORY:
+    case CLI_TRAJECTORY:
         options->trajectory = value;
         return true;
-    case GRAVITY:
+    case CLI_GRAVITY:
         return parse_gravity(value, &options->gravity);
-    case ACCEL:
+    case CLI_ACCEL:
         return parse_accelerator(value, &options->accelerator);
-    case HELP:
-        *help = true;
+    case CLI_HELP_ASKED:
+        options->help = true;
         return true;
-    case VERSION:
+    case CLI_VERSION:
         options->version = true;
         return true;
-    default:
-        return false;
     }
+    return false;
 }
 
-bool cli_parse(const cli_command *command, int count, char **arguments, cli_options *options, bool *help)
+/* What is closest to `text` of `count` names, or begins with it; NULL where none does. */
+static const char *closest(const char *text, const char *(*name)(size_t index), size_t count)
 {
-    *options = (cli_options){.accelerator = SP_ACCELERATOR_BVH, .arguments = arguments, .argument_count = count};
-    int option;
-    while ((option = getopt_long(count, arguments, "o:h", long_options, NULL)) != -1) {
-        unsigned flag = flag_of(option);
-        if (flag && !(command->options & flag)) {
-            fprintf(stderr, "sprayplan: %s does not take %s\n", command->name, name_of(option));
-            return false;
+    const char *found = NULL;
+    size_t least = SIZE_MAX, length = strlen(text);
+    for (size_t i = 0; i < count; i++) {
+        size_t slips = name(i) ? sp_text_slips(text, name(i)) : SIZE_MAX;
+        if (name(i) && length > 1 && !strncmp(text, name(i), length))
+            slips = 0;
+        if (slips < least) {
+            found = name(i);
+            least = slips;
         }
-        if (option == '?' || !take_option(option == 'h' ? HELP : option, optarg, options, help))
+    }
+    return found;
+}
+
+static const char *option_name(size_t index)
+{
+    return cli_options_known[index].name;
+}
+
+static const char *command_name(size_t index)
+{
+    return cli_commands[index].name;
+}
+
+static bool unknown_option(const char *text)
+{
+    const char *meant = text[1] == '-' ? closest(text + 2, option_name, cli_option_count) : NULL;
+    if (meant)
+        fprintf(stderr, "sprayplan: unknown option %s; did you mean --%s?\n", text, meant);
+    else
+        fprintf(stderr, "sprayplan: unknown option %s\n", text);
+    return false;
+}
+
+bool cli_unknown_command(const char *text)
+{
+    const char *meant = closest(text, command_name, CLI_COMMANDS);
+    if (meant)
+        fprintf(stderr, "sprayplan: unknown command \"%s\"; did you mean %s?\n", text, meant);
+    else
+        fprintf(stderr, "sprayplan: unknown command \"%s\"\n", text);
+    return false;
+}
+
+/* What is called `name`, of `length`, or has this letter; whether the command takes it shows later. NULL for none. */
+static const cli_option *long_option(const char *name, size_t length)
+{
+    for (size_t i = 0; i < cli_option_count; i++) {
+        const char *known = cli_options_known[i].name;
+        if (known && strlen(known) == length && !strncmp(known, name, length))
+            return &cli_options_known[i];
+    }
+    return NULL;
+}
+
+static const cli_option *short_option(char letter)
+{
+    for (size_t i = 0; i < cli_option_count; i++)
+        if (letter && cli_options_known[i].letter == letter)
+            return &cli_options_known[i];
+    return NULL;
+}
+
+typedef struct {
+    char **arguments, **end;
+    cli_options *options;
+    unsigned given; /* 1 << cli_option_id of each option that was */
+} reader;
+
+/* `rest`: what stands behind the option in its own argument, NULL for nothing. */
+static bool take(reader *reader, const cli_option *option, const char *syntax, const char *rest)
+{
+    const char *value = rest ? rest : option->value && reader->arguments < reader->end ? *reader->arguments++ : NULL;
+    if (option->value && !value) {
+        fprintf(stderr, "sprayplan: %s: found nothing behind it, expected %s\n", syntax, option->value);
+        return false;
+    }
+    reader->given |= 1u << option->id;
+    return take_option(option->id, value, reader->options);
+}
+
+static bool read_long(reader *reader, const char *text)
+{
+    char syntax[CLI_SYNTAX];
+    size_t length = strcspn(text + 2, "=");
+    const cli_option *option = long_option(text + 2, length);
+    if (!option) {
+        snprintf(syntax, sizeof syntax, "%.*s", (int)length + 2, text);
+        return unknown_option(syntax);
+    }
+    snprintf(syntax, sizeof syntax, "--%s", option->name);
+    bool valued = text[length + 2] == '=';
+    return (valued && !option->value) ? wrong(syntax, text + length + 3, "no value")
+                                      : take(reader, option, syntax, valued ? text + length + 3 : NULL);
+}
+
+/* Letters may stand together; the last may have its value behind it. */
+static bool read_letters(reader *reader, const char *text)
+{
+    for (const char *at = text + 1; *at; at++) {
+        const char syntax[] = {'-', *at, 0};
+        const cli_option *option = short_option(*at);
+        if (!option)
+            return unknown_option(syntax);
+        if (option->value)
+            return take(reader, option, syntax, at[1] ? at + 1 : NULL);
+        if (!take(reader, option, syntax, NULL))
             return false;
     }
-    options->inputs = (const char *const *)(arguments + optind);
-    options->input_count = count - optind;
-    if (*help || options->version)
-        return true;
-    if (options->input_count < command->least_inputs || options->input_count > command->most_inputs) {
-        fprintf(stderr, "sprayplan: %s: found %d file names, expected %s\n", command->name, options->input_count,
-                command->most_inputs == 1 ? "one" : "two or more");
+    return true;
+}
+
+/* The command, wherever it stands among the options, and then what it is to work on. */
+static bool read_name(reader *reader, const char *text)
+{
+    cli_options *options = reader->options;
+    if (options->command == CLI_COMMANDS) {
+        size_t command = cli_command_named(text);
+        options->command = command == SIZE_MAX ? CLI_COMMANDS : (cli_command_id)command;
+        return command != SIZE_MAX || cli_unknown_command(text);
+    }
+    if (options->input_count == CLI_INPUTS_MOST) {
+        fprintf(stderr, "sprayplan: found more than %d file names, expected no more\n", CLI_INPUTS_MOST);
+        return false;
+    }
+    options->inputs[options->input_count++] = text;
+    return true;
+}
+
+static bool read_all(reader *reader)
+{
+    bool names_only = false, good = true;
+    while (good && reader->arguments < reader->end) {
+        const char *text = *reader->arguments++;
+        if (names_only || text[0] != '-' || !text[1])
+            good = read_name(reader, text);
+        else if (!strcmp(text, "--"))
+            names_only = true;
+        else if (text[1] == '-')
+            good = read_long(reader, text);
+        else
+            good = read_letters(reader, text);
+    }
+    return good;
+}
+
+/* Whether the command takes whatever was given. */
+static bool takes_all(const reader *reader)
+{
+    unsigned taken = 0, command = 1u << reader->options->command;
+    for (size_t i = 0; i < cli_option_count; i++)
+        if (cli_options_known[i].commands & command)
+            taken |= 1u << cli_options_known[i].id;
+    for (size_t i = 0; i < cli_option_count; i++) {
+        const cli_option *option = &cli_options_known[i];
+        if (!(reader->given & ~taken & 1u << option->id))
+            continue;
+        fprintf(stderr, "sprayplan: %s does not take %s%.*s\n", cli_commands[reader->options->command].name,
+                option->name ? "--" : "-", option->name ? 64 : 1, option->name ? option->name : &option->letter);
         return false;
     }
     return true;
+}
+
+static bool has_inputs(const cli_options *options)
+{
+    const cli_command *command = &cli_commands[options->command];
+    if (options->input_count >= command->least_inputs && options->input_count <= command->most_inputs)
+        return true;
+    fprintf(stderr, "sprayplan: %s: found %d file names, expected %s\n", command->name, options->input_count,
+            command->most_inputs == 1 ? "one" : "two or more");
+    return false;
+}
+
+bool cli_parse(int count, char **arguments, cli_options *options)
+{
+    *options = (cli_options){
+        .command = CLI_COMMANDS, .accelerator = SP_ACCELERATOR_BVH, .arguments = arguments, .argument_count = count};
+    reader reader = {arguments, arguments + count, options, 0};
+    if (!read_all(&reader))
+        return false;
+    if (options->help || options->version)
+        return true;
+    if (options->command == CLI_COMMANDS) {
+        fprintf(stderr, "sprayplan: found no command\n");
+        return false;
+    }
+    return takes_all(&reader) && has_inputs(options) && cli_reads_once(options);
 }

@@ -45,7 +45,7 @@ sp_output *cli_output_open(const cli_options *options, const char *folder, const
     sp_output *output = sp_output_open(folder, error);
     bool good = output != NULL;
     for (int i = 0; i < options->input_count && good; i++)
-        good = sp_output_protect(output, options->inputs[i], error);
+        good = sp_output_protect(output, cli_input_path(options->inputs[i]), error);
     for (int i = 0; i < count && good; i++)
         good = protect_scene(scenes[i], output, error);
     if (good)

@@ -112,7 +112,7 @@ static int report(const cli_options *options, const cli_scene *opened, const pla
     const sp_proposal *best = found->proposals[found->best];
     const sp_scene *scene = opened->scene;
     sp_result result = {.command = "place",
-                        .scene = options->inputs[0],
+                        .scene = cli_input_name(options->inputs[0]),
                         .designs = designs,
                         .proposal = best,
                         .stage_count = clock->count,
@@ -167,6 +167,7 @@ static bool propose(const cli_options *options, const cli_scene *opened, const c
     for (size_t i = 0; i < count && !found->ended; i++) {
         sp_place_options how = alternatives ? sp_scene_alternative_options(opened->scene, i) : all;
         how.run = cli_search_run(options);
+        cli_progress_round(i);
         how.run.time_limit = time_left(options, clock, found, count - i);
         how.memory = options->memory;
         how.prove = options->prove;
@@ -257,6 +258,7 @@ static bool can_write(const cli_options *options, const cli_scene *opened, sp_er
 static int conclude(const cli_options *options, const cli_scene *opened, cli_clock *clock, placement *found,
                     sp_error *error)
 {
+    cli_progress_stage(options, "report");
     bool good = count_manual_again(opened, found, error) && follow_liquid(opened, found, error) &&
                 measure_errors(opened, found, error) &&
                 (options->quiet || warn_of_own(opened, sp_scene_layout(opened->scene), error));
@@ -270,6 +272,7 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
     if (!can_write(options, opened, error))
         return cli_fail(error);
     const sp_layout *own = sp_scene_layout(opened->scene);
+    cli_progress_stage(options, "simulate");
     if (!sp_scene_has_place(opened->scene))
         sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: found no mounts, expected where nozzles may be mounted");
     else if (own->count == 0 || (found.manual = sp_evaluate(opened->evaluator, own, error))) {
@@ -288,6 +291,13 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
 
 int cli_place(const cli_options *options)
 {
+    static const char *const stages[] = {"geometry",    "accelerator|wet sides|atlas",
+                                         "simulate",    "visibility|footprints",
+                                         "attainable",  "greedy|exchange|front",
+                                         "refine",      "measured error|remedies|forward check",
+                                         "certificate", "report",
+                                         NULL};
+    cli_progress_plan(stages, 3, 6, 1);
     sp_error error = {0};
     cli_options own = *options;
     if (!sp_ranks_first()) {
@@ -297,7 +307,10 @@ int cli_place(const cli_options *options)
     }
     if (!cli_join(&error)) /* of those that cannot the first alone says so */
         return sp_ranks_first() ? cli_fail(&error) : EXIT_DONE;
-    int status = cli_with_scene(&own, true, place);
+    if (cli_ranks() && cli_is_standard_input(own.inputs[0]))
+        sp_fail(&error, SP_ERROR_INPUT, NULL, 0, 0,
+                "standard input: found several processes, expected one: only the first of them has it");
+    int status = error.kind ? cli_fail(&error) : cli_with_scene(&own, true, place);
     cli_leave();
     return status;
 }

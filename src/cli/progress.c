@@ -1,17 +1,28 @@
-/* Ctrl-C and the request to end, and the progress bar on standard error, only when that is a terminal. */
+/* Ctrl-C and the request to end, and how far a command has come, on standard error and only when that is a terminal. */
 #include "cli.h"
 
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
+
+enum { CELLS = 20, LINE = 79 };
+
+/* How a line is taken back: by an escape code, by blanks where the terminal is to have none, or not at all. */
+typedef enum { ERASES, BLANKS, KEEPS } terminal;
 
 /* The program's own state, not the library's: a signal handler has no argument to find it by. */
 static volatile sig_atomic_t interrupted;
 static bool searching;
 static struct {
-    char stage[64];
+    const char *const *stages; /* the plan's, see cli_progress_plan; NULL: none */
+    size_t count, first, each, rounds, round;
+    size_t number; /* of the stage that it is at, from 1; 0 before the first */
+    char name[64];
     double began, drawn;
+    double ends; /* when the time limit does; 0: none */
+    terminal kind;
     bool on_screen;
 } bar;
 
@@ -40,33 +51,119 @@ bool cli_interrupted(void)
 
 void cli_progress_end(void)
 {
-    if (bar.on_screen)
+    if (bar.on_screen && bar.kind == ERASES)
         fputs("\r\033[K", stderr);
+    else if (bar.on_screen && bar.kind == BLANKS)
+        fprintf(stderr, "\r%*s\r", LINE, "");
     bar.on_screen = false;
+}
+
+void cli_progress_plan(const char *const *stages, size_t first, size_t each, size_t rounds)
+{
+    size_t count = 0;
+    while (stages[count])
+        count++;
+    bar.stages = stages;
+    bar.count = count;
+    bar.first = first;
+    bar.each = each;
+    bar.rounds = rounds;
+    bar.round = bar.number = 0;
+}
+
+void cli_progress_rounds(size_t rounds)
+{
+    bar.rounds = rounds;
+}
+
+void cli_progress_round(size_t round)
+{
+    bar.round = round;
+}
+
+/* Whether `stage` is among "one|another". */
+static bool is_among(const char *stage, const char *names)
+{
+    size_t length = strlen(stage);
+    for (const char *at = names; at; at = strchr(at, '|') ? strchr(at, '|') + 1 : NULL)
+        if (!strncmp(at, stage, length) && (at[length] == '|' || !at[length]))
+            return true;
+    return false;
+}
+
+/* It never falls: what is not planned, or was there before, belongs to the stage that the command is at. */
+static void count_stage(const char *stage)
+{
+    size_t at = 0, rounds_before = 0;
+    while (at < bar.count && !is_among(stage, bar.stages[at]))
+        at++;
+    if (at == bar.count)
+        return;
+    if (at >= bar.first)
+        rounds_before = at < bar.first + bar.each ? bar.round : bar.rounds - 1;
+    size_t number = at + 1 + rounds_before * bar.each;
+    bar.number = number > bar.number ? number : bar.number;
+}
+
+static size_t all_stages(void)
+{
+    return bar.count + (bar.rounds - 1) * bar.each;
+}
+
+/* Of the whole that is known where there is a limit, or nothing else to come; else of the stage. */
+static void append_time_left(char *line, size_t size, double time, double done)
+{
+    size_t used = strlen(line);
+    bool last = bar.number == all_stages();
+    if (bar.ends > time)
+        snprintf(line + used, size - used, "  at most %.0f s left", bar.ends - time);
+    else if (!(bar.ends > 0) && done > 0.02 && time - bar.began > 1)
+        snprintf(line + used, size - used, "  %.0f s left%s", (time - bar.began) * (1 - done) / done,
+                 last ? "" : " of this stage");
+}
+
+/* `done` below 0: not known. */
+static void write_line(char *line, size_t size, const char *stage, double time, double done)
+{
+    char cells[CELLS + 1], number[48] = "";
+    int filled = done < 0 ? 0 : done > 1 ? CELLS : (int)(done * CELLS);
+    memset(cells, ' ', CELLS);
+    memset(cells, '#', (size_t)filled);
+    cells[CELLS] = 0;
+    if (bar.number)
+        snprintf(number, sizeof number, "[%zu/%zu] ", bar.number, all_stages());
+    if (bar.kind == KEEPS)
+        snprintf(line, size, "%s%s", number, stage);
+    else if (done < 0)
+        snprintf(line, size, "%s%-14s", number, stage);
+    else
+        snprintf(line, size, "%s%-14s [%s] %3.0f %%", number, stage, cells, 100 * done);
+    if (bar.kind != KEEPS)
+        append_time_left(line, size, time, done);
 }
 
 static void draw(const char *stage, double done)
 {
-    enum { WIDTH = 30 };
-    char cells[WIDTH + 1];
     double time = now();
-    if (strcmp(stage, bar.stage)) {
-        snprintf(bar.stage, sizeof bar.stage, "%s", stage);
+    bool fresh = strcmp(stage, bar.name) != 0;
+    if (fresh) {
+        snprintf(bar.name, sizeof bar.name, "%s", stage);
         bar.began = time;
-        bar.drawn = 0;
+        count_stage(stage);
     }
-    if (time - bar.drawn < 0.1)
+    if (!fresh && (bar.kind == KEEPS || time - bar.drawn < 0.1))
         return;
+    char line[LINE + 1];
+    write_line(line, sizeof line, stage, time, done);
     bar.drawn = time;
-    int filled = done < 0 ? 0 : done > 1 ? WIDTH : (int)(done * WIDTH);
-    memset(cells, ' ', WIDTH);
-    memset(cells, '#', (size_t)filled);
-    cells[WIDTH] = 0;
-    fprintf(stderr, "\r\033[K%-14s [%s] %3.0f %%", stage, cells, 100 * done);
-    if (done > 0.02 && time - bar.began > 1)
-        fprintf(stderr, "  %.0f s left", (time - bar.began) * (1 - done) / done);
+    if (bar.kind == ERASES)
+        fprintf(stderr, "\r\033[K%s", line);
+    else if (bar.kind == BLANKS)
+        fprintf(stderr, "\r%-*s", LINE, line);
+    else
+        fprintf(stderr, "%s\n", line);
     fflush(stderr);
-    bar.on_screen = true;
+    bar.on_screen = bar.kind != KEEPS;
 }
 
 static bool search_progress(void *user, const char *stage, double done)
@@ -83,10 +180,32 @@ static bool progress(void *user, const char *stage, double done)
     return search_progress(user, stage, done) || searching;
 }
 
+static terminal kind_of_terminal(void)
+{
+    const char *term = getenv("TERM"), *no_colour = getenv("NO_COLOR");
+    if (!term || !*term || !strcmp(term, "dumb"))
+        return KEEPS;
+    return no_colour && *no_colour ? BLANKS : ERASES;
+}
+
+static bool is_visible(const cli_options *options)
+{
+    return !options->quiet && isatty(STDERR_FILENO);
+}
+
+void cli_progress_stage(const cli_options *options, const char *stage)
+{
+    if (is_visible(options))
+        draw(stage, -1);
+}
+
 sp_run cli_run(const cli_options *options)
 {
     static bool visible;
-    visible = !options->quiet && isatty(STDERR_FILENO);
+    visible = is_visible(options);
+    bar.kind = kind_of_terminal();
+    if (options->time_limit > 0 && !(bar.ends > 0))
+        bar.ends = now() + options->time_limit;
     /* SIGTERM is what timeout(1), schedulers and shutting down send: no reason to lose what was found. The second of
      * either ends the program at once. */
     struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};

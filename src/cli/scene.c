@@ -6,14 +6,17 @@ bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *opti
 {
     *opened = (cli_scene){0};
     const sp_run run = cli_run(options);
-    opened->scene = sp_scene_load_with(path, options->overrides, options->override_count, &run, error);
+    cli_progress_stage(options, "geometry");
+    opened->scene = cli_load_scene(path, options, &run, error);
     if (!opened->scene)
         return false;
-    if ((options->output || options->json) && !cli_inputs_add_scene(&opened->inputs, opened->scene, error)) {
+    if ((options->output || options->json) && !cli_inputs_add_scene(&opened->inputs, path, opened->scene, error)) {
         cli_scene_close(opened);
         return false;
     }
     cli_clock_stage(clock, "load");
+    if (options->command == CLI_PLACE && sp_scene_alternative_count(opened->scene) > 0)
+        cli_progress_rounds(sp_scene_alternative_count(opened->scene));
     sp_setup setup = *sp_scene_setup(opened->scene);
     setup.run = run;
     opened->evaluator = sp_evaluator_create_for(&setup, evaluates ? sp_scene_layout(opened->scene) : NULL, error);

@@ -10,18 +10,21 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
     }
     if (!cli_output_ready(options, opened->scene, cli_result_files, error))
         return cli_fail(error);
+    cli_progress_stage(options, "simulate");
     sp_coverage *coverage = cli_simulated(opened, layout, error);
     cli_clock_stage(clock, "simulate");
+    cli_progress_stage(options, "measured error");
     bool good = cli_measure(opened->evaluator, layout, coverage, error);
     cli_clock_stage(clock, "measured error");
     sp_design design = cli_design(opened, "manual", opened->evaluator, layout, coverage);
     sp_result result = {.command = "simulate",
-                        .scene = options->inputs[0],
+                        .scene = cli_input_name(options->inputs[0]),
                         .design_count = 1,
                         .designs = &design,
                         .stage_count = clock->count,
                         .stages = clock->stages};
     const sp_scene *scene = opened->scene;
+    cli_progress_stage(options, "report");
     good = good && cli_report(options, &result, &scene, &opened->inputs, layout, error);
     sp_coverage_destroy(coverage);
     return good ? EXIT_DONE : cli_fail_in(opened, error);
@@ -29,5 +32,8 @@ static int simulate(const cli_options *options, const cli_scene *opened, cli_clo
 
 int cli_simulate(const cli_options *options)
 {
+    static const char *const stages[] = {
+        "geometry", "accelerator|wet sides|atlas", "simulate|jets", "measured error", "report", NULL};
+    cli_progress_plan(stages, 0, 0, 1);
     return cli_with_scene(options, true, simulate);
 }

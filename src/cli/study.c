@@ -14,7 +14,7 @@ static bool write_files(const cli_options *options, const sp_scene *scene, const
 {
     if (!options->output)
         return true;
-    const char *path = options->inputs[0];
+    const char *path = cli_input_name(options->inputs[0]);
     sp_output *output = cli_output_open(options, options->output, &scene, 1, error);
     bool good = output && sp_output_supersede(output, error) &&
                 add_file(output, "study.json", sp_study_json(study, path, error), error) &&
@@ -29,7 +29,7 @@ static bool write_files(const cli_options *options, const sp_scene *scene, const
 
 static bool print_json(const cli_options *options, const sp_study *study, sp_error *error)
 {
-    char *text = sp_study_json(study, options->inputs[0], error);
+    char *text = sp_study_json(study, cli_input_name(options->inputs[0]), error);
     if (text)
         fputs(text, stdout);
     free(text);
@@ -63,11 +63,18 @@ static sp_study *measure(const cli_options *options, const sp_scene *scene, sp_e
 int cli_study(const cli_options *options)
 {
     sp_error error = {0};
+    static const char *const stages[] = {"geometry", "reference", "runs", "report", NULL};
+    static const char *const all_stages[] = {"geometry", "reference", "runs", "place", "report", NULL};
     const sp_run run = cli_run(options);
-    sp_scene *scene = sp_scene_load_with(options->inputs[0], options->overrides, options->override_count, &run, &error);
+    cli_progress_plan(stages, 0, 0, 1);
+    cli_progress_stage(options, "geometry");
+    sp_scene *scene = cli_load_scene(options->inputs[0], options, &run, &error);
     static const char *const files[] = {"study.json", "study.csv", "place.csv", "report.html", NULL};
+    if (sp_scene_has_place(scene))
+        cli_progress_plan(all_stages, 0, 0, 1);
     bool ready = scene && cli_output_ready(options, scene, files, &error);
     sp_study *study = ready ? measure(options, scene, &error) : NULL;
+    cli_progress_stage(options, "report");
     bool good = study && write_files(options, scene, study, &error) && print(options, study, &error);
     int status = !good ? cli_fail(&error) : study->interrupted && cli_interrupted() ? EXIT_INTERRUPTED : EXIT_DONE;
     if (good && study->interrupted)

@@ -2,9 +2,7 @@
 #include "cli.h"
 #include "rays.h"
 
-#include <errno.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { BATCH = 1 << 16 };
 
@@ -65,13 +63,11 @@ int cli_trace(const cli_options *options)
         fprintf(stderr, "sprayplan: trace: found no --rays, expected --rays FILE\n");
         return EXIT_USAGE;
     }
-    sp_mesh *mesh = sp_mesh_load(options->inputs[0], 1, &error);
+    sp_mesh *mesh = cli_load_mesh(options->inputs[0], &error);
     sp_tracer *tracer = mesh ? sp_tracer_create(mesh, options->accelerator, options->threads, &error) : NULL;
-    cli_rays reader = {.path = options->rays};
-    if (tracer && !(reader.file = fopen(options->rays, "rb")))
-        sp_fail(&error, SP_ERROR_INPUT, options->rays, 0, 0, "cannot be opened: %s", strerror(errno));
+    cli_rays reader = {.path = cli_input_name(options->rays), .file = tracer ? cli_open(options->rays, &error) : NULL};
     bool good = reader.file && trace_file(&reader, tracer, options, &error);
-    if (reader.file)
+    if (reader.file && reader.file != stdin)
         fclose(reader.file);
     free(reader.text);
     sp_tracer_destroy(tracer);

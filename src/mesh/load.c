@@ -39,13 +39,9 @@ static char *read_all(FILE *file, size_t *size)
     return text;
 }
 
-char *sp_read_file(const char *path, size_t *size, sp_error *error)
+/* With a zero behind it. */
+static char *read_stream(FILE *file, const char *path, size_t *size, sp_error *error)
 {
-    FILE *file = fopen(path, "rb");
-    if (!file) {
-        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "cannot be opened: %s", strerror(errno));
-        return NULL;
-    }
     char *text = read_all(file, size);
     if (!text) {
         sp_fail_memory(error);
@@ -56,6 +52,17 @@ char *sp_read_file(const char *path, size_t *size, sp_error *error)
     } else {
         text[*size] = '\0';
     }
+    return text;
+}
+
+char *sp_read_file(const char *path, size_t *size, sp_error *error)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file) {
+        sp_fail(error, SP_ERROR_INPUT, path, 0, 0, "cannot be opened: %s", strerror(errno));
+        return NULL;
+    }
+    char *text = read_stream(file, path, size, error);
     fclose(file);
     return text;
 }
@@ -75,6 +82,23 @@ static read_function *reader_for(const char *path, sp_error *error)
     sp_fail(error, SP_ERROR_INPUT, path, 0, 0,
             "found a file of unknown kind, expected .obj, .stl, .ply, .step, .iges or .brep");
     return NULL;
+}
+
+/* By what the file begins with, or for STL by its size. */
+static read_function *reader_of(const char *name, const char *text, size_t size, sp_error *error)
+{
+    static const char *const cad[] = {"ISO-10303-21", "DBRep_DrawableShape", "CASCADE Topology"};
+    bool iges = size > 72 && text[72] == 'S' && memchr(text, '\n', 72) == NULL; /* the section of its first line */
+    for (size_t i = 0; i < sizeof cad / sizeof *cad; i++)
+        iges = iges || (size > strlen(cad[i]) && memcmp(text, cad[i], strlen(cad[i])) == 0);
+    if (iges) {
+        sp_fail(error, SP_ERROR_INPUT, name, 0, 0,
+                "found a CAD file, expected OBJ, STL or PLY: CAD files are read by their path alone");
+        return NULL;
+    }
+    if (size > 3 && memcmp(text, "ply", 3) == 0 && strchr(" \t\r\n", text[3]) && text[3])
+        return sp_ply_read;
+    return sp_stl_is(text, size) ? sp_stl_read : sp_obj_read;
 }
 
 /* Numbers are read in the "C" locale whatever the program has set; only this thread is touched. */
@@ -107,12 +131,26 @@ static sp_mesh *weld(const char *path, sp_soup *soup, sp_error *error)
     return mesh;
 }
 
+static bool is_unit(const char *path, double unit, sp_error *error)
+{
+    return (unit > 0 && isfinite(unit)) ||
+           sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0, "found a unit of %g m, expected a positive one", unit);
+}
+
+static sp_mesh *read_mesh(read_function *read, const char *path, char *text, size_t size, double unit, sp_error *error)
+{
+    sp_soup soup = {0};
+    bool good = read_in_c_locale(read, path, text, size, unit, &soup, error);
+    free(text);
+    sp_mesh *mesh = good ? weld(path, &soup, error) : NULL;
+    sp_soup_clear(&soup);
+    return mesh;
+}
+
 sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error)
 {
-    if (!(unit > 0) || !isfinite(unit)) {
-        sp_fail(error, SP_ERROR_ARGUMENT, path, 0, 0, "found a unit of %g m, expected a positive one", unit);
+    if (!is_unit(path, unit, error))
         return NULL;
-    }
     if (sp_cad_kind_of(path) != SP_CAD_NONE) {
         const sp_cad_options options = sp_cad_options_default();
         return sp_cad_load(path, unit, &options, NULL, error);
@@ -120,12 +158,16 @@ sp_mesh *sp_mesh_load(const char *path, double unit, sp_error *error)
     size_t size;
     read_function *read = reader_for(path, error);
     char *text = read ? sp_read_file(path, &size, error) : NULL;
-    if (!text)
-        return NULL;
-    sp_soup soup = {0};
-    bool good = read_in_c_locale(read, path, text, size, unit, &soup, error);
+    return text ? read_mesh(read, path, text, size, unit, error) : NULL;
+}
+
+sp_mesh *sp_mesh_load_stream(FILE *stream, const char *name, double unit, sp_error *error)
+{
+    size_t size;
+    char *text = is_unit(name, unit, error) ? read_stream(stream, name, &size, error) : NULL;
+    read_function *read = text ? reader_of(name, text, size, error) : NULL;
+    if (read)
+        return read_mesh(read, name, text, size, unit, error);
     free(text);
-    sp_mesh *mesh = good ? weld(path, &soup, error) : NULL;
-    sp_soup_clear(&soup);
-    return mesh;
+    return NULL;
 }

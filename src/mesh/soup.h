@@ -40,6 +40,7 @@ sp_mesh *sp_soup_mesh(sp_soup *soup, sp_error *error);
 /* The readers. Coordinates are multiplied by `unit`. */
 bool sp_obj_read(const char *path, const char *text, size_t size, double unit, sp_soup *soup, sp_error *error);
 bool sp_stl_read(const char *path, const char *text, size_t size, double unit, sp_soup *soup, sp_error *error);
+bool sp_stl_is(const char *text, size_t size); /* by how it begins, or by its size */
 bool sp_ply_read(const char *path, const char *text, size_t size, double unit, sp_soup *soup, sp_error *error);
 
 /* The largest magnitude of a coordinate, m: cubes of it stay far from overflow. */

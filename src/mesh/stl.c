@@ -165,6 +165,12 @@ static bool is_text(const unsigned char *bytes, size_t size)
     return true;
 }
 
+bool sp_stl_is(const char *text, size_t size)
+{
+    const unsigned char *bytes = (const unsigned char *)text;
+    return is_text(bytes, size) || (size >= START && size == START + RECORD * (uint64_t)read_word(bytes + HEADER));
+}
+
 bool sp_stl_read(const char *path, const char *text, size_t size, double unit, sp_soup *soup, sp_error *error)
 {
     const unsigned char *bytes = (const unsigned char *)text;

@@ -1,4 +1,5 @@
 /* The nozzle catalogue. */
+#include "scene/slips.h"
 #include "scene/state.h"
 
 #include <stdio.h>

@@ -1,5 +1,7 @@
 #include "scene/read.h"
 
+#include "scene/slips.h"
+
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -59,28 +61,6 @@ bool sp_read_message(const sp_reader *reader, const sp_yaml *node, const char *k
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
     return sp_fail(reader->error, SP_ERROR_INPUT, node->file, node->line, node->column, "%s: %s", key, message);
-}
-
-/* Levenshtein's distance of two short words, up to 31 bytes. */
-size_t sp_text_slips(const char *text, const char *name)
-{
-    enum { LONGEST = 31 };
-    size_t n = strlen(text), m = strlen(name), row[LONGEST + 1];
-    if (n > LONGEST || m > LONGEST)
-        return SIZE_MAX;
-    for (size_t j = 0; j <= m; j++)
-        row[j] = j;
-    for (size_t i = 1; i <= n; i++) {
-        size_t diagonal = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= m; j++) {
-            size_t least = diagonal + (text[i - 1] != name[j - 1]);
-            diagonal = row[j];
-            least = row[j] + 1 < least ? row[j] + 1 : least;
-            row[j] = row[j - 1] + 1 < least ? row[j - 1] + 1 : least;
-        }
-    }
-    return row[m] <= 2 && row[m] < m && row[m] < n ? row[m] : SIZE_MAX;
 }
 
 static void append(char text[TEXT], const char *more)

@@ -89,7 +89,5 @@ bool sp_read_choice(const sp_reader *reader, const sp_yaml *map, const char *key
 /* Text of a scalar, NULL with an error for anything else. */
 const char *sp_read_text(const sp_reader *reader, const sp_yaml *node, const char *key, const char *expected);
 bool sp_text_is(const sp_yaml *node, const char *text);
-/* Slips of the pen from one to the other; SIZE_MAX for more than two, or than the words have letters. */
-size_t sp_text_slips(const char *text, const char *name);
 
 #endif

@@ -22,13 +22,16 @@ bool sp_scene_read(sp_scene *scene, const sp_reader *reader)
     return good;
 }
 
-static bool load(sp_scene *scene, const char *path, const char *const *overrides, size_t count, sp_error *error)
+/* From the stream, where there is one: it lies in no folder but the working directory. */
+static bool load(sp_scene *scene, FILE *stream, const char *path, const char *const *overrides, size_t count,
+                 sp_error *error)
 {
     scene->path = strdup(path);
     if (!scene->path)
         return sp_fail_memory(error);
-    scene->directory = sp_path_directory(path, error);
-    scene->tree = scene->directory ? sp_yaml_load(path, error) : NULL;
+    scene->directory = sp_path_directory(stream ? "." : path, error);
+    if (scene->directory)
+        scene->tree = stream ? sp_yaml_load_stream(stream, path, error) : sp_yaml_load(path, error);
     if (!scene->tree)
         return false;
     sp_units *units = sp_units_create(error);
@@ -43,8 +46,8 @@ static bool load(sp_scene *scene, const char *path, const char *const *overrides
     return good;
 }
 
-sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, size_t count, const sp_run *run,
-                             sp_error *error)
+static sp_scene *load_from(FILE *stream, const char *path, const char *const *overrides, size_t count,
+                           const sp_run *run, sp_error *error)
 {
     sp_error local = {0}, *kept = error ? error : &local;
     sp_locale change;
@@ -60,13 +63,25 @@ sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, siz
         scene->run = *run;
     scene->place = sp_place_options_default();
     bool entered = sp_locale_enter(&change, kept);
-    bool good = entered && load(scene, path, overrides, count, kept);
+    bool good = entered && load(scene, stream, path, overrides, count, kept);
     if (entered)
         sp_locale_leave(&change);
     if (good)
         return scene;
     sp_scene_destroy(scene);
     return NULL;
+}
+
+sp_scene *sp_scene_load_with(const char *path, const char *const *overrides, size_t count, const sp_run *run,
+                             sp_error *error)
+{
+    return load_from(NULL, path, overrides, count, run, error);
+}
+
+sp_scene *sp_scene_load_stream(FILE *stream, const char *name, const char *const *overrides, size_t count,
+                               const sp_run *run, sp_error *error)
+{
+    return load_from(stream, name, overrides, count, run, error);
 }
 
 sp_scene *sp_scene_load(const char *path, sp_error *error)

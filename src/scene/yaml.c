@@ -334,7 +334,7 @@ static char *read_stream(FILE *stream, size_t *size)
     return text;
 }
 
-static sp_yaml *load_stream(FILE *stream, const char *file, sp_error *error)
+sp_yaml *sp_yaml_load_stream(FILE *stream, const char *file, sp_error *error)
 {
     size_t size;
     errno = 0;
@@ -359,7 +359,7 @@ sp_yaml *sp_yaml_load(const char *file, sp_error *error)
         sp_fail(error, SP_ERROR_INPUT, file, 0, 0, "cannot open: %s", strerror(errno));
         return NULL;
     }
-    sp_yaml *root = load_stream(stream, file, error);
+    sp_yaml *root = sp_yaml_load_stream(stream, file, error);
     fclose(stream);
     return root;
 }

@@ -5,6 +5,7 @@
 #include <sprayplan/error.h>
 
 #include <stddef.h>
+#include <stdio.h>
 
 typedef enum { SP_YAML_SCALAR, SP_YAML_LIST, SP_YAML_MAP } sp_yaml_kind;
 
@@ -26,8 +27,9 @@ struct sp_yaml {
 /* Reads one document of `size` bytes; `file` names it in errors. Aliases, anchors and tags are refused, so that a tree
  * is never larger than its text; so are nesting beyond 32 levels and keys that are not scalars. */
 sp_yaml *sp_yaml_parse(const char *file, const char *text, size_t size, sp_error *error);
-/* The same from a file of at most 16 MiB. */
+/* The same from a file, or what is left of a stream, of at most 16 MiB. */
 sp_yaml *sp_yaml_load(const char *file, sp_error *error);
+sp_yaml *sp_yaml_load_stream(FILE *stream, const char *file, sp_error *error);
 void sp_yaml_destroy(sp_yaml *node);
 
 /* The child with that key, or NULL; NULL where the node is NULL or not a map. */

@@ -5,22 +5,44 @@ static void says_its_version(void **state)
 {
     (void)state;
     expect("--version", 0, "sprayplan 0.1.0\n", "");
+    expect("-V", 0, "sprayplan 0.1.0\n", "");
     expect("check --version", 0, "sprayplan 0.1.0\n", "");
+    expect("-qV", 0, "sprayplan 0.1.0\n", "");
 }
 
+/* Both ways to ask give the same, and no line is wider than a terminal. */
 static void help_goes_to_standard_output(void **state)
 {
     (void)state;
-    static const char *const calls[] = {"--help",       "check --help",   "simulate --help",
-                                        "place --help", "compare --help", "trace --help",
-                                        "atlas --help", "bench --help",   "study --help"};
-    for (size_t i = 0; i < sizeof calls / sizeof *calls; ++i) {
-        outcome result = run_program(calls[i]);
+    static const char *const commands[] = {"",       "check ", "simulate ", "place ", "compare ",
+                                           "trace ", "atlas ", "bench ",    "study ", "help "};
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i) {
+        char line[64];
+        snprintf(line, sizeof line, "%s--help", commands[i]);
+        outcome result = run_program(line);
         assert_int_equal(result.status, 0);
         assert_ptr_equal(strstr(result.out, "usage: sprayplan"), result.out);
+        for (const char *at = result.out; *at; at += strcspn(at, "\n") + 1)
+            assert_in_range(strcspn(at, "\n"), 0, 80);
+        snprintf(line, sizeof line, "help %s", commands[i]);
+        expect(line, 0, result.out, "");
         assert_string_equal(result.err, "");
         forget(&result);
     }
+    outcome result = run_program("help place");
+    assert_non_null(strstr(result.out, "--time-limit S"));
+    assert_non_null(strstr(result.out, "-q, --quiet"));
+    assert_null(strstr(result.out, "--rays"));
+    forget(&result);
+}
+
+static void options_stand_anywhere(void **state)
+{
+    (void)state;
+    json_t *object = expect_json("--json --set simulate.texel=100mm check room.yaml", 0);
+    assert_string_equal(json_string_value(json_object_get(object, "command")), "check");
+    json_decref(object);
+    expect("-q check -- room.yaml", 0, "", "");
 }
 
 static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
@@ -30,7 +52,20 @@ static void wrong_usage_ends_with_2_and_prints_nothing(void **state)
         const char *arguments, *complaint;
     } calls[] = {
         {"", "usage: sprayplan"},
-        {"paint room.yaml", "unknown command \"paint\""},
+        {"paint room.yaml", "unknown command \"paint\"\n"},
+        {"plcae room.yaml", "unknown command \"plcae\"; did you mean place?\n"},
+        {"help simulat", "unknown command \"simulat\"; did you mean simulate?\n"},
+        {"help check place", "help: found 2 file names"},
+        {"--json", "found no command"},
+        {"place room.yaml --time-limt 3", "unknown option --time-limt; did you mean --time-limit?\n"},
+        {"place room.yaml --time 3", "unknown option --time; did you mean --time-limit?\n"},
+        {"--prove check room.yaml", "check does not take --prove"},
+        {"check room.yaml -x", "unknown option -x\n"},
+        {"check room.yaml -qx", "unknown option -x\n"},
+        {"check room.yaml --json=yes", "--json: found \"yes\", expected no value"},
+        {"check room.yaml -o", "-o: found nothing behind it, expected DIR"},
+        {"check --threads", "--threads: found nothing behind it, expected N"},
+        {"check -- room.yaml --json", "found 2 file names, expected one"},
         {"study", "found 0 file names, expected one"},
         {"study room.yaml room.yaml", "found 2 file names, expected one"},
         {"study room.yaml --prove", "study does not take --prove"},
@@ -122,13 +157,59 @@ static void bad_input_ends_with_3_and_says_where(void **state)
         }
 }
 
+/* Runs a command of the shell in the workplace; its status, and what it prints in .out. */
+static int run_shell(const char *command)
+{
+    char line[1024];
+    snprintf(line, sizeof line, "cd '%s' && { %s; } >.out 2>&1", workplace, command);
+    int status = system(line);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/* As far as the page is made here, and there is something to read it. */
+static void the_manual_page_is_sound(void **state)
+{
+    (void)state;
+    static const char *const readers[] = {"groff -man -ww -z -Tutf8", "mandoc -Tlint -Wwarning"};
+    static const char page[] = BINARY_DIR "/man/man1/sprayplan.1";
+    bool read = false;
+    if (access(page, R_OK) != 0)
+        skip();
+    for (size_t i = 0; i < sizeof readers / sizeof *readers; ++i) {
+        char line[600];
+        snprintf(line, sizeof line, "command -v %.*s", (int)strcspn(readers[i], " "), readers[i]);
+        if (run_shell(line) != 0)
+            continue;
+        snprintf(line, sizeof line, "%s '%s'", readers[i], page);
+        assert_int_equal(run_shell(line), 0);
+        char *complaints = read_file(".out", NULL);
+        assert_string_equal(complaints, "");
+        free(complaints);
+        read = true;
+    }
+    if (!read || run_shell("MANWIDTH=80 man -l " BINARY_DIR "/man/man1/sprayplan.1 | col -b") != 0)
+        skip();
+    char *text = read_file(".out", NULL);
+    static const char *const said[] = {"sprayplan place [OPTION]... SCENE",
+                                       "--time-limit S",
+                                       "-q, --quiet",
+                                       "layout-1.yaml",
+                                       "OMP_NUM_THREADS",
+                                       "130 "};
+    for (size_t i = 0; i < sizeof said / sizeof *said; ++i)
+        assert_non_null(strstr(text, said[i]));
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(says_its_version),
         cmocka_unit_test(help_goes_to_standard_output),
+        cmocka_unit_test(options_stand_anywhere),
         cmocka_unit_test(wrong_usage_ends_with_2_and_prints_nothing),
         cmocka_unit_test(bad_input_ends_with_3_and_says_where),
+        cmocka_unit_test(the_manual_page_is_sound),
     };
     return cmocka_run_group_tests(tests, open_workplace, close_workplace);
 }

@@ -1,0 +1,111 @@
+/* How the program is used, for a terminal. */
+#include "usage.h"
+
+#include "topics.h"
+
+#include <string.h>
+
+enum { WIDTH = 80, INDENT = 2, COLUMN = 25 };
+
+/* One paragraph, its lines broken between words, the first of which begins at `at`, the others at `left`. */
+static void print_wrapped(FILE *to, const char *text, int at, int left)
+{
+    for (const char *word = text; *word;) {
+        int length = (int)strcspn(word, " \n");
+        bool first = word == text;
+        if (!first && at + 1 + length > WIDTH) {
+            fprintf(to, "\n%*s", left, "");
+            at = left;
+        } else if (!first) {
+            fputc(' ', to);
+            at++;
+        }
+        fprintf(to, "%.*s", length, word);
+        at += length;
+        word += length;
+        word += strspn(word, " \n");
+    }
+    fputc('\n', to);
+}
+
+static void print_paragraphs(FILE *to, const char *text)
+{
+    while (*text) {
+        const char *end = strstr(text, "\n\n");
+        int length = end ? (int)(end - text) : (int)strlen(text);
+        char paragraph[1200];
+        snprintf(paragraph, sizeof paragraph, "%.*s", length, text);
+        print_wrapped(to, paragraph, 0, 0);
+        fputc('\n', to);
+        text += end ? length + 2 : length;
+    }
+}
+
+/* A term, and beside it what it means, or below where the term is long. */
+static void print_term(FILE *to, const char *term, const char *text)
+{
+    int used = fprintf(to, "%*s%s", INDENT, "", term);
+    if (used + 2 > COLUMN)
+        fprintf(to, "\n%*s", COLUMN, "");
+    else
+        fprintf(to, "%*s", COLUMN - used, "");
+    print_wrapped(to, text, COLUMN, COLUMN);
+}
+
+static void print_terms(FILE *to, const char *title, const cli_term *terms)
+{
+    fprintf(to, "\n%s:\n", title);
+    for (; terms->term; terms++)
+        print_term(to, terms->term, terms->text);
+}
+
+static void print_options(FILE *to, unsigned commands, bool common)
+{
+    for (size_t i = 0; i < cli_option_count; i++) {
+        const cli_option *option = &cli_options_known[i];
+        char syntax[CLI_SYNTAX];
+        if (!(option->commands & commands) || cli_option_is_common(option) != common)
+            continue;
+        cli_option_syntax(option, syntax);
+        print_term(to, syntax, option->text);
+    }
+}
+
+void cli_print_usage(FILE *to)
+{
+    fprintf(to, "usage: sprayplan COMMAND [OPTION]... FILE...\n\n");
+    print_wrapped(to, cli_purpose, 0, 0);
+    fprintf(to,
+            "\n  %-44s  # what is in it, what is wrong\n  %-44s  # what your own nozzles cover\n"
+            "  %-44s  # a proposal, compared with them\n",
+            cli_commands[CLI_CHECK].example, cli_commands[CLI_SIMULATE].example, cli_commands[CLI_PLACE].example);
+    fprintf(to, "\ncommands:\n");
+    for (int i = 0; i < CLI_COMMANDS; i++) {
+        char term[64];
+        snprintf(term, sizeof term, "%-8s %s", cli_commands[i].name, cli_commands[i].arguments);
+        print_term(to, term, cli_commands[i].summary);
+    }
+    fprintf(to, "\noptions of all commands:\n");
+    print_options(to, ~0u, true);
+    for (const cli_topic *topic = cli_topics; topic->name; topic++) {
+        if (topic == cli_topics)
+            fprintf(to, "\nsprayplan help TOPIC:\n");
+        print_term(to, topic->name, topic->summary);
+    }
+    print_terms(to, "exit status", cli_statuses);
+    fprintf(to, "\n");
+    print_wrapped(to, cli_conventions, 0, 0);
+    fprintf(to, "\n");
+    print_wrapped(to, "`sprayplan help COMMAND` tells what a command does and which options of its own it takes.", 0,
+                  0);
+}
+
+void cli_print_command_usage(FILE *to, cli_command_id id)
+{
+    const cli_command *command = &cli_commands[id];
+    fprintf(to, "usage: sprayplan %s [OPTION]... %s\n\n", command->name, command->arguments);
+    print_paragraphs(to, command->description);
+    fprintf(to, "  %s\n\noptions:\n", command->example);
+    print_options(to, 1u << id, false);
+    print_options(to, 1u << id, true);
+}
