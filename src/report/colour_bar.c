@@ -82,16 +82,15 @@ static void add_steps(const sp_colour_scale *scale, sp_text *text, double thresh
     }
 }
 
-/* A line across the bar, and what it means. */
-static void add_criterion(const sp_colour_scale *scale, sp_text *text, double threshold, const char *unit, bool beside)
+/* A line across the bar, and what it means, so far down. */
+static void add_criterion(const sp_colour_scale *scale, sp_text *text, double threshold, const char *unit, int top)
 {
     double x = LEFT + LENGTH * sp_colour_scale_place(scale, scale->threshold);
     sp_text_add(text,
                 "<path d=\"M%.1f 20v18\" stroke=\"#fff\" stroke-width=\"5\"/><path class=\"tick\" d=\"M%.1f 15v26\" "
-                "stroke-width=\"2\"/><path class=\"tick\" d=\"M%d 45v16\" stroke-width=\"2\"/><text x=\"%d\" "
-                "y=\"58\">asked for: at %s %.4g %s</text>\n",
-                x, x, beside ? 658 : 468, beside ? 666 : 494, most_is_asked(scale->style.quantity) ? "most" : "least",
-                threshold, unit);
+                "stroke-width=\"2\"/><path class=\"tick\" d=\"M468 %dv16\" stroke-width=\"2\"/><text x=\"494\" "
+                "y=\"%d\">asked for: at %s %.4g %s</text>\n",
+                x, x, top, top + 13, most_is_asked(scale->style.quantity) ? "most" : "least", threshold, unit);
 }
 
 static bool shows_film(const sp_page *page)
@@ -118,7 +117,7 @@ static void add_swatches(sp_text *text, bool hatched, bool film)
                     sp_colour_film[0], sp_colour_film[1], sp_colour_film[2]);
 }
 
-static void add_scale(const sp_colour_scale *scale, sp_text *text, bool beside)
+static void add_scale(const sp_colour_scale *scale, sp_text *text, bool film)
 {
     const sp_quantity_words *words = &sp_quantity_words_of[scale->style.quantity];
     double threshold = words->to_unit * scale->threshold;
@@ -132,7 +131,7 @@ static void add_scale(const sp_colour_scale *scale, sp_text *text, bool beside)
     else
         add_even_ticks(scale, text, words->to_unit * scale->high);
     if (threshold > 0)
-        add_criterion(scale, text, threshold, words->unit, beside);
+        add_criterion(scale, text, threshold, words->unit, film ? 67 : 45);
 }
 
 void sp_page_colour_bar(const sp_page *page, sp_text *text)
@@ -142,9 +141,9 @@ void sp_page_colour_bar(const sp_page *page, sp_text *text)
     bool charts = scale->style.quantity == SP_QUANTITY_CHARTS, film = !charts && shows_film(page);
     sp_text_add(
         text,
-        "<svg class=\"bar\" viewBox=\"0 0 860 64\" role=\"img\" aria-label=\"Colour bar: %s%s%s, %s; grey: needs "
+        "<svg class=\"bar\" viewBox=\"0 0 860 %d\" role=\"img\" aria-label=\"Colour bar: %s%s%s, %s; grey: needs "
         "no cleaning\">\n<defs>",
-        words->name, *words->unit ? ", " : "", words->unit,
+        film ? 86 : 64, words->name, *words->unit ? ", " : "", words->unit,
         charts ? "neighbours in different colours"
                : "from dark for little to light for much; hatched red: not covered");
     add_gradient(text, scale->style.colours);

@@ -141,14 +141,20 @@ static void charts_are_told_from_their_neighbours(void **state)
     free(colour);
 }
 
-static void expect_bar(const fixture *f, sp_picture_style style, const char *const *texts)
+static sp_text bar_of(const fixture *f, sp_picture_style style, bool film)
 {
-    sp_figures figures = {.film.known = false};
+    sp_figures figures = {.film.known = film};
     sp_result result = {
         .command = "simulate", .scene = "t.yaml", .design_count = 1, .designs = &f->design, .style = style};
     sp_page page = {.result = &result, .figures = &figures, .scale = sp_colour_scale_of(&f->design, 1, style)};
     sp_text bar = {0};
     sp_page_colour_bar(&page, &bar);
+    return bar;
+}
+
+static void expect_bar(const fixture *f, sp_picture_style style, const char *const *texts)
+{
+    sp_text bar = bar_of(f, style, false);
     for (; *texts; texts++) {
         if (!strstr(bar.text, *texts))
             fail_msg("no %s in the colour bar", *texts);
@@ -172,9 +178,29 @@ static void the_bar_tells_unit_ticks_and_criterion(void **state)
     expect_bar(f, (sp_picture_style){.colours = SP_COLOURS_CIVIDIS}, (const char *const[]){"#00224e", NULL});
 }
 
+/* Letters of 13 px are no wider than 7.2 on average. */
+static void what_the_bar_says_is_within_it(void **state)
+{
+    for (int film = 0; film < 2; film++) {
+        sp_text bar = bar_of(*state, (sp_picture_style){0}, film);
+        double width, height, x, y;
+        int shown = 0;
+        assert_int_equal(sscanf(strstr(bar.text, "viewBox"), "viewBox=\"0 0 %lf %lf\"", &width, &height), 2);
+        for (const char *at = bar.text; (at = strstr(at, "<text ")); at++, shown++) {
+            const char *words = strchr(at, '>') + 1;
+            assert_int_equal(sscanf(at, "<text x=\"%lf\" y=\"%lf\"", &x, &y), 2);
+            assert_true(x + 7.2 * (double)strcspn(words, "<") <= width);
+            assert_true(y < height);
+        }
+        assert_true(shown >= 5 + film);
+        free(bar.text);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_the_bar_says_is_within_it),
         cmocka_unit_test(scales_hold_what_arrives),
         cmocka_unit_test(steps_part_where_the_criterion_does),
         cmocka_unit_test(what_is_not_covered_is_striped),

@@ -451,6 +451,34 @@ static void gaps_and_caps(void **state)
 }
 
 /* A pot with an outlet in its bottom, with and without a floor beneath it. */
+static shape box_without_a_lid(int sheets)
+{
+    shape s = shape_create();
+    const sp_vec3 x = sp_v(1, 0, 0), y = sp_v(0, 1, 0), z = sp_v(0, 0, 1), low = sp_v(0, 0, 0);
+    shape_part(&s, "walls");
+    shape_sheet(&s, low, x, y, 1);
+    shape_sheet(&s, low, z, x, 1);
+    shape_sheet(&s, low, y, z, 1);
+    shape_sheet(&s, y, x, z, 1);
+    shape_sheet(&s, x, z, y, 1);
+    shape_part(&s, "sheets");
+    for (int i = 0; i < sheets; i++)
+        shape_sheet(&s, sp_v(0.3, 0.5, 0.5), sp_v(0.4, 0, 0), z, 1);
+    return s;
+}
+
+/* A sheet sticks out through a cap, drawn once or twice: it is wet on both sides as far as the cap. */
+static void caps_cut_what_is_drawn_twice(void **state)
+{
+    (void)state;
+    const sp_cap cap = {{0.5, 0.5, 1}, {0, 0, 1}, 0.8};
+    sp_opening opening;
+    double outdoors;
+    for (int sheets = 1; sheets <= 2; sheets++)
+        assert_float_equal(wet_with(box_without_a_lid(sheets), sp_v(0.5, 0.3, 0.5), &cap, &opening, &outdoors), 5.4,
+                           1e-9);
+}
+
 static shape pot_with_outlet(bool floor)
 {
     shape s = shape_create();
@@ -536,6 +564,7 @@ int main(void)
         cmocka_unit_test(bodies_on_and_in_bodies),
         cmocka_unit_test(sheets_and_lids),
         cmocka_unit_test(gaps_and_caps),
+        cmocka_unit_test(caps_cut_what_is_drawn_twice),
         cmocka_unit_test(what_lies_outside_changes_nothing),
         cmocka_unit_test(a_point_in_steel_is_refused),
         cmocka_unit_test(fine_texels_and_threads),

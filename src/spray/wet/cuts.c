@@ -152,12 +152,14 @@ static void scratch_pair(cutter *cutter, sp_pair pair)
         add_scratch(cutter, pair.b, p, q);
 }
 
-/* What passes through a cap is in two spaces. */
+/* What passes through a cap is in two spaces. Copies have no cells. */
 static void scratch_cap(cutter *cutter, const sp_cap *cap)
 {
     const sp_mesh *mesh = cutter->mesh;
     sp_vec3 normal = sp_unit(cap->normal), p, q;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        if (cutter->copies[t])
+            continue;
         double height[3];
         int side[3];
         for (int i = 0; i < 3; i++) {
@@ -422,15 +424,20 @@ static void halve_long_faces(cutter *cutter, double longest)
     }
 }
 
+static void mark_copies(cutter *cutter, const sp_pair *pairs, size_t pair_count)
+{
+    cutter->copies = calloc(cutter->mesh->triangle_count + 1, sizeof *cutter->copies);
+    cutter->failed = !cutter->copies;
+    for (size_t i = 0; i < pair_count && !cutter->failed; i++)
+        cutter->copies[pairs[i].b] = cutter->copies[pairs[i].b] || pairs[i].copy;
+}
+
 static void cut_mesh(cutter *cutter, const sp_pair *pairs, size_t pair_count)
 {
     for (size_t i = 0; i < pair_count && !cutter->failed; i++)
         scratch_pair(cutter, pairs[i]);
     bool *touched = calloc(cutter->mesh->triangle_count + 1, sizeof *touched);
-    cutter->copies = calloc(cutter->mesh->triangle_count + 1, sizeof *cutter->copies);
-    cutter->failed = cutter->failed || !touched || !cutter->copies;
-    for (size_t i = 0; i < pair_count && !cutter->failed; i++)
-        cutter->copies[pairs[i].b] = cutter->copies[pairs[i].b] || pairs[i].copy;
+    cutter->failed = cutter->failed || !touched;
     if (!cutter->failed)
         begin_cells(cutter, touched);
     free(touched);
@@ -451,6 +458,7 @@ bool sp_cuts_create(sp_cuts *cuts, const sp_setup *setup, const sp_shells *shell
     if (!pairs)
         return false;
     cutter cutter = {.mesh = setup->mesh, .cuts = cuts};
+    mark_copies(&cutter, pairs, pair_count);
     for (size_t i = 0; i < setup->cap_count && !cutter.failed; i++)
         scratch_cap(&cutter, &setup->caps[i]);
     cut_mesh(&cutter, pairs, pair_count);
