@@ -22,7 +22,7 @@ static const sp_key deposits_keys[] = {
     {.name = "chart", .kind = SP_KEY_NUMBER, .says = "The number of its chart"},
     {.name = NULL}};
 static const sp_block deposits = {"deposits", "channels of the texture atlas",
-                                  "Floats in SI units, one pixel a texel, 0 where no surface that counts lies; a part "
+                                  "Floats in SI units, one pixel a texel, 0 (chart: -1) where no surface lies; a part "
                                   "of the file is a page, `-back` of sheets' back sides",
                                   deposits_keys};
 
