@@ -43,8 +43,10 @@ bool sp_check_forward(const sp_evaluator *evaluator, const sp_layout *layout, sp
                       sp_error *error)
 {
     *check = (sp_forward_check){0};
-    if (!sp_watch_has_time(watch, "forward check", 0) || sp_watch_left(watch) < SECONDS)
+    if (!sp_watch_has_time(watch, "forward check", 0) || sp_watch_left(watch) < SECONDS) {
+        sp_watch_cut(watch, "forward check");
         return true;
+    }
     sp_error failure = {0};
     sp_coverage *inverse = sp_evaluate_inverse(evaluator, layout, &failure), *forward = NULL;
     for (size_t i = 0; inverse && i < sizeof jets_flown / sizeof *jets_flown; i++) {

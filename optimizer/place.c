@@ -13,6 +13,7 @@
 #include <sprayplan/points.h>
 
 #include <stdlib.h>
+#include <string.h>
 
 /* Of the time limit, at most, for all that goes before the certificate; the second with --prove, the third where time
  * is so short that next to nothing would be proved. */
@@ -265,8 +266,11 @@ static bool confirm(sp_placement *placement, sp_proposal *proposal, sp_error *er
         const sp_measured_error *measured = &proposal->coverage->measured;
         bool off = measured->known && measured->estimate > accuracy;
         sp_evaluator *again = NULL;
-        if (!sp_watch_has_time(&placement->watch, "measured error", 0))
-            return true;
+        if (!sp_watch_has_time(&placement->watch, "measured error", 0)) {
+            if (off)
+                sp_watch_cut(&placement->watch, "measured error");
+            return sp_watch_stage(&placement->watch, "measured error", error);
+        }
         if (!sp_evaluator_again(placement->fine, off, &again, error))
             return false;
         if (!again)
@@ -281,8 +285,12 @@ static bool confirm(sp_placement *placement, sp_proposal *proposal, sp_error *er
 static bool mend_own(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
     const sp_layout *own = placement->options->kept;
-    if (!own || !own->count || !sp_watch_has_time(&placement->watch, "remedies", 0))
+    if (!own || !own->count)
         return true;
+    if (!sp_watch_has_time(&placement->watch, "remedies", 0)) {
+        sp_watch_cut(&placement->watch, "remedies");
+        return true;
+    }
     sp_search keeping;
     if (!sp_search_keep_all(&placement->search, &keeping, error))
         return false;
@@ -347,6 +355,8 @@ static bool conclude(sp_placement *placement, sp_proposal *proposal, sp_error *e
     proposal->by_number = sp_front_by_number(&placement->front, &proposal->by_number_count, error);
     proposal->stage_count = placement->watch.stage_count;
     proposal->stages = placement->watch.stages;
+    proposal->cut_count = placement->watch.cut_count;
+    memcpy(proposal->cut, placement->watch.cut, sizeof proposal->cut);
     placement->watch.stages = NULL;
     return proposal->front && proposal->by_number;
 }

@@ -280,6 +280,8 @@ bool sp_remedies_find(const sp_search *search, const sp_evaluator *fine, const s
         done = find_some(&r, draft, *count, end, remedies, error);
         *count = done && !sp_ranks_lost(ranks_of(&r)) ? end : *count;
     }
+    if (*count < found)
+        sp_watch_cut(watch, "remedies");
     remedying_free(&r);
     free(shadows);
     return done;

@@ -80,14 +80,32 @@ static void ask_callback(sp_watch *watch, const char *stage, double done)
         watch->asked = !watch->run.progress(watch->run.user, stage, done);
 }
 
-/* `loses`: being out of time leaves something out. */
-static bool decide(sp_watch *watch, double elapsed, bool loses)
+static void note_cut(sp_watch *watch, const char *stage)
+{
+    size_t at = 0;
+    while (at < watch->cut_count && strcmp(watch->cut[at], stage))
+        at++;
+    if (at == watch->cut_count && at < SP_STAGES_CUT)
+        snprintf(watch->cut[watch->cut_count++], SP_STAGE_NAME, "%s", stage);
+}
+
+void sp_watch_cut(sp_watch *watch, const char *stage)
+{
+#pragma omp critical(sp_watch)
+    note_cut(watch, stage);
+}
+
+/* `loses`: being out of time leaves something of the stage out. */
+static bool decide(sp_watch *watch, const char *stage, double elapsed, bool loses)
 {
     double limit = watch->run.time_limit;
     watch->over = limit > 0 && elapsed > watch->share * limit;
-    if (watch->over && loses)
+    bool on = !watch->cancelled && !watch->over;
+    if (!on && loses) {
         watch->interrupted = true;
-    return !watch->cancelled && !watch->over;
+        note_cut(watch, stage);
+    }
+    return on;
 }
 
 static bool goes_on(sp_watch *watch, const char *stage, double done, bool loses)
@@ -95,7 +113,7 @@ static bool goes_on(sp_watch *watch, const char *stage, double done, bool loses)
     bool on;
     if (can_ask(watch)) {
         ask_callback(watch, stage, done);
-        return decide(watch, agree(watch), loses);
+        return decide(watch, stage, agree(watch), loses);
     }
 #pragma omp critical(sp_watch)
     {
@@ -103,7 +121,7 @@ static bool goes_on(sp_watch *watch, const char *stage, double done, bool loses)
         if (is_alone(watch)) {
             if (watch->asked || sp_ranks_lost(watch->run.ranks))
                 watch->cancelled = watch->interrupted = true;
-            on = decide(watch, now() - watch->start, loses);
+            on = decide(watch, stage, now() - watch->start, loses);
         } else {
             on = !watch->cancelled && !watch->over;
         }

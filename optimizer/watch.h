@@ -15,6 +15,8 @@ typedef struct {
     bool asked;       /* the callback said so to this rank, of which the others have not heard yet */
     bool over;        /* the ranks have agreed that the time is over */
     int level;        /* parallel regions around the caller: in further ones nothing can be agreed */
+    size_t cut_count;
+    char cut[SP_STAGES_CUT][SP_STAGE_NAME]; /* stages that were not carried out whole */
     size_t stage_count, stage_capacity;
     sp_stage *stages;
     double stage_start, stage_processor; /* s, of the monotonic clock and of the process's processor time */
@@ -33,8 +35,10 @@ void sp_watch_allow(sp_watch *watch, double share);
 double sp_watch_left(sp_watch *watch);
 /* Reports progress; false once cancelled or out of time. Safe to call from many threads. */
 bool sp_watch_goes_on(sp_watch *watch, const char *stage, double done);
-/* The same for what may end anywhere, so that being out of time leaves nothing out. */
+/* The same for what may end anywhere, so that being out of time leaves nothing out; if it does, that is to be noted. */
 bool sp_watch_has_time(sp_watch *watch, const char *stage, double done);
+/* Notes that this stage was cut short or left out, once each. */
+void sp_watch_cut(sp_watch *watch, const char *stage);
 /* Books the time since the last stage's end, or the start, under `name`; stages of equal name add up. */
 bool sp_watch_stage(sp_watch *watch, const char *name, sp_error *error);
 

@@ -155,8 +155,10 @@ typedef struct {
 } sp_remedy;
 #define SP_REMEDIES 10
 
+#define SP_STAGE_NAME 32
+#define SP_STAGES_CUT 12
 typedef struct {
-    char name[32];
+    char name[SP_STAGE_NAME];
     double seconds;
     double processor_seconds; /* of all threads of the process, whatever they did besides */
 } sp_stage;
@@ -198,6 +200,9 @@ typedef struct {
     sp_certificate certificate;
     size_t stage_count;
     sp_stage *stages;
+    /* Names of stages that were cut short or left out, for lack of time or because progress said so. */
+    size_t cut_count;
+    char cut[SP_STAGES_CUT][SP_STAGE_NAME];
 } sp_proposal;
 
 /* Greedy next-best-view placement by the inverse evaluator, then refinement with Ceres accepted only where the

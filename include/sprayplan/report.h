@@ -35,6 +35,9 @@ SP_API bool sp_report_texels_vtp(const sp_design *design, const char *path, sp_e
  * the unit of the scene's first geometry file (mm for STEP and IGES, see sp_setup), so that it fits on that; the header
  * tells the unit. */
 SP_API bool sp_report_nozzles_stl(const sp_design *design, const char *path, sp_error *error);
+/* How long the pictures of the page will take, as large as they are best, s of wall time on this machine as busy as it is, judged by
+ * small ones of the first design that has an evaluator; 0 where none has. */
+SP_API bool sp_report_picture_time(const sp_result *result, double *seconds, sp_error *error);
 /* The self-contained page as HTML text (pictures inside it). Malloc'd, the caller frees. */
 SP_API char *sp_report_html(const sp_result *result, sp_error *error);
 /* Everything that DESIGN §4 lists, except layout.yaml, into `output`: result.json, report.html; of the main design

@@ -170,6 +170,10 @@ typedef struct {
     /* For the page's foot alone, so that result.json is the same of the same scene: the command as it was given, and
      * when. NULL where that is not told. */
     const char *command_line, *date;
+    /* What there was no time for besides stages of the placement, in words of plain text: "the error of greedy". */
+    size_t left_out_count;
+    const char *const *left_out;
+    double picture_share;      /* edge of the page's pictures, of what is best; 0: all of it, below 0: no pictures */
     sp_picture_style style;    /* of the pictures and models of all designs */
     const sp_editing *editing; /* NULL: the page evaluates no other layouts */
 } sp_result;

@@ -79,7 +79,10 @@ static void certifying_free(certifying *c)
 static bool goes_on(void *user)
 {
     const certifying *c = user;
-    return sp_watch_has_time(c->watch, "certificate", c->done);
+    bool on = sp_watch_has_time(c->watch, "certificate", c->done);
+    if (!on)
+        sp_watch_cut(c->watch, "certificate");
+    return on;
 }
 
 /* The most that a layout found with so much water covers, as counted here. */

@@ -245,6 +245,7 @@ static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
             break;
         if (first && options->run.time_limit > 0 && sp_watch_elapsed(watch) > TIME_SHARE * options->run.time_limit) {
             watch->interrupted = true;
+            sp_watch_cut(watch, "visibility");
             break;
         }
         double views = BATCH * (double)visibility->launch_count * (double)sp_view_bytes(most, true);

@@ -77,6 +77,8 @@ sp_run cli_run(const cli_options *options);
  * from then on. */
 sp_run cli_search_run(const cli_options *options);
 bool cli_interrupted(void);
+/* Seconds until --time-limit is over, negative afterwards; INFINITY without. */
+double cli_time_left(void);
 void cli_progress_end(void);
 
 /* ranks.c: joins the processes that mpirun started, until it leaves them; NULL where there are none. Only the first is
@@ -98,6 +100,25 @@ void cli_clock_stage(cli_clock *clock, const char *name);
 /* meter.c: bytes held on the heap, by the program's own code and the library's. */
 void cli_meter_start(void);
 size_t cli_meter_peak(void); /* the most since the start, beyond what was held then */
+
+/* ending.c: what follows the work that --time-limit is for has to fit into it as well. */
+/* How long errors, pictures and files will take, s, judged by drawing small pictures of `design`; `count` such designs
+ * will be told of. 0 without a limit. */
+bool cli_ending_time(const cli_options *options, const sp_design *design, size_t count, double *seconds,
+                     sp_error *error);
+/* What is left out for lack of time, in words. */
+enum { CLI_LEFT_OUT = 8, CLI_LEFT_OUT_TEXT = 80 };
+typedef struct {
+    size_t count;
+    char texts[CLI_LEFT_OUT][CLI_LEFT_OUT_TEXT];
+    const char *list[CLI_LEFT_OUT];
+} cli_left_out;
+__attribute__((format(printf, 2, 3))) void cli_leave_out(cli_left_out *left_out, const char *format, ...);
+/* How large the pictures are to be, as picture_share, with so many seconds for them at full size; what that leaves out.
+ */
+double cli_picture_share(double full, cli_left_out *left_out);
+/* Of the seconds of full pictures, what all files beside them take. */
+#define CLI_FILES 0.4
 
 /* main.c: the error on standard error; the exit status that it means. Where several ranks fail alike one of them tells
  * it. */
@@ -159,7 +180,8 @@ bool cli_measure(const sp_evaluator *evaluator, const sp_layout *layout, sp_cove
 int cli_fail_in(const cli_scene *opened, sp_error *error);
 
 /* output.c: whether files of these names (the last is NULL) can be written where -o says, asked before the work that
- * they are to hold; layouts that were edited are not written over without --force. `scene`, whose files they must not replace, may be NULL. True without -o. */
+ * they are to hold; layouts that were edited are not written over without --force. `scene`, whose files they must not
+ * replace, may be NULL. True without -o. */
 bool cli_output_ready(const cli_options *options, const sp_scene *scene, const char *const *names, sp_error *error);
 extern const char *const cli_result_files[]; /* of simulate and place */
 /* The file that an alternative of place's is written to as a scene, where it is not the proposed one. */
@@ -179,8 +201,8 @@ char *cli_folder_of(const char *path);
 /* written.c: ends the output as sp_output_commit does; *written is then what cli_say_written is to say, NULL where it
  * failed. The caller frees. */
 bool cli_commit(sp_output *output, const char *folder, char **written, sp_error *error);
-/* What was written, NULL for nothing: on standard output, beside JSON on standard error, where nothing more than that is
- * there. */
+/* What was written, NULL for nothing: on standard output, beside JSON on standard error, where nothing more than that
+ * is there. */
 void cli_say_written(const cli_options *options, const char *written);
 
 /* report.c: what simulate, place and compare end with: files where -o says, and the result on standard output. `scenes`

@@ -416,6 +416,33 @@ static void print_proposed(const sp_result *result)
         printf("\nproposed: %s (%s)\n", result->designs[sp_result_proposed(result)].name, why);
 }
 
+/* `of`: which alternative, "" for none. */
+static void print_cut(const sp_proposal *proposal, const char *of, bool *any)
+{
+    for (size_t k = 0; k < proposal->cut_count; k++)
+        printf("%s%s%s%s",
+               k      ? ""
+               : *any ? "; "
+                      : "\nCut short or left out: ",
+               k ? ", " : of, !k && of[0] ? ": " : "", proposal->cut[k]);
+    *any = *any || proposal->cut_count > 0;
+}
+
+/* By name, of the proposal or all alternatives, and of what follows them. */
+static void print_left_out(const sp_result *result)
+{
+    bool any = false;
+    if (result->proposal && !sp_result_has_alternatives(result))
+        print_cut(result->proposal, "", &any);
+    for (size_t i = 0; i < result->design_count; i++)
+        if (result->designs[i].alternative)
+            print_cut(result->designs[i].alternative, result->designs[i].name, &any);
+    for (size_t i = 0; i < result->left_out_count; i++, any = true)
+        printf("%s%s", i ? ", " : any ? "; " : "\nCut short or left out: ", result->left_out[i]);
+    if (any)
+        printf(".\n");
+}
+
 /* What is checked and proved of the proposal, or of each alternative. */
 static void print_proofs(const sp_result *result)
 {
@@ -461,6 +488,7 @@ static bool print_summary(const sp_result *result, sp_error *error)
     print_liquid(result, figures, width);
     print_film(result, figures, width);
     print_proofs(result);
+    print_left_out(result);
     sp_figures_destroy(figures, result->design_count);
     return true;
 }

@@ -5,14 +5,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ENDING 0.1 /* of the time limit, left for what follows the search; no more than so many seconds */
-#define ENDING_MOST 1.0
+#define LATE 1.5 /* times what measuring one error takes: with less than that and half the ending left it is left out  \
+                  */
 
 typedef struct {
     sp_coverage *manual;     /* NULL where the scene has no nozzles */
     sp_proposal **proposals; /* [count], one for each alternative, or the only one */
     size_t count, best;
-    bool ended; /* some rank was interrupted, or could not go on */
+    bool ended;    /* some rank was interrupted, or could not go on */
+    double ending; /* s, that what follows the search will take; 0 without a limit */
+    cli_left_out left_out;
 } placement;
 
 /* What a proposal is counted on. */
@@ -116,7 +118,9 @@ static int report(const cli_options *options, const cli_scene *opened, const pla
                         .designs = designs,
                         .proposal = best,
                         .stage_count = clock->count,
-                        .stages = clock->stages};
+                        .stages = clock->stages,
+                        .left_out_count = found->left_out.count,
+                        .left_out = found->left_out.list};
     result.design_count = designs ? list_designs(opened, found, designs) : 0;
     bool good = (designs || sp_fail_memory(error)) &&
                 cli_report(options, &result, &scene, &opened->inputs, best->layout, error);
@@ -133,17 +137,27 @@ static int report(const cli_options *options, const cli_scene *opened, const pla
     return EXIT_SHORT;
 }
 
-/* Of the time limit, after what was done before, for one of those that are still to come; 0 where there is none. */
-static double time_left(const cli_options *options, const cli_clock *clock, const placement *found, size_t to_come)
+/* For one of the searches that are still to come, before what follows them; 0 where there is no limit. */
+static double time_for_search(const cli_options *options, const placement *found, size_t to_come)
 {
-    double left = options->time_limit - fmin(ENDING_MOST, ENDING * options->time_limit);
-    for (size_t i = 0; i < clock->count; i++)
-        left -= clock->stages[i].seconds;
-    for (size_t i = 0; i < found->count; i++)
-        for (size_t k = 0; k < found->proposals[i]->stage_count; k++)
-            left -= found->proposals[i]->stages[k].seconds;
-    left /= (double)to_come;
-    return options->time_limit > 0 && left < 1e-3 ? 1e-3 : options->time_limit > 0 ? left : 0;
+    double left = (cli_time_left() - found->ending) / (double)to_come;
+    return options->time_limit > 0 ? fmax(left, 1e-3) : 0;
+}
+
+/* Judged by the scene's own nozzles, or by none. */
+static bool reserve_ending(const cli_options *options, const cli_scene *opened, placement *found, sp_error *error)
+{
+    static const sp_layout none = {0};
+    size_t alternatives = sp_scene_alternative_count(opened->scene), designs = alternatives ? alternatives : 2;
+    if (!(options->time_limit > 0))
+        return true;
+    const sp_layout *layout = found->manual ? sp_scene_layout(opened->scene) : &none;
+    sp_coverage *dry = found->manual ? NULL : sp_evaluate(opened->evaluator, layout, error);
+    const sp_coverage *coverage = found->manual ? found->manual : dry;
+    sp_design design = coverage ? cli_design(opened, "", opened->evaluator, layout, coverage) : (sp_design){0};
+    bool good = coverage && cli_ending_time(options, &design, designs + (found->manual != NULL), &found->ending, error);
+    sp_coverage_destroy(dry);
+    return good;
 }
 
 /* Which alternative an error is about. */
@@ -156,8 +170,7 @@ static void tell_alternative(const cli_scene *opened, size_t index, sp_error *er
 }
 
 /* One proposal for each alternative, as many as there is time for before an interruption; or the only one. */
-static bool propose(const cli_options *options, const cli_scene *opened, const cli_clock *clock, placement *found,
-                    sp_error *error)
+static bool propose(const cli_options *options, const cli_scene *opened, placement *found, sp_error *error)
 {
     size_t alternatives = sp_scene_alternative_count(opened->scene), count = alternatives ? alternatives : 1;
     sp_place_options all = sp_scene_place_options(opened->scene);
@@ -168,7 +181,7 @@ static bool propose(const cli_options *options, const cli_scene *opened, const c
         sp_place_options how = alternatives ? sp_scene_alternative_options(opened->scene, i) : all;
         how.run = cli_search_run(options);
         cli_progress_round(i);
-        how.run.time_limit = time_left(options, clock, found, count - i);
+        how.run.time_limit = time_for_search(options, found, count - i);
         how.memory = options->memory;
         how.prove = options->prove;
         found->proposals[i] = sp_place(opened->evaluator, &how, error);
@@ -209,16 +222,39 @@ static bool follow_liquid(const cli_scene *opened, const placement *found, sp_er
     return good;
 }
 
+/* How long the proposal's took, s. */
+static double error_time(const sp_proposal *proposal)
+{
+    for (size_t k = 0; k < proposal->stage_count; k++)
+        if (!strcmp(proposal->stages[k].name, "measured error"))
+            return proposal->stages[k].seconds;
+    return 0;
+}
+
+/* Left out where there is no time for it. */
+static bool measure_one(const sp_evaluator *evaluator, const sp_layout *layout, sp_coverage *coverage, const char *name,
+                        placement *found, sp_error *error)
+{
+    double taken = error_time(found->proposals[found->best]);
+    if (cli_time_left() < LATE * taken + found->ending / 2) {
+        cli_leave_out(&found->left_out, "the error of %s", name);
+        return true;
+    }
+    return cli_measure(evaluator, layout, coverage, error);
+}
+
 /* How far the coverage of the other layouts is off: the proposals' is measured. */
-static bool measure_errors(const cli_scene *opened, const placement *found, sp_error *error)
+static bool measure_errors(const cli_scene *opened, placement *found, sp_error *error)
 {
     const sp_layout *own = sp_scene_layout(opened->scene);
     bool alternatives = sp_scene_alternative_count(opened->scene) > 0;
-    bool good = !found->manual || cli_measure(own_evaluator(opened, found), own, found->manual, error);
+    bool good = !found->manual ||
+                measure_one(own_evaluator(opened, found), own, found->manual, "the scene's own nozzles", found, error);
     for (size_t i = 0; good && i < found->count; i++) {
         const sp_proposal *proposal = found->proposals[i];
         const sp_evaluator *evaluator = evaluator_of(opened, proposal);
-        good = (alternatives || cli_measure(evaluator, proposal->greedy, proposal->greedy_coverage, error)) &&
+        good = (alternatives || measure_one(evaluator, proposal->greedy, proposal->greedy_coverage,
+                                            "the layout before refinement", found, error)) &&
                cli_find_borderline(evaluator, proposal->layout, proposal->coverage, error);
     }
     return good;
@@ -277,7 +313,7 @@ static int place(const cli_options *options, const cli_scene *opened, cli_clock 
         sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0, "place: found no mounts, expected where nozzles may be mounted");
     else if (own->count == 0 || (found.manual = sp_evaluate(opened->evaluator, own, error))) {
         cli_clock_stage(clock, "simulate");
-        good = propose(options, opened, clock, &found, error);
+        good = reserve_ending(options, opened, &found, error) && propose(options, opened, &found, error);
     }
     int status = !good              ? cli_fail_in(opened, error)
                  : sp_ranks_first() ? conclude(options, opened, clock, &found, error)

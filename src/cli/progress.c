@@ -1,6 +1,7 @@
 /* Ctrl-C and the request to end, and how far a command has come, on standard error and only when that is a terminal. */
 #include "cli.h"
 
+#include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,6 +43,11 @@ static void on_interrupt(int number)
 {
     (void)number;
     interrupted = 1;
+}
+
+double cli_time_left(void)
+{
+    return bar.ends > 0 ? bar.ends - now() : INFINITY;
 }
 
 bool cli_interrupted(void)

@@ -5,11 +5,15 @@
 #include <string.h>
 #include <time.h>
 
+#define LATE 0.5 /* of the time of full pictures: with less left they come first */
+
 typedef struct {
     sp_design *designs; /* [design_count], with contributions that are ours */
     size_t design_count;
     char *command_line;
     char date[32];
+    cli_left_out left_out;
+    double pictures; /* s, of full size; 0 where nothing limits them */
 } background;
 
 static void background_free(background *told)
@@ -25,6 +29,10 @@ static void background_free(background *told)
 static bool find_contributions(const cli_options *options, background *told, sp_error *error)
 {
     bool asked = options->output || options->json;
+    if (asked && cli_time_left() < LATE * told->pictures) {
+        cli_leave_out(&told->left_out, "what each nozzle brings");
+        return true;
+    }
     for (size_t i = 0; asked && !cli_interrupted() && i < told->design_count; i++) {
         sp_design *design = &told->designs[i];
         sp_error failure = {0};
@@ -37,6 +45,15 @@ static bool find_contributions(const cli_options *options, background *told, sp_
         }
     }
     return true;
+}
+
+/* What there is no time for, as far as there is a limit; what was left out before comes first. */
+static bool fit_into_time(const cli_options *options, sp_result *full, background *told, sp_error *error)
+{
+    for (size_t i = 0; i < full->left_out_count; i++)
+        cli_leave_out(&told->left_out, "%s", full->left_out[i]);
+    bool limited = isfinite(cli_time_left()) && options->output;
+    return !limited || sp_report_picture_time(full, &told->pictures, error);
 }
 
 /* As a shell reads it back. */
@@ -91,11 +108,15 @@ bool cli_report(const cli_options *options, const sp_result *result, const sp_sc
     bool good = (told.designs && told.command_line) || sp_fail_memory(error);
     if (told.designs)
         memcpy(told.designs, result->designs, result->design_count * sizeof *told.designs);
-    good = good && find_contributions(options, &told, error);
-    tell_date(told.date, sizeof told.date);
     sp_result full = *result;
     full.designs = told.designs;
     full.style = picture_style(options, scenes);
+    good = good && fit_into_time(options, &full, &told, error) && find_contributions(options, &told, error);
+    if (good && told.pictures > 0)
+        full.picture_share = cli_picture_share(told.pictures, &told.left_out);
+    full.left_out = told.left_out.list;
+    full.left_out_count = told.left_out.count;
+    tell_date(told.date, sizeof told.date);
     full.inputs = inputs->list;
     full.input_count = inputs->count;
     full.command_line = told.command_line;

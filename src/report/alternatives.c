@@ -90,6 +90,7 @@ static void add_reached(const sp_page *page, sp_text *text, size_t design)
     sp_text_add(text, proposal->reached ? "yes" : "no");
     if (proposal->interrupted)
         sp_text_add(text, ", the search was stopped before its end");
+    sp_page_cut(text, proposal);
 }
 
 static void add_attainable(const sp_page *page, sp_text *text, size_t design)

@@ -119,10 +119,11 @@ static void add_doubtful_alternatives(const sp_page *page, sp_text *text)
 
 static void add_warnings(const sp_figures *proposed, const sp_proposal *proposal, double accuracy, sp_text *text)
 {
-    if (proposal->interrupted)
-        sp_text_add(text,
-                    "<p class=\"warning\"><strong>Interrupted.</strong> The search was stopped before its end; this is "
-                    "the best layout found until then.</p>\n");
+    if (proposal->interrupted) {
+        sp_text_add(text, "<p class=\"warning\"><strong>Interrupted.</strong> The search was stopped before its end");
+        sp_page_cut(text, proposal);
+        sp_text_add(text, "; this is the best layout found until then.</p>\n");
+    }
     if (proposal->forward_check.computed && !proposal->forward_check.agrees)
         add_doubt(&proposal->forward_check, text);
     if (proposed->error_estimate > accuracy)

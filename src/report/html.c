@@ -167,6 +167,13 @@ void sp_page_coverage(sp_text *text, const sp_figures *figures)
     sp_page_error(text, figures);
 }
 
+void sp_page_cut(sp_text *text, const sp_proposal *proposal)
+{
+    for (size_t i = 0; i < proposal->cut_count; ++i)
+        sp_text_add(text, "%s%s", i ? ", " : " (", proposal->cut[i]);
+    sp_text_add(text, proposal->cut_count ? ")" : "");
+}
+
 const char *sp_page_colour(const sp_page *page, size_t design)
 {
     static const char *const others[] = {"#3b5b92", "#b5542e", "#0b6670", "#7a4b8f", "#6b7a87", "#8a6d1d"};

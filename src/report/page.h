@@ -46,6 +46,8 @@ void sp_page_columns(const sp_page *page, sp_text *text, size_t first, size_t en
 void sp_page_coverage(sp_text *text, const sp_figures *figures);
 /* The last of that; nothing where it was not measured. */
 void sp_page_error(sp_text *text, const sp_figures *figures);
+/* html.c: " (exchange, front)" of a search that was cut short there; nothing where it was not. */
+void sp_page_cut(sp_text *text, const sp_proposal *proposal);
 /* Colour of a design in charts, "#rrggbb". */
 const char *sp_page_colour(const sp_page *page, size_t design);
 

@@ -9,11 +9,16 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #ifndef PIXELS /* fewer under the sanitizers */
 #define PIXELS 900
 #endif
 #define PIXELS_OF_MANY (PIXELS / 3 * 2) /* each, from the fifth design on */
+
+#define SMALLER 4 /* pictures that tell how long the others take */
+#define GROWTH                                                                                                         \
+    1.75 /* of that with the edge: the finer they are, the more of their way have neighbouring rays in common */
 
 #define LOOK_GREY (SP_LOOK_NOTHING - 1)
 
@@ -147,20 +152,79 @@ static sp_listed_shadows *list_shadows(const sp_result *result, sp_error *error)
     return shadows;
 }
 
+/* As large as they are best. */
+static int full_size(size_t drawn)
+{
+    return drawn > 4 ? PIXELS_OF_MANY : PIXELS;
+}
+
 static bool add_views(const sp_page *page, sp_text *text, size_t drawn, sp_error *error)
 {
+    double share = page->result->picture_share;
+    int pixels = share > 0 ? 2 * (int)(share * full_size(drawn) / 2) : full_size(drawn);
     sp_listed_shadows *shadows = list_shadows(page->result, error);
     bool done = shadows != NULL;
     /* three alternatives and the manual layout make a square */
     size_t row = drawn < 3 ? drawn : drawn == 4 && page->alternatives ? 2 : 3;
     for (int i = 0; done && i < SP_VIEWS; ++i) {
         sp_text_add(text, "<div class=\"block\"><h3>%s</h3>\n<div class=\"views of%zu\">\n", sp_views[i].caption, row);
-        done = add_view(page, text, &sp_views[i], drawn > 4 ? PIXELS_OF_MANY : PIXELS, shadows, error);
+        done = add_view(page, text, &sp_views[i], pixels, shadows, error);
         sp_text_add(text, "</div></div>\n");
     }
     for (size_t i = 0; shadows && i < page->result->design_count; ++i)
         sp_listed_shadows_free(&shadows[i]);
     free(shadows);
+    return done;
+}
+
+static double now(void)
+{
+    struct timespec time = {0};
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* What one view takes, s: whatever its size, to trace it, and of each design to paint and pack it. */
+typedef struct {
+    double layers, tracing, painting;
+} view_time;
+
+/* One view of a design, drawn and thrown away. */
+static bool try_view(const sp_result *result, const sp_design *design, int pixels, view_time *taken, sp_error *error)
+{
+    const sp_colour_scale scale = sp_colour_scale_of(design, 1, result->style);
+    sp_camera camera = sp_camera_create(design->evaluator, result, &sp_views[0], pixels);
+    sp_layers layers = {0};
+    sp_shot shot = {0};
+    const colouring by = {&layers, &scale, &design->coverage->deposits};
+    size_t size = 0;
+    double start = now();
+    bool done = sp_layers_create_for(&layers, design->evaluator, &scale, error);
+    double laid = now();
+    done =
+        done && sp_shot_create(&shot, design->evaluator, &camera, scale.style.wireframe, look_at_patch, &layers, error);
+    double traced = now();
+    uint8_t *drawn = done ? sp_shot_picture(&shot, colour_patch, &by, error) : NULL;
+    uint8_t *bytes = drawn ? sp_image_encode_webp(drawn, shot.width, shot.height, &size, error) : NULL;
+    *taken = (view_time){laid - start, traced - laid, now() - traced};
+    done = bytes != NULL;
+    free(bytes);
+    free(drawn);
+    sp_shot_free(&shot);
+    sp_layers_free(&layers);
+    return done;
+}
+
+bool sp_report_picture_time(const sp_result *result, double *seconds, sp_error *error)
+{
+    const sp_design *first = NULL;
+    size_t drawn = 0;
+    for (size_t i = 0; i < result->design_count; ++i)
+        if (result->designs[i].evaluator && !drawn++)
+            first = &result->designs[i];
+    view_time one = {0};
+    bool done = !first || try_view(result, first, full_size(drawn) / SMALLER, &one, error);
+    *seconds = SP_VIEWS * (one.layers + pow(SMALLER, GROWTH) * (one.tracing + (double)drawn * one.painting));
     return done;
 }
 
@@ -173,7 +237,7 @@ bool sp_page_pictures(const sp_page *page, sp_text *text, sp_error *error)
             first = first ? first : page->result->designs[i].evaluator;
             drawn++;
         }
-    if (drawn == 0)
+    if (drawn == 0 || page->result->picture_share < 0)
         return true;
     sp_text_add(text, "<section id=\"pictures\"><h2>Coverage in pictures</h2>\n");
     sp_page_colour_bar(page, text);

@@ -388,6 +388,20 @@ static void add_searches(const sp_page *page, sp_text *text)
     }
 }
 
+/* What of all this was not carried out whole. */
+static void add_left_out(const sp_page *page, sp_text *text)
+{
+    const sp_result *result = page->result;
+    const sp_proposal *proposal = page->alternatives ? NULL : result->proposal;
+    size_t cut = proposal ? proposal->cut_count : 0;
+    for (size_t i = 0; i < cut + result->left_out_count; ++i) {
+        sp_text_add(text, i ? ", " : "<p class=\"note\">Cut short or left out: ");
+        sp_markup_escape(text, i < cut ? proposal->cut[i] : result->left_out[i - cut]);
+    }
+    if (cut + result->left_out_count > 0)
+        sp_text_add(text, ".</p>\n");
+}
+
 void sp_page_stages(const sp_page *page, sp_text *text)
 {
     const sp_result *result = page->result;
@@ -402,5 +416,7 @@ void sp_page_stages(const sp_page *page, sp_text *text)
         add_searches(page, text);
     for (size_t i = 0; !page->alternatives && result->proposal && i < result->proposal->stage_count; ++i)
         add_stage(text, &result->proposal->stages[i]);
-    sp_text_add(text, "</tbody></table></section>\n");
+    sp_text_add(text, "</tbody></table>\n");
+    add_left_out(page, text);
+    sp_text_add(text, "</section>\n");
 }

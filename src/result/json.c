@@ -420,6 +420,21 @@ static bool put_inputs(json_t *root, const sp_result *result)
     return put(root, "inputs", inputs) && done;
 }
 
+/* Of a proposal, a result or both; nothing where all was carried out. */
+static bool put_cut_short(json_t *object, const sp_proposal *proposal, const sp_result *result)
+{
+    json_t *cut = json_array();
+    bool done = true;
+    for (size_t i = 0; done && proposal && i < proposal->cut_count; ++i)
+        done = json_array_append_new(cut, json_string(proposal->cut[i])) == 0;
+    for (size_t i = 0; done && result && i < result->left_out_count; ++i)
+        done = json_array_append_new(cut, json_string(result->left_out[i])) == 0;
+    if (done && json_array_size(cut) > 0)
+        return put(object, "cut_short", cut);
+    json_decref(cut);
+    return done;
+}
+
 /* What was found and proved, besides the layout. */
 static bool put_proposal(json_t *object, const sp_proposal *proposal, double clean_area, bool fittings)
 {
@@ -444,7 +459,8 @@ static bool put_alternatives(json_t *root, const sp_result *result, const sp_fig
         json_t *entry = json_object(), *stages = json_array();
         done = put_text(entry, "name", figures[i].name) &&
                put_proposal(entry, alternative, figures[i].clean_area, true) &&
-               put_stages(stages, alternative->stages, alternative->stage_count);
+               put_stages(stages, alternative->stages, alternative->stage_count) &&
+               put_cut_short(entry, alternative, NULL);
         done = put(entry, "stages", stages) && done;
         done = json_array_append_new(alternatives, entry) == 0 && done;
     }
@@ -478,6 +494,7 @@ static bool fill(json_t *root, const sp_result *result, const sp_figures *figure
     done = done && put_stages(stages, result->stages, result->stage_count) &&
            (!result->proposal || alternatives ||
             put_stages(stages, result->proposal->stages, result->proposal->stage_count));
+    done = done && put_cut_short(root, alternatives ? NULL : result->proposal, result);
     return put(root, "stages", stages) && done;
 }
 

@@ -55,6 +55,28 @@ static void proposal_is_whole(const char *folder, bool may_be_empty)
     json_decref(again);
 }
 
+/* In the figures, in the page and on the terminal; such a search never comes to its end. */
+static void what_was_cut_is_named(const char *folder, const char *said)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/result.json", folder);
+    json_t *result = json_file(path), *cut = json_object_get(result, "cut_short"), *name;
+    size_t i;
+    snprintf(path, sizeof path, "%s/report.html", folder);
+    char *page = read_file(path, NULL), *told = strstr(page, "Cut short or left out: ");
+    said = strstr(said, "Cut short or left out: ");
+    assert_true(said && told);
+    assert_true(json_array_size(cut) > 0);
+    json_array_foreach(cut, i, name)
+    {
+        assert_non_null(strstr(said, json_string_value(name)));
+        if (!strchr(json_string_value(name), '\''))
+            assert_non_null(strstr(told, json_string_value(name)));
+    }
+    free(page);
+    json_decref(result);
+}
+
 static void out_of_time_place_writes_the_best_so_far(void **state)
 {
     (void)state;
@@ -67,8 +89,9 @@ static void out_of_time_place_writes_the_best_so_far(void **state)
         assert_true(result.status == 0 || result.status == 4);
         /* either what is proved of the best possible, or that nothing is */
         assert_true(!strstr(result.out, "candidate poses") == !!strstr(result.out, "before anything was proved"));
-        forget(&result);
         snprintf(text, sizeof text, "limited%zu", i);
+        what_was_cut_is_named(text, result.out);
+        forget(&result);
         proposal_is_whole(text, false);
     }
 }
