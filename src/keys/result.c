@@ -346,6 +346,10 @@ static const sp_key result_alternative_keys[] = {
      .block = &certificate,
      .says = "How much better any layout could be; of `place`"},
     {.name = "stages", .kind = SP_KEY_BLOCKS, .block = &stage, .says = "How long it took"},
+    {.name = "cut_short",
+     .kind = SP_KEY_TEXTS,
+     .says =
+         "What was cut short or left out for lack of time, or because it was interrupted; where all was done, absent"},
     {.name = NULL}};
 static const sp_block result_alternative = {"result_alternative", "an alternative", NULL, result_alternative_keys};
 
@@ -381,6 +385,10 @@ static const sp_key result_keys[] = {
      .block = &result_alternative,
      .says = "Of each what was found and proved"},
     {.name = "stages", .kind = SP_KEY_BLOCKS, .block = &stage, .says = "How long it took"},
+    {.name = "cut_short",
+     .kind = SP_KEY_TEXTS,
+     .says =
+         "What was cut short or left out for lack of time, or because it was interrupted; where all was done, absent"},
     {.name = NULL}};
 const sp_block sp_block_result = {
     "result", "a result",

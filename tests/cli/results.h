@@ -48,6 +48,7 @@ static inline bool is_of_kind(const sp_key *key, const json_t *value)
     case SP_KEY_BLOCK:
         return json_is_object(value);
     case SP_KEY_BLOCKS:
+    case SP_KEY_TEXTS:
         return json_is_array(value);
     default:
         return json_is_string(value);
