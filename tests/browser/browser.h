@@ -17,6 +17,37 @@ static inline void skip_without_browser(void)
     }
 }
 
+/* Whether a report can be opened here and brings the evaluator along, which it does where clang for WebAssembly was
+ * there at build time. */
+static inline bool can_evaluate(const char *report)
+{
+    char *page = has_browser() ? read_file(report, NULL) : NULL;
+    bool carried = page && strstr(page, "id=\"live-module\"");
+    free(page);
+    return carried;
+}
+
+static inline void skip_unless_evaluating(bool evaluates)
+{
+    skip_without_browser();
+    if (!evaluates) {
+        print_message("clang for WebAssembly is not installed: pages evaluate nothing\n");
+        skip();
+    }
+}
+
+/* The room under one nozzle, as far as what its `place:` says. */
+#define ROOM_WITH_A_NOZZLE                                                                                             \
+    "geometry:\n"                                                                                                      \
+    "  - file: room.obj\n"                                                                                             \
+    "cavity: [0.5 m, 0.5 m, 0.5 m]\n"                                                                                  \
+    "criterion: {flux: 1 L/min/m2}\n"                                                                                  \
+    "catalogue: catalogue.yaml\n"                                                                                      \
+    "nozzles:\n"                                                                                                       \
+    "  - {name: N1, type: cone, position: [0.3 m, 0.3 m, 0.8 m], axis: [0, 0, -1], pressure: 2 bar}\n"                 \
+    "simulate: {texel: " ROOM_TEXEL "}\n"                                                                              \
+    "place:\n"
+
 /* Opens a page with the browser; what it prints is the caller's. Messages of the page's console are in .err. */
 static inline char *browse(const char *page, const char *arguments)
 {

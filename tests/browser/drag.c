@@ -3,16 +3,7 @@
 
 #include <math.h>
 
-static const char scene_yaml[] =
-    "geometry:\n"
-    "  - file: room.obj\n"
-    "cavity: [0.5 m, 0.5 m, 0.5 m]\n"
-    "criterion: {flux: 1 L/min/m2}\n"
-    "catalogue: catalogue.yaml\n"
-    "nozzles:\n"
-    "  - {name: N1, type: cone, position: [0.3 m, 0.3 m, 0.8 m], axis: [0, 0, -1], pressure: 2 bar}\n"
-    "simulate: {texel: " ROOM_TEXEL "}\n"
-    "place:\n"
+static const char scene_yaml[] = ROOM_WITH_A_NOZZLE
     "  pressure: 2 bar\n"
     "  mounts:\n"
     "    - port: {name: P1, position: [0.3 m, 0.3 m, 1 m], axis: [0, 0, -1], tilt: 30 deg, depth: {from: 100 mm, to: "
@@ -31,9 +22,7 @@ static int open_the_page(void **state)
     write_file("rails.yaml", scene_yaml);
     outcome result = run_program("simulate rails.yaml -o rails --quiet");
     forget(&result);
-    char *report = has_browser() ? read_file("rails/report.html", NULL) : NULL;
-    opened = report && strstr(report, "id=\"live-module\"");
-    free(report);
+    opened = can_evaluate("rails/report.html");
     if (!opened)
         return 0;
     write_page_with_reader("rails/report.html", "", "drag.js");
@@ -50,15 +39,6 @@ static int close_the_page(void **state)
     if (opened)
         devtools_close(&page);
     return close_workplace(state);
-}
-
-static void skip_without_page(void)
-{
-    skip_without_browser();
-    if (!opened) {
-        print_message("this build makes no pages that evaluate\n");
-        skip();
-    }
 }
 
 static json_t *look(void)
@@ -118,7 +98,7 @@ static void expect_program_agrees(const json_t *seen)
 static void along_the_axis_of_a_port(void **state)
 {
     (void)state;
-    skip_without_page();
+    skip_unless_evaluating(opened);
     put_on("P1");
     json_t *before = look(), *after = drag("place", 60, 80);
     assert_float_equal(slider(before, "Depth, mm"), 100, 1e-6);
@@ -136,7 +116,7 @@ static void along_the_axis_of_a_port(void **state)
 static void the_axis_within_its_tilt(void **state)
 {
     (void)state;
-    skip_without_page();
+    skip_unless_evaluating(opened);
     put_on("P1");
     json_t *before = look(), *after = drag("axis", 12, 0);
     assert_float_equal(slider(before, "Tilt, deg"), 0, 1e-6);
@@ -156,7 +136,7 @@ static void the_axis_within_its_tilt(void **state)
 static void along_a_line(void **state)
 {
     (void)state;
-    skip_without_page();
+    skip_unless_evaluating(opened);
     put_on("rail");
     json_t *before = look(), *after = drag("place", 70, 10);
     assert_float_equal(slider(before, "Along the line, mm"), 300, 1e-6);
@@ -169,7 +149,7 @@ static void along_a_line(void **state)
 static void in_a_flat_box(void **state)
 {
     (void)state;
-    skip_without_page();
+    skip_unless_evaluating(opened);
     put_on("frame");
     json_t *before = look(), *after = drag("place", 40, 10);
     assert_true(hypot(slider(after, "x, m") - slider(before, "x, m"), slider(after, "y, m") - slider(before, "y, m")) >
@@ -188,7 +168,7 @@ static void in_a_flat_box(void **state)
 static void on_a_surface_and_anywhere(void **state)
 {
     (void)state;
-    skip_without_page();
+    skip_unless_evaluating(opened);
     put_on("floor");
     json_t *before = look(), *after = drag("place", 30, 5);
     assert_float_equal(slider(after, "z, m"), 0.05, 1e-6);

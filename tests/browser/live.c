@@ -15,9 +15,7 @@ static int use_the_page(void **state)
 {
     if (place_once(state) != 0)
         return -1;
-    char *page = has_browser() ? read_file("placed/report.html", NULL) : NULL;
-    carried = page && strstr(page, "id=\"live-module\"");
-    free(page);
+    carried = can_evaluate("placed/report.html");
     if (!carried)
         return 0;
     found = read_with("live.js", "placed/report.html", BUDGET);
@@ -28,15 +26,6 @@ static int put_away(void **state)
 {
     json_decref(found);
     return close_workplace(state);
-}
-
-static void skip_without_module(void)
-{
-    skip_without_browser();
-    if (!carried) {
-        print_message("clang for WebAssembly is not installed: pages evaluate nothing\n");
-        skip();
-    }
 }
 
 static const json_t *step(const char *name)
@@ -54,7 +43,7 @@ static double coverage_of(const char *name)
 static void it_opens_without_requests_or_messages(void **state)
 {
     (void)state;
-    skip_without_module();
+    skip_unless_evaluating(carried);
     assert_opened(found);
 }
 
@@ -70,7 +59,7 @@ static double coverage_in(json_t *result, size_t index)
 static void the_reports_layout_covers_what_it_says(void **state)
 {
     (void)state;
-    skip_without_module();
+    skip_unless_evaluating(carried);
     char path[1024];
     snprintf(path, sizeof path, "%s/placed/result.json", workplace);
     double coverage = coverage_in(json_load_file(path, 0, NULL), 2);
@@ -81,7 +70,7 @@ static void the_reports_layout_covers_what_it_says(void **state)
 static void a_changed_layout_covers_what_the_program_finds(void **state)
 {
     (void)state;
-    skip_without_module();
+    skip_unless_evaluating(carried);
     static const char *const changes[] = {"moved", "turned", "pressed", "added", "typed", "placed"};
     const char *before = json_string_value(json_object_get(step("start"), "scene"));
     assert_float_equal(coverage_of("off"), 0, 0); /* the only one */
@@ -99,7 +88,7 @@ static void a_changed_layout_covers_what_the_program_finds(void **state)
 static void the_saved_scene_can_be_placed_on(void **state)
 {
     (void)state;
-    skip_without_module();
+    skip_unless_evaluating(carried);
     write_file("placed/changed.yaml", json_string_value(json_object_get(step("placed"), "scene")));
     json_decref(expect_json("place placed/changed.yaml --json --time-limit 20", 0));
 }
@@ -107,7 +96,7 @@ static void the_saved_scene_can_be_placed_on(void **state)
 static void only_what_moved_is_traced(void **state)
 {
     (void)state;
-    skip_without_module();
+    skip_unless_evaluating(carried);
     static const struct {
         const char *change;
         int traced;
@@ -119,7 +108,7 @@ static void only_what_moved_is_traced(void **state)
 static void undo_brings_back_what_was(void **state)
 {
     (void)state;
-    skip_without_module();
+    skip_unless_evaluating(carried);
     assert_float_equal(coverage_of("undone"), coverage_of("pressed"), 0);
     assert_string_equal(json_string_value(json_object_get(step("undone"), "scene")),
                         json_string_value(json_object_get(step("pressed"), "scene")));
@@ -128,7 +117,7 @@ static void undo_brings_back_what_was(void **state)
 static void it_says_what_comes_of_it(void **state)
 {
     (void)state;
-    skip_without_module();
+    skip_unless_evaluating(carried);
     char percent[32];
     snprintf(percent, sizeof percent, "Coverage %.2f %%", 100 * coverage_of("moved"));
     const char *said = json_string_value(json_object_get(step("moved"), "said"));
@@ -141,7 +130,7 @@ static void it_says_what_comes_of_it(void **state)
 static void boxes_come_and_go(void **state)
 {
     (void)state;
-    skip_without_module();
+    skip_unless_evaluating(carried);
     const json_t *boxes = json_object_get(found, "boxes");
     assert_int_equal(json_array_size(boxes), 3);
     assert_false(json_equal(json_array_get(boxes, 0), json_array_get(boxes, 1)));
@@ -152,7 +141,7 @@ static void boxes_come_and_go(void **state)
 static void the_changed_layout_has_jets(void **state)
 {
     (void)state;
-    skip_without_module();
+    skip_unless_evaluating(carried);
     const json_t *jets = json_object_get(found, "jets");
     assert_int_equal(json_array_size(jets), 2);
     assert_false(json_equal(json_array_get(jets, 0), json_array_get(jets, 1)));
@@ -162,7 +151,7 @@ static void the_changed_layout_has_jets(void **state)
 static void without_nozzles_nothing_is_saved(void **state)
 {
     (void)state;
-    skip_without_module();
+    skip_unless_evaluating(carried);
     const char *figures = json_string_value(json_object_get(step("off"), "figures"));
     if (!figures || !strstr(figures, "0.00 %") || strstr(figures, "NaN"))
         fail_msg("found %s", figures);
@@ -173,7 +162,7 @@ static void without_nozzles_nothing_is_saved(void **state)
 static void without_webassembly_it_is_a_viewer(void **state)
 {
     (void)state;
-    skip_without_module();
+    skip_unless_evaluating(carried);
     write_page_with_reader("placed/report.html", "<script>delete window.WebAssembly</script>", "viewer.js");
     char *page = browse("read.html", BUDGET);
     json_t *seen = what_was_told(page);
@@ -187,7 +176,7 @@ static void without_webassembly_it_is_a_viewer(void **state)
 static void without_it_the_page_is_smaller(void **state)
 {
     (void)state;
-    skip_without_module();
+    skip_unless_evaluating(carried);
     outcome result = run_program("simulate room.yaml -o plain --quiet --no-live");
     assert_int_equal(result.status, 0);
     forget(&result);
@@ -203,7 +192,7 @@ static void without_it_the_page_is_smaller(void **state)
 static void by_jets_it_says_that_it_does_not(void **state)
 {
     (void)state;
-    skip_without_module();
+    skip_unless_evaluating(carried);
     outcome result = run_program("simulate room.yaml -o jets --quiet --set simulate.evaluator=forward --set "
                                  "simulate.jets=2000");
     assert_int_equal(result.status, 0);

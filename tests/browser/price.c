@@ -3,16 +3,7 @@
 
 #include <math.h>
 
-static const char costly_yaml[] =
-    "geometry:\n"
-    "  - file: room.obj\n"
-    "cavity: [0.5 m, 0.5 m, 0.5 m]\n"
-    "criterion: {flux: 1 L/min/m2}\n"
-    "catalogue: catalogue.yaml\n"
-    "nozzles:\n"
-    "  - {name: N1, type: cone, position: [0.3 m, 0.3 m, 0.8 m], axis: [0, 0, -1], pressure: 2 bar}\n"
-    "simulate: {texel: " ROOM_TEXEL "}\n"
-    "place:\n"
+static const char costly_yaml[] = ROOM_WITH_A_NOZZLE
     "  max_nozzles: 4\n"
     "  pressure: 2 bar\n"
     "  water_cost: 30 EUR per L/min\n"
@@ -31,11 +22,9 @@ static int ask_the_page(void **state)
     write_file("costly.yaml", costly_yaml);
     outcome result = run_program("simulate costly.yaml -o costly --quiet");
     forget(&result);
-    char *page = has_browser() ? read_file("costly/report.html", NULL) : NULL;
-    if (page && strstr(page, "id=\"live-module\""))
+    if (can_evaluate("costly/report.html"))
         found = read_with("price.js", "costly/report.html",
                           "--window-size=1200,900 --virtual-time-budget=600000 --dump-dom");
-    free(page);
     return 0;
 }
 
@@ -45,19 +34,10 @@ static int put_away(void **state)
     return close_workplace(state);
 }
 
-static void skip_without_page(void)
-{
-    skip_without_browser();
-    if (!found) {
-        print_message("this build makes no pages that evaluate\n");
-        skip();
-    }
-}
-
 static void it_opens_without_requests_or_messages(void **state)
 {
     (void)state;
-    skip_without_page();
+    skip_unless_evaluating(found);
     assert_opened(found);
 }
 
@@ -91,7 +71,7 @@ static void expect_price(json_t *result, const double price[2])
 static void the_reports_layout_costs_what_it_says(void **state)
 {
     (void)state;
-    skip_without_page();
+    skip_unless_evaluating(found);
     double price[2], own[2];
     char path[1024];
     read_price("start", 0, price);
@@ -104,7 +84,7 @@ static void the_reports_layout_costs_what_it_says(void **state)
 static void a_nozzle_more_costs_its_water_and_its_mount(void **state)
 {
     (void)state;
-    skip_without_page();
+    skip_unless_evaluating(found);
     double start[2], price[2];
     read_price("start", 0, start);
     read_price("added", 1, price);

@@ -1,18 +1,25 @@
 /* Every triangle that others cross or touch is cut along the lines where they do, one line after the other: a line cuts
  * those cells alone that it really passes through, but all of each, so that cells stay convex. A triangle that lies in
  * the plane of another cuts it along its own edges. Cells that are still long are halved: a shaft may lead through an
- * opening without touching it. The lines come in a shuffled order, which keeps the trees low. */
+ * opening without touching it. The lines come in a shuffled order, which keeps the trees low; where very many cross one
+ * triangle it is first halved by lines that part them. One after the other the lines of a convex outline, or lines
+ * whose order somebody has chosen, would make a tree as deep as there are lines. */
 #include "spray/wet/cuts.h"
 
 #include "nozzle/scramble.h"
 #include "spray/wet/pairs.h"
+#include "spray/wet/stretches.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #define LONGEST                                                                                                        \
-    (1.0 / 64) /* of the geometry's diagonal: no face is longer, lest it lead from one space into another              \
-                */
+    (1.0 / 64)        /* of the geometry's diagonal: no face is longer, lest it lead from one space into another       \
+                       */
+#define CROWD 128     /* lines in one cell that are parted before it is cut along each */
+#define UNEVEN 0.75   /* share of them on one side of a line that hardly parts them */
+#define UNEVEN_MOST 2 /* such lines one after the other */
+#define CROWD_WORK 64 /* times that each line of a triangle may be looked at, on average */
 
 /* Where another triangle crosses or touches one, from p to q. */
 typedef struct {
@@ -176,47 +183,23 @@ static void scratch_cap(cutter *cutter, const sp_cap *cap)
     }
 }
 
-/* The straight line through p and q in a triangle's plane. */
-static sp_cut line_through(const sp_mesh *mesh, uint32_t triangle, sp_vec3 p, sp_vec3 q)
+/* Below a cut `of`, or a triangle where that is SP_NONE: names a child rather than points at it, as the cuts move when
+ * they grow. */
+static uint32_t *child_of(sp_cuts *cuts, uint32_t triangle, uint32_t of, int which)
 {
-    const uint32_t *corner = mesh->triangles[triangle];
-    sp_vec3 a = mesh->vertices[corner[0]];
-    sp_vec3 across = sp_unit(sp_cross(sp_triangle_normal(mesh, triangle), sp_sub(q, p)));
-    return (sp_cut){.a = sp_dot(across, sp_sub(mesh->vertices[corner[1]], a)),
-                    .b = sp_dot(across, sp_sub(mesh->vertices[corner[2]], a)),
-                    .c = sp_dot(across, sp_sub(a, p))};
+    return of == SP_NONE ? &cuts->root[triangle] : &cuts->cuts[of].child[which];
 }
 
-static double distance_from(const sp_cut *cut, const double at[2])
-{
-    return cut->a * at[0] + cut->b * at[1] + cut->c;
-}
-
-/* A part of a scratch on its way down the tree, as weights. */
-typedef struct {
-    double from[2], to[2];
-} stretch;
-
-/* The part of a stretch where the distance from a line is below 0 (way -1) or above (way 1); false where that is no
- * more than contact. */
-static bool clip_stretch(stretch *part, const sp_cut *line, int way, double contact)
-{
-    double from = way * distance_from(line, part->from), to = way * distance_from(line, part->to);
-    if (!(fmax(from, to) > contact))
-        return false;
-    if (fmin(from, to) >= 0)
-        return true;
-    double share = from / (from - to), at[2];
-    for (int i = 0; i < 2; i++)
-        at[i] = part->from[i] + share * (part->to[i] - part->from[i]);
-    memcpy(from < to ? part->from : part->to, at, sizeof at);
-    return true;
-}
-
-static void split_cell(cutter *cutter, uint32_t *child, const sp_cut *line)
+/* Cuts the cell that a child is. */
+static void split_cell(cutter *cutter, uint32_t triangle, uint32_t of, int which, const sp_cut *line)
 {
     sp_cuts *cuts = cutter->cuts;
-    uint32_t cell = *child & ~SP_CELL, triangle = cuts->cell_triangle[cell];
+    cuts->cuts = grow(cutter, cuts->cuts, cuts->cut_count, &cutter->cut_room, sizeof *cuts->cuts);
+    cuts->cell_triangle =
+        grow(cutter, cuts->cell_triangle, cuts->cell_count, &cutter->cell_room, sizeof *cuts->cell_triangle);
+    if (cutter->failed)
+        return;
+    uint32_t *child = child_of(cuts, triangle, of, which), cell = *child & ~SP_CELL;
     *child = (uint32_t)cuts->cut_count;
     cuts->cuts[cuts->cut_count] = *line;
     cuts->cuts[cuts->cut_count].child[0] = cell | SP_CELL;
@@ -224,57 +207,118 @@ static void split_cell(cutter *cutter, uint32_t *child, const sp_cut *line)
     cuts->cell_triangle[cuts->cell_count++] = triangle;
 }
 
-static double stretch_length(const sp_mesh *mesh, uint32_t triangle, const stretch *part)
-{
-    return sp_distance(sp_triangle_point(mesh, triangle, part->from[0], part->from[1]),
-                       sp_triangle_point(mesh, triangle, part->to[0], part->to[1]));
-}
-
-/* Cuts every cell below `node` that the stretch passes through. `node` names a child rather than points at it, as the
- * cuts move when they grow: child `which` of cut `of`, or the root of the triangle where `of` is SP_NONE. */
-static void cut_along(cutter *cutter, uint32_t triangle, uint32_t of, int which, const stretch *part,
+/* Cuts every cell below a child that the stretch passes through. */
+static void cut_along(cutter *cutter, uint32_t triangle, uint32_t of, int which, const sp_stretch *part,
                       const sp_cut *line)
 {
     sp_cuts *cuts = cutter->cuts;
-    if (cutter->failed || !(stretch_length(cutter->mesh, triangle, part) > cuts->contact))
+    if (cutter->failed || !(sp_stretch_length(cutter->mesh, triangle, part) > cuts->contact))
         return;
-    uint32_t node = of == SP_NONE ? cuts->root[triangle] : cuts->cuts[of].child[which];
+    uint32_t node = *child_of(cuts, triangle, of, which);
     if (node & SP_CELL) {
-        cuts->cuts = grow(cutter, cuts->cuts, cuts->cut_count, &cutter->cut_room, sizeof *cuts->cuts);
-        cuts->cell_triangle =
-            grow(cutter, cuts->cell_triangle, cuts->cell_count, &cutter->cell_room, sizeof *cuts->cell_triangle);
-        if (!cutter->failed)
-            split_cell(cutter, of == SP_NONE ? &cuts->root[triangle] : &cuts->cuts[of].child[which], line);
+        split_cell(cutter, triangle, of, which, line);
         return;
     }
     for (int side = 0; side < 2; side++) {
-        stretch below = *part;
+        sp_stretch below = *part;
         sp_cut cut = cuts->cuts[node];
-        if (clip_stretch(&below, &cut, side ? 1 : -1, cuts->contact))
+        if (sp_stretch_clip(&below, &cut, side ? 1 : -1, cuts->contact))
             cut_along(cutter, triangle, node, side, &below, line);
     }
 }
 
-/* Clips a scratch to its triangle and cuts along what is left. */
-static void apply(cutter *cutter, const scratch *scratch)
+/* The line of a scratch, and what of it lies on its triangle; false where that is next to nothing. */
+static bool clip_scratch(const cutter *cutter, const scratch *scratch, sp_cut *line, sp_stretch *whole)
 {
     const sp_mesh *mesh = cutter->mesh;
     const uint32_t *corner = mesh->triangles[scratch->triangle];
-    stretch whole;
-    sp_triangle_weights(mesh, scratch->triangle, scratch->p, &whole.from[0], &whole.from[1]);
-    sp_triangle_weights(mesh, scratch->triangle, scratch->q, &whole.to[0], &whole.to[1]);
-    sp_vec3 p = sp_triangle_point(mesh, scratch->triangle, whole.from[0], whole.from[1]);
-    sp_vec3 q = sp_triangle_point(mesh, scratch->triangle, whole.to[0], whole.to[1]);
+    sp_triangle_weights(mesh, scratch->triangle, scratch->p, &whole->from[0], &whole->from[1]);
+    sp_triangle_weights(mesh, scratch->triangle, scratch->q, &whole->to[0], &whole->to[1]);
+    sp_vec3 p = sp_triangle_point(mesh, scratch->triangle, whole->from[0], whole->from[1]);
+    sp_vec3 q = sp_triangle_point(mesh, scratch->triangle, whole->to[0], whole->to[1]);
     if (!(sp_distance(p, q) > cutter->cuts->contact))
-        return;
-    sp_cut line = line_through(mesh, scratch->triangle, p, q);
+        return false;
+    *line = sp_cut_through(mesh, scratch->triangle, p, q);
     for (int i = 0; i < 3; i++) {
         sp_cut edge =
-            line_through(mesh, scratch->triangle, mesh->vertices[corner[i]], mesh->vertices[corner[(i + 1) % 3]]);
-        if (!clip_stretch(&whole, &edge, 1, cutter->cuts->contact))
-            return;
+            sp_cut_through(mesh, scratch->triangle, mesh->vertices[corner[i]], mesh->vertices[corner[(i + 1) % 3]]);
+        if (!sp_stretch_clip(whole, &edge, 1, cutter->cuts->contact))
+            return false;
     }
-    cut_along(cutter, scratch->triangle, SP_NONE, 0, &whole, &line);
+    return true;
+}
+
+/* The lines that cross one triangle while it is halved. */
+typedef struct {
+    cutter *cutter;
+    uint32_t triangle;
+    size_t work;    /* stretches that may yet be looked at */
+    double *places; /* room for one a stretch */
+} crowd;
+
+/* Halves the cell that a child is until few of the stretches are left in each, or no line parts them; `uneven`: as many
+ * lines before this one have hardly parted them. */
+static void halve_crowd(crowd *crowd, uint32_t of, int which, const sp_stretch *parts, size_t count, int uneven)
+{
+    cutter *cutter = crowd->cutter;
+    if (cutter->failed || count <= CROWD || count > crowd->work)
+        return;
+    crowd->work -= count;
+    sp_cut line;
+    double contact = cutter->cuts->contact;
+    size_t fuller = sp_stretches_halve(cutter->mesh, crowd->triangle, parts, count, contact, crowd->places, &line);
+    uneven = (double)fuller > UNEVEN * (double)count ? uneven + 1 : 0;
+    if (uneven > UNEVEN_MOST)
+        return;
+    split_cell(cutter, crowd->triangle, of, which, &line);
+    sp_stretch *below = malloc(fuller * sizeof *below + 1);
+    cutter->failed = cutter->failed || !below;
+    uint32_t node = (uint32_t)cutter->cuts->cut_count - 1;
+    for (int side = 0; side < 2 && !cutter->failed; side++) {
+        size_t left = 0;
+        for (size_t i = 0; i < count; i++) {
+            sp_stretch part = parts[i];
+            if (sp_stretch_clip(&part, &line, side ? 1 : -1, contact) &&
+                sp_stretch_length(cutter->mesh, crowd->triangle, &part) > contact)
+                below[left++] = part;
+        }
+        halve_crowd(crowd, node, side, below, left, uneven);
+    }
+    free(below);
+}
+
+/* Cuts a triangle along all of its scratches. */
+static void cut_triangle(cutter *cutter, const scratch *scratches, size_t count)
+{
+    uint32_t triangle = scratches[0].triangle;
+    sp_stretch whole;
+    sp_cut line;
+    if (count > CROWD) {
+        sp_stretch *parts = malloc(count * sizeof *parts);
+        crowd crowd = {cutter, triangle, CROWD_WORK * count, malloc(count * sizeof *crowd.places)};
+        size_t left = 0;
+        cutter->failed = !parts || !crowd.places;
+        for (size_t i = 0; i < count && !cutter->failed; i++)
+            left += clip_scratch(cutter, &scratches[i], &line, &parts[left]) &&
+                    sp_stretch_length(cutter->mesh, triangle, &parts[left]) > cutter->cuts->contact;
+        halve_crowd(&crowd, SP_NONE, 0, parts, left, 0);
+        free(parts);
+        free(crowd.places);
+    }
+    for (size_t i = 0; i < count && !cutter->failed; i++)
+        if (clip_scratch(cutter, &scratches[i], &line, &whole))
+            cut_along(cutter, triangle, SP_NONE, 0, &whole, &line);
+}
+
+static void cut_triangles(cutter *cutter)
+{
+    size_t end;
+    for (size_t i = 0; i < cutter->scratch_count && !cutter->failed; i = end) {
+        for (end = i + 1; end < cutter->scratch_count; end++)
+            if (cutter->scratches[end].triangle != cutter->scratches[i].triangle)
+                break;
+        cut_triangle(cutter, cutter->scratches + i, end - i);
+    }
 }
 
 static int by_scratch(const void *left, const void *right)
@@ -373,30 +417,27 @@ static bool middle_cut(const halving *halving, const sp_triangle_piece *piece, s
     }
     sp_vec3 middle = sp_scale(sp_add(from, to), 0.5);
     sp_vec3 along = sp_cross(sp_triangle_normal(mesh, halving->triangle), sp_sub(to, from));
-    *cut = line_through(mesh, halving->triangle, middle, sp_add(middle, along));
+    *cut = sp_cut_through(mesh, halving->triangle, middle, sp_add(middle, along));
     return longest > halving->longest;
 }
 
 static void clip_piece(const sp_triangle_piece *piece, const sp_cut *cut, int way, sp_triangle_piece *part);
 
-/* Halves what is longer than it may be below a node, named as in cut_along; `piece` is all of it. */
+/* Halves what is longer than it may be below a child; `piece` is all of it. */
 static void halve_below(const halving *halving, uint32_t of, int which, const sp_triangle_piece *piece)
 {
     cutter *cutter = halving->cutter;
     sp_cuts *cuts = cutter->cuts;
     if (cutter->failed || piece->count < 3 || piece->count > SP_PIECE_POINTS - 2)
         return;
-    uint32_t node = of == SP_NONE ? cuts->root[halving->triangle] : cuts->cuts[of].child[which];
+    uint32_t node = *child_of(cuts, halving->triangle, of, which);
     if (node & SP_CELL) {
         sp_cut cut;
         if (!middle_cut(halving, piece, &cut))
             return;
-        cuts->cuts = grow(cutter, cuts->cuts, cuts->cut_count, &cutter->cut_room, sizeof *cuts->cuts);
-        cuts->cell_triangle =
-            grow(cutter, cuts->cell_triangle, cuts->cell_count, &cutter->cell_room, sizeof *cuts->cell_triangle);
+        split_cell(cutter, halving->triangle, of, which, &cut);
         if (cutter->failed)
             return;
-        split_cell(cutter, of == SP_NONE ? &cuts->root[halving->triangle] : &cuts->cuts[of].child[which], &cut);
         node = (uint32_t)cuts->cut_count - 1;
     }
     for (int side = 0; side < 2; side++) {
@@ -443,8 +484,8 @@ static void cut_mesh(cutter *cutter, const sp_pair *pairs, size_t pair_count)
     free(touched);
     if (!cutter->failed && cutter->scratch_count)
         qsort(cutter->scratches, cutter->scratch_count, sizeof *cutter->scratches, by_scratch);
-    for (size_t i = 0; i < cutter->scratch_count && !cutter->failed; i++)
-        apply(cutter, &cutter->scratches[i]);
+    if (!cutter->failed)
+        cut_triangles(cutter);
     halve_long_faces(cutter, LONGEST / SP_CONTACT * cutter->cuts->contact);
     if (!cutter->failed)
         keep_coverings(cutter);
@@ -491,7 +532,7 @@ uint32_t sp_cuts_cell(const sp_cuts *cuts, uint32_t triangle, double u, double v
     uint32_t node = cuts->root[triangle];
     *near = false;
     while (!(node & SP_CELL)) {
-        double distance = distance_from(&cuts->cuts[node], at);
+        double distance = sp_cut_distance(&cuts->cuts[node], at);
         *near = *near || fabs(distance) < cuts->contact;
         node = cuts->cuts[node].child[distance > 0];
     }
@@ -504,7 +545,7 @@ static void clip_piece(const sp_triangle_piece *piece, const sp_cut *cut, int wa
     part->count = 0;
     for (int i = 0; i < piece->count; i++) {
         const double *p = piece->at[i], *q = piece->at[(i + 1) % piece->count];
-        double here = way * distance_from(cut, p), there = way * distance_from(cut, q);
+        double here = way * sp_cut_distance(cut, p), there = way * sp_cut_distance(cut, q);
         if (here >= 0)
             memcpy(part->at[part->count++], p, sizeof part->at[0]);
         if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
