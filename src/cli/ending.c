@@ -4,9 +4,9 @@
 #include <stdarg.h>
 #include <stdlib.h>
 
-#define LONGEST (1.0 / 3) /* of the limit, for all that follows: pictures get smaller then */
-#define SMALLEST 0.25     /* of the edge of pictures, before there are none */
-#define OTHERS 0.1        /* of the limit, for the rest; no more than so many seconds */
+#define LONGEST 0.25  /* of the limit, for all that follows: pictures get smaller then */
+#define SMALLEST 0.25 /* of the edge of pictures, before there are none */
+#define OTHERS 0.1    /* of the limit, for the rest; no more than so many seconds */
 #define OTHERS_MOST 1.0
 
 bool cli_ending_time(const cli_options *options, const sp_design *design, size_t count, double *seconds,
