@@ -7,10 +7,12 @@
 
 enum { WIDTH = 80, INDENT = 2, COLUMN = 25 };
 
-/* One paragraph, its lines broken between words, the first of which begins at `at`, the others at `left`. */
-static void print_wrapped(FILE *to, const char *text, int at, int left)
+/* One paragraph, its lines broken between words, the first of which begins at `at`, the others at `left`; up to an
+ * empty line, behind which it returns. */
+static const char *print_wrapped(FILE *to, const char *text, int at, int left)
 {
-    for (const char *word = text; *word;) {
+    const char *word = text;
+    while (*word && strncmp(word, "\n\n", 2) != 0) {
         int length = (int)strcspn(word, " \n");
         bool first = word == text;
         if (!first && at + 1 + length > WIDTH) {
@@ -23,21 +25,17 @@ static void print_wrapped(FILE *to, const char *text, int at, int left)
         fprintf(to, "%.*s", length, word);
         at += length;
         word += length;
-        word += strspn(word, " \n");
+        word += *word == ' ' || (*word == '\n' && word[1] != '\n');
     }
     fputc('\n', to);
+    return word + strspn(word, "\n");
 }
 
 static void print_paragraphs(FILE *to, const char *text)
 {
     while (*text) {
-        const char *end = strstr(text, "\n\n");
-        int length = end ? (int)(end - text) : (int)strlen(text);
-        char paragraph[1200];
-        snprintf(paragraph, sizeof paragraph, "%.*s", length, text);
-        print_wrapped(to, paragraph, 0, 0);
+        text = print_wrapped(to, text, 0, 0);
         fputc('\n', to);
-        text += end ? length + 2 : length;
     }
 }
 
