@@ -85,8 +85,9 @@ const cli_option cli_options_known[] = {
      "rotate, translate, chord and angle. Mended: cracks of up to 1e-4 of the diagonal, edges cut more finely on one "
      "side, triangles that face the other side than most around them, single ones that are missing, there twice or "
      "without area. Left: wider openings, crossings, loose bits, which side a closed shell faces."},
-    {CLI_TIME_LIMIT, 0, "time-limit", "S", OF(CLI_PLACE), "Write the best layout so far after S seconds."},
-    {CLI_TIME_LIMIT, 0, "time-limit", "S", OF(CLI_STUDY), "Write what there is after S seconds."},
+    {CLI_TIME_LIMIT, 0, "time-limit", "S", OF(CLI_PLACE),
+     "End after S seconds with the best layout so far. What is cut short or left out is named."},
+    {CLI_TIME_LIMIT, 0, "time-limit", "S", OF(CLI_STUDY), "End after S seconds with what there is."},
     {CLI_MEMORY, 0, "memory", "SIZE", OF(CLI_PLACE),
      "What all that candidates can reach may take, as \"2 GB\" (default 1 GB). Less takes longer; the answer does not "
      "depend on it."},
@@ -131,6 +132,8 @@ const cli_term cli_statuses[] = {
 const cli_term cli_environment[] = {
     {"OMP_NUM_THREADS", "How many threads to use where --threads does not say."},
     {"OMP_WAIT_POLICY", "How threads wait for one another. Default: passive, they sleep."},
+    {"NO_COLOR", "Set to anything, it keeps escape codes off the terminal."},
+    {"TERM", "dumb keeps them off as well, and no line is written over."},
     {"SOURCE_DATE_EPOCH", "The time that a report calls now, in seconds since 1970, so that it is the same again."},
     {NULL, NULL},
 };

@@ -3,30 +3,53 @@
 
 #include <stdarg.h>
 #include <stdlib.h>
+#include <time.h>
 
-#define LONGEST (1.0 / 3) /* of the limit, for all that follows: pictures get smaller then */
-#define SMALLEST 0.25     /* of the edge of pictures, before there are none */
-#define OTHERS 0.1        /* of the limit, for the rest; no more than so many seconds */
+/* Of the limit, at most, for pictures, which get smaller then, and for all that follows. */
+#define PICTURES_MOST 0.25
+#define ENDING_MOST 0.5
+/* Of the limit, for the rest on a machine that has nothing else to do; no more than so many seconds. */
+#define OTHERS 0.1
 #define OTHERS_MOST 1.0
+#define SMALLEST                                                                                                       \
+    0.33 /* of the edge of pictures, which take a seventh of the time then; once it is over there are none */
+
+static double read_clock(clockid_t clock)
+{
+    struct timespec time = {0};
+    clock_gettime(clock, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* What pictures take, s, and what this thread took to find that out, by the clock, for each second of processor: how
+ * much other work the machine has. */
+static bool try_pictures(const sp_design *design, size_t count, double *pictures, double *busy, sp_error *error)
+{
+    sp_design *designs = malloc(count * sizeof *designs);
+    if (!designs)
+        return sp_fail_memory(error);
+    for (size_t i = 0; i < count; i++)
+        designs[i] = *design;
+    sp_result result = {.command = "place", .scene = "", .designs = designs, .design_count = count};
+    double start = read_clock(CLOCK_MONOTONIC), worked = read_clock(CLOCK_THREAD_CPUTIME_ID);
+    bool known = sp_report_picture_time(&result, pictures, error);
+    worked = read_clock(CLOCK_THREAD_CPUTIME_ID) - worked;
+    *busy = worked > 0 ? fmax(1, (read_clock(CLOCK_MONOTONIC) - start) / worked) : 1;
+    free(designs);
+    return known;
+}
 
 bool cli_ending_time(const cli_options *options, const sp_design *design, size_t count, double *seconds,
                      sp_error *error)
 {
-    double limit = options->time_limit, pictures = 0;
+    double limit = options->time_limit, pictures = 0, busy = 1;
     *seconds = 0;
     if (!(limit > 0))
         return true;
-    if (options->output) {
-        sp_design *designs = malloc(count * sizeof *designs);
-        for (size_t i = 0; designs && i < count; i++)
-            designs[i] = *design;
-        sp_result result = {.command = "place", .scene = "", .designs = designs, .design_count = count};
-        bool known = designs ? sp_report_picture_time(&result, &pictures, error) : sp_fail_memory(error) != NULL;
-        free(designs);
-        if (!known)
-            return false;
-    }
-    *seconds = fmin(OTHERS_MOST, OTHERS * limit) + fmin(LONGEST * limit, (1 + CLI_FILES) * pictures);
+    if (options->output && !try_pictures(design, count, &pictures, &busy, error))
+        return false;
+    double others = busy * fmin(OTHERS_MOST, OTHERS * limit);
+    *seconds = fmin(ENDING_MOST * limit, others + fmin(PICTURES_MOST * limit, (1 + CLI_FILES) * pictures));
     return true;
 }
 
@@ -44,14 +67,14 @@ void cli_leave_out(cli_left_out *left_out, const char *format, ...)
 
 double cli_picture_share(double full, cli_left_out *left_out)
 {
-    double left = cli_time_left() - CLI_FILES * full;
-    if (left >= full)
+    double left = cli_time_left(), spare = left - CLI_FILES * full;
+    if (spare >= full)
         return 0;
-    double share = sqrt(fmax(0, left) / full);
-    if (share < SMALLEST) {
+    if (left <= 0) {
         cli_leave_out(left_out, "the page's pictures");
         return -1;
     }
+    double share = fmax(SMALLEST, sqrt(fmax(0, spare) / full));
     cli_leave_out(left_out, "the size of pictures (to %.0f %%)", 100 * share);
     return share;
 }

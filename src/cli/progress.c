@@ -22,7 +22,9 @@ static struct {
     size_t number; /* of the stage that it is at, from 1; 0 before the first */
     char name[64];
     double began, drawn;
-    double ends; /* when the time limit does; 0: none */
+    double done;   /* of the stage, when that was told last */
+    bool unsteady; /* it has fallen since: it tells nothing of the time that is left */
+    double ends;   /* when the time limit does; 0: none */
     terminal kind;
     bool on_screen;
 } bar;
@@ -123,7 +125,7 @@ static void append_time_left(char *line, size_t size, double time, double done)
     bool last = bar.number == all_stages();
     if (bar.ends > time)
         snprintf(line + used, size - used, "  at most %.0f s left", bar.ends - time);
-    else if (!(bar.ends > 0) && done > 0.02 && time - bar.began > 1)
+    else if (!(bar.ends > 0) && done > 0.02 && done < 1 && time - bar.began > 1 && !bar.unsteady)
         snprintf(line + used, size - used, "  %.0f s left%s", (time - bar.began) * (1 - done) / done,
                  last ? "" : " of this stage");
 }
@@ -155,8 +157,11 @@ static void draw(const char *stage, double done)
     if (fresh) {
         snprintf(bar.name, sizeof bar.name, "%s", stage);
         bar.began = time;
+        bar.unsteady = false;
         count_stage(stage);
     }
+    bar.unsteady = bar.unsteady || (!fresh && done < bar.done);
+    bar.done = done;
     if (!fresh && (bar.kind == KEEPS || time - bar.drawn < 0.1))
         return;
     char line[LINE + 1];

@@ -9,13 +9,8 @@
 static void print_paragraphs(FILE *to, const char *text)
 {
     while (*text) {
-        const char *end = strstr(text, "\n\n");
-        int length = end ? (int)(end - text) : (int)strlen(text);
-        char paragraph[1200];
-        snprintf(paragraph, sizeof paragraph, "%.*s", length, text);
-        cli_print_wrapped(to, paragraph, 0, 0);
+        text = cli_print_wrapped(to, text, 0, 0);
         fputc('\n', to);
-        text += end ? length + 2 : length;
     }
 }
 
@@ -63,8 +58,8 @@ void cli_print_usage(FILE *to)
     fprintf(to, "\n");
     cli_print_wrapped(to, cli_conventions, 0, 0);
     fprintf(to, "\n");
-    cli_print_wrapped(to, "`sprayplan help COMMAND` tells what a command does and which options of its own it takes.", 0,
-                  0);
+    cli_print_wrapped(to, "`sprayplan help COMMAND` tells what a command does and which options of its own it takes.",
+                      0, 0);
 }
 
 void cli_print_command_usage(FILE *to, cli_command_id id)

@@ -5,9 +5,10 @@
 
 enum { WIDTH = 80, INDENT = 2, COLUMN = 25 };
 
-void cli_print_wrapped(FILE *to, const char *text, int at, int left)
+const char *cli_print_wrapped(FILE *to, const char *text, int at, int left)
 {
-    for (const char *word = text; *word;) {
+    const char *word = text;
+    while (*word && strncmp(word, "\n\n", 2) != 0) {
         int length = (int)strcspn(word, " \n");
         bool first = word == text;
         if (!first && at + 1 + length > WIDTH) {
@@ -20,9 +21,10 @@ void cli_print_wrapped(FILE *to, const char *text, int at, int left)
         fprintf(to, "%.*s", length, word);
         at += length;
         word += length;
-        word += strspn(word, " \n");
+        word += *word == ' ' || (*word == '\n' && word[1] != '\n');
     }
     fputc('\n', to);
+    return word + strspn(word, "\n");
 }
 
 void cli_print_term(FILE *to, const char *term, const char *text)

@@ -22,9 +22,13 @@ static void only_its_share_of_the_limit_may_be_spent(void **state)
     assert_true(sp_watch_left(&watch) < 0);
     assert_false(sp_watch_has_time(&watch, "a", 0));
     assert_false(watch.interrupted);
+    assert_int_equal(watch.cut_count, 0);
+    assert_false(sp_watch_goes_on(&watch, "a", 0));
     assert_false(sp_watch_goes_on(&watch, "a", 0));
     assert_true(watch.interrupted);
     assert_false(watch.cancelled);
+    assert_int_equal(watch.cut_count, 1); /* named once */
+    assert_string_equal(watch.cut[0], "a");
     /* what comes next has the rest */
     sp_watch_allow(&watch, 1);
     assert_true(sp_watch_goes_on(&watch, "b", 0));

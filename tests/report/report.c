@@ -531,6 +531,37 @@ static void figures_survive_the_file(void **state)
 }
 
 /* Before anything else: how much, why, and of which parts. */
+/* By name, with the pictures, for which there was no time either. */
+static void what_was_left_out_is_named(void **state)
+{
+    const fixture *f = *state;
+    static const char *const left_out[] = {"the page's pictures"};
+    sp_error error = {0};
+    sp_proposal proposal = f->proposal;
+    sp_result result = f->result;
+    double seconds = -1;
+    proposal.interrupted = true;
+    proposal.cut_count = 2;
+    strcpy(proposal.cut[0], "exchange");
+    strcpy(proposal.cut[1], "front");
+    result.proposal = &proposal;
+    result.left_out = left_out;
+    result.left_out_count = 1;
+    result.picture_share = -1;
+    char *html = sp_report_html(&result, &error), *text = sp_result_json(&result, &error);
+    assert_non_null(strstr(html, "The search was stopped before its end (exchange, front); this is"));
+    assert_non_null(strstr(html, "Cut short or left out: exchange, front, the page&#39;s pictures."));
+    assert_null(strstr(html, "id=\"pictures\""));
+    json_t *json = json_loads(text, 0, NULL), *cut = json_object_get(json, "cut_short");
+    assert_int_equal(json_array_size(cut), 3);
+    assert_string_equal(json_string_value(json_array_get(cut, 2)), left_out[0]);
+    assert_true(sp_report_picture_time(&result, &seconds, &error));
+    assert_true(seconds > 0);
+    json_decref(json);
+    free(html);
+    free(text);
+}
+
 static void what_is_out_of_reach_is_said_first(void **state)
 {
     const fixture *f = *state;
@@ -672,6 +703,7 @@ int main(void)
         cmocka_unit_test(remedies_are_told),
         cmocka_unit_test(flux_is_told_as_it_is),
         cmocka_unit_test(figures_survive_the_file),
+        cmocka_unit_test(what_was_left_out_is_named),
         cmocka_unit_test(what_is_out_of_reach_is_said_first),
         cmocka_unit_test(what_jets_say_otherwise_is_a_warning),
         cmocka_unit_test(a_certificate_is_told_in_full),

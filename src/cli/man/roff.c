@@ -48,6 +48,13 @@ static bool ends_sentence(const char *word, int length)
            !islower((unsigned char)word[length + 1]);
 }
 
+/* The column after it. */
+static int end_line(FILE *to)
+{
+    fputc('\n', to);
+    return 0;
+}
+
 /* A line a sentence, and long ones broken between words. Only what stands first in a line could be taken for a request.
  */
 static void put_paragraph(FILE *to, const char *text, const char *end)
@@ -58,7 +65,7 @@ static void put_paragraph(FILE *to, const char *text, const char *end)
         int length = (int)strcspn(word, " \n");
         length = word + length > end ? (int)(end - word) : length;
         if (at && at + 1 + length > WIDTH)
-            at = 0, fputc('\n', to);
+            at = end_line(to);
         if (at)
             fputc(' ', to);
         else if (*word == '.' || *word == '\'')
@@ -66,7 +73,7 @@ static void put_paragraph(FILE *to, const char *text, const char *end)
         put_word(to, word, length, &bold);
         at += length + (at > 0);
         if (ends_sentence(word, length))
-            at = 0, fputc('\n', to);
+            at = end_line(to);
         word += length;
         word += strspn(word, " \n");
     }
