@@ -33,7 +33,8 @@ has() {
 # depends PACKAGE: on what
 depends() { dpkg-deb -f "$1"_*.deb Depends; }
 
-cpack --config "$build/CPackConfig.cmake" -G DEB -B . -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip >log 2>&1 || { cat log; exit 1; }
+cpack --config "$build/CPackConfig.cmake" -G DEB -B . -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip >log 2>&1 ||
+    { cat log; exit 1; }
 lib="/usr/lib/[^/]*"
 has sprayplan /usr/bin/sprayplan "$lib/sprayplan/sprayplan-(ceres|images)\.so" /usr/share/man/man1/sprayplan.1.gz \
     /usr/share/bash-completion/completions/sprayplan
