@@ -61,8 +61,10 @@ static inline void sp_wetting_add(sp_wetting *wetting, double flux, double thres
  */
 static inline sp_wetting sp_wetting_settle(sp_wetting wetting, double threshold)
 {
-    if (wetting.cells > 0) /* sums of parts that are all there are round to 1 */
-        return (sp_wetting){0, wetting.cells < 1 - 1e-6 ? 1 - wetting.cells : 0, 0};
+    if (wetting.cells > 0) { /* sums of parts that are all there are round to 1 */
+        sp_wetting cells = {0, wetting.cells < 1 - 1e-6 ? 1 - wetting.cells : 0, 0};
+        return cells;
+    }
     if (wetting.dry < 1 && wetting.even > 0 && wetting.even >= threshold)
         wetting.dry = 1;
     else if (wetting.dry < 1)

@@ -20,12 +20,13 @@ typedef enum {
     SP_ERROR_INTERRUPTED, /* the progress callback asked to stop and there is nothing to return */
 } sp_error_kind;
 
-/* Starts as {0}. Plain data that owns nothing: it may be copied and needs no freeing. */
+/* Starts as {0}, in C++ as well, where no enumeration may stand first for it. Plain data that owns nothing: it may be
+ * copied and needs no freeing. */
 typedef struct {
-    sp_error_kind kind;
+    int line, column;  /* from 1; 0 where unknown */
     char message[768]; /* what was found, what was expected; no control characters */
     char file[512];    /* empty where no file is concerned */
-    int line, column;  /* from 1; 0 where unknown */
+    sp_error_kind kind;
 } sp_error;
 
 /* Records an error unless `error` is NULL or holds one already: the first error is the cause, later ones are its

@@ -10,7 +10,8 @@ typedef struct {
 
 static inline sp_vec3 sp_v(double x, double y, double z)
 {
-    return (sp_vec3){x, y, z};
+    sp_vec3 made = {x, y, z};
+    return made;
 }
 static inline sp_vec3 sp_add(sp_vec3 a, sp_vec3 b)
 {

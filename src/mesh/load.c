@@ -1,10 +1,10 @@
 #include <sprayplan/cad.h>
 
 #include "mesh/file.h"
+#include "mesh/locales.h"
 #include "mesh/soup.h"
 
 #include <errno.h>
-#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

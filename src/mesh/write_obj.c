@@ -1,8 +1,9 @@
 /* A mesh as OBJ text. */
 #include <sprayplan/mesh.h>
 
+#include "mesh/locales.h"
+
 #include <errno.h>
-#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

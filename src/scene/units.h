@@ -24,7 +24,7 @@ bool sp_units_of(const sp_units *units, const char *text, const sp_dimension *di
 bool sp_units_factor(const sp_units *units, const char *unit, const sp_dimension *dimension, double *factor, char *why,
                      size_t size);
 
-#define SP_UNITS_NUMBER 40 /* bytes of a number, the terminating zero included */
+#define SP_UNITS_NUMBER 48 /* bytes of a number of any long double, the terminating zero included */
 /* The shortest decimal number of units of `factor` that reads as just this value. */
 void sp_units_number(double value, double factor, char number[SP_UNITS_NUMBER]);
 

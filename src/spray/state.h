@@ -2,9 +2,9 @@
 #ifndef SPRAY_STATE_H
 #define SPRAY_STATE_H
 
-#include "trace/threads.h"
-
 #include <sprayplan/evaluator.h>
+
+#include <omp.h>
 
 struct sp_evaluator {
     sp_setup setup;

@@ -2,8 +2,8 @@
 #include "trace/line/line_bvh.h"
 #include "trace/parabola/parabola_bvh.h"
 #include "trace/parabola/volley.h"
-#include "trace/threads.h"
 
+#include <omp.h>
 #include <stdlib.h>
 
 struct sp_tracer {

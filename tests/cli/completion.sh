@@ -65,5 +65,6 @@ expect 'B.YML a.yaml c.obj d.STL e.stp f.txt out result.json with blanks' trace 
 expect '' bench --rays ''
 expect '' place --time-limit ''
 expect '--memory' place a.yaml --mem
-expect 'place' help pl
+topics=$("$program" --help | sed -n '/^sprayplan help TOPIC:/,/^$/s/^  \([a-z]*\)  .*/\1/p' | sorted)
+expect "$(echo "$commands $topics" | sorted)" help ''
 exit $status

@@ -33,7 +33,8 @@ has() {
 # depends PACKAGE: on what
 depends() { dpkg-deb -f "$1"_*.deb Depends; }
 
-cpack --config "$build/CPackConfig.cmake" -G DEB -B . -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip >log 2>&1 || { cat log; exit 1; }
+cpack --config "$build/CPackConfig.cmake" -G DEB -B . -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip >log 2>&1 ||
+    { cat log; exit 1; }
 lib="/usr/lib/[^/]*"
 has sprayplan /usr/bin/sprayplan "$lib/sprayplan/sprayplan-(ceres|images)\.so" /usr/share/man/man1/sprayplan.1.gz \
     /usr/share/bash-completion/completions/sprayplan
@@ -52,9 +53,10 @@ for package in *.deb; do
     dpkg-deb -x "$package" root
 done
 cd root/usr/share/doc/sprayplan/examples
-check() { "$work/root/usr/bin/sprayplan" check "$@" --set "simulate.texel=200 mm" >"$work/log" 2>&1; }
 for scene in $(grep -l ^geometry: *.yaml); do
-    check "$scene" || { cat "$work/log"; wrong "$scene does not run"; }
+    [ "$scene" != vessel.yaml ] || pictures="-o $work/out"
+    "$work/root/usr/bin/sprayplan" check "$scene" --set "simulate.texel=200 mm" ${pictures:-} >"$work/log" 2>&1 ||
+        { cat "$work/log"; wrong "$scene does not run"; }
 done
-check vessel.yaml -o "$work/out" && [ -s "$work/out/wet.png" ] || { cat "$work/log"; wrong "no picture of the vessel"; }
+[ -s "$work/out/wet.png" ] || wrong "there is no picture of the vessel"
 exit $status

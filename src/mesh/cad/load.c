@@ -3,10 +3,10 @@
 
 #include "mesh/cad/mend.h"
 #include "mesh/cad/process.h"
+#include "mesh/locales.h"
 #include "module/module.h"
 
 #include <errno.h>
-#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

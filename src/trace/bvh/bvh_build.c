@@ -5,8 +5,8 @@
 #include "trace/bvh/bvh.h"
 #include "trace/bvh/bvh_pages.h"
 #include "trace/bvh/bvh_split.h"
-#include "trace/threads.h"
 
+#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,8 +1,8 @@
 #include "trace/bvh/bvh_split.h"
-#include "trace/threads.h"
 
 #include <float.h>
 #include <math.h>
+#include <omp.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
