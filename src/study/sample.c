@@ -31,7 +31,8 @@ static int threads_of(const sp_studying *studying)
 static void draw(const sp_studying *studying, const sp_points *surface, size_t first, size_t end, sp_point *points)
 {
     uint64_t seed = studying->setup->fidelity.seed;
-#pragma omp parallel for num_threads(threads_of(studying))
+    int threads = threads_of(studying);
+#pragma omp parallel for num_threads(threads)
     for (size_t i = first; i < end; i++)
         points[i - first] = sp_points_draw(surface, i, studying->points, seed);
 }

@@ -322,7 +322,7 @@ static bool divide_together(sp_bvh_reference *const buffers[2], const sp_bvh_ran
 {
     const sp_bvh_reference *from = buffers[range->buffer] + range->first;
     size_t chunks = (range->count + CHUNK - 1) / CHUNK;
-    chunk_work *work = malloc(chunks * sizeof *work);
+    chunk_work *work = calloc(chunks, sizeof *work);
     if (!work)
         return false;
     binning b = choose_binning(range);
