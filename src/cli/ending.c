@@ -5,8 +5,10 @@
 #include <stdlib.h>
 #include <time.h>
 
-/* Of the limit, at most, for pictures, which get smaller then, and for all that follows. */
+/* Of what of the limit is beyond a rough layout, s, at most, for pictures, which get smaller then: without a layout
+ * that is worth a look they are worth nothing. And of the limit for all that follows. */
 #define PICTURES_MOST 0.25
+#define ROUGH 8.0
 #define ENDING_MOST 0.5
 /* Of the limit, for the rest on a machine that has nothing else to do; no more than so many seconds. */
 #define OTHERS 0.1
@@ -49,7 +51,8 @@ bool cli_ending_time(const cli_options *options, const sp_design *design, size_t
     if (options->output && !try_pictures(design, count, &pictures, &busy, error))
         return false;
     double others = busy * fmin(OTHERS_MOST, OTHERS * limit);
-    *seconds = fmin(ENDING_MOST * limit, others + fmin(PICTURES_MOST * limit, (1 + CLI_FILES) * pictures));
+    *seconds =
+        fmin(ENDING_MOST * limit, others + fmin(PICTURES_MOST * fmax(0, limit - ROUGH), (1 + CLI_FILES) * pictures));
     return true;
 }
 
