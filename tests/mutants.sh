@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Breaks the program on purpose, one way at a time, and tells which breaks the tests notice.
 #   tests/mutants.sh [ID ..]
-# tests/mutants/list says what is broken and which tests belong to it; without ids all are tried, which takes hours. This
-# happens in a copy of the tree, build-mutants, that later runs go on with. Fails where a mutant survives or cannot be tried.
+# tests/mutants/list says what is broken and which tests belong to it; without ids all are tried, which takes an hour or
+# more. This happens in a copy of the tree, build-mutants, that later runs go on with. Fails where a mutant survives or
+# cannot be tried.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
@@ -39,17 +40,18 @@ refresh() {
     [ ! -e "$root/../shared" ] || ln -sfn "$root/../shared" "$copy/../shared"
 }
 
-# make REGEX: the tests so named, and the program, which some of them run.
+# The tests of these names, a line each.
+names() { ctest --test-dir "$build" -N -R "$1" | sed -n 's/^ *Test *#[0-9]*: //p'; }
+
+# make NAME ..: these tests, and the program, which some of them run.
 make() {
-    local named targets
-    named=$(ctest --test-dir "$build" -N -R "$1" | sed -n 's/^ *Test *#[0-9]*: //p')
-    [ -n "$named" ] || { echo "no test is called $1" >&2 && return 1; }
-    targets=$(cmake --build "$build" --target help | sed -n 's/: phony$//p' | grep -Fx "$named" || true)
+    local targets
+    targets=$(cmake --build "$build" --target help | sed -n 's/: phony$//p' | grep -Fx "$(printf '%s\n' "$@")" || true)
     cmake --build "$build" --parallel "$(nproc)" --target sprayplan-program meshes $targets >"$build/mutant.log" 2>&1
 }
 
-# run REGEX [OPTION ..]: succeeds where all these tests pass.
-run() { ctest --test-dir "$build" -R "$@" --output-on-failure >"$build/mutant.log" 2>&1; }
+# run REGEX: succeeds where all these tests pass.
+run() { ctest --test-dir "$build" -R "$1" --output-on-failure --stop-on-failure >"$build/mutant.log" 2>&1; }
 
 # The first test that failed, and its first case that did.
 complaint() {
@@ -61,13 +63,19 @@ refresh
 cmake -S "$copy" --preset strict >"$copy/../configure.log" 2>&1 || { cat "$copy/../configure.log" >&2 && exit 2; }
 
 status=0
-declare -A passes
+declare -A passes # of what is not broken
 for id in "${ids[@]}"; do
     [ -n "${tests[$id]:-}" ] || { echo "$id: no such mutant, or no tests belong to it" >&2 && exit 2; }
-    regex=${tests[$id]}
-    if [ -z "${passes[$regex]:-}" ]; then
-        make "$regex" && run "$regex" || { tail -n 40 "$build/mutant.log" >&2 && echo "$regex fails as it is" >&2 && exit 2; }
-        passes[$regex]=yes
+    mapfile -t named < <(names "${tests[$id]}")
+    [ ${#named[@]} -gt 0 ] || { echo "$id: no test is called ${tests[$id]}" >&2 && exit 2; }
+    fresh=()
+    for test in "${named[@]}"; do
+        [ -n "${passes[$test]:-}" ] || fresh+=("$test")
+        passes[$test]=yes
+    done
+    if [ ${#fresh[@]} -gt 0 ]; then
+        make "${fresh[@]}" && run "^($(IFS='|' && echo "${fresh[*]}"))\$" ||
+            { tail -n 40 "$build/mutant.log" >&2 && echo "${fresh[*]}: not built, or not passed as it is" >&2 && exit 2; }
     fi
     name=${file[$id]}
     trap 'cp "$root/$name" "$copy/$name"' EXIT
@@ -75,11 +83,11 @@ for id in "${ids[@]}"; do
     if cmp -s "$name" "$copy/$name"; then
         echo "$id: CHANGES NOTHING in $name"
         status=1
-    elif ! make "$regex"; then
+    elif ! make "${named[@]}"; then
         echo "$id: DOES NOT BUILD: $(grep -m 1 'error:' "$build/mutant.log")"
         status=1
-    elif run "$regex" --stop-on-failure; then
-        echo "$id: SURVIVES $regex: ${says[$id]}"
+    elif run "${tests[$id]}"; then
+        echo "$id: SURVIVES ${named[*]}: ${says[$id]}"
         status=1
     else
         echo "$id: killed by" $(complaint)
