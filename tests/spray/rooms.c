@@ -531,23 +531,23 @@ static void a_point_in_steel_is_refused(void **state)
 }
 
 /* At 5 mm, and for any number of threads the same bytes. */
-/* Two chambers one above the other, 1 m wide each, and between them a sheet with a square hole. */
-static shape chambers(double x, double y, double wide)
+/* A shaft 2 m long and 0.05 m wide, and half way up a sheet with a square hole. */
+static const double shaft_width = 0.05;
+static shape barred_shaft(double x, double y, double wide)
 {
     shape s = shape_create();
+    const double b = shaft_width, left = x - wide / 2, right = x + wide / 2, low = y - wide / 2, high = y + wide / 2;
     shape_part(&s, "walls");
-    shape_box(&s, sp_v(0, 0, 0), sp_v(1, 1, 2), true);
-    double left = x - wide / 2, right = x + wide / 2, low = y - wide / 2, high = y + wide / 2;
+    shape_box(&s, sp_v(0, 0, 0), sp_v(b, b, 2), true);
     shape_part(&s, "sheet");
-    shape_sheet(&s, sp_v(0, 0, 1), sp_v(left, 0, 0), sp_v(0, 1, 0), 1);
-    shape_sheet(&s, sp_v(right, 0, 1), sp_v(1 - right, 0, 0), sp_v(0, 1, 0), 1);
+    shape_sheet(&s, sp_v(0, 0, 1), sp_v(left, 0, 0), sp_v(0, b, 0), 1);
+    shape_sheet(&s, sp_v(right, 0, 1), sp_v(b - right, 0, 0), sp_v(0, b, 0), 1);
     shape_sheet(&s, sp_v(left, 0, 1), sp_v(wide, 0, 0), sp_v(0, low, 0), 1);
-    shape_sheet(&s, sp_v(left, high, 1), sp_v(wide, 0, 0), sp_v(0, 1 - high, 0), 1);
+    shape_sheet(&s, sp_v(left, high, 1), sp_v(wide, 0, 0), sp_v(0, b - high, 0), 1);
     return s;
 }
 
-/* In how many of 24 such rooms the liquid is found beyond the hole, which one line of sight in many thousands goes
- * through; the cavity's point looks along the sheet. */
+/* In how many of 24 such shafts the liquid is found beyond the hole; the cavity's point looks along the sheet. */
 static int holes_found(double wide)
 {
     int found = 0;
@@ -555,13 +555,12 @@ static int holes_found(double wide)
         for (size_t k = 0; k < sizeof angles / sizeof *angles; k++) {
             sp_mesh *mesh;
             sp_error error = {0};
-            double x = 0.3 + 0.05 * i, y = 0.35 + 0.04 * (i * 3 % 8);
-            shape s = chambers(x, y, wide);
-            sp_evaluator *evaluator =
-                evaluator_of(&s, SP_CAVITY_POINT, sp_v(0.95, 0.05, 0.98), angles[k], 0.2, &mesh, &error);
+            const double b = shaft_width;
+            shape s = barred_shaft(b * (0.3 + 0.05 * i), b * (0.35 + 0.04 * (i * 3 % 8)), wide);
+            sp_vec3 point = sp_v(0.95 * b, 0.05 * b, 1 - 0.02 * b);
+            sp_evaluator *evaluator = evaluator_of(&s, SP_CAVITY_POINT, point, angles[k], 0.05, &mesh, &error);
             assert_string_equal(error.message, "");
-            double area = sp_evaluator_patches(evaluator)->total_area, half = 5 + 1 - wide * wide;
-            /* all of both, or all of one */
+            double area = sp_evaluator_patches(evaluator)->total_area, half = 4 * b + 2 * b * b - wide * wide;
             bool both = area > 1.5 * half;
             assert_true(fabs(area / (both ? 2 * half : half) - 1) < 2e-5);
             found += both;
@@ -571,13 +570,13 @@ static int holes_found(double wide)
     return found;
 }
 
-/* So small that chance decides: with half of the lines 12 are found. */
+/* So small a hole that chance decides: with an eighth of the lines from large faces 11 are found. */
 static void liquid_finds_holes(void **state)
 {
     (void)state;
-    int found = holes_found(0.009);
+    int found = holes_found(0.004);
     print_message("%d of 24 holes\n", found);
-    assert_true(found >= 15);
+    assert_true(found >= 17);
 }
 
 static void fine_texels_and_threads(void **state)
