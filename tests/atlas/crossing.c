@@ -109,6 +109,27 @@ static void agrees_with_every_pair(void **state)
     assert_true(crossed > 30 && crossed < 270);
 }
 
+/* A corner that lies on an edge still does where the chart is drawn far from the origin, which rounds; one that is
+ * clearly beside it does not. */
+static void moving_changes_no_answer(void **state)
+{
+    (void)state;
+    uint64_t seed = 7;
+    for (int round = 0; round < 1000; round++) {
+        double turn = 2 * M_PI * random_number(&seed), far = 1e4 * random_number(&seed), on = random_number(&seed);
+        double points[5][2] = {{0, 0}, {2, 0}, {2, 1}, {0.1 + 1.8 * on, 0}, {0, 1}};
+        for (int beside = 0; beside < 2; beside++) {
+            double moved[5][2];
+            points[3][1] = 1e-8 * beside;
+            for (int i = 0; i < 5; i++) {
+                moved[i][0] = far + cos(turn) * points[i][0] - sin(turn) * points[i][1];
+                moved[i][1] = far + sin(turn) * points[i][0] + cos(turn) * points[i][1];
+            }
+            assert_int_equal(test_chain(moved, 5).crossing, !beside);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -116,6 +137,7 @@ int main(void)
         cmocka_unit_test(stars_combs_and_bows),
         cmocka_unit_test(needles_are_not_quadratic),
         cmocka_unit_test(agrees_with_every_pair),
+        cmocka_unit_test(moving_changes_no_answer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,6 +44,8 @@ static void speed_follows_bernoulli(void **state)
     sp_nozzle_type type = cone_type(SP_PATTERN_FULL_CONE, 1);
     sp_nozzle nozzle = {.type = &type, .pressure = 2e5};
     assert_float_equal(sp_nozzle_speed(&nozzle, &water), 19, 1e-12);
+    const sp_fluid brine = {.density = 4e5 / (18 * 18)};
+    assert_float_equal(sp_nozzle_speed(&nozzle, &brine), 0.95 * 18, 1e-12);
     nozzle.speed = 7;
     assert_float_equal(sp_nozzle_speed(&nozzle, &water), 7, 0);
     assert_float_equal(sp_nozzle_angle(&nozzle), 1, 0);

@@ -152,6 +152,30 @@ static void water_allowed_may_be_used_up(void **state)
     room_close(&j.room);
 }
 
+/* And no more: a little less than two take is enough for one, of all the front. */
+static void water_beyond_what_is_allowed_is_not_taken(void **state)
+{
+    (void)state;
+    job j;
+    job_open(&j);
+    j.options.types = &j.type_list[1];
+    j.options.type_count = 1;
+    double each = sp_type_flow(&j.types[1], j.types[1].flow, PRESSURE, &j.room.setup.liquid);
+    j.options.objective = SP_OBJECTIVE_MAX_COVERAGE;
+    for (size_t count = 2; count < 4; count++) {
+        j.options.max_water = each * (double)count * (1 - (count == 2 ? 1e-7 : 5e-4));
+        sp_proposal *proposal = job_place(&j);
+        assert_int_equal(proposal->layout->count, count - 1);
+        const double most = j.options.max_water * (1 + 1e-9);
+        for (size_t i = 0; i < proposal->front_count; i++)
+            assert_true(proposal->front[i].flow <= most);
+        for (size_t i = 0; i < proposal->by_number_count; i++)
+            assert_true(proposal->by_number[i].flow <= most);
+        sp_proposal_destroy(proposal);
+    }
+    room_close(&j.room);
+}
+
 static void limits_hold(void **state)
 {
     (void)state;
@@ -466,6 +490,7 @@ int main(void)
         cmocka_unit_test(least_water_for_a_target),
         cmocka_unit_test(nothing_exceeds_the_certificate),
         cmocka_unit_test(water_allowed_may_be_used_up),
+        cmocka_unit_test(water_beyond_what_is_allowed_is_not_taken),
         cmocka_unit_test(limits_hold),
         cmocka_unit_test(a_port_holds_one),
         cmocka_unit_test(no_other_nozzle_is_called_like_a_port),

@@ -83,6 +83,27 @@ static void lifted_shares_still_suffice(void **state)
     }
 }
 
+/* What a candidate brings a texel in parts, lifted part by part, comes to no less than lifted as a whole. */
+static void portions_come_to_the_whole(void **state)
+{
+    (void)state;
+    uint64_t random = 21;
+    for (size_t nozzles = 1; nozzles <= 9; nozzles++) {
+        sp_lifts lifts;
+        sp_lifts_create(nozzles, &lifts);
+        for (int trial = 0; trial < 1000; trial++) {
+            const float part = (float)next_random(&random), share = (float)next_random(&random);
+            const float parts[] = {share * part, share - share * part};
+            for (size_t k = 0; k < lifts.kinds; k++) {
+                double sum = 0;
+                for (size_t i = 0; i < 2; i++)
+                    sum += (double)sp_lift_portion(&lifts, k, parts[i]);
+                assert_true(sum >= (double)sp_lift(&lifts, k, share));
+            }
+        }
+    }
+}
+
 /* Fluxes that fall short of the threshold by less than single precision tells do not cover, whatever they round to. */
 static void what_falls_short_does_not_cover(void **state)
 {
@@ -330,6 +351,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(layouts_within_a_flow_are_so_in_units),
         cmocka_unit_test(lifted_shares_still_suffice),
+        cmocka_unit_test(portions_come_to_the_whole),
         cmocka_unit_test(what_falls_short_does_not_cover),
         cmocka_unit_test(no_pose_is_worth_more_than_its_price),
     };
