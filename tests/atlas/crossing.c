@@ -133,10 +133,8 @@ static void moving_changes_no_answer(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(orientation_is_exact),
-        cmocka_unit_test(stars_combs_and_bows),
-        cmocka_unit_test(needles_are_not_quadratic),
-        cmocka_unit_test(agrees_with_every_pair),
+        cmocka_unit_test(orientation_is_exact),      cmocka_unit_test(stars_combs_and_bows),
+        cmocka_unit_test(needles_are_not_quadratic), cmocka_unit_test(agrees_with_every_pair),
         cmocka_unit_test(moving_changes_no_answer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
