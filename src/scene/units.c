@@ -167,22 +167,21 @@ static const char *skip_number(const char *text)
     return text;
 }
 
-_Static_assert(LDBL_MANT_DIG > DBL_MANT_DIG, "every double needs a number in every unit");
-
-/* A decimal number of units. The product is rounded once, at its end: with a double's digits alone a third of all
- * values would have no number in degrees. */
+/* A decimal number of units. The product is rounded once, at its end: where long double has no more digits than double
+ * (Apple's processors) a third of all values have no number in degrees. */
 static double number_of(const char *text, double factor)
 {
     return factor == 1 ? strtod(text, NULL) : (double)(strtold(text, NULL) * factor);
 }
 
-void sp_units_number(double value, double factor, char number[SP_UNITS_NUMBER])
+bool sp_units_number(double value, double factor, char number[SP_UNITS_NUMBER])
 {
     for (int digits = DBL_DIG; digits <= LDBL_DECIMAL_DIG; digits++) {
         snprintf(number, SP_UNITS_NUMBER, "%.*Lg", digits, (long double)value / factor);
         if (number_of(number, factor) == value)
-            return;
+            return true;
     }
+    return false;
 }
 
 bool sp_units_of(const sp_units *units, const char *text, const sp_dimension *dimension, double *factor, char *why,

@@ -5,6 +5,7 @@
 #include <sprayplan/error.h>
 #include <sprayplan/keys.h>
 
+#include <stdbool.h>
 #include <stddef.h>
 
 typedef struct sp_units sp_units;
@@ -25,7 +26,8 @@ bool sp_units_factor(const sp_units *units, const char *unit, const sp_dimension
                      size_t size);
 
 #define SP_UNITS_NUMBER 48 /* bytes of a number of any long double, the terminating zero included */
-/* The shortest decimal number of units of `factor` that reads as just this value. */
-void sp_units_number(double value, double factor, char number[SP_UNITS_NUMBER]);
+/* The shortest decimal number of units of `factor` that reads as just this value. False, and one that reads as a value
+ * next to it, where there is none: never where long double has more digits than double. */
+bool sp_units_number(double value, double factor, char number[SP_UNITS_NUMBER]);
 
 #endif

@@ -22,7 +22,7 @@ static sp_yaml *put(writer *w, sp_yaml *parent, sp_yaml_kind kind, const char *k
     return node;
 }
 
-/* Units as people write them; what reads back exactly. */
+/* Units as people write them, SI where these have no number for it; what reads back exactly. */
 static void put_quantity(writer *w, sp_yaml *parent, const char *key, double value, const sp_dimension *dimension,
                          const char *unit)
 {
@@ -33,7 +33,10 @@ static void put_quantity(writer *w, sp_yaml *parent, const char *key, double val
         w->failed = true;
         return;
     }
-    sp_units_number(value, factor, number);
+    if (!sp_units_number(value, factor, number)) {
+        unit = dimension->unit;
+        sp_units_number(value, 1, number);
+    }
     snprintf(text, sizeof text, "%s%s%s", number, *unit ? " " : "", unit);
     put(w, parent, SP_YAML_SCALAR, key, text);
 }

@@ -153,7 +153,7 @@ static void short_numbers_stay(void **state)
             const char *given = numbers[i % (int)(sizeof numbers / sizeof *numbers)];
             snprintf(drawn, sizeof drawn, "%.9g", i * 0.037 + 1e-4 * i * i);
             given = i < 11 ? given : drawn;
-            sp_units_number(read_back(units, given, unit), factor_of(units, unit), number);
+            assert_true(sp_units_number(read_back(units, given, unit), factor_of(units, unit), number));
             assert_string_equal(number, given);
         }
     sp_units_destroy(units);
