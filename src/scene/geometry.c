@@ -224,6 +224,9 @@ static bool join_pieces(sp_scene *scene, const sp_reader *reader, const sp_yaml 
         return sp_fail_memory(reader->error);
     if (!scene->mesh)
         return sp_read_message(reader, list, "geometry", "%s", problem.message);
+    if (scene->mesh->triangle_count == 0)
+        return sp_read_message(reader, list, "geometry",
+                               "found no triangle that has an area in its place, expected some: is a unit wrong?");
     scene->surfaces = calloc(scene->mesh->part_count, sizeof *scene->surfaces);
     return scene->surfaces || sp_fail_memory(reader->error);
 }
