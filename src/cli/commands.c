@@ -6,8 +6,7 @@
 
 const char cli_purpose[] =
     "Proposes where to put spray nozzles: traces the liquid from nozzles to the surfaces of a vessel or machine, "
-    "records "
-    "what reaches every patch of it, and searches for the layout that covers the most area per unit water.";
+    "records what reaches every patch of it, and searches for the layout that covers the most area per unit water.";
 
 const char cli_conventions[] =
     "Options may stand anywhere, also before the command, and behind -- stand none. A - in place of a file is standard "
@@ -79,11 +78,10 @@ const cli_option cli_options_known[] = {
      "place.refine=none. May be given again and again."},
     {CLI_REPAIR, 0, "repair", "OUT.obj", OF(CLI_CHECK),
      "Write a mended copy of the geometry, in m and placed as in the scene; of several files OUT-0.obj, OUT-1.obj and "
-     "so "
-     "on. No file that is read is replaced. Name it in the scene instead of the file that it is of, without unit, "
-     "scale, "
-     "rotate, translate, chord and angle. Mended: cracks of up to 1e-4 of the diagonal, edges cut more finely on one "
-     "side, triangles that face the other side than most around them, single ones that are missing, there twice or "
+     "so on. No file that is read is replaced. Name it in the scene instead of the file that it is of, without unit, "
+     "scale, rotate, translate, chord and angle. Mended: cracks of up to 1e-4 of the diagonal, edges cut more finely "
+     "on one side, triangles that face the other side than most around them, single ones that are missing, there twice "
+     "or "
      "without area. Left: wider openings, crossings, loose bits, which side a closed shell faces."},
     {CLI_TIME_LIMIT, 0, "time-limit", "S", OF(CLI_PLACE),
      "End after S seconds with the best layout so far. What is cut short or left out is named."},
@@ -169,7 +167,21 @@ size_t cli_command_named(const char *name)
 
 void cli_option_syntax(const cli_option *option, char text[CLI_SYNTAX])
 {
-    snprintf(text, CLI_SYNTAX, "%s%.1s%s%s%s%s%s", option->letter ? "-" : "", &option->letter,
-             option->letter && option->name ? ", " : "", option->name ? "--" : "", option->name ? option->name : "",
-             option->value ? " " : "", option->value ? option->value : "");
+    const char letter[] = {'-', option->letter, '\0'};
+    snprintf(text, CLI_SYNTAX, "%s%s%s%s%s%s", option->letter ? letter : "", option->letter && option->name ? ", " : "",
+             option->name ? "--" : "", option->name ? option->name : "", option->value ? " " : "",
+             option->value ? option->value : "");
+}
+
+void cli_each_option(FILE *to, unsigned commands, bool common,
+                     void (*print)(FILE *to, const char *term, const char *text))
+{
+    for (size_t i = 0; i < cli_option_count; i++) {
+        const cli_option *option = &cli_options_known[i];
+        char syntax[CLI_SYNTAX];
+        if (!(option->commands & commands) || cli_option_is_common(option) != common)
+            continue;
+        cli_option_syntax(option, syntax);
+        print(to, syntax, option->text);
+    }
 }

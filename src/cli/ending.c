@@ -16,13 +16,6 @@
 #define SMALLEST                                                                                                       \
     0.33 /* of the edge of pictures, which take a seventh of the time then; once it is over there are none */
 
-static double read_clock(clockid_t clock)
-{
-    struct timespec time = {0};
-    clock_gettime(clock, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 /* What pictures take, s, and what this thread took to find that out, by the clock, for each second of processor: how
  * much other work the machine has. */
 static bool try_pictures(const sp_design *design, size_t count, double *pictures, double *busy, sp_error *error)
@@ -33,10 +26,10 @@ static bool try_pictures(const sp_design *design, size_t count, double *pictures
     for (size_t i = 0; i < count; i++)
         designs[i] = *design;
     sp_result result = {.command = "place", .scene = "", .designs = designs, .design_count = count};
-    double start = read_clock(CLOCK_MONOTONIC), worked = read_clock(CLOCK_THREAD_CPUTIME_ID);
+    double start = cli_read_clock(CLOCK_MONOTONIC), worked = cli_read_clock(CLOCK_THREAD_CPUTIME_ID);
     bool known = sp_report_picture_time(&result, pictures, error);
-    worked = read_clock(CLOCK_THREAD_CPUTIME_ID) - worked;
-    *busy = worked > 0 ? fmax(1, (read_clock(CLOCK_MONOTONIC) - start) / worked) : 1;
+    worked = cli_read_clock(CLOCK_THREAD_CPUTIME_ID) - worked;
+    *busy = worked > 0 ? fmax(1, (cli_read_clock(CLOCK_MONOTONIC) - start) / worked) : 1;
     free(designs);
     return known;
 }

@@ -29,7 +29,7 @@ static struct {
     bool on_screen;
 } bar;
 
-static double read_clock(clockid_t clock)
+double cli_read_clock(clockid_t clock)
 {
     struct timespec time = {0};
     clock_gettime(clock, &time);
@@ -38,7 +38,7 @@ static double read_clock(clockid_t clock)
 
 static double now(void)
 {
-    return read_clock(CLOCK_MONOTONIC);
+    return cli_read_clock(CLOCK_MONOTONIC);
 }
 
 static void on_interrupt(int number)
@@ -237,12 +237,12 @@ sp_run cli_search_run(const cli_options *options)
 
 void cli_clock_start(cli_clock *clock)
 {
-    *clock = (cli_clock){.since = now(), .processor = read_clock(CLOCK_PROCESS_CPUTIME_ID)};
+    *clock = (cli_clock){.since = now(), .processor = cli_read_clock(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
 void cli_clock_stage(cli_clock *clock, const char *name)
 {
-    double time = now(), processor = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    double time = now(), processor = cli_read_clock(CLOCK_PROCESS_CPUTIME_ID);
     size_t at = 0;
     while (at < clock->count && strcmp(clock->stages[at].name, name))
         at++;

@@ -2,6 +2,7 @@
 
 #include "wrapped.h"
 
+#include <assert.h>
 #include <string.h>
 
 const cli_topic cli_topics[] = {
@@ -35,7 +36,7 @@ static bool is_done(const writer *writer, const sp_block *block)
     for (size_t i = 0; i < writer->count; i++)
         if (writer->done[i] == block)
             return true;
-    return writer->count == BLOCKS;
+    return false;
 }
 
 static void write_key(const writer *writer, const sp_key *key)
@@ -53,6 +54,7 @@ static void write_key(const writer *writer, const sp_key *key)
 
 static void write_block(writer *writer, const char *path, const sp_block *block)
 {
+    assert(writer->count < BLOCKS);
     writer->done[writer->count++] = block;
     writer->style->block(writer->to, path, block);
     for (const sp_key *key = block->keys; key->name; key++)

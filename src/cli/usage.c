@@ -21,18 +21,6 @@ static void print_terms(FILE *to, const char *title, const cli_term *terms)
         cli_print_term(to, terms->term, terms->text);
 }
 
-static void print_options(FILE *to, unsigned commands, bool common)
-{
-    for (size_t i = 0; i < cli_option_count; i++) {
-        const cli_option *option = &cli_options_known[i];
-        char syntax[CLI_SYNTAX];
-        if (!(option->commands & commands) || cli_option_is_common(option) != common)
-            continue;
-        cli_option_syntax(option, syntax);
-        cli_print_term(to, syntax, option->text);
-    }
-}
-
 void cli_print_usage(FILE *to)
 {
     fprintf(to, "usage: sprayplan COMMAND [OPTION]... FILE...\n\n");
@@ -48,7 +36,7 @@ void cli_print_usage(FILE *to)
         cli_print_term(to, term, cli_commands[i].summary);
     }
     fprintf(to, "\noptions of all commands:\n");
-    print_options(to, ~0u, true);
+    cli_each_option(to, ~0u, true, cli_print_term);
     for (const cli_topic *topic = cli_topics; topic->name; topic++) {
         if (topic == cli_topics)
             fprintf(to, "\nsprayplan help TOPIC:\n");
@@ -68,6 +56,6 @@ void cli_print_command_usage(FILE *to, cli_command_id id)
     fprintf(to, "usage: sprayplan %s [OPTION]... %s\n\n", command->name, command->arguments);
     print_paragraphs(to, command->description);
     fprintf(to, "  %s\n\noptions:\n", command->example);
-    print_options(to, 1u << id, false);
-    print_options(to, 1u << id, true);
+    cli_each_option(to, 1u << id, false, cli_print_term);
+    cli_each_option(to, 1u << id, true, cli_print_term);
 }

@@ -91,6 +91,10 @@ size_t cli_command_named(const char *name);
 enum { CLI_SYNTAX = 64 };
 void cli_option_syntax(const cli_option *option, char text[CLI_SYNTAX]);
 
+/* Of those that one of the commands (1 << cli_command_id, added up) takes, the common ones or its own. */
+void cli_each_option(FILE *to, unsigned commands, bool common,
+                     void (*print)(FILE *to, const char *term, const char *text));
+
 /* usage.c: the texts. */
 void cli_print_usage(FILE *to);
 void cli_print_command_usage(FILE *to, cli_command_id command);

@@ -326,30 +326,37 @@ static const sp_key stage_keys[] = {{.name = "name", .kind = SP_KEY_TEXT, .says 
                                     {.name = NULL}};
 static const sp_block stage = {"stage", "a stage", NULL, stage_keys};
 
+/* Of a proposal, which a result has one of or an alternative each; and how it came about. */
+#define PROPOSAL                                                                                                       \
+    {.name = "target", .kind = SP_KEY_BLOCK, .block = &target, .says = "What was asked for; of `place`"},              \
+        {.name = "front",                                                                                              \
+         .kind = SP_KEY_BLOCKS,                                                                                        \
+         .block = &front_point,                                                                                        \
+         .says = "The best found for rising water, or price; of `place`"},                                             \
+        {.name = "front_by_nozzles",                                                                                   \
+         .kind = SP_KEY_BLOCKS,                                                                                        \
+         .block = &number_point,                                                                                       \
+         .says = "The best found for rising numbers of nozzles; of `place`"},                                          \
+        {.name = "forward_check",                                                                                      \
+         .kind = SP_KEY_BLOCK,                                                                                         \
+         .block = &forward_check,                                                                                      \
+         .says = "The proposal counted again by jets; of `place`"},                                                    \
+    {                                                                                                                  \
+        .name = "certificate", .kind = SP_KEY_BLOCK, .block = &certificate,                                            \
+        .says = "How much better any layout could be; of `place`"                                                      \
+    }
+#define COURSE                                                                                                         \
+    {.name = "stages", .kind = SP_KEY_BLOCKS, .block = &stage, .says = "How long it took"},                            \
+    {                                                                                                                  \
+        .name = "cut_short", .kind = SP_KEY_TEXTS,                                                                     \
+        .says = "What was cut short or left out for lack of time, or because it was interrupted; where all was done, " \
+                "absent"                                                                                               \
+    }
+
 static const sp_key result_alternative_keys[] = {
     {.name = "name", .kind = SP_KEY_TEXT, .says = "As the scene has it; its layout is under `layouts`"},
-    {.name = "target", .kind = SP_KEY_BLOCK, .block = &target, .says = "What was asked for; of `place`"},
-    {.name = "front",
-     .kind = SP_KEY_BLOCKS,
-     .block = &front_point,
-     .says = "The best found for rising water, or price; of `place`"},
-    {.name = "front_by_nozzles",
-     .kind = SP_KEY_BLOCKS,
-     .block = &number_point,
-     .says = "The best found for rising numbers of nozzles; of `place`"},
-    {.name = "forward_check",
-     .kind = SP_KEY_BLOCK,
-     .block = &forward_check,
-     .says = "The proposal counted again by jets; of `place`"},
-    {.name = "certificate",
-     .kind = SP_KEY_BLOCK,
-     .block = &certificate,
-     .says = "How much better any layout could be; of `place`"},
-    {.name = "stages", .kind = SP_KEY_BLOCKS, .block = &stage, .says = "How long it took"},
-    {.name = "cut_short",
-     .kind = SP_KEY_TEXTS,
-     .says =
-         "What was cut short or left out for lack of time, or because it was interrupted; where all was done, absent"},
+    PROPOSAL,
+    COURSE,
     {.name = NULL}};
 static const sp_block result_alternative = {"result_alternative", "an alternative", NULL, result_alternative_keys};
 
@@ -361,34 +368,14 @@ static const sp_key result_keys[] = {
     {.name = "geometry", .kind = SP_KEY_BLOCK, .block = &result_geometry, .says = "What is to be cleaned"},
     {.name = "fidelity", .kind = SP_KEY_BLOCK, .block = &fidelity, .says = "How it was computed"},
     {.name = "layouts", .kind = SP_KEY_BLOCKS, .block = &result_layout, .says = "One after the other"},
-    {.name = "target", .kind = SP_KEY_BLOCK, .block = &target, .says = "What was asked for; of `place`"},
-    {.name = "front",
-     .kind = SP_KEY_BLOCKS,
-     .block = &front_point,
-     .says = "The best found for rising water, or price; of `place`"},
-    {.name = "front_by_nozzles",
-     .kind = SP_KEY_BLOCKS,
-     .block = &number_point,
-     .says = "The best found for rising numbers of nozzles; of `place`"},
-    {.name = "forward_check",
-     .kind = SP_KEY_BLOCK,
-     .block = &forward_check,
-     .says = "The proposal counted again by jets; of `place`"},
-    {.name = "certificate",
-     .kind = SP_KEY_BLOCK,
-     .block = &certificate,
-     .says = "How much better any layout could be; of `place`"},
+    PROPOSAL,
     {.name = "proposed", .kind = SP_KEY_TEXT, .says = "Which alternative is; where there are some"},
     {.name = "proposed_for", .kind = SP_KEY_TEXT, .says = "Why"},
     {.name = "alternatives",
      .kind = SP_KEY_BLOCKS,
      .block = &result_alternative,
      .says = "Of each what was found and proved"},
-    {.name = "stages", .kind = SP_KEY_BLOCKS, .block = &stage, .says = "How long it took"},
-    {.name = "cut_short",
-     .kind = SP_KEY_TEXTS,
-     .says =
-         "What was cut short or left out for lack of time, or because it was interrupted; where all was done, absent"},
+    COURSE,
     {.name = NULL}};
 const sp_block sp_block_result = {
     "result", "a result",

@@ -6,9 +6,9 @@ for tool in dpkg-deb dpkg-shlibdeps lintian; do
     command -v $tool >/dev/null || { echo "$tool is not here"; exit 77; }
 done
 build=$1
-work=$(mktemp -d "$build/tests/cli-XXXXXX")
-trap 'rm -rf "$work"' EXIT
-cd "$work"
+scratch=$(mktemp -d "$build/tests/cli-XXXXXX")
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
 
 status=0
 wrong() {
@@ -55,9 +55,9 @@ for package in *.deb; do
 done
 cd root/usr/share/doc/sprayplan/examples
 for scene in $(grep -l ^geometry: *.yaml); do
-    [ "$scene" != vessel.yaml ] || pictures="-o $work/out"
-    "$work/root/usr/bin/sprayplan" check "$scene" --set "simulate.texel=200 mm" ${pictures:-} >"$work/log" 2>&1 ||
-        { cat "$work/log"; wrong "$scene does not run"; }
+    [ "$scene" != vessel.yaml ] || pictures="-o $scratch/out"
+    "$scratch/root/usr/bin/sprayplan" check "$scene" --set "simulate.texel=200 mm" ${pictures:-} >"$scratch/log" 2>&1 ||
+        { cat "$scratch/log"; wrong "$scene does not run"; }
 done
-[ -s "$work/out/wet.png" ] || wrong "there is no picture of the vessel"
+[ -s "$scratch/out/wet.png" ] || wrong "there is no picture of the vessel"
 exit $status

@@ -74,7 +74,7 @@ static void one_solve_goes_to_the_middle(void **state)
         assert_true(sp_soft_solve(&b.search, &b.draft, &freedom, &sight, widths[w], INFINITY, values, &error));
         sp_nozzle found = sp_freedom_nozzle(&freedom, values[0]);
         print_message("from %g to %g m\n", placed->nozzle.position.x, found.position.x);
-        assert_true(fabs(placed->nozzle.position.x) > 0.25 && fabs(found.position.x) < 5e-3);
+        assert_true(fabs(placed->nozzle.position.x) > 0.25 && fabs(found.position.x) < 1e-3);
         bench_close(&b);
     }
 }

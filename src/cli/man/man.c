@@ -3,23 +3,10 @@
 #include "roff.h"
 
 #include "../topics.h"
-
 #include "../usage.h"
 
 #include <ctype.h>
 #include <string.h>
-
-static void print_options(FILE *to, unsigned commands, bool common)
-{
-    for (size_t i = 0; i < cli_option_count; i++) {
-        const cli_option *option = &cli_options_known[i];
-        char syntax[CLI_SYNTAX];
-        if (!(option->commands & commands) || cli_option_is_common(option) != common)
-            continue;
-        cli_option_syntax(option, syntax);
-        roff_tagged(to, syntax, option->text);
-    }
-}
 
 static void print_terms(FILE *to, const cli_term *terms)
 {
@@ -46,7 +33,7 @@ static void print_command(FILE *to, cli_command_id id)
     snprintf(title, sizeof title, "%s %s", command->name, command->arguments);
     roff_subsection(to, title);
     roff_paragraphs(to, command->description);
-    print_options(to, 1u << id, false);
+    cli_each_option(to, 1u << id, false, roff_tagged);
     roff_example(to, command->example);
 }
 
@@ -65,7 +52,7 @@ static void print_program(FILE *to, const char *date)
         print_command(to, (cli_command_id)i);
     roff_section(to, "OPTIONS");
     roff_paragraphs(to, "All commands take:");
-    print_options(to, ~0u, true);
+    cli_each_option(to, ~0u, true, roff_tagged);
     roff_section(to, "EXIT STATUS");
     print_terms(to, cli_statuses);
     roff_section(to, "FILES");
