@@ -17,7 +17,7 @@ static void read_mark(sp_unfolding *unfolding, const char *text, double unit)
     unfolding->texel = strtod(end, &end) * unit;
 }
 
-static sp_unfolding *unfolding_of(const char *path, const char *text, size_t size, double unit, sp_error *error)
+sp_unfolding *sp_unfolding_parse(const char *path, const char *text, size_t size, double unit, sp_error *error)
 {
     sp_texture texture;
     if (!sp_texture_read(path, text, size, &texture, error))
@@ -47,7 +47,7 @@ sp_unfolding *sp_unfolding_read(const char *path, double unit, sp_error *error)
     sp_unfolding *unfolding = NULL;
     if (c != (locale_t)0) {
         locale_t before = uselocale(c);
-        unfolding = unfolding_of(path, text, size, unit, error);
+        unfolding = sp_unfolding_parse(path, text, size, unit, error);
         uselocale(before);
         freelocale(c);
     } else if (text) {
@@ -68,21 +68,11 @@ void sp_unfolding_destroy(sp_unfolding *unfolding)
     free(unfolding);
 }
 
-static sp_atlas *consume(const sp_mesh *mesh, sp_unfolding *unfolding, double texel, sp_error *error)
+sp_atlas *sp_atlas_reuse(const sp_mesh *mesh, const char *path, double texel, sp_error *error)
 {
+    sp_unfolding *unfolding = mesh ? sp_unfolding_read(path, 1, error) : NULL;
     const sp_unfolding *files[] = {unfolding};
     sp_atlas *atlas = unfolding ? sp_atlas_of_files(mesh, files, 1, texel, error) : NULL;
     sp_unfolding_destroy(unfolding);
     return atlas;
-}
-
-sp_atlas *sp_atlas_read(const sp_mesh *mesh, const char *path, const char *text, size_t size, double texel,
-                        sp_error *error)
-{
-    return consume(mesh, unfolding_of(path, text, size, 1, error), texel, error);
-}
-
-sp_atlas *sp_atlas_reuse(const sp_mesh *mesh, const char *path, double texel, sp_error *error)
-{
-    return mesh ? consume(mesh, sp_unfolding_read(path, 1, error), texel, error) : NULL;
 }

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #define MOST_TEXELS 4096.0 /* more would take time, and show nothing new */
+#define MOST_EDGE 256.0    /* texels of a page that holds next to nothing */
 
 bool target_accepted;
 
@@ -18,14 +19,40 @@ static sp_mesh *read_surface(const char *text, size_t size)
     return mesh;
 }
 
-/* The file's own texel where that is not too small, else one that is asked for. */
-static double texel_to_ask(const sp_mesh *mesh, const char *text)
+/* Metres of a page's edge, where the file doesn't say it those that keep the area. */
+static double page_length(const sp_unfolding *unfolding, const sp_mesh *mesh)
 {
-    double page_edge, texel, area = sp_mesh_area(mesh);
-    if (sscanf(text, SP_ATLAS_MARK "%lf %lf", &page_edge, &texel) == 2 && area <= MOST_TEXELS * texel * texel &&
-        page_edge >= 1 && page_edge <= MOST_TEXELS && page_edge == floor(page_edge))
+    double flat = 0;
+    for (size_t t = 0; t < unfolding->triangle_count; t++) {
+        const double(*uv)[2] = unfolding->uv[t];
+        flat +=
+            0.5 * fabs((uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) - (uv[1][1] - uv[0][1]) * (uv[2][0] - uv[0][0]));
+    }
+    double length = unfolding->page_edge * unfolding->texel;
+    return length > 0 && isfinite(length) ? length : sqrt(sp_mesh_area(mesh) / flat);
+}
+
+/* The file's own texel where neither surface nor page has too many of it. */
+static double texel_to_ask(const sp_unfolding *unfolding, const sp_mesh *mesh)
+{
+    double area = sp_mesh_area(mesh), edge = unfolding->page_edge;
+    if (edge >= 1 && edge <= MOST_TEXELS && edge == floor(edge) && isfinite(unfolding->texel) &&
+        area <= MOST_TEXELS * unfolding->texel * unfolding->texel)
         return 0;
-    return sqrt(area / 100);
+    double least = page_length(unfolding, mesh) / MOST_EDGE;
+    return fmax(sqrt(area / 100), isfinite(least) ? least : 0);
+}
+
+/* `own`: at the file's own texel. */
+static sp_atlas *read_atlas(const sp_mesh *mesh, const char *name, const char *text, size_t size, bool own,
+                            sp_error *error)
+{
+    sp_unfolding *unfolding = sp_unfolding_parse(name, text, size, 1, error);
+    const sp_unfolding *files[] = {unfolding};
+    sp_atlas *atlas =
+        unfolding ? sp_atlas_of_files(mesh, files, 1, own ? 0 : texel_to_ask(unfolding, mesh), error) : NULL;
+    sp_unfolding_destroy(unfolding);
+    return atlas;
 }
 
 static void require_sound(const sp_atlas *atlas, const sp_mesh *mesh)
@@ -48,7 +75,7 @@ static void require_written(const sp_atlas *atlas, const sp_mesh *mesh)
     REQUIRE(text);
     sp_mesh *surface = read_surface(text, strlen(text));
     REQUIRE(surface && surface->triangle_count == mesh->triangle_count);
-    sp_atlas *again = sp_atlas_read(surface, "again", text, strlen(text), 0, &error);
+    sp_atlas *again = read_atlas(surface, "again", text, strlen(text), true, &error);
     if (!again)
         fprintf(stderr, "%s in\n%s", error.message, text);
     REQUIRE(again && again->chart_count == atlas->chart_count && again->texel_count == atlas->texel_count);
@@ -68,7 +95,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     sp_mesh *mesh = read_surface(text, size);
     target_accepted = false;
     if (mesh && mesh->triangle_count) {
-        sp_atlas *atlas = sp_atlas_read(mesh, "strange", text, size, texel_to_ask(mesh, text), &error);
+        sp_atlas *atlas = read_atlas(mesh, "strange", text, size, false, &error);
         require_frugal(size);
         target_accepted = atlas != NULL;
         REQUIRE(target_accepted == (error.kind == SP_OK));

@@ -3,7 +3,7 @@
 
 bool target_accepted;
 
-enum { WRITTEN = 16 }; /* one in so many lengths: writing reads the database of units */
+enum { WRITTEN = 64 }; /* one in so many lengths: writing reads the database of units */
 
 static bool read_scene(sp_scene *scene, const char *text, size_t size, sp_error *error)
 {
