@@ -1,5 +1,6 @@
 #include "scene/read.h"
 
+#include "mesh/soup.h"
 #include "scene/slips.h"
 
 #include <assert.h>
@@ -197,7 +198,11 @@ bool sp_read_vector(const sp_fields *in, const char *name, sp_vec3 *value)
     const sp_yaml *node = sp_yaml_get(in->map, name);
     const sp_key each = {.name = name, .dimension = key->dimension, .range = SP_ANY};
     assert(key->kind == SP_KEY_VECTOR && (node || is_standard_vector(key, *value)));
-    return !node || read_three(in->reader, node, &each, value);
+    if (node && !read_three(in->reader, node, &each, value))
+        return false;
+    /* of what lies farther away double precision holds no distance */
+    return sp_coordinates_allowed(*value) ||
+           sp_read_message(in->reader, node, name, "found a coordinate beyond 1e30 m, expected less");
 }
 
 bool sp_read_axis(const sp_fields *in, const char *name, sp_vec3 *value)

@@ -89,6 +89,8 @@ static const slip quantities[] = {
      "scene.yaml:6:16: translate: found '5 mm', expected a list of three values such as [0, 0, 1]"},
     {"[0 mm, 100 mm, 0.5]", "[0 mm, [1], 0.5]",
      "scene.yaml:6:23: translate: found a list of 1, expected a length such as 250 mm"},
+    {"[0 mm, 100 mm, 0.5]", "[0 mm, 2e30, -1e300]",
+     "scene.yaml:6:16: translate: found a coordinate beyond 1e30 m, expected less"},
     {"axis: [0, 0, 2]", "axis: [0, 0, 0]",
      "scene.yaml:7:20: axis: found a vector of length 0, expected a direction such as [0, 0, -1]"},
     {"axis: [0, 0, -3]", "axis: [0, 0, -0.0]",
