@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-#define MOST_TEXELS 4096.0 /* more would take time, and show nothing new */
-#define MOST_EDGE 256.0    /* texels of a page that holds next to nothing */
+#define MOST_TEXELS 1024.0 /* more would take time, and show nothing new */
+#define MOST_EDGE 96.0     /* of a page in texels: the same */
 
 bool target_accepted;
 
@@ -36,7 +36,7 @@ static double page_length(const sp_unfolding *unfolding, const sp_mesh *mesh)
 static double texel_to_ask(const sp_unfolding *unfolding, const sp_mesh *mesh)
 {
     double area = sp_mesh_area(mesh), edge = unfolding->page_edge;
-    if (edge >= 1 && edge <= MOST_TEXELS && edge == floor(edge) && isfinite(unfolding->texel) &&
+    if (edge >= 1 && edge <= MOST_EDGE && edge == floor(edge) && isfinite(unfolding->texel) &&
         area <= MOST_TEXELS * unfolding->texel * unfolding->texel)
         return 0;
     double least = page_length(unfolding, mesh) / MOST_EDGE;
