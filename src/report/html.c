@@ -83,7 +83,7 @@ static const char *const style[] = {
     "figure,.card,.wide,tr,dl>div,.chart,.block{break-inside:avoid}thead{display:table-header-group}"
     "h2,h3,caption{break-after:avoid}a{color:inherit;text-decoration:none}"
     /* Each sheet goes to the workshop by itself. */
-    ".sheet:not(:target){break-before:page;break-after:page}.alone{display:none}"
+    ".sheet:not(:target){break-before:page;break-after:page}.alone,.early:not(:target){display:none}"
     "main:has(.sheet:target)>:not(header,.sheet:target,footer),"
     /* the heading tells of the main layout, and of a comparison all of the head of its first */
     "main:has(.sheet:not(#sheet):target) h1,main:not(:has(#sheet)):has(.sheet:target) header{display:none}"

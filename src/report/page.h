@@ -112,7 +112,7 @@ void sp_page_shadows(const sp_page *page, sp_text *text);
 void sp_page_stages(const sp_page *page, sp_text *text);
 /* spread.c: how liquid leaves the nozzles of the designs on an evaluator, within a sentence. */
 void sp_page_spread(sp_text *text, const sp_result *result, const sp_evaluator *evaluator);
-/* sheet.c: what to weld, set and order of each design that may be built, the main one first. */
+/* sheet.c: what to weld, set and order of each design, the main one first. */
 bool sp_page_sheets(const sp_page *page, sp_text *text, sp_error *error);
 /* The id of a design's sheet. */
 void sp_page_sheet_id(const sp_page *page, sp_text *text, size_t design);
