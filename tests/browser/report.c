@@ -74,8 +74,8 @@ static void blank_section(char *page, const char *head)
     memset(section, ' ', (size_t)(after - section) + strlen("</section>"));
 }
 
-/* Pages of A4 with pictures, of which equal ones are stored once; the viewer, which needs a screen, leaves no trace, nor
- * does the sheet of what nobody is to build. */
+/* Pages of A4 with pictures, of which equal ones are stored once; the viewer, which needs a screen, leaves no trace,
+ * nor does the sheet of what nobody is to build. */
 static void it_prints_without_the_viewer(void **state)
 {
     (void)state;

@@ -40,10 +40,10 @@ static json_t *quantities_json(const sp_shown_quantities *shown)
     json_t *list = json_array();
     for (int k = 0; k < shown->count; ++k) {
         const sp_shown_quantity *q = &shown->of[k];
-        json_array_append_new(list,
-                              json_pack("{s:s, s:s, s:s, s:f, s:f, s:f, s:b, s:b, s:[ff], s:f}", "key", q->key, "name",
-                                        q->name, "unit", q->unit, "toUnit", q->to_unit, "low", q->low, "high", q->high,
-                                        "log", (int)q->log, "whole", (int)q->whole, "shown", q->shown[0], q->shown[1], "step", q->criterion));
+        json_array_append_new(list, json_pack("{s:s, s:s, s:s, s:f, s:f, s:f, s:b, s:b, s:[ff], s:f}", "key", q->key,
+                                              "name", q->name, "unit", q->unit, "toUnit", q->to_unit, "low", q->low,
+                                              "high", q->high, "log", (int)q->log, "whole", (int)q->whole, "shown",
+                                              q->shown[0], q->shown[1], "step", q->criterion));
     }
     return list;
 }
@@ -155,9 +155,8 @@ static bool pack_pages(const sp_layers *layers, sp_packed *packed, sp_error *err
 }
 
 /* The designs of one evaluator, their arrays behind those of its surface. */
-static json_t *designs_json(const sp_page *page, const sp_evaluator *evaluator,
-                            const sp_shown_quantities *quantities, const sp_neighbours *neighbours,
-                            sp_coder *coder, sp_packed *packed, sp_error *error)
+static json_t *designs_json(const sp_page *page, const sp_evaluator *evaluator, const sp_shown_quantities *quantities,
+                            const sp_neighbours *neighbours, sp_coder *coder, sp_packed *packed, sp_error *error)
 {
     json_t *list = json_array();
     for (size_t i = 0; list && i < page->result->design_count; ++i) {
@@ -199,9 +198,8 @@ static json_t *surface_json(const sp_layers *layers, const sp_drawn_surface *sur
                      "parts", parts_json(setup->mesh), "draws", ranges_json(surface));
 }
 
-static json_t *described(const sp_page *page, const sp_layers *layers,
-                         const sp_shown_quantities *quantities, sp_coder *coder, sp_packed *packed,
-                         sp_error *error)
+static json_t *described(const sp_page *page, const sp_layers *layers, const sp_shown_quantities *quantities,
+                         sp_coder *coder, sp_packed *packed, sp_error *error)
 {
     sp_neighbours neighbours;
     json_t *designs = sp_neighbours_find(&neighbours, layers)
@@ -243,9 +241,8 @@ static bool add_data(json_t *object, const sp_packed *packed, sp_coder *coder, s
     return done;
 }
 
-static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator,
-                          const sp_shown_quantities *quantities, sp_viewer_drawn *drawn,
-                          sp_error *error)
+static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator, const sp_shown_quantities *quantities,
+                          sp_viewer_drawn *drawn, sp_error *error)
 {
     sp_layers layers = {0};
     sp_drawn_surface surface = {0};
@@ -289,8 +286,8 @@ static bool begins_model(const sp_page *page, size_t design)
 }
 
 /* One for each surface that the designs have. */
-static json_t *models_json(const sp_page *page, const sp_shown_quantities *quantities,
-                           sp_viewer_drawn *drawn, sp_error *error)
+static json_t *models_json(const sp_page *page, const sp_shown_quantities *quantities, sp_viewer_drawn *drawn,
+                           sp_error *error)
 {
     json_t *list = json_array();
     *drawn = (sp_viewer_drawn){0};
