@@ -174,6 +174,19 @@ void sp_page_cut(sp_text *text, const sp_proposal *proposal)
     sp_text_add(text, proposal->cut_count ? ")" : "");
 }
 
+const char *sp_page_cleaned(const sp_page *page)
+{
+    const sp_setup *setup = NULL;
+    for (size_t i = 0; i < page->result->design_count && !setup; ++i)
+        if (page->result->designs[i].evaluator)
+            setup = sp_evaluator_setup(page->result->designs[i].evaluator);
+    if (setup && setup->sweep.speed > 0)
+        return "goods";
+    if (!setup || setup->cavity == SP_CAVITY_NONE)
+        return "surface";
+    return setup->cavity == SP_CAVITY_POINT ? "vessel" : "machine";
+}
+
 const char *sp_page_colour(const sp_page *page, size_t design)
 {
     static const char *const others[] = {"#3b5b92", "#b5542e", "#0b6670", "#7a4b8f", "#6b7a87", "#8a6d1d"};

@@ -48,6 +48,9 @@ void sp_page_coverage(sp_text *text, const sp_figures *figures);
 void sp_page_error(sp_text *text, const sp_figures *figures);
 /* html.c: " (exchange, front)" of a search that was cut short there; nothing where it was not. */
 void sp_page_cut(sp_text *text, const sp_proposal *proposal);
+/* html.c: what the page calls what is cleaned: a vessel from within, a machine from outside, goods that move; "surface"
+ * where that is not known. */
+const char *sp_page_cleaned(const sp_page *page);
 /* Colour of a design in charts, "#rrggbb". */
 const char *sp_page_colour(const sp_page *page, size_t design);
 

@@ -183,6 +183,7 @@ static void the_page_has_every_alternative(void **state)
     assert_int_equal(count_of(page, "Among these "), 3);
     /* three views of four designs */
     assert_int_equal(count_of(page, "<figure>"), 12);
+    assert_int_equal(count_of(page, "for a test on the vessel to show"), 1);
     free(page);
 }
 
