@@ -193,8 +193,8 @@ typedef struct {
     /* Of its largest shadows, as sp_shadows lists them: as many as there was time for. */
     size_t remedy_count;
     sp_remedy remedies[SP_REMEDIES];
-    /* With mend_kept, of those of all nozzles of the options' `kept`, marked or not, as the evaluator counts them that the proposal is
-     * counted on: what to add to the layout there is. */
+    /* With mend_kept, of those of all nozzles of the options' `kept`, marked or not, as the evaluator counts them that
+     * the proposal is counted on: what to add to the layout there is. */
     size_t own_remedy_count;
     sp_remedy own_remedies[SP_REMEDIES];
     sp_forward_check forward_check;

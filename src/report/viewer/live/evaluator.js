@@ -5,7 +5,8 @@ function makeEvaluator(live) {
 
     async function startWorker() {
         const script = await view.inflated(document.getElementById("live-worker").textContent);
-        const address = URL.createObjectURL(new Blob([script], {type: "text/javascript"})), worker = new Worker(address), waiting = new Map();
+        const address = URL.createObjectURL(new Blob([script], {type: "text/javascript"}));
+        const worker = new Worker(address), waiting = new Map();
         let number = 0;
         worker.addEventListener("message", ({data: {id, answer, error}}) => {
             const {done, failed} = waiting.get(id);
