@@ -285,7 +285,7 @@ static bool confirm(sp_placement *placement, sp_proposal *proposal, sp_error *er
 static bool mend_own(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
     const sp_layout *own = placement->options->kept;
-    if (!own || !own->count)
+    if (!placement->options->mend_kept || !own || !own->count)
         return true;
     if (!sp_watch_has_time(&placement->watch, "remedies", 0)) {
         sp_watch_cut(&placement->watch, "remedies");

@@ -88,6 +88,7 @@ typedef struct {
     const sp_mount *others; /* borrowed: of ports among them that are not to be used no nozzle gets the name */
     sp_refine refine;
     const sp_layout *kept; /* borrowed, may be NULL: the scene's own; its nozzles marked keep are in every proposal */
+    bool mend_kept; /* default true: what would mend the shadows of all of `kept` is looked for, too */
     sp_run run;
 } sp_place_options;
 
@@ -192,8 +193,8 @@ typedef struct {
     /* Of its largest shadows, as sp_shadows lists them: as many as there was time for. */
     size_t remedy_count;
     sp_remedy remedies[SP_REMEDIES];
-    /* Of those of all nozzles of the options' `kept`, marked or not, as the evaluator counts them that the proposal is
-     * counted on: what to add to the layout there is. */
+    /* With mend_kept, of those of all nozzles of the options' `kept`, marked or not, as the evaluator counts them that
+     * the proposal is counted on: what to add to the layout there is. */
     size_t own_remedy_count;
     sp_remedy own_remedies[SP_REMEDIES];
     sp_forward_check forward_check;

@@ -29,15 +29,28 @@ static const sp_evaluator *own_evaluator(const cli_scene *opened, const placemen
     return evaluator_of(opened, found->proposals[found->best]);
 }
 
-/* Whose candidates mend the shadows of the scene's own nozzles: what is proposed, or where its search had no time left
- * for that another alternative that counts on the same. */
-static const sp_proposal *mender_of_own(const cli_scene *opened, const placement *found)
+/* The alternative that looks for what would mend the shadows of the scene's own nozzles: that of most mounts, of
+ * equals the first. */
+static size_t mender(const sp_scene *scene)
 {
-    const sp_proposal *mender = found->proposals[found->best];
-    for (size_t i = 0; i < found->count && mender->own_remedy_count == 0; i++)
-        if (evaluator_of(opened, found->proposals[i]) == own_evaluator(opened, found))
-            mender = found->proposals[i];
-    return mender;
+    size_t widest = 0, most = 0;
+    for (size_t i = 0; i < sp_scene_alternative_count(scene); i++) {
+        size_t mounts = sp_scene_alternative_options(scene, i).mount_count;
+        widest = mounts > most ? i : widest;
+        most = mounts > most ? mounts : most;
+    }
+    return widest;
+}
+
+/* None where that alternative was not come to, or was counted on other texels, whose shadows are others. */
+static void give_own_remedies(const cli_scene *opened, const placement *found, sp_design *design)
+{
+    size_t which = mender(opened->scene);
+    const sp_proposal *proposal = which < found->count ? found->proposals[which] : NULL;
+    if (!proposal || evaluator_of(opened, proposal) != own_evaluator(opened, found))
+        return;
+    design->remedies = proposal->own_remedies;
+    design->remedy_count = proposal->own_remedy_count;
 }
 
 /* `designs` has room for two more than there are proposals. */
@@ -46,11 +59,9 @@ static size_t list_designs(const cli_scene *opened, const placement *found, sp_d
     size_t count = 0;
     bool alternatives = sp_scene_alternative_count(opened->scene) > 0;
     if (found->manual) {
-        const sp_proposal *mender = mender_of_own(opened, found);
         designs[count] =
             cli_design(opened, "manual", own_evaluator(opened, found), sp_scene_layout(opened->scene), found->manual);
-        designs[count].remedies = mender->own_remedies;
-        designs[count++].remedy_count = mender->own_remedy_count;
+        give_own_remedies(opened, found, &designs[count++]);
     }
     for (size_t i = 0; i < found->count; i++) {
         const sp_proposal *proposal = found->proposals[i];
@@ -180,6 +191,7 @@ static bool propose(const cli_options *options, const cli_scene *opened, placeme
     for (size_t i = 0; i < count && !found->ended; i++) {
         sp_place_options how = alternatives ? sp_scene_alternative_options(opened->scene, i) : all;
         how.run = cli_search_run(options);
+        how.mend_kept = i == mender(opened->scene);
         cli_progress_round(i);
         how.run.time_limit = time_for_search(options, found, count - i);
         how.memory = options->memory;

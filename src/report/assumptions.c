@@ -334,6 +334,7 @@ void sp_page_assumptions(const sp_page *page, sp_text *text)
     sp_text_add(
         text,
         "<p class=\"note\">All figures are from simulation. They compare layouts; whether a surface comes out clean "
-        "also depends on soil, chemistry, temperature and time, and is for a test on the vessel to show.</p>"
-        "</section>\n");
+        "also depends on soil, chemistry, temperature and time, and is for a test on the %s to show.</p>"
+        "</section>\n",
+        sp_page_cleaned(page));
 }

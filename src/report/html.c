@@ -83,7 +83,7 @@ static const char *const style[] = {
     "figure,.card,.wide,tr,dl>div,.chart,.block{break-inside:avoid}thead{display:table-header-group}"
     "h2,h3,caption{break-after:avoid}a{color:inherit;text-decoration:none}"
     /* Each sheet goes to the workshop by itself. */
-    ".sheet:not(:target){break-before:page;break-after:page}.alone{display:none}"
+    ".sheet:not(:target){break-before:page;break-after:page}.alone,.early:not(:target){display:none}"
     "main:has(.sheet:target)>:not(header,.sheet:target,footer),"
     /* the heading tells of the main layout, and of a comparison all of the head of its first */
     "main:has(.sheet:not(#sheet):target) h1,main:not(:has(#sheet)):has(.sheet:target) header{display:none}"
@@ -172,6 +172,19 @@ void sp_page_cut(sp_text *text, const sp_proposal *proposal)
     for (size_t i = 0; i < proposal->cut_count; ++i)
         sp_text_add(text, "%s%s", i ? ", " : " (", proposal->cut[i]);
     sp_text_add(text, proposal->cut_count ? ")" : "");
+}
+
+const char *sp_page_cleaned(const sp_page *page)
+{
+    const sp_setup *setup = NULL;
+    for (size_t i = 0; i < page->result->design_count && !setup; ++i)
+        if (page->result->designs[i].evaluator)
+            setup = sp_evaluator_setup(page->result->designs[i].evaluator);
+    if (setup && setup->sweep.speed > 0)
+        return "goods";
+    if (!setup || setup->cavity == SP_CAVITY_NONE)
+        return "surface";
+    return setup->cavity == SP_CAVITY_POINT ? "vessel" : "machine";
 }
 
 const char *sp_page_colour(const sp_page *page, size_t design)

@@ -48,6 +48,9 @@ void sp_page_coverage(sp_text *text, const sp_figures *figures);
 void sp_page_error(sp_text *text, const sp_figures *figures);
 /* html.c: " (exchange, front)" of a search that was cut short there; nothing where it was not. */
 void sp_page_cut(sp_text *text, const sp_proposal *proposal);
+/* html.c: what the page calls what is cleaned: a vessel from within, a machine from outside, goods that move; "surface"
+ * where that is not known. */
+const char *sp_page_cleaned(const sp_page *page);
 /* Colour of a design in charts, "#rrggbb". */
 const char *sp_page_colour(const sp_page *page, size_t design);
 
@@ -112,7 +115,7 @@ void sp_page_shadows(const sp_page *page, sp_text *text);
 void sp_page_stages(const sp_page *page, sp_text *text);
 /* spread.c: how liquid leaves the nozzles of the designs on an evaluator, within a sentence. */
 void sp_page_spread(sp_text *text, const sp_result *result, const sp_evaluator *evaluator);
-/* sheet.c: what to weld, set and order of each design that may be built, the main one first. */
+/* sheet.c: what to weld, set and order of each design, the main one first. */
 bool sp_page_sheets(const sp_page *page, sp_text *text, sp_error *error);
 /* The id of a design's sheet. */
 void sp_page_sheet_id(const sp_page *page, sp_text *text, size_t design);

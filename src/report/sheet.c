@@ -6,20 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What was found before refinement cannot all be set, and nobody is to build it. */
-static bool has_sheet(const sp_result *result, const sp_design *design)
-{
-    bool greedy = strcmp(result->command, "place") == 0 && !design->alternative && strcmp(design->name, "greedy") == 0;
-    return design->evaluator && !greedy;
-}
-
 sp_fitting_sheet **sp_fitting_sheets_of(const sp_result *result, sp_error *error)
 {
     sp_fitting_sheet **sheets = calloc(result->design_count + 1, sizeof(sp_fitting_sheet *));
     bool done = sheets || sp_fail_memory(error);
     for (size_t i = 0; done && i < result->design_count; ++i) {
         const sp_design *design = &result->designs[i];
-        if (!has_sheet(result, design))
+        if (!design->evaluator)
             continue;
         sheets[i] = sp_fitting_sheet_create(design->layout, sp_evaluator_setup(design->evaluator), design->mounts,
                                             design->mount_count, error);
@@ -339,7 +332,8 @@ static void add_sheet(const sp_page *page, sp_text *text, sp_fitting_sheet *cons
     const char *classes = manner(page, design);
     sp_text_add(text, "<section id=\"");
     sp_page_sheet_id(page, text, design);
-    sp_text_add(text, "\" class=\"sheet\"><h2>Sheet");
+    /* in print what was found before refinement comes alone or not at all: nobody is to build it by mistake */
+    sp_text_add(text, "\" class=\"sheet%s\"><h2>Sheet", design == page->greedy ? " early" : "");
     if (design != page->main) {
         sp_text_add(text, ": ");
         sp_page_narrow_name(page, text, design);

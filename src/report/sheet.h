@@ -1,4 +1,4 @@
-/* Sheets of all designs that may be built. */
+/* Sheets of all designs: what to weld, set and order. */
 #ifndef REPORT_SHEET_H
 #define REPORT_SHEET_H
 
@@ -6,7 +6,7 @@
 
 #define SP_ALL_NOZZLES "nozzles-all.csv"
 
-/* [result->design_count], NULL of a design that has none: without an evaluator, or before refinement. NULL on error.
+/* [result->design_count], NULL of a design without an evaluator. NULL on error.
  * For sp_fitting_sheets_destroy, which accepts NULL. */
 sp_fitting_sheet **sp_fitting_sheets_of(const sp_result *result, sp_error *error);
 void sp_fitting_sheets_destroy(sp_fitting_sheet **sheets, size_t count);

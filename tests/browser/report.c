@@ -67,16 +67,23 @@ static size_t found(const char *bytes, size_t size, const char *part)
     return count;
 }
 
-/* Pages of A4 with pictures, of which equal ones are stored once; the viewer, which needs a screen, leaves no trace. */
+static void blank_section(char *page, const char *head)
+{
+    char *section = strstr(page, head), *after = section ? strstr(section, "</section>") : NULL;
+    assert_non_null(after);
+    memset(section, ' ', (size_t)(after - section) + strlen("</section>"));
+}
+
+/* Pages of A4 with pictures, of which equal ones are stored once; the viewer, which needs a screen, leaves no trace,
+ * nor does the sheet of what nobody is to build. */
 static void it_prints_without_the_viewer(void **state)
 {
     (void)state;
     skip_without_browser();
     size_t size, plain_size;
-    char *page = read_file("placed/report.html", &size), *script = strstr(page, "<section id=\"viewer\"");
-    assert_non_null(script);
-    char *after = strstr(script, "</section>");
-    memset(script, ' ', (size_t)(after - script) + strlen("</section>"));
+    char *page = read_file("placed/report.html", &size);
+    blank_section(page, "<section id=\"viewer\"");
+    blank_section(page, "<section id=\"sheet-2\" class=\"sheet early\"");
     write_file("placed/plain.html", page);
     char *pdf = print_page("placed/report.html", &size), *plain = print_page("placed/plain.html", &plain_size);
     size_t pages = found(pdf, size, "/Type /Page\n");
@@ -90,19 +97,26 @@ static void it_prints_without_the_viewer(void **state)
     free(page);
 }
 
-/* One page, without pictures, where the rest takes several; of the proposal, or of the manual layout. */
+/* One page, without pictures, where the rest takes several; of the proposal, of the manual layout, or of what was
+ * before refinement. */
 static void each_sheet_prints_alone(void **state)
 {
     (void)state;
     skip_without_browser();
-    static const char *const sheets[] = {"placed/report.html#sheet", "placed/report.html#sheet-1"};
-    for (size_t i = 0; i < 2; i++) {
+    static const char *const sheets[] = {"placed/report.html#sheet", "placed/report.html#sheet-1",
+                                         "placed/report.html#sheet-2"};
+    for (size_t i = 0; i < 3; i++) {
         size_t size;
         char *pdf = print_page(sheets[i], &size);
         assert_int_equal(found(pdf, size, "/Type /Page\n"), 1);
         assert_int_equal(found(pdf, size, "/Subtype /Image"), 0);
         free(pdf);
     }
+    char *rows = read_file("placed/nozzles-all.csv", NULL);
+    assert_non_null(strstr(rows, "\nmanual,"));
+    assert_non_null(strstr(rows, "\ngreedy,"));
+    assert_non_null(strstr(rows, "\nproposed,"));
+    free(rows);
 }
 
 int main(void)

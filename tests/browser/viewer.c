@@ -256,6 +256,41 @@ static void rows_of_the_tables_act(void **state)
     assert_false(looks_alike(json_object_get(shadow, "seen"), json_object_get(found, "first")));
 }
 
+/* Where jets were flown, as many of each patch as arrive there, to a step of the scale. */
+static void jets_that_arrive_are_shown(void **state)
+{
+    (void)state;
+    skip_without_browser();
+    outcome result = run_program("simulate room.yaml -o jets --quiet --set simulate.evaluator=forward --set "
+                                 "simulate.jets=40000");
+    assert_int_equal(result.status, 0);
+    forget(&result);
+    json_t *told = read_with("jets.js", "jets/report.html", "--virtual-time-budget=60000 --dump-dom");
+    assert_opened(told);
+    assert_non_null(strstr(json_string_value(json_object_get(told, "bar")), "Jets that arrive"));
+    sp_error error = {0};
+    char path[1024];
+    snprintf(path, sizeof path, "%s/jets/layout.yaml", workplace);
+    sp_scene *flown = sp_scene_load(path, &error);
+    sp_evaluator *by_jets = sp_evaluator_create(sp_scene_setup(flown), &error);
+    sp_coverage *hit = sp_evaluate(by_jets, sp_scene_layout(flown), &error);
+    const json_t *said = json_object_get(told, "said");
+    assert_int_equal(json_array_size(said), hit->deposits.count);
+    double all = 0;
+    for (size_t i = 0; i < hit->deposits.count; i++) {
+        const char *words = json_string_value(json_array_get(said, i));
+        double jets = hit->deposits.jets[i], read = strcmp(words, "none") ? strtod(words, NULL) : 0;
+        if (!(fabs(read - jets) <= (jets < 20 ? 1e-9 : 0.5 + 0.02 * jets)))
+            fail_msg("patch %zu: %s said, %g jets", i, words, jets);
+        all += jets;
+    }
+    assert_true(all > 1000);
+    sp_coverage_destroy(hit);
+    sp_evaluator_destroy(by_jets);
+    sp_scene_destroy(flown);
+    json_decref(told);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -271,6 +306,7 @@ int main(void)
         cmocka_unit_test(a_point_is_told_as_it_is),
         cmocka_unit_test(keys_turn_and_fit),
         cmocka_unit_test(rows_of_the_tables_act),
+        cmocka_unit_test(jets_that_arrive_are_shown),
     };
     return cmocka_run_group_tests(tests, use_the_viewer, put_away);
 }

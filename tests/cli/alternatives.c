@@ -92,6 +92,8 @@ static void each_is_a_placement_of_its_own(void **state)
     same(found, alone, "certificate");
     same(found, alone, "target");
     same(found, alone, "forward_check");
+    /* of the first alternative that has all mounts, whichever is proposed */
+    same(named(all, "layouts", "manual"), named(alone, "layouts", "manual"), "shadows");
     for (size_t i = 0; i < json_array_size(json_object_get(alone, "front")); i++) {
         json_t *a = json_array_get(json_object_get(found, "front"), i);
         json_t *b = json_array_get(json_object_get(alone, "front"), i);
@@ -181,6 +183,7 @@ static void the_page_has_every_alternative(void **state)
     assert_int_equal(count_of(page, "Among these "), 3);
     /* three views of four designs */
     assert_int_equal(count_of(page, "<figure>"), 12);
+    assert_int_equal(count_of(page, "for a test on the vessel to show"), 1);
     free(page);
 }
 
@@ -256,7 +259,7 @@ static void so_has_what_is_compared(void **state)
     free(folder);
 }
 
-/* The layout there is has them as well, of the places that the proposed alternative allows. */
+/* The layout there is has them as well, of all places that some alternative allows. */
 static void shadows_of_the_manual_layout_have_remedies(void **state)
 {
     (void)state;
@@ -265,6 +268,7 @@ static void shadows_of_the_manual_layout_have_remedies(void **state)
     json_t *remedy = json_object_get(json_array_get(shadows, 0), "remedy");
     assert_true(number(remedy, "covers_m2") > 0);
     assert_string_equal(text_of(remedy, "type"), "cone");
+    assert_string_equal(text_of(all, "proposed"), "free & easy"); /* whose remedies these are not */
 }
 
 static void scenes_hold_every_alternative(void **state)

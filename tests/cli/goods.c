@@ -51,8 +51,24 @@ static void doses_are_told(void **state)
     char *report = read_file("belt/report.html", NULL);
     assert_non_null(strstr(report, "a dose of at least 1&nbsp;L per m"));
     assert_non_null(strstr(report, "move 1.2&nbsp;m past the nozzles at 0.1&nbsp;m/s"));
+    assert_non_null(strstr(report, "for a test on the goods to show"));
     free(report);
     json_decref(object);
+}
+
+/* The same crate that stands is no goods. */
+static void what_stands_is_called_a_machine(void **state)
+{
+    (void)state;
+    write_file("stands.yaml", "geometry: [{file: crate.obj}]\ncavity: outside\ncriterion: {flux: 1 L/min/m2}\n"
+                              "catalogue: catalogue.yaml\nnozzles:\n  - {name: N1, type: cone, position: [0 m, 0 m, "
+                              "0.7 m], axis: [0, 0, -1], pressure: 2 bar}\nsimulate: {texel: 90 mm}\n");
+    outcome done = run_program("simulate stands.yaml -o stands --quiet --no-live");
+    assert_int_equal(done.status, 0);
+    forget(&done);
+    char *report = read_file("stands/report.html", NULL);
+    assert_non_null(strstr(report, "for a test on the machine to show"));
+    free(report);
 }
 
 static void goods_are_placed_for_whatever_the_threads(void **state)
@@ -75,6 +91,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(doses_are_told),
+        cmocka_unit_test(what_stands_is_called_a_machine),
         cmocka_unit_test(goods_are_placed_for_whatever_the_threads),
     };
     return cmocka_run_group_tests(tests, open_belt, close_workplace);

@@ -81,11 +81,14 @@ static void so_does_each_of_the_layout_there_is(void **state)
     job_open(&j);
     j.options.objective = SP_OBJECTIVE_MAX_COVERAGE;
     j.options.max_nozzles = 1;
-    sp_proposal *without = job_place(&j);
     sp_nozzle nozzles[2] = {nozzle_of(&j, 1), nozzle_of(&j, 9)};
     nozzles[0].position.y = -0.3;
     sp_layout own = {2, nozzles};
     j.options.kept = &own;
+    j.options.mend_kept = false;
+    sp_proposal *without = job_place(&j);
+    assert_int_equal(without->own_remedy_count, 0);
+    j.options.mend_kept = true;
     sp_proposal *proposal = job_place(&j);
     sp_coverage *coverage = sp_evaluate(j.room.evaluator, &own, &error);
     expect_the_best(&j, &own, coverage, proposal->own_remedies, proposal->own_remedy_count);

@@ -53,7 +53,7 @@ function makeBar(view) {
     /* The same in words, for who listens. */
     function barText() {
         const quantity = coloured(), [low, high] = quantity.shown || [], scale = state.scales[quantity.key];
-        const short = (value) => `${Number(value.toPrecision(3))} ${quantity.unit}`;
+        const short = (value) => `${Number(value.toPrecision(3))} ${quantity.unit}`.trimEnd();
         if (!quantity.shown)
             return `${quantity.name}.`;
         return scale === "stepped"

@@ -46,6 +46,7 @@ async function readData() {
         return boxes;
     }
 
+    const hasJets = about.quantities.some(({key}) => key === "jets");
     async function readModel(model) {
         const take = surfaces.reader(await inflated(model.data)), coder = makeCoder(bytesOf(model.coded));
         delete model.data;
@@ -54,7 +55,7 @@ async function readData() {
         model.page = readPages(model, take);
         const patches = makePatches(model);
         for (const design of model.designs) {
-            patches.readDesign(design, coder);
+            patches.readDesign(design, coder, hasJets);
             design.nozzles.forEach((nozzle) => sprays.read(nozzle, about.up, take));
             design.model = model;
         }

@@ -17,7 +17,7 @@ static json_t *vector_json(sp_vec3 v)
 typedef struct {
     const sp_design *design;
     const sp_neighbours *neighbours;
-    const sp_shown_quantity *quantities;
+    const sp_shown_quantities *quantities;
     sp_coder *coder;
     uint8_t *bytes, *off;              /* [patches], of what is in hand */
     uint8_t *flux, *speed, *incidence; /* [patches], told */
@@ -76,7 +76,7 @@ static void take_bytes(teller *t, int quantity, uint8_t *bytes)
     const sp_deposits *deposits = &t->design->coverage->deposits;
     const double *values = sp_shown_values(deposits, quantity);
     for (size_t i = 0; i < deposits->count; ++i)
-        bytes[i] = deposits->flux[i] > 0 ? sp_shown_byte(&t->quantities[quantity], values[i]) : 0;
+        bytes[i] = deposits->flux[i] > 0 ? sp_shown_byte(&t->quantities->of[quantity], values[i]) : 0;
 }
 
 #define APART 4 /* steps between the two largest that are told from each other */
@@ -122,13 +122,23 @@ static bool tell_covered(teller *t)
     return tell_alone(t, t->bytes);
 }
 
+/* Where the page has them. */
+static bool tell_jets(teller *t)
+{
+    if (t->quantities->count <= SP_SHOWN_JETS)
+        return true;
+    take_bytes(t, SP_SHOWN_JETS, t->bytes);
+    return tell_reached(t, t->bytes);
+}
+
 static bool tell_deposits(teller *t)
 {
     if (!tell_flux(t))
         return false;
     take_bytes(t, SP_SHOWN_SPEED, t->speed);
     take_bytes(t, SP_SHOWN_INCIDENCE, t->incidence);
-    return tell_reached(t, t->speed) && tell_reached(t, t->incidence) && tell_impact(t) && tell_covered(t);
+    return tell_reached(t, t->speed) && tell_reached(t, t->incidence) && tell_impact(t) && tell_jets(t) &&
+           tell_covered(t);
 }
 
 /* The way that a shadow faces, and the box around its points. */
@@ -179,7 +189,7 @@ static bool tell_brought(teller *t, size_t index)
     const sp_contributions *does = t->design->contributions;
     for (size_t i = 0; i < does->patches; ++i) {
         double brought = (double)does->flux[index * does->patches + i];
-        uint8_t byte = brought > 0 ? sp_shown_byte(&t->quantities[SP_SHOWN_FLUX], brought) : 0;
+        uint8_t byte = brought > 0 ? sp_shown_byte(&t->quantities->of[SP_SHOWN_FLUX], brought) : 0;
         t->bytes[i] = byte;
         t->second[i] = byte > t->most[i] ? t->most[i] : byte > t->second[i] ? byte : t->second[i];
         t->most[i] = byte > t->most[i] ? byte : t->most[i];
@@ -247,7 +257,7 @@ static bool tell_all(teller *t, json_t *object, sp_packed *packed, sp_error *err
     return shadows && (json_object_set_new(object, "shadows", shadows) == 0 || sp_fail_memory(error));
 }
 
-json_t *sp_viewer_design(const sp_page *page, size_t index, const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES],
+json_t *sp_viewer_design(const sp_page *page, size_t index, const sp_shown_quantities *quantities,
                          const sp_neighbours *neighbours, sp_coder *coder, sp_packed *packed, sp_error *error)
 {
     teller t = {

@@ -291,21 +291,35 @@ static bool add_editing(const sp_page *page, sp_text *text, sp_error *error)
     return done || sp_fail_memory(error);
 }
 
+/* Deflated, behind `id`; takes what is packed. */
+static bool add_deflated(sp_text *text, const char *id, sp_packed *packed, sp_error *error)
+{
+    char *data = sp_packed_finish(packed, error);
+    free(packed->text);
+    if (!data)
+        return false;
+    sp_text_add(text, "<script type=\"text/plain\" id=\"%s\">", id);
+    sp_text_append(text, data, strlen(data));
+    sp_text_add(text, "</script>\n");
+    free(data);
+    return true;
+}
+
+static bool add_script(sp_text *text, const char *id, const char *script, const char *end, sp_error *error)
+{
+    sp_packed packed = {0};
+    sp_page_script(&packed, script, end);
+    return add_deflated(text, id, &packed, error);
+}
+
+/* What none but a page that evaluates needs comes deflated, its scripts too: a third of the bytes. */
 static bool add_module(sp_text *text, sp_error *error)
 {
     sp_packed packed = {0};
     sp_text_append(&packed, sp_live_module, (size_t)(sp_live_module_end - sp_live_module));
-    char *data = sp_packed_finish(&packed, error);
-    free(packed.text);
-    if (!data)
-        return false;
-    sp_text_add(text, "<script type=\"text/plain\" id=\"live-module\">");
-    sp_text_append(text, data, strlen(data));
-    sp_text_add(text, "</script>\n<script type=\"text/plain\" id=\"live-worker\">");
-    sp_page_script(text, sp_live_worker, sp_live_worker_end);
-    sp_text_add(text, "</script>\n");
-    free(data);
-    return true;
+    return add_deflated(text, "live-module", &packed, error) &&
+           add_script(text, "live-worker", sp_live_worker, sp_live_worker_end, error) &&
+           add_script(text, "live-script", sp_live_script, sp_live_script_end, error);
 }
 
 bool sp_page_live(const sp_page *page, sp_text *text, sp_error *error)

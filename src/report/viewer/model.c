@@ -35,15 +35,15 @@ static json_t *palette_json(sp_colours colours)
     return json_string(digits);
 }
 
-static json_t *quantities_json(const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES])
+static json_t *quantities_json(const sp_shown_quantities *shown)
 {
     json_t *list = json_array();
-    for (int k = 0; k < SP_SHOWN_QUANTITIES; ++k) {
-        const sp_shown_quantity *q = &quantities[k];
-        json_array_append_new(list,
-                              json_pack("{s:s, s:s, s:s, s:f, s:f, s:f, s:b, s:[ff], s:f}", "key", q->key, "name",
-                                        q->name, "unit", q->unit, "toUnit", q->to_unit, "low", q->low, "high", q->high,
-                                        "log", (int)q->log, "shown", q->shown[0], q->shown[1], "step", q->criterion));
+    for (int k = 0; k < shown->count; ++k) {
+        const sp_shown_quantity *q = &shown->of[k];
+        json_array_append_new(list, json_pack("{s:s, s:s, s:s, s:f, s:f, s:f, s:b, s:b, s:[ff], s:f}", "key", q->key,
+                                              "name", q->name, "unit", q->unit, "toUnit", q->to_unit, "low", q->low,
+                                              "high", q->high, "log", (int)q->log, "whole", (int)q->whole, "shown",
+                                              q->shown[0], q->shown[1], "step", q->criterion));
     }
     return list;
 }
@@ -155,9 +155,8 @@ static bool pack_pages(const sp_layers *layers, sp_packed *packed, sp_error *err
 }
 
 /* The designs of one evaluator, their arrays behind those of its surface. */
-static json_t *designs_json(const sp_page *page, const sp_evaluator *evaluator,
-                            const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], const sp_neighbours *neighbours,
-                            sp_coder *coder, sp_packed *packed, sp_error *error)
+static json_t *designs_json(const sp_page *page, const sp_evaluator *evaluator, const sp_shown_quantities *quantities,
+                            const sp_neighbours *neighbours, sp_coder *coder, sp_packed *packed, sp_error *error)
 {
     json_t *list = json_array();
     for (size_t i = 0; list && i < page->result->design_count; ++i) {
@@ -199,9 +198,8 @@ static json_t *surface_json(const sp_layers *layers, const sp_drawn_surface *sur
                      "parts", parts_json(setup->mesh), "draws", ranges_json(surface));
 }
 
-static json_t *described(const sp_page *page, const sp_layers *layers,
-                         const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], sp_coder *coder, sp_packed *packed,
-                         sp_error *error)
+static json_t *described(const sp_page *page, const sp_layers *layers, const sp_shown_quantities *quantities,
+                         sp_coder *coder, sp_packed *packed, sp_error *error)
 {
     sp_neighbours neighbours;
     json_t *designs = sp_neighbours_find(&neighbours, layers)
@@ -243,9 +241,8 @@ static bool add_data(json_t *object, const sp_packed *packed, sp_coder *coder, s
     return done;
 }
 
-static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator,
-                          const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES], sp_viewer_drawn *drawn,
-                          sp_error *error)
+static json_t *model_json(const sp_page *page, const sp_evaluator *evaluator, const sp_shown_quantities *quantities,
+                          sp_viewer_drawn *drawn, sp_error *error)
 {
     sp_layers layers = {0};
     sp_drawn_surface surface = {0};
@@ -289,8 +286,8 @@ static bool begins_model(const sp_page *page, size_t design)
 }
 
 /* One for each surface that the designs have. */
-static json_t *models_json(const sp_page *page, const sp_shown_quantity quantities[SP_SHOWN_QUANTITIES],
-                           sp_viewer_drawn *drawn, sp_error *error)
+static json_t *models_json(const sp_page *page, const sp_shown_quantities *quantities, sp_viewer_drawn *drawn,
+                           sp_error *error)
 {
     json_t *list = json_array();
     *drawn = (sp_viewer_drawn){0};
@@ -310,9 +307,8 @@ static json_t *models_json(const sp_page *page, const sp_shown_quantity quantiti
 
 bool sp_viewer_model(const sp_page *page, sp_text *text, sp_viewer_drawn *drawn, sp_error *error)
 {
-    sp_shown_quantity quantities[SP_SHOWN_QUANTITIES];
-    sp_shown_quantities(page, quantities);
-    json_t *models = models_json(page, quantities, drawn, error);
+    const sp_shown_quantities quantities = sp_shown_quantities_of(page);
+    json_t *models = models_json(page, &quantities, drawn, error);
     if (!models)
         return false;
     sp_vec3 up = sp_v(0, 0, 1);
@@ -321,7 +317,7 @@ bool sp_viewer_model(const sp_page *page, sp_text *text, sp_viewer_drawn *drawn,
             up = sp_evaluator_setup(page->result->designs[i].evaluator)->up;
     json_t *all = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "up", vector_json(up), "palette",
                             palette_json(page->scale.style.colours), "grey", colour_json(sp_colour_obstacle), "film",
-                            colour_json(sp_colour_film), "quantities", quantities_json(quantities), "models", models);
+                            colour_json(sp_colour_film), "quantities", quantities_json(&quantities), "models", models);
     char *json = all ? json_dumps(all, JSON_COMPACT | JSON_REAL_PRECISION(7)) : NULL;
     if (json)
         sp_markup_json(text, json);

@@ -73,13 +73,15 @@ function makePatches(model) {
     }
 
     /* What design.c tells of a design. */
-    function readDesign(design, coder) {
+    function readDesign(design, coder, hasJets) {
         const known = design.nozzles.every((nozzle) => nozzle.known);
         design.nozzles.forEach((nozzle) => (nozzle.flux = nozzle.known ? alone(coder) : null));
         const flux = readFlux(coder, known && design.nozzles), speed = reached(coder, flux);
         const incidence = reached(coder, flux);
         const impact = reached(coder, flux).map((above, i) => above + flux[i]);
         design.values = {flux, speed, incidence, impact};
+        if (hasJets)
+            design.values.jets = reached(coder, flux);
         design.share = reached(coder, flux);
         design.film = alone(coder);
         design.shadowOf = alone(coder);

@@ -5,7 +5,7 @@
 const double *sp_shown_values(const sp_deposits *deposits, int quantity)
 {
     const double *const values[SP_SHOWN_QUANTITIES] = {deposits->flux, deposits->speed, deposits->incidence,
-                                                       deposits->impact};
+                                                       deposits->impact, deposits->jets};
     return values[quantity];
 }
 
@@ -43,13 +43,35 @@ static void scale_by_ratios(sp_shown_quantity *q, double high)
     q->shown[0] = q->shown[1] / 1000;
 }
 
-void sp_shown_quantities(const sp_page *page, sp_shown_quantity quantities[SP_SHOWN_QUANTITIES])
+static bool any_jets(const sp_page *page)
 {
+    bool any = false;
+    for (size_t i = 0; i < page->result->design_count && !page->live; ++i) {
+        const sp_evaluator *evaluator = page->result->designs[i].evaluator;
+        any |= evaluator && sp_evaluator_fidelity(evaluator)->method == SP_METHOD_FORWARD;
+    }
+    return any;
+}
+
+/* From one on. */
+static void scale_counts(sp_shown_quantity *q, double high)
+{
+    q->log = q->whole = true;
+    q->low = q->shown[0] = 1;
+    q->high = fmax(high, 2);
+    q->shown[1] = rounded_up(q->high);
+}
+
+sp_shown_quantities sp_shown_quantities_of(const sp_page *page)
+{
+    sp_shown_quantities shown = {.count = any_jets(page) ? SP_SHOWN_QUANTITIES : SP_SHOWN_JETS};
+    sp_shown_quantity *quantities = shown.of;
     const sp_shown_quantity all[SP_SHOWN_QUANTITIES] = {
         {.key = "flux", .name = "Liquid flux", .unit = "L/min per m\xc2\xb2", .to_unit = 6e4},
         {.key = "speed", .name = "Impact speed", .unit = "m/s", .to_unit = 1},
         {.key = "incidence", .name = "Incidence", .unit = "deg", .to_unit = 180 / M_PI},
         {.key = "impact", .name = "Impact pressure", .unit = "Pa", .to_unit = 1},
+        {.key = "jets", .name = "Jets that arrive", .unit = "", .to_unit = 1},
     };
     const sp_criterion *criterion = NULL;
     for (size_t i = 0; i < page->result->design_count && !criterion; ++i)
@@ -62,12 +84,15 @@ void sp_shown_quantities(const sp_page *page, sp_shown_quantity quantities[SP_SH
     quantities[SP_SHOWN_FLUX].shown[1] = 6e4 * page->flux.high;
     scale_evenly(&quantities[SP_SHOWN_SPEED], most(page, SP_SHOWN_SPEED));
     scale_by_ratios(&quantities[SP_SHOWN_IMPACT], most(page, SP_SHOWN_IMPACT));
+    scale_counts(&quantities[SP_SHOWN_JETS], most(page, SP_SHOWN_JETS));
     quantities[SP_SHOWN_INCIDENCE].high = quantities[SP_SHOWN_INCIDENCE].shown[1] = 90;
-    if (!criterion)
-        return;
-    quantities[SP_SHOWN_FLUX].criterion = 6e4 * criterion->flux;
-    quantities[SP_SHOWN_SPEED].criterion = criterion->impact_speed;
-    quantities[SP_SHOWN_INCIDENCE].criterion = criterion->incidence < M_PI / 2 ? 180 / M_PI * criterion->incidence : 0;
+    if (criterion) {
+        double incidence = criterion->incidence;
+        quantities[SP_SHOWN_FLUX].criterion = 6e4 * criterion->flux;
+        quantities[SP_SHOWN_SPEED].criterion = criterion->impact_speed;
+        quantities[SP_SHOWN_INCIDENCE].criterion = incidence < M_PI / 2 ? 180 / M_PI * incidence : 0;
+    }
+    return shown;
 }
 
 uint8_t sp_shown_byte(const sp_shown_quantity *q, double value)

@@ -4,7 +4,8 @@
 
 #include "report/page.h"
 
-enum { SP_SHOWN_FLUX, SP_SHOWN_SPEED, SP_SHOWN_INCIDENCE, SP_SHOWN_IMPACT, SP_SHOWN_QUANTITIES };
+/* Jets are shown where some were flown, from nozzles to walls and on; who evaluates layouts in the page flies none. */
+enum { SP_SHOWN_FLUX, SP_SHOWN_SPEED, SP_SHOWN_INCIDENCE, SP_SHOWN_IMPACT, SP_SHOWN_JETS, SP_SHOWN_QUANTITIES };
 
 /* Byte 0: no liquid. 1 to 255: from `low` to `high` in 254 steps, in equal ratios where `log`; the ends mean that or
  * beyond. All in the reader's unit. */
@@ -12,13 +13,18 @@ typedef struct {
     const char *key, *name, *unit;
     double to_unit; /* times a value in SI */
     double low, high;
-    bool log;
+    bool log, whole; /* whole: a count */
     double shown[2];  /* ends of the colour bar */
     double criterion; /* 0: none */
 } sp_shown_quantity;
 
+typedef struct {
+    sp_shown_quantity of[SP_SHOWN_QUANTITIES];
+    int count; /* all, or all but jets */
+} sp_shown_quantities;
+
 /* One scale for all designs of the page. */
-void sp_shown_quantities(const sp_page *page, sp_shown_quantity quantities[SP_SHOWN_QUANTITIES]);
+sp_shown_quantities sp_shown_quantities_of(const sp_page *page);
 const double *sp_shown_values(const sp_deposits *deposits, int quantity);
 /* `value` in SI. */
 uint8_t sp_shown_byte(const sp_shown_quantity *quantity, double value);

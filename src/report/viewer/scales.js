@@ -71,9 +71,9 @@ function makeScales(view) {
     function figure(quantity, byte) {
         if (byte === 0)
             return "none";
-        const value = valueOf(quantity, byte);
-        const beyond = byte === 1 && quantity.log ? "at most " : byte === 255 ? "at least " : "";
-        return `${beyond}${Number(value.toPrecision(3))} ${quantity.unit}`;
+        const value = quantity.whole ? Math.round(valueOf(quantity, byte)) : valueOf(quantity, byte);
+        const beyond = quantity.whole ? "" : byte === 1 && quantity.log ? "at most " : byte === 255 ? "at least " : "";
+        return `${beyond}${Number(value.toPrecision(3))} ${quantity.unit}`.trimEnd();
     }
     return {SCALES, MAPS: Object.keys(maps), palette, valueOf, shade, ticksOf, admits, figure};
 }

@@ -25,6 +25,7 @@ EMBED("sp_viewer_script",
 EMBED("sp_live_script",
       LIVE("evaluator.js") LIVE("layout.js") LIVE("telling.js") LIVE("evaluating.js") LIVE("scene.js")
           LIVE("changes.js") LIVE("sliders.js") LIVE("controls.js") LIVE("handles.js") LIVE("live.js"));
+EMBED("sp_live_loader", LIVE("load.js"));
 EMBED("sp_live_worker", LIVE("worker.js"));
 #ifdef SPRAYPLAN_LIVE
 EMBED("sp_live_module", TAKEN(SPRAYPLAN_LIVE));

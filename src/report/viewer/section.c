@@ -74,6 +74,6 @@ void sp_page_viewer_script(const sp_page *page, sp_text *text)
     sp_text_add(text, "<script>\n");
     sp_page_script(text, sp_viewer_script, sp_viewer_script_end);
     if (page->live)
-        sp_page_script(text, sp_live_script, sp_live_script_end);
+        sp_page_script(text, sp_live_loader, sp_live_loader_end);
     sp_text_add(text, "</script>\n");
 }

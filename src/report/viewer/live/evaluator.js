@@ -4,8 +4,9 @@ function makeEvaluator(live) {
     const {view, editing, model} = live, {types} = editing;
 
     async function startWorker() {
-        const script = new Blob([document.getElementById("live-worker").textContent], {type: "text/javascript"});
-        const address = URL.createObjectURL(script), worker = new Worker(address), waiting = new Map();
+        const script = await view.inflated(document.getElementById("live-worker").textContent);
+        const address = URL.createObjectURL(new Blob([script], {type: "text/javascript"}));
+        const worker = new Worker(address), waiting = new Map();
         let number = 0;
         worker.addEventListener("message", ({data: {id, answer, error}}) => {
             const {done, failed} = waiting.get(id);

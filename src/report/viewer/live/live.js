@@ -3,11 +3,10 @@
  * each makes a part of it from what those before it have made. */
 (async () => {
     "use strict";
-    const view = await viewer, source = document.getElementById("live-model");
-    if (!view || !source || !window.WebAssembly || !window.Worker)
-        return;
+    const view = await viewer;
     const {element, option, button} = widgets;
-    const editing = JSON.parse(source.textContent), model = view.about.models.find((other) => other.surface);
+    const editing = JSON.parse(document.getElementById("live-model").textContent);
+    const model = view.about.models.find((other) => other.surface);
     const empty = new Uint8Array(model.patches);
     const design = {index: view.about.models.length + 1e6, name: "Yours", quote: "", manual: false, first: false, model,
                     values: Object.fromEntries(view.about.quantities.map(({key}) => [key, empty])), share: empty,
