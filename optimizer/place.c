@@ -262,6 +262,10 @@ static bool confirm(sp_placement *placement, sp_proposal *proposal, sp_error *er
 {
     sp_watch_allow(&placement->watch, 1);
     double accuracy = sp_evaluator_fidelity(placement->fine)->accuracy;
+    if (!sp_watch_has_time(&placement->watch, "measured error", 0) && !placement->watch.cancelled) {
+        sp_watch_cut(&placement->watch, "measured error");
+        return sp_watch_stage(&placement->watch, "measured error", error);
+    }
     while (measure(placement, proposal, error)) {
         const sp_measured_error *measured = &proposal->coverage->measured;
         bool off = measured->known && measured->estimate > accuracy;

@@ -14,7 +14,9 @@ typedef struct {
      * also what sp_place asks of its evaluator, so that the evaluator's own had better go on. May be NULL. */
     bool (*progress)(void *user, const char *stage, double done);
     void *user;        /* handed to progress */
-    double time_limit; /* s of wall time for sp_place; 0: none */
+    /* s of wall time for sp_place; 0: none. Where an evaluator chooses settings for a layout, it tries no others once a
+     * quarter of it is over. */
+    double time_limit;
     sp_ranks *ranks;   /* with which sp_place shares its work; NULL: none. The answer does not depend on it. */
 } sp_run;
 

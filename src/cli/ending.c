@@ -13,8 +13,10 @@
 /* Of the limit, for the rest on a machine that has nothing else to do; no more than so many seconds. */
 #define OTHERS 0.1
 #define OTHERS_MOST 1.0
-#define SMALLEST                                                                                                       \
-    0.33 /* of the edge of pictures, which take a seventh of the time then; once it is over there are none */
+/* Of the edge of pictures, which take a seventh of the time then. Where they and the files that show patches would end
+ * so many seconds beyond the limit, there are none. */
+#define SMALLEST 0.33
+#define LATE_MOST 1.0
 
 /* What pictures take, s, and what this thread took to find that out, by the clock, for each second of processor: how
  * much other work the machine has. */
@@ -64,10 +66,11 @@ void cli_leave_out(cli_left_out *left_out, const char *format, ...)
 double cli_picture_share(double full, cli_left_out *left_out)
 {
     double left = cli_time_left(), spare = left - CLI_FILES * full;
-    if (spare >= full)
+    if (left > 0 && spare >= full)
         return 0;
-    if (left <= 0) {
-        cli_leave_out(left_out, "the page's pictures");
+    if (left <= 0 || left + LATE_MOST < (SMALLEST * SMALLEST + CLI_FILES) * full) {
+        cli_leave_out(left_out, "the page's pictures and viewer");
+        cli_leave_out(left_out, "coverage.png, deposits.exr, model.glb, surface.vtp, texels.vtp");
         return -1;
     }
     double share = fmax(SMALLEST, sqrt(fmax(0, spare) / full));

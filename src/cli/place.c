@@ -207,9 +207,19 @@ static bool count_manual_again(const cli_scene *opened, placement *found, sp_err
     return found->manual != NULL;
 }
 
-/* Where the liquid of every layout goes. */
-static bool follow_liquid(const cli_scene *opened, const placement *found, sp_error *error)
+/* Nothing is left even of what was kept for what follows the search. */
+static bool is_over(void)
 {
+    return cli_time_left() <= 0;
+}
+
+/* Where the liquid of every layout goes. */
+static bool follow_liquid(const cli_scene *opened, placement *found, sp_error *error)
+{
+    if (is_over()) {
+        cli_leave_out(&found->left_out, "where the liquid goes");
+        return true;
+    }
     const sp_layout *own = sp_scene_layout(opened->scene);
     bool alternatives = sp_scene_alternative_count(opened->scene) > 0;
     bool good = !found->manual || sp_evaluate_balance(own_evaluator(opened, found), own, found->manual, error);
@@ -255,8 +265,10 @@ static bool measure_errors(const cli_scene *opened, placement *found, sp_error *
         const sp_evaluator *evaluator = evaluator_of(opened, proposal);
         good = (alternatives || measure_one(evaluator, proposal->greedy, proposal->greedy_coverage,
                                             "the layout before refinement", found, error)) &&
-               cli_find_borderline(evaluator, proposal->layout, proposal->coverage, error);
+               (is_over() || cli_find_borderline(evaluator, proposal->layout, proposal->coverage, error));
     }
+    if (is_over())
+        cli_leave_out(&found->left_out, "what round-off could turn");
     return good;
 }
 
