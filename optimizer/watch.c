@@ -77,7 +77,7 @@ double sp_watch_left(sp_watch *watch)
 double sp_watch_pace(const sp_watch *watch)
 {
     double taken = now() - watch->stage_start, worked = read_clock(CLOCK_PROCESS_CPUTIME_ID) - watch->stage_processor;
-    return is_alone(watch) && taken > 0 && worked < taken ? worked / taken : 1;
+    return is_alone(watch) && taken > 0 ? worked / taken : 1;
 }
 
 static void ask_callback(sp_watch *watch, const char *stage, double done)

@@ -33,8 +33,8 @@ double sp_watch_elapsed(sp_watch *watch);
 void sp_watch_allow(sp_watch *watch, double share);
 /* Seconds until that is spent, negative afterwards; INFINITY without a limit. */
 double sp_watch_left(sp_watch *watch);
-/* Processor seconds that this process gets in a second by the clock, in the stage so far: no more than 1, so that threads
- * that have nothing to do do not count as a busy machine's; 1 where ranks decide together, which may be told apart. */
+/* Processor seconds that this process gets in a second by the clock, in the stage so far; 1 where ranks decide together,
+ * which may get different ones. */
 double sp_watch_pace(const sp_watch *watch);
 /* Reports progress; false once cancelled or out of time. Safe to call from many threads. */
 bool sp_watch_goes_on(sp_watch *watch, const char *stage, double done);
