@@ -6,10 +6,12 @@
 #include <time.h>
 
 /* Of what of the limit is beyond a rough layout, s, at most, for pictures, which get smaller then: without a layout
- * that is worth a look they are worth nothing. And of the limit for all that follows. */
+ * that is worth a look they are worth nothing. */
 #define PICTURES_MOST 0.25
 #define ROUGH 8.0
-#define ENDING_MOST 0.5
+/* Of what is left of the limit, for all that follows, at most; but what tables and layouts take, s of processor. */
+#define ENDING_MOST 0.25
+#define TABLES 0.25
 /* Of the limit, for the rest on a machine that has nothing else to do; no more than so many seconds. */
 #define OTHERS 0.1
 #define OTHERS_MOST 1.0
@@ -46,8 +48,8 @@ bool cli_ending_time(const cli_options *options, const sp_design *design, size_t
     if (options->output && !try_pictures(design, count, &pictures, &busy, error))
         return false;
     double others = busy * fmin(OTHERS_MOST, OTHERS * limit);
-    *seconds =
-        fmin(ENDING_MOST * limit, others + fmin(PICTURES_MOST * fmax(0, limit - ROUGH), (1 + CLI_FILES) * pictures));
+    double most = fmax(ENDING_MOST * cli_time_left(), busy * TABLES);
+    *seconds = fmin(most, others + fmin(PICTURES_MOST * fmax(0, limit - ROUGH), (1 + CLI_FILES) * pictures));
     return true;
 }
 
