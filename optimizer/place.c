@@ -20,7 +20,7 @@
 #define SEARCH 0.75
 #define SEARCH_PROVING 0.6
 #define SEARCH_HURRIED 0.95
-/* Measuring the proposal's error takes so many seconds of processor, roughly, and may run so much of the limit beyond it. */
+/* Measuring the proposal's error takes so many seconds of processor, roughly, and may end so much of the limit late. */
 #define MEASURING 0.25
 #define MEASURING_LATE 0.1
 #define FIRST_HURRIED 0.93 /* of the target, for a first draft of which little more than the poses is wanted */

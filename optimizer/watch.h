@@ -34,8 +34,8 @@ double sp_watch_elapsed(sp_watch *watch);
 void sp_watch_allow(sp_watch *watch, double share);
 /* Seconds until that is spent, negative afterwards; INFINITY without a limit. */
 double sp_watch_left(sp_watch *watch);
-/* Processor seconds that this process gets in a second by the clock, since the start; 1 where ranks decide together, which
- * may get different ones. */
+/* Processor seconds that this process gets in a second by the clock, since the start; 1 where ranks decide together,
+ * which may get different ones. */
 double sp_watch_pace(const sp_watch *watch);
 /* Reports progress; false once cancelled or out of time. Safe to call from many threads. */
 bool sp_watch_goes_on(sp_watch *watch, const char *stage, double done);

@@ -22,8 +22,8 @@
 #define PRINT 16.0           /* bytes of a patch's part of a footprint, and of the footprint itself */
 #define PRINTS_SHARE 0.5     /* of the memory, that all footprints may take */
 #define CELLS                                                                                                          \
-    4000               /* arrivals of cells in a view that has not been traced yet: nearer to a wall than a hundredth  \
-                        * of a texel there may be more */
+    4000                /* arrivals of cells in a view that has not been traced yet: nearer to a wall than a hundredth \
+                         * of a texel there may be more */
 #define BATCH 16        /* sites of a rank traced between two looks at clock and memory */
 #define BATCH_HURRIED 4 /* the same where time is short */
 #define TIME_SHARE 0.5  /* of a time limit, that tracing may take */

@@ -84,7 +84,8 @@ static bool choose_texel(sp_trial *trial, sp_error *error)
     }
     evaluator->choice.missed = !sp_trial_keeps(trial);
     tell_texel(trial, evaluator->choice.missed && texel > finest ? "as coarse as there was time for"
-                      : texel > finest ? "the coarsest that keeps the accuracy" : "the finest that auto takes");
+                      : texel > finest                           ? "the coarsest that keeps the accuracy"
+                                                                 : "the finest that auto takes");
     return true;
 }
 
