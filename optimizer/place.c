@@ -20,6 +20,9 @@
 #define SEARCH 0.75
 #define SEARCH_PROVING 0.6
 #define SEARCH_HURRIED 0.95
+/* Measuring the proposal's error takes so many seconds of processor, roughly, and may end so much of the limit late. */
+#define MEASURING 0.25
+#define MEASURING_LATE 0.1
 #define FIRST_HURRIED 0.93 /* of the target, for a first draft of which little more than the poses is wanted */
 
 /* What a placement makes on its way, in the order in which it comes about. */
@@ -256,12 +259,23 @@ static bool count_again(sp_placement *placement, sp_proposal *proposal, sp_evalu
     return done;
 }
 
+/* Where a machine is so busy that an error takes too long to measure. Who interrupts a placement waits for it. */
+static bool is_too_late(sp_watch *watch)
+{
+    return sp_watch_left(watch) + MEASURING_LATE * watch->run.time_limit < MEASURING / sp_watch_pace(watch) &&
+           !watch->cancelled;
+}
+
 /* No coverage is proposed that points of the surface do not confirm: where auto's choice does not keep the accuracy, or
  * was made by lines for another layout, all is counted again by a dearer one, as long as there are any. */
 static bool confirm(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
     sp_watch_allow(&placement->watch, 1);
     double accuracy = sp_evaluator_fidelity(placement->fine)->accuracy;
+    if (is_too_late(&placement->watch)) {
+        sp_watch_cut(&placement->watch, "measured error");
+        return sp_watch_stage(&placement->watch, "measured error", error);
+    }
     while (measure(placement, proposal, error)) {
         const sp_measured_error *measured = &proposal->coverage->measured;
         bool off = measured->known && measured->estimate > accuracy;

@@ -26,13 +26,14 @@ static double now(void)
 
 sp_watch sp_watch_start(const sp_run *run)
 {
-    double start = now();
+    double start = now(), processor = read_clock(CLOCK_PROCESS_CPUTIME_ID);
     return (sp_watch){.run = *run,
                       .start = start,
+                      .processor = processor,
                       .share = 1,
                       .level = omp_get_level(),
                       .stage_start = start,
-                      .stage_processor = read_clock(CLOCK_PROCESS_CPUTIME_ID)};
+                      .stage_processor = processor};
 }
 
 /* Whether this rank decides alone, and where not whether it can ask the others. */
@@ -72,6 +73,12 @@ double sp_watch_left(sp_watch *watch)
 {
     double limit = watch->run.time_limit;
     return limit > 0 ? watch->share * limit - sp_watch_elapsed(watch) : INFINITY;
+}
+
+double sp_watch_pace(const sp_watch *watch)
+{
+    double taken = now() - watch->start, worked = read_clock(CLOCK_PROCESS_CPUTIME_ID) - watch->processor;
+    return is_alone(watch) && taken > 0 ? worked / taken : 1;
 }
 
 static void ask_callback(sp_watch *watch, const char *stage, double done)

@@ -9,6 +9,7 @@
 typedef struct {
     sp_run run;
     double start;     /* s, of a monotonic clock */
+    double processor; /* s of the process by then */
     double share;     /* of the time limit, if there is one, that may be spent by now */
     bool cancelled;   /* the progress callback said so */
     bool interrupted; /* cancelled, or something was left out for want of time */
@@ -33,6 +34,9 @@ double sp_watch_elapsed(sp_watch *watch);
 void sp_watch_allow(sp_watch *watch, double share);
 /* Seconds until that is spent, negative afterwards; INFINITY without a limit. */
 double sp_watch_left(sp_watch *watch);
+/* Processor seconds that this process gets in a second by the clock, since the start; 1 where ranks decide together,
+ * which may get different ones. */
+double sp_watch_pace(const sp_watch *watch);
 /* Reports progress; false once cancelled or out of time. Safe to call from many threads. */
 bool sp_watch_goes_on(sp_watch *watch, const char *stage, double done);
 /* The same for what may end anywhere, so that being out of time leaves nothing out; if it does, that is to be noted. */

@@ -173,7 +173,9 @@ typedef struct {
     /* What there was no time for besides stages of the placement, in words of plain text: "the error of greedy". */
     size_t left_out_count;
     const char *const *left_out;
-    double picture_share;      /* edge of the page's pictures, of what is best; 0: all of it, below 0: no pictures */
+    /* Edge of the page's pictures, of what is best; 0: all of it. Below 0: no pictures, nor anything else that shows
+     * patches: the page has no viewer, and of other files there are tables, nozzles and layouts alone. */
+    double picture_share;
     sp_picture_style style;    /* of the pictures and models of all designs */
     const sp_editing *editing; /* NULL: the page evaluates no other layouts */
 } sp_result;

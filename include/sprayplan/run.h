@@ -13,9 +13,11 @@ typedef struct {
      * Returning false cancels: sp_place then returns its best so far, anything else fails with SP_ERROR_INTERRUPTED;
      * also what sp_place asks of its evaluator, so that the evaluator's own had better go on. May be NULL. */
     bool (*progress)(void *user, const char *stage, double done);
-    void *user;        /* handed to progress */
-    double time_limit; /* s of wall time for sp_place; 0: none */
-    sp_ranks *ranks;   /* with which sp_place shares its work; NULL: none. The answer does not depend on it. */
+    void *user; /* handed to progress */
+    /* s of wall time for sp_place; 0: none. Where an evaluator chooses settings for a layout, it tries no others once a
+     * quarter of it is over. */
+    double time_limit;
+    sp_ranks *ranks; /* with which sp_place shares its work; NULL: none. The answer does not depend on it. */
 } sp_run;
 
 #endif

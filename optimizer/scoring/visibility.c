@@ -22,10 +22,13 @@
 #define PRINT 16.0           /* bytes of a patch's part of a footprint, and of the footprint itself */
 #define PRINTS_SHARE 0.5     /* of the memory, that all footprints may take */
 #define CELLS                                                                                                          \
-    4000               /* arrivals of cells in a view that has not been traced yet: nearer to a wall than a hundredth  \
-                        * of a texel there may be more */
-#define BATCH 16       /* sites of a rank traced between two looks at clock and memory */
-#define TIME_SHARE 0.5 /* of a time limit, that tracing may take */
+    4000                /* arrivals of cells in a view that has not been traced yet: nearer to a wall than a hundredth \
+                         * of a texel there may be more */
+#define BATCH 16        /* sites of a rank traced between two looks at clock and memory */
+#define BATCH_HURRIED 4 /* the same where time is short */
+#define TIME_SHARE 0.5  /* of a time limit, that tracing may take */
+#define SCORING 1.2e-6  /* s of processor that greedy takes for a pose until there is a first nozzle, roughly */
+#define FIRST_SHARE 0.6 /* of the time that is left, that this may take */
 
 struct sp_desks {
     pthread_mutex_t lock;
@@ -226,6 +229,21 @@ static bool survey_batch(sp_survey *survey, size_t first, size_t end, bool keep,
     return true;
 }
 
+static size_t batch_of(const sp_place_options *options)
+{
+    size_t threads = (size_t)sp_threads(&options->run), few = threads > BATCH_HURRIED ? threads : BATCH_HURRIED;
+    return (sp_run_hurries(&options->run) && few < BATCH ? few : BATCH) * sp_ranks_count(options->run.ranks);
+}
+
+/* Whether time is so short that the poses of so many sites leave none for more than a first nozzle. */
+static bool too_many(const sp_visibility *visibility, size_t sites, sp_watch *watch)
+{
+    double all = (double)visibility->candidates->pose_start[visibility->site_count];
+    double poses = all * (double)sites / (double)visibility->site_count;
+    return sp_run_hurries(&visibility->options->run) &&
+           SCORING * poses > FIRST_SHARE * sp_watch_left(watch) * sp_watch_pace(watch);
+}
+
 /* All sites as far as time allows. Views are kept while it is certain that there is room for them, for those of a
  * whole batch and for every thread's work. */
 static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
@@ -238,19 +256,21 @@ static bool survey_all(sp_survey *survey, sp_watch *watch, sp_error *error)
     survey->threads = sp_threads(&options->run);
     if ((double)survey->threads * work > room)
         survey->threads = 1;
-    size_t batch = BATCH * sp_ranks_count(options->run.ranks);
+    size_t batch = batch_of(options);
     for (size_t first = 0; first < sites; first += batch) {
+        size_t end = first + batch < sites ? first + batch : sites;
         /* out of time the first batch is traced all the same, so that there is something to choose from */
         if (!sp_watch_goes_on(watch, "visibility", (double)first / (double)sites) && (first || watch->cancelled))
             break;
-        if (first && options->run.time_limit > 0 && sp_watch_elapsed(watch) > TIME_SHARE * options->run.time_limit) {
+        if (first && options->run.time_limit > 0 &&
+            (sp_watch_elapsed(watch) > TIME_SHARE * options->run.time_limit || too_many(visibility, end, watch))) {
             watch->interrupted = true;
             sp_watch_cut(watch, "visibility");
             break;
         }
         double views = BATCH * (double)visibility->launch_count * (double)sp_view_bytes(most, true);
         bool keep = survey->kept + views + (double)survey->threads * work <= room;
-        if (!survey_batch(survey, first, first + batch < sites ? first + batch : sites, keep, error))
+        if (!survey_batch(survey, first, end, keep, error))
             return false;
         visibility->bytes =
             fmax(visibility->bytes,

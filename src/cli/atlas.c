@@ -14,17 +14,20 @@ static void begin(cli_atlas_work *work, sp_mesh *mesh)
 }
 
 /* The figures are not the atlas's own work. */
-static bool end(cli_atlas_work *work, const char *stage, sp_error *error)
+static bool end(const cli_options *options, cli_atlas_work *work, const char *stage, sp_error *error)
 {
     cli_clock_stage(&work->clock, stage);
     work->peak_bytes = cli_meter_peak();
+    cli_progress_stage(options, "figures");
     return work->atlas && sp_atlas_measure(work->atlas, work->mesh, &work->figures, error);
 }
 
-bool cli_atlas_build(cli_atlas_work *work, sp_mesh *mesh, double texel, sp_packing packing, sp_error *error)
+bool cli_atlas_build(const cli_options *options, cli_atlas_work *work, sp_mesh *mesh, double texel, sp_packing packing,
+                     sp_error *error)
 {
     if (!mesh)
         return false;
+    cli_progress_stage(options, "charts");
     begin(work, mesh);
     if (!(texel > 0))
         texel = sqrt(sp_mesh_area(mesh) / (1 << 20));
@@ -32,18 +35,21 @@ bool cli_atlas_build(cli_atlas_work *work, sp_mesh *mesh, double texel, sp_packi
     cli_clock_stage(&work->clock, "charts");
     if (!work->charts)
         return false;
-    sp_atlas_options options = {.texel = texel, .page_edge = PAGE_EDGE, .packing = packing};
-    work->atlas = sp_atlas_create(mesh, work->charts, &options, error);
-    return end(work, "texels", error);
+    cli_progress_stage(options, "texels");
+    sp_atlas_options how = {.texel = texel, .page_edge = PAGE_EDGE, .packing = packing};
+    work->atlas = sp_atlas_create(mesh, work->charts, &how, error);
+    return end(options, work, "texels", error);
 }
 
-bool cli_atlas_reuse(cli_atlas_work *work, sp_mesh *mesh, const char *path, double texel, sp_error *error)
+bool cli_atlas_reuse(const cli_options *options, cli_atlas_work *work, sp_mesh *mesh, const char *path, double texel,
+                     sp_error *error)
 {
     if (!mesh)
         return false;
+    cli_progress_stage(options, "reuse");
     begin(work, mesh);
     work->atlas = sp_atlas_reuse(mesh, path, texel, error);
-    return end(work, "reuse", error);
+    return end(options, work, "reuse", error);
 }
 
 void cli_atlas_clear(cli_atlas_work *work)
@@ -82,6 +88,7 @@ static bool write_files(const cli_atlas_work *work, const cli_options *options, 
         free(stem);
         return sp_fail_memory(error);
     }
+    cli_progress_stage(options, "files");
     sp_output *output = cli_output_open(options, directory, NULL, 0, error);
     char *obj = output ? sp_atlas_obj(work->atlas, work->mesh, error) : NULL;
     bool good = obj && sp_output_text(output, name, obj, error) && write_pages(work->atlas, output, stem, error);
@@ -143,6 +150,22 @@ void cli_atlas_print(const cli_atlas_work *work)
            f->utilisation, f->area_error, cli_atlas_seconds(work), 1e-6 * (double)work->peak_bytes);
 }
 
+static void plan(const cli_options *options)
+{
+    static const char *stages[6] = {"mesh"};
+    size_t count = 1;
+    if (options->reuse) {
+        stages[count++] = "reuse";
+    } else {
+        stages[count++] = "charts";
+        stages[count++] = "texels";
+    }
+    stages[count++] = "figures";
+    if (options->output)
+        stages[count++] = "files";
+    cli_progress_plan(stages, 0, 0, 1);
+}
+
 int cli_atlas(const cli_options *options)
 {
     sp_error error = {0};
@@ -152,10 +175,13 @@ int cli_atlas(const cli_options *options)
         fprintf(stderr, "sprayplan: atlas: -o: found \"%s\", expected a file name ending in .obj\n", options->output);
         return EXIT_USAGE;
     }
+    plan(options);
+    cli_progress_stage(options, "mesh");
     sp_mesh *mesh = cli_load_mesh(options->inputs[0], &error);
-    bool good = (options->reuse ? cli_atlas_reuse(&work, mesh, options->inputs[0], options->texel, &error)
-                                : cli_atlas_build(&work, mesh, options->texel, options->packing, &error)) &&
+    bool good = (options->reuse ? cli_atlas_reuse(options, &work, mesh, options->inputs[0], options->texel, &error)
+                                : cli_atlas_build(options, &work, mesh, options->texel, options->packing, &error)) &&
                 (!options->output || write_files(&work, options, &written, &error));
+    cli_progress_end();
     if (good && options->json)
         good = print_json(&work) || sp_fail_memory(&error);
     else if (good && !options->quiet)

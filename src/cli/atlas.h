@@ -15,10 +15,13 @@ typedef struct {
     size_t peak_bytes; /* on the heap, beyond the mesh */
 } cli_atlas_work;
 
-/* `texel` in m; 0: √(area/2²⁰). Starts as {0}; to be cleared in any case. */
-bool cli_atlas_build(cli_atlas_work *work, sp_mesh *mesh, double texel, sp_packing packing, sp_error *error);
-/* The same with the texture coordinates of the mesh's own file. */
-bool cli_atlas_reuse(cli_atlas_work *work, sp_mesh *mesh, const char *path, double texel, sp_error *error);
+/* `texel` in m; 0: √(area/2²⁰). Starts as {0}; to be cleared in any case. Of the options it takes whether progress is
+ * told: of the stages charts, texels and figures. */
+bool cli_atlas_build(const cli_options *options, cli_atlas_work *work, sp_mesh *mesh, double texel, sp_packing packing,
+                     sp_error *error);
+/* The same with the texture coordinates of the mesh's own file, in the stages reuse and figures. */
+bool cli_atlas_reuse(const cli_options *options, cli_atlas_work *work, sp_mesh *mesh, const char *path, double texel,
+                     sp_error *error);
 void cli_atlas_clear(cli_atlas_work *work);
 /* Wall time of all stages, s. */
 double cli_atlas_seconds(const cli_atlas_work *work);

@@ -82,7 +82,7 @@ static bool measure(const cli_options *options, const bench_wish *wish, const be
         fprintf(stderr, "sprayplan: bench: no sprayplan-embree.so beside the program: Embree is left out\n");
     good = good && bench_stage_create(&stage, scaffold.tracers[OWN_BVH], error) &&
            bench_trace_all(&scaffold, &stage, wish, &run, &trace, error) &&
-           cli_atlas_build(&atlas, mesh, 0, SP_PACKING_PIXELS, error) &&
+           cli_atlas_build(options, &atlas, mesh, 0, SP_PACKING_PIXELS, error) &&
            bench_study(&scaffold, &stage, atlas.atlas, &run, study, &study_count, error);
     bench_result result = {cli_input_name(options->inputs[0]), load, &scaffold, &trace, study, study_count, &atlas};
     cli_progress_end();

@@ -61,8 +61,8 @@ void cli_sleep_while_waiting(char *const *arguments);
 /* options.c: fills options from the arguments after the program's name; false after a message on standard error, with
  * the command as far as it was read, else CLI_COMMANDS. */
 bool cli_parse(int count, char **arguments, cli_options *options);
-/* Says what may have been meant; returns false always. */
-bool cli_unknown_command(const char *text);
+/* Says that `help` tells of nothing that is called so, and what may have been meant. */
+void cli_unknown_topic(const char *text);
 
 /* progress.c: Ctrl-C, SIGTERM and the bar on standard error. */
 /* The stages of a command, in order, NULL behind the last. One may be of several that the library names, as "exchange|
@@ -71,7 +71,9 @@ void cli_progress_plan(const char *const *stages, size_t first, size_t each, siz
 void cli_progress_rounds(size_t rounds);
 /* Which round begins, from 0. */
 void cli_progress_round(size_t round);
-/* A stage of which nobody tells how far it is. */
+/* A stage, and how much of it is done (0 to 1). */
+void cli_progress_share(const cli_options *options, const char *stage, double done);
+/* One of which nobody tells how far it is. */
 void cli_progress_stage(const cli_options *options, const char *stage);
 sp_run cli_run(const cli_options *options);
 /* For a search that returns its best so far when it is interrupted; evaluations that run by cli_run() are not cut short

@@ -6,15 +6,19 @@
 #include <time.h>
 
 /* Of what of the limit is beyond a rough layout, s, at most, for pictures, which get smaller then: without a layout
- * that is worth a look they are worth nothing. And of the limit for all that follows. */
+ * that is worth a look they are worth nothing. */
 #define PICTURES_MOST 0.25
 #define ROUGH 8.0
-#define ENDING_MOST 0.5
+/* Of what is left of the limit, for all that follows, at most; but what tables and layouts take, s of processor. */
+#define ENDING_MOST 0.25
+#define TABLES 0.25
 /* Of the limit, for the rest on a machine that has nothing else to do; no more than so many seconds. */
 #define OTHERS 0.1
 #define OTHERS_MOST 1.0
-#define SMALLEST                                                                                                       \
-    0.33 /* of the edge of pictures, which take a seventh of the time then; once it is over there are none */
+/* Of the edge of pictures, which take a seventh of the time then. Where they and the files that show patches would end
+ * so many seconds beyond the limit, there are none. */
+#define SMALLEST 0.33
+#define LATE_MOST 1.0
 
 /* What pictures take, s, and what this thread took to find that out, by the clock, for each second of processor: how
  * much other work the machine has. */
@@ -44,8 +48,8 @@ bool cli_ending_time(const cli_options *options, const sp_design *design, size_t
     if (options->output && !try_pictures(design, count, &pictures, &busy, error))
         return false;
     double others = busy * fmin(OTHERS_MOST, OTHERS * limit);
-    *seconds =
-        fmin(ENDING_MOST * limit, others + fmin(PICTURES_MOST * fmax(0, limit - ROUGH), (1 + CLI_FILES) * pictures));
+    double most = fmax(ENDING_MOST * cli_time_left(), busy * TABLES);
+    *seconds = fmin(most, others + fmin(PICTURES_MOST * fmax(0, limit - ROUGH), (1 + CLI_FILES) * pictures));
     return true;
 }
 
@@ -64,10 +68,11 @@ void cli_leave_out(cli_left_out *left_out, const char *format, ...)
 double cli_picture_share(double full, cli_left_out *left_out)
 {
     double left = cli_time_left(), spare = left - CLI_FILES * full;
-    if (spare >= full)
+    if (left > 0 && spare >= full)
         return 0;
-    if (left <= 0) {
-        cli_leave_out(left_out, "the page's pictures");
+    if (left <= 0 || left + LATE_MOST < (SMALLEST * SMALLEST + CLI_FILES) * full) {
+        cli_leave_out(left_out, "the page's pictures and viewer");
+        cli_leave_out(left_out, "coverage.png, deposits.exr, model.glb, surface.vtp, texels.vtp");
         return -1;
     }
     double share = fmax(SMALLEST, sqrt(fmax(0, spare) / full));

@@ -42,6 +42,6 @@ int cli_help(const cli_options *options)
         cli_print_topic(stdout, topic);
         return EXIT_DONE;
     }
-    cli_unknown_command(name);
+    cli_unknown_topic(name);
     return EXIT_USAGE;
 }

@@ -2,6 +2,7 @@
 #include "cli.h"
 
 #include "../scene/slips.h"
+#include "topics.h"
 
 #include <errno.h>
 #include <math.h>
@@ -214,14 +215,27 @@ static bool unknown_option(const char *text)
     return false;
 }
 
-bool cli_unknown_command(const char *text)
+/* `what` is unknown, of which `meant` may have been meant; NULL: nothing. */
+static void tell_unknown(const char *what, const char *text, const char *meant)
 {
-    const char *meant = closest(text, command_name, CLI_COMMANDS);
     if (meant)
-        fprintf(stderr, "sprayplan: unknown command \"%s\"; did you mean %s?\n", text, meant);
+        fprintf(stderr, "sprayplan: unknown %s \"%s\"; did you mean %s?\n", what, text, meant);
     else
-        fprintf(stderr, "sprayplan: unknown command \"%s\"\n", text);
-    return false;
+        fprintf(stderr, "sprayplan: unknown %s \"%s\"\n", what, text);
+}
+
+/* Commands, then topics. */
+static const char *topic_name(size_t index)
+{
+    return index < CLI_COMMANDS ? command_name(index) : cli_topics[index - CLI_COMMANDS].name;
+}
+
+void cli_unknown_topic(const char *text)
+{
+    size_t count = CLI_COMMANDS;
+    while (topic_name(count))
+        count++;
+    tell_unknown("command or topic", text, closest(text, topic_name, count));
 }
 
 /* What is called `name`, of `length`, or has this letter; whether the command takes it shows later. NULL for none. */
@@ -299,7 +313,9 @@ static bool read_name(reader *reader, const char *text)
     if (options->command == CLI_COMMANDS) {
         size_t command = cli_command_named(text);
         options->command = command == SIZE_MAX ? CLI_COMMANDS : (cli_command_id)command;
-        return command != SIZE_MAX || cli_unknown_command(text);
+        if (command == SIZE_MAX)
+            tell_unknown("command", text, closest(text, command_name, CLI_COMMANDS));
+        return command != SIZE_MAX;
     }
     if (options->input_count == CLI_INPUTS_MOST) {
         fprintf(stderr, "sprayplan: found more than %d file names, expected no more\n", CLI_INPUTS_MOST);

@@ -95,11 +95,11 @@ static bool write_layouts(const cli_options *options, const sp_result *result, c
     return good;
 }
 
-/* All but the layouts; where there is a layout, and nobody minds, the page evaluates changed ones. */
+/* All but the layouts; where there is a layout, time for it, and nobody minds, the page evaluates changed ones. */
 static bool write_report(const cli_options *options, const sp_result *result, const sp_scene *const *scenes,
                          const sp_layout *layout, sp_output *output, sp_error *error)
 {
-    if (!layout || options->no_live)
+    if (!layout || options->no_live || result->picture_share < 0)
         return sp_report_write(result, output, error);
     size_t own = 0;
     while (own + 1 < result->design_count && result->designs[own].layout != layout)

@@ -5,8 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LATE 1.5 /* times what measuring one error takes: with less than that and half the ending left it is left out  \
-                  */
+#define LATE                                                                                                           \
+    1.5 /* times what measuring one error takes: with less than that and half the ending left it is left out           \
+         */
 
 typedef struct {
     sp_coverage *manual;     /* NULL where the scene has no nozzles */
@@ -219,9 +220,19 @@ static bool count_manual_again(const cli_scene *opened, placement *found, sp_err
     return found->manual != NULL;
 }
 
-/* Where the liquid of every layout goes. */
-static bool follow_liquid(const cli_scene *opened, const placement *found, sp_error *error)
+/* Nothing is left even of what was kept for what follows the search. */
+static bool is_over(void)
 {
+    return cli_time_left() <= 0;
+}
+
+/* Where the liquid of every layout goes. */
+static bool follow_liquid(const cli_scene *opened, placement *found, sp_error *error)
+{
+    if (is_over()) {
+        cli_leave_out(&found->left_out, "where the liquid goes");
+        return true;
+    }
     const sp_layout *own = sp_scene_layout(opened->scene);
     bool alternatives = sp_scene_alternative_count(opened->scene) > 0;
     bool good = !found->manual || sp_evaluate_balance(own_evaluator(opened, found), own, found->manual, error);
@@ -259,16 +270,19 @@ static bool measure_one(const sp_evaluator *evaluator, const sp_layout *layout, 
 static bool measure_errors(const cli_scene *opened, placement *found, sp_error *error)
 {
     const sp_layout *own = sp_scene_layout(opened->scene);
-    bool alternatives = sp_scene_alternative_count(opened->scene) > 0;
+    bool alternatives = sp_scene_alternative_count(opened->scene) > 0, over = false;
     bool good = !found->manual ||
                 measure_one(own_evaluator(opened, found), own, found->manual, "the scene's own nozzles", found, error);
     for (size_t i = 0; good && i < found->count; i++) {
         const sp_proposal *proposal = found->proposals[i];
         const sp_evaluator *evaluator = evaluator_of(opened, proposal);
         good = (alternatives || measure_one(evaluator, proposal->greedy, proposal->greedy_coverage,
-                                            "the layout before refinement", found, error)) &&
-               cli_find_borderline(evaluator, proposal->layout, proposal->coverage, error);
+                                            "the layout before refinement", found, error));
+        over = over || is_over();
+        good = good && (over || cli_find_borderline(evaluator, proposal->layout, proposal->coverage, error));
     }
+    if (over)
+        cli_leave_out(&found->left_out, "what round-off could turn");
     return good;
 }
 

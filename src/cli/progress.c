@@ -204,10 +204,16 @@ static bool is_visible(const cli_options *options)
     return !options->quiet && isatty(STDERR_FILENO);
 }
 
+void cli_progress_share(const cli_options *options, const char *stage, double done)
+{
+    bar.kind = kind_of_terminal();
+    if (is_visible(options))
+        draw(stage, done);
+}
+
 void cli_progress_stage(const cli_options *options, const char *stage)
 {
-    if (is_visible(options))
-        draw(stage, -1);
+    cli_progress_share(options, stage, -1);
 }
 
 sp_run cli_run(const cli_options *options)

@@ -53,7 +53,7 @@ static bool fit_into_time(const cli_options *options, sp_result *full, backgroun
     for (size_t i = 0; i < full->left_out_count; i++)
         cli_leave_out(&told->left_out, "%s", full->left_out[i]);
     bool limited = isfinite(cli_time_left()) && options->output;
-    return !limited || sp_report_picture_time(full, &told->pictures, error);
+    return !limited || cli_time_left() <= 0 || sp_report_picture_time(full, &told->pictures, error);
 }
 
 /* As a shell reads it back. */
@@ -112,7 +112,7 @@ bool cli_report(const cli_options *options, const sp_result *result, const sp_sc
     full.designs = told.designs;
     full.style = picture_style(options, scenes);
     good = good && fit_into_time(options, &full, &told, error) && find_contributions(options, &told, error);
-    if (good && told.pictures > 0)
+    if (good && isfinite(cli_time_left()) && options->output)
         full.picture_share = cli_picture_share(told.pictures, &told.left_out);
     full.left_out = told.left_out.list;
     full.left_out_count = told.left_out.count;

@@ -1,6 +1,8 @@
 /* A scene and its evaluator, opened with the command line's overrides. */
 #include "cli.h"
 
+#include <math.h>
+
 bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *options, bool evaluates, cli_clock *clock,
                     sp_error *error)
 {
@@ -19,6 +21,9 @@ bool cli_scene_open(cli_scene *opened, const char *path, const cli_options *opti
         cli_progress_rounds(sp_scene_alternative_count(opened->scene));
     sp_setup setup = *sp_scene_setup(opened->scene);
     setup.run = run;
+    /* ranks have to choose alike, which none does that has less time */
+    setup.run.time_limit =
+        options->command == CLI_PLACE && !cli_ranks() && options->time_limit > 0 ? fmax(cli_time_left(), 1e-3) : 0;
     opened->evaluator = sp_evaluator_create_for(&setup, evaluates ? sp_scene_layout(opened->scene) : NULL, error);
     cli_clock_stage(clock, "atlas");
     if (!opened->evaluator) {

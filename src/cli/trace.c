@@ -3,6 +3,8 @@
 #include "rays.h"
 
 #include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 enum { BATCH = 1 << 16 };
 
@@ -29,6 +31,15 @@ static void print_hit(const sp_tracer *tracer, size_t number, const sp_ray *ray,
            hit->u + 0.0, hit->v + 0.0, point.x, point.y, point.z, speed, incidence);
 }
 
+/* How much of the file has been read, where it is one; nothing where the rows on the terminal show it. */
+static void tell_share(const cli_options *options, FILE *file)
+{
+    struct stat status;
+    bool known = fstat(fileno(file), &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0;
+    if (!isatty(STDOUT_FILENO))
+        cli_progress_share(options, "rays", known ? (double)ftello(file) / (double)status.st_size : -1);
+}
+
 static bool trace_file(cli_rays *reader, const sp_tracer *tracer, const cli_options *options, sp_error *error)
 {
     sp_ray *rays = malloc(BATCH * sizeof *rays);
@@ -38,6 +49,7 @@ static bool trace_file(cli_rays *reader, const sp_tracer *tracer, const cli_opti
     if (!good)
         sp_fail_memory(error);
     while (good && (good = cli_rays_read(reader, rays, BATCH, &count, error)) && count) {
+        tell_share(options, reader->file);
         sp_trace_nearest_many(tracer, rays, count, options->gravity, options->threads, hits);
         if (total == 0)
             printf("%s", options->json ? "{\"sprayplan\": \"" SP_VERSION "\", \"command\": \"trace\", \"hits\": [\n"
@@ -63,9 +75,14 @@ int cli_trace(const cli_options *options)
         fprintf(stderr, "sprayplan: trace: found no --rays, expected --rays FILE\n");
         return EXIT_USAGE;
     }
+    static const char *const stages[] = {"mesh", "accelerator", "rays", NULL};
+    cli_progress_plan(stages, 0, 0, 1);
+    cli_progress_stage(options, "mesh");
     sp_mesh *mesh = cli_load_mesh(options->inputs[0], &error);
+    cli_progress_stage(options, "accelerator");
     sp_tracer *tracer = mesh ? sp_tracer_create(mesh, options->accelerator, options->threads, &error) : NULL;
     cli_rays reader = {.path = cli_input_name(options->rays), .file = tracer ? cli_open(options->rays, &error) : NULL};
+    cli_progress_end();
     bool good = reader.file && trace_file(&reader, tracer, options, &error);
     if (reader.file && reader.file != stdin)
         fclose(reader.file);

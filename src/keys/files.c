@@ -44,7 +44,7 @@ static const sp_key texels_keys[] = {
     {.name = "side", .kind = SP_KEY_NUMBER, .says = "0: both sides as one, 1: the front, 2: the back"},
     {.name = NULL}};
 static const sp_block texels = {"texels", "arrays of points",
-                                "Every patch as a point, in m, with what deposits.exr holds under the same names and",
+                                "Every patch as a point, in m: what deposits.exr holds under the same names, and these",
                                 texels_keys};
 
 static const sp_key nozzles_csv_keys[] = {

@@ -76,7 +76,7 @@ static const sp_key scene_keys[] = {
     {.name = "simulate",
      .kind = SP_KEY_BLOCK,
      .block = &sp_block_simulate,
-     .absent = "all `auto`",
+     .absent = "each key has its own default",
      .says = "How faithfully to compute. What is `auto` is tried on the scene's own nozzles; the cheapest that keeps "
              "`accuracy` is "
              "taken"},
@@ -88,12 +88,12 @@ static const sp_key scene_keys[] = {
     {.name = "datum",
      .kind = SP_KEY_BLOCK,
      .block = &sp_block_datum,
-     .absent = "the geometry's own origin, `up` and x",
+     .absent = "the origin, `up` and x of the scene",
      .says = "What a fitter measures from, for the sheet in the report and nozzles.csv"},
     {.name = "report",
      .kind = SP_KEY_BLOCK,
      .block = &sp_block_report,
-     .absent = "the flux",
+     .absent = "each key has its own default",
      .says = "What pictures and models show; figures do not depend on it"},
     {.name = NULL}};
 const sp_block sp_block_scene = {"scene", "a scene",
@@ -309,7 +309,7 @@ static const sp_key datum_keys[] = {
      .says = "Heights lie along it; a tilt of 0 points the other way"},
     {.name = "zero",
      .kind = SP_KEY_DIRECTION,
-     .absent = "x",
+     .absent = "x, but beside an `axis` along x, which needs it",
      .says = "The direction of azimuth 0, as far as it lies across the axis; azimuths count anticlockwise seen against "
              "the axis"},
     {.name = NULL}};

@@ -16,16 +16,19 @@ static bool deposits(const sp_design *design, const sp_colour_scale *scale, cons
     return sp_report_deposits_exr(design, path, error);
 }
 
-/* What is written of the main design alone: a manual one has its own from `simulate`. */
-static bool write_main(const sp_design *design, sp_output *output, sp_error *error)
+/* What is written of the main design alone: a manual one has its own from `simulate`. `shows`: patches as well. */
+static bool write_main(const sp_design *design, bool shows, sp_output *output, sp_error *error)
 {
     static const struct {
         const char *name;
         bool (*write)(const sp_design *design, const char *path, sp_error *error);
-    } files[] = {{"surface.vtp", sp_report_surface_vtp},
-                 {"texels.vtp", sp_report_texels_vtp},
-                 {"nozzles.stl", sp_report_nozzles_stl}};
+        bool shows;
+    } files[] = {{"surface.vtp", sp_report_surface_vtp, true},
+                 {"texels.vtp", sp_report_texels_vtp, true},
+                 {"nozzles.stl", sp_report_nozzles_stl, false}};
     for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
+        if (files[i].shows && !shows)
+            continue;
         const char *path = sp_output_path(output, files[i].name, error);
         if (!path || !files[i].write(design, path, error)) {
             sp_output_tell(output, error);
@@ -100,6 +103,7 @@ static bool write_sheets(const sp_result *result, const sp_design *main, sp_outp
 
 static bool write_designs(const sp_result *result, const sp_design *main, sp_output *output, sp_error *error)
 {
+    bool shows = result->picture_share >= 0;
     sp_colour_scale scale = sp_colour_scale_of(result->designs, result->design_count, result->style);
     for (size_t i = 0; i < result->design_count; ++i) {
         const sp_design *design = &result->designs[i];
@@ -107,12 +111,12 @@ static bool write_designs(const sp_result *result, const sp_design *main, sp_out
                              : strcmp(design->name, "manual") == 0 ? "-manual"
                              : strcmp(design->name, "greedy") == 0 ? "-greedy"
                                                                    : NULL;
-        if (design->evaluator && suffix && !write_design(design, &scale, suffix, output, error))
+        if (shows && design->evaluator && suffix && !write_design(design, &scale, suffix, output, error))
             return false;
     }
     if (!main || !main->evaluator)
         return true;
-    return write_text(output, "swabs.csv", sp_swabs_csv(main, error), error) && write_main(main, output, error);
+    return write_text(output, "swabs.csv", sp_swabs_csv(main, error), error) && write_main(main, shows, output, error);
 }
 
 bool sp_report_write(const sp_result *result, sp_output *output, sp_error *error)

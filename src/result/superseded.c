@@ -13,12 +13,13 @@
 
 /* The figures last: they tell that the others are ours. */
 static const char *const result_files[] = {
-    "coverage.png",        "coverage-manual.png", "coverage-greedy.png", "deposits.exr",     "deposits-manual.exr",
-    "deposits-greedy.exr", "model.glb",           "model-manual.glb",    "model-greedy.glb", "nozzles.csv",
-    "nozzles.stl",         "swabs.csv",           "surface.vtp",         "texels.vtp",       "nozzles-all.csv",
+    "coverage.png",        "coverage-manual.png", "coverage-greedy.png", "deposits.exr",
+    "deposits-manual.exr", "deposits-greedy.exr", "model.glb",           "model-manual.glb",
+    "model-greedy.glb",    "nozzles.csv",         "nozzles.stl",         "swabs.csv",
+    "surface.vtp",         "texels.vtp",          "nozzles-all.csv",     "wet.png",
     "report.html",         "result.json",
 };
-static const char *const study_files[] = {"study.csv", "place.csv", "report.html", "study.json"};
+static const char *const study_files[] = {"study.csv", "place.csv", "wet.png", "report.html", "study.json"};
 
 static const struct {
     const char *const *names;

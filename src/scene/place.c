@@ -294,8 +294,7 @@ bool sp_scene_read_place(sp_scene *scene, const sp_reader *reader)
     if (scene->mount_count > 0 && place->pressure_count == 0)
         return sp_read_message(reader, node, "pressure", "found nothing, expected this key beside mounts");
     if (scene->mount_count > 0 && place->type_count == 0)
-        return sp_read_message(reader, node, "types",
-                               "found no types, expected a catalogue with types to choose from that are no clusters");
+        return sp_read_message(reader, node, "types", "found no types, expected a catalogue with types to choose from");
     place->types = scene->place_types;
     place->pressures = scene->pressures;
     place->mounts = scene->mounts;

@@ -3,9 +3,11 @@
 #include "resolution.h"
 
 #include <stdio.h>
+#include <time.h>
 
 #define SHORTER 0.7 /* of a texel that does not keep the accuracy */
 #define SAVES 0.1   /* of the run: less is not worth lines */
+#define LATE 0.25   /* of a time limit: what is found by then is taken */
 
 /* What takes how long, in microseconds of one thread (results/accuracy.md). Only proportions matter. */
 #define SOLVE 0.14 /* the flights to a place, parabolas */
@@ -17,6 +19,19 @@
 #define TRIANGLE 20     /* accelerator, charts and wet sides */
 #define TRIANGLE_OPEN 5 /* the same where no cavity is named */
 #define PATCH 1.4       /* cut out of the atlas */
+
+double sp_evaluator_clock(void)
+{
+    struct timespec time = {0};
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+bool sp_trial_late(const sp_trial *trial)
+{
+    double limit = trial->evaluator->setup.run.time_limit;
+    return limit > 0 && sp_evaluator_clock() - trial->evaluator->began > LATE * limit;
+}
 
 bool sp_trial_run(sp_trial *trial, sp_error *error)
 {
@@ -54,16 +69,23 @@ static bool choose_texel(sp_trial *trial, sp_error *error)
     sp_evaluator *evaluator = trial->evaluator;
     double accuracy = evaluator->setup.fidelity.accuracy;
     double texel = sp_texel_of(evaluator, SP_FEWEST_TEXELS), finest = sp_texel_of(evaluator, SP_MOST_TEXELS);
+    if (sp_trial_late(trial)) {
+        snprintf(evaluator->choice.texel, SP_WHY, "the coarsest that auto takes, for lack of time: not measured");
+        evaluator->fidelity.texel = texel;
+        return sp_texels_create(evaluator, NULL, error);
+    }
     if (!sp_trial_at(trial, texel, error))
         return false;
     double told = texel * fmin(1, accuracy / fmax(trial->measured.misjudged, 1e-300));
-    while ((told < texel || !sp_trial_keeps(trial)) && texel > finest) {
+    while ((told < texel || !sp_trial_keeps(trial)) && texel > finest && !sp_trial_late(trial)) {
         texel = told = fmax(told < texel ? told : SHORTER * texel, finest);
         if (!sp_trial_at(trial, texel, error))
             return false;
     }
     evaluator->choice.missed = !sp_trial_keeps(trial);
-    tell_texel(trial, texel > finest ? "the coarsest that keeps the accuracy" : "the finest that auto takes");
+    tell_texel(trial, evaluator->choice.missed && texel > finest ? "as coarse as there was time for"
+                      : texel > finest                           ? "the coarsest that keeps the accuracy"
+                                                                 : "the finest that auto takes");
     return true;
 }
 
@@ -126,6 +148,10 @@ static bool choose_trajectory(sp_trial *trial, sp_error *error)
     sp_evaluator *evaluator = trial->evaluator;
     char *why = evaluator->choice.trajectory;
     double saved = most_saved(trial);
+    if (sp_trial_late(trial)) {
+        snprintf(why, SP_WHY, "parabolas: for lack of time lines were not tried");
+        return true;
+    }
     if (saved >= SAVES && ((!trial->coverage && !sp_trial_run(trial, error)) || !try_lines(trial, &saved, error)))
         return false;
     double points = 100 * trial->measured.estimate;

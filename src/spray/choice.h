@@ -24,6 +24,8 @@ typedef struct {
 bool sp_trial_run(sp_trial *trial, sp_error *error);
 /* The same on texels of this length (m). */
 bool sp_trial_at(sp_trial *trial, double texel, sp_error *error);
+/* Whether so much of the time limit is over that nothing further is to be tried. */
+bool sp_trial_late(const sp_trial *trial);
 /* Half the accuracy is for what the settings do, the other half for other layouts like this one. */
 bool sp_trial_keeps(const sp_trial *trial);
 

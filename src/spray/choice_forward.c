@@ -77,7 +77,7 @@ static bool choose_grain(sp_trial *trial, sp_error *error)
             best = now;
         }
         grain next = next_grain(trial, now);
-        if (sp_trial_keeps(trial) || (next.texel == now.texel && next.jets == now.jets))
+        if (sp_trial_keeps(trial) || (next.texel == now.texel && next.jets == now.jets) || sp_trial_late(trial))
             break;
         now = next;
     }

@@ -199,6 +199,7 @@ sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *la
     if (!evaluator)
         return sp_fail_memory(error);
     evaluator->setup = *setup;
+    evaluator->began = sp_evaluator_clock();
     if (!resolve(setup, &evaluator->fidelity, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;

@@ -25,6 +25,7 @@ struct sp_evaluator {
     uint32_t (*texel_patch)[2]; /* [texel_count], patch on the front (or both sides) and on the back, or SP_NONE */
     struct sp_rundown *rundown; /* rundown.h; NULL where the criterion does not ask for film */
     struct sp_movers *movers;   /* movers.h; NULL where nothing moves; the origin owns it */
+    double began;               /* s, of a monotonic clock: when it was asked for */
     size_t positions;           /* in which goods are looked at on their pass; 1 where nothing moves */
 };
 
@@ -43,6 +44,8 @@ sp_vec3 sp_pull_at(const sp_evaluator *evaluator, sp_trajectory own);
 bool sp_air_is_known(const sp_setup *setup);
 /* Reports progress; false, with the error set, where the caller is to stop. */
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error);
+/* choice.c: s, of a monotonic clock. */
+double sp_evaluator_clock(void);
 /* False, with the error that nothing is to be cleaned. */
 bool sp_fail_nothing(sp_error *error);
 

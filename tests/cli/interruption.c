@@ -55,6 +55,25 @@ static void proposal_is_whole(const char *folder, bool may_be_empty)
     json_decref(again);
 }
 
+/* What shows patches is there, or is named as left out. */
+static void what_shows_patches_is_there_or_named(const char *folder)
+{
+    static const char *const files[] = {"coverage.png", "deposits.exr", "model.glb", "surface.vtp", "texels.vtp"};
+    char path[256];
+    snprintf(path, sizeof path, "%s/result.json", folder);
+    char *result = read_file(path, NULL);
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        char path_of_file[1100];
+        snprintf(path_of_file, sizeof path_of_file, "%s/%s/%s", workplace, folder, files[i]);
+        assert_true((access(path_of_file, F_OK) == 0) == !strstr(result, files[i]));
+    }
+    snprintf(path, sizeof path, "%s/report.html", folder);
+    char *page = read_file(path, NULL);
+    assert_true(!strstr(page, "id=\"viewer-model\"") == !!strstr(result, "coverage.png"));
+    free(page);
+    free(result);
+}
+
 /* In the figures, in the page and on the terminal; such a search never comes to its end. */
 static void what_was_cut_is_named(const char *folder, const char *said)
 {
@@ -91,6 +110,7 @@ static void out_of_time_place_writes_the_best_so_far(void **state)
         assert_true(!strstr(result.out, "candidate poses") == !!strstr(result.out, "before anything was proved"));
         snprintf(text, sizeof text, "limited%zu", i);
         what_was_cut_is_named(text, result.out);
+        what_shows_patches_is_there_or_named(text);
         forget(&result);
         proposal_is_whole(text, false);
     }

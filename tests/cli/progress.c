@@ -40,6 +40,31 @@ static void tells_which_of_how_many_stages(void **state)
     free(text);
 }
 
+/* Rows that go elsewhere leave the terminal to the line. */
+static void so_do_atlas_and_trace(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *arguments, *stages[5];
+    } runs[] = {
+        {"atlas room.obj -o out.obj", {"[1/5] mesh", "[2/5] charts", "[3/5] texels", "[4/5] figures", "[5/5] files"}},
+        {"atlas out.obj --reuse --json", {"[1/3] mesh", "[2/3] reuse", "[3/3] figures"}},
+        {"trace room.obj --rays rays.csv >rows.csv", {"[1/3] mesh", "[2/3] accelerator", "[3/3] rays"}},
+    };
+    write_file("rays.csv", "0,0,0,1,0,0\n");
+    for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
+        char *text = shown("TERM=xterm", runs[i].arguments), *at = text;
+        if (!text)
+            skip();
+        for (size_t k = 0; k < 5 && runs[i].stages[k]; k++)
+            assert_non_null(at = strstr(at, runs[i].stages[k]));
+        free(text);
+    }
+    char *rows = read_file("rows.csv", NULL);
+    assert_non_null(strstr(rows, "\n0,"));
+    free(rows);
+}
+
 /* Each alternative has the same stages again; with a limit the time that is left of it is known. */
 static void tells_the_time_left_of_the_limit(void **state)
 {
@@ -77,6 +102,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tells_which_of_how_many_stages),
+        cmocka_unit_test(so_do_atlas_and_trace),
         cmocka_unit_test(tells_the_time_left_of_the_limit),
         cmocka_unit_test(has_no_escape_codes_where_none_are_wanted),
     };

@@ -262,12 +262,14 @@ static void what_is_superseded_spares_inputs(void **state)
     sp_error error = {0};
     set_up();
     put("deposits.exr", "an old measurement");
+    put("wet.png", "an old picture");
     sp_output *output = sp_output_open(FOLDER, &error);
     assert_true(output && sp_output_protect(output, FOLDER "/deposits.exr", &error));
     assert_true(sp_output_supersede(output, &error) && sp_output_text(output, "report.html", "a page", &error));
     assert_true(sp_output_commit(output, &error));
     assert_int_equal(access(FOLDER "/deposits.exr", F_OK), 0);
     assert_int_not_equal(access(FOLDER "/model-greedy.glb", F_OK), 0);
+    assert_int_not_equal(access(FOLDER "/wet.png", F_OK), 0);
 }
 
 /* Without figures of ours nothing is known to be ours. */

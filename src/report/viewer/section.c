@@ -26,7 +26,7 @@ static void add_drawn(const sp_viewer_drawn *drawn, sp_text *text)
 bool sp_page_viewer(const sp_page *page, sp_text *text, sp_error *error)
 {
     bool any = false;
-    for (size_t i = 0; i < page->result->design_count; ++i)
+    for (size_t i = 0; i < page->result->design_count && page->result->picture_share >= 0; ++i)
         any |= page->result->designs[i].evaluator != NULL;
     if (!any)
         return true;
