@@ -34,14 +34,16 @@ static void same_but_for_seconds(void **state)
 {
     (void)state;
     json_t *one = expect_json("study room.yaml " SMALL " --set place.refine=none --json --threads 1", 0);
-    json_t *two = expect_json("study room.yaml " SMALL " --set place.refine=none --json --threads 2", 0);
     drop_speed(one);
-    drop_speed(two);
-    assert_true(json_equal(one, two));
     assert_int_equal(json_array_size(json_object_get(one, "runs")), 5);
     assert_int_equal(json_array_size(json_object_get(one, "place")), 6);
+    if (COMPARES_THREADS) {
+        json_t *two = expect_json("study room.yaml " SMALL " --set place.refine=none --json --threads 2", 0);
+        drop_speed(two);
+        assert_true(json_equal(one, two));
+        json_decref(two);
+    }
     json_decref(one);
-    json_decref(two);
 }
 
 /* The line's columns before this one, which are the same from run to run. */

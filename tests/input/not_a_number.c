@@ -12,7 +12,11 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#ifdef SPRAYPLAN_SANITIZE /* one of each sort: which spellings are numbers is seen without */
+static const char *const no_numbers[] = {"-nan", ".inf", "1e999"};
+#else
 static const char *const no_numbers[] = {"nan", ".nan", "-nan", "inf", ".inf", "-.inf", "Infinity", "1e999", "-1e999"};
+#endif
 #define KINDS (sizeof no_numbers / sizeof *no_numbers)
 
 /* Whether a number begins there: not within a word such as N1, and a unit's exponent such as m2 is no number. */

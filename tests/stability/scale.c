@@ -1,6 +1,14 @@
 /* The same room at another size or place gets the same proposal; and of equal candidates the first. */
 #include "../optimizer/room.h"
 
+#ifdef SPRAYPLAN_SANITIZE
+#define TEXEL 0.125 /* times the room's edge */
+#define MOST_NOZZLES 2
+#else
+#define TEXEL 0.0625
+#define MOST_NOZZLES 3
+#endif
+
 typedef struct {
     room room;
     sp_nozzle_type types[2];
@@ -29,7 +37,7 @@ static void job_open(job *j, double edge, sp_vec3 shift, bool refined)
     j->room.setup.criterion.flux = 2 * LITRES_PER_MINUTE;
     j->room.setup.criterion.impact_speed = 3 * edge;
     j->room.setup.run.threads = 1;
-    room_open(&j->room, &b, 0.0625 * edge);
+    room_open(&j->room, &b, TEXEL * edge);
     for (int i = 0; i < 2; i++) {
         j->types[i] = room_cone(i ? "fan" : "cone", (i ? 90 : 100) * DEGREE, 8 * edge * edge);
         j->types[i].at = j->pressure;
@@ -65,7 +73,7 @@ static void job_open(job *j, double edge, sp_vec3 shift, bool refined)
     j->options.mounts = j->mounts;
     j->options.mount_count = 3;
     j->options.clearance = 0.015625 * edge;
-    j->options.max_nozzles = 3;
+    j->options.max_nozzles = MOST_NOZZLES;
     j->options.objective = SP_OBJECTIVE_MAX_COVERAGE;
     if (refined)
         j->options.refine =
@@ -87,9 +95,11 @@ static sp_proposal *job_place(job *j, double edge, bool refined)
 #ifdef SPRAYPLAN_SANITIZE
 #define REFINED false /* what is tested is the same, and refining takes minutes */
 #define FLOORS 1
+#define SIZES 0 /* beside the powers of two */
 #else
 #define REFINED true
 #define FLOORS 4
+#define SIZES 1
 #endif
 static bool all_sizes; /* asked for by an argument, whatever it says: minutes */
 
@@ -165,7 +175,7 @@ static void any_size_and_place_get_as_good_a_proposal(void **state)
     for (int refined = 0; refined <= (all_sizes && REFINED); refined++) {
         job j;
         sp_proposal *home = job_place(&j, 1, refined);
-        for (size_t i = 0; i < (all_sizes ? 4 : 1) && sizes[refined][i] > 0; i++)
+        for (size_t i = 0; i < (all_sizes ? 4 : SIZES) && sizes[refined][i] > 0; i++)
             as_good(home, sizes[refined][i], sp_v(0, 0, 0), refined);
         as_good(home, 1, sp_scale(sp_v(0.8, -0.7, 0.31), far[refined]), refined);
         sp_proposal_destroy(home);
