@@ -114,6 +114,8 @@ static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool sl
 {
     borne->flight.direction = seen->direction;
     borne->transfer = seen->transfer;
+    if (!posed->moved && sp_dot(seen->direction, posed->frame.z) < posed->least)
+        return false;
     if (flies &&
         !sp_sight_fly(posed->search, posed->sight, seen, posed->nozzle.position, &borne->flight, &borne->transfer))
         return false;
@@ -135,7 +137,7 @@ static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool sl
  * u'. */
 static double shift(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, sp_vec3 move, sp_vec3 *turn)
 {
-    sp_vec3 g = sp_evaluator_gravity(posed->search->coarse, &posed->sight->launch);
+    sp_vec3 g = posed->sight->gravity;
     sp_vec3 r = sp_sub(seen->point, posed->nozzle.position), by = sp_scale(move, -1);
     sp_vec3 u = borne->flight.direction, w = borne->flight.velocity;
     if (posed->sight->launch.fronts) {

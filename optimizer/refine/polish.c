@@ -18,7 +18,8 @@
 #define STEP_LEAST 0.006
 #define SHARP_START 4   /* width at which the last polish starts */
 #define KEEPS_UP 0.002  /* of what is covered, by which few patches may mislead */
-#define TURNS 4         /* of walks and new drafts, two that are annealed first */
+#define STARTS 2        /* of annealing */
+#define TURNS 4         /* of walks and new drafts, as many as STARTS that are annealed first */
 #define WALK 1e8        /* patches that a walk goes through */
 #define GAIN_LEAST 1e-5 /* of what is covered: less is no improvement */
 #define BEHIND_MOST                                                                                                    \
@@ -147,15 +148,21 @@ static bool fit(sp_sights *sights, double budget, sp_draft *draft, bool *fits, s
     return true;
 }
 
-/* Anneals from ever wider starts: a narrow one keeps what is there; a wide one forgets it, and may find better. By
- * turns, one of them or none: compass finds as much where there is little to forget. */
+/* Which start, of those that widen, a trial is annealed from: by turns, or none. Compass finds as much where there is
+ * little to forget. */
+static size_t turn_of(const sp_trial *trial)
+{
+    return trial->seed % TURNS < STARTS ? trial->seed % TURNS : STARTS;
+}
+
+/* Anneals from ever wider starts: a narrow one keeps what is there; a wide one forgets it, and may find better. */
 static bool anneal(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, sp_draft *draft,
                    sp_error *error)
 {
-    static const size_t starts[] = {3, 0};
+    static const size_t starts[STARTS] = {3, 0};
     double water = sp_draft_water(polishing->search, draft, trial->budget);
-    for (size_t i = 0; i < sizeof starts / sizeof *starts; i++)
-        if ((trial->kind == SP_TRIAL_ANNEAL || i == trial->seed % TURNS) &&
+    for (size_t i = 0; i < STARTS; i++)
+        if ((trial->kind == SP_TRIAL_ANNEAL || i == turn_of(trial)) &&
             !sp_anneal(sights, starts[i], SP_WIDTHS, water, polishing->watch, draft, error))
             return false;
     return true;
@@ -192,19 +199,50 @@ static bool cover_before(sp_sights *sights, const sp_trial *trial, double *cover
     return done;
 }
 
-/* What the trial starts from. */
-static bool begin(const sp_polishing *polishing, const sp_trial *trial, sp_draft *start, sp_error *error)
+/* Walks, where the trial is to begin so. */
+static bool walk(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
 {
-    const sp_tuned *tuned = &polishing->tuned;
-    const sp_draft *from = trial->kind == SP_TRIAL_OTHER ? &trial->other : &trial->draft;
+    (void)thread;
+    return trial->kind != SP_TRIAL_WALK || (sp_draft_copy(polishing->search, &trial->draft, &trial->start, error) &&
+                                            sp_walk(&polishing->tuned.search, trial->budget * (1 + SP_ROUNDING), WALK,
+                                                    trial->seed, polishing->watch, &trial->start, error));
+}
+
+static bool is_same(const sp_nozzle *a, const sp_nozzle *b)
+{
+    return a->type == b->type && sp_distance(a->position, b->position) == 0 && sp_distance(a->axis, b->axis) == 0 &&
+           a->roll == b->roll && a->angle == b->angle && a->flow == b->flow && a->pressure == b->pressure;
+}
+
+/* Nozzle by nozzle, as the order decides which is turned first. */
+static bool are_same(const sp_draft *a, const sp_draft *b)
+{
+    bool same = a->count == b->count;
+    for (size_t i = 0; same && i < a->count; i++)
+        same = is_same(&a->items[i].nozzle, &b->items[i].nozzle);
+    return same;
+}
+
+/* Many walks find nothing and end where they began. What is annealed alike from there comes to the same: once is
+ * enough. */
+static void find_repeats(sp_trial *trials, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < i && !trials[i].repeats; k++)
+            trials[i].repeats = trials[i].start.count && trials[i].budget == trials[k].budget &&
+                                turn_of(&trials[i]) == turn_of(&trials[k]) &&
+                                are_same(&trials[i].start, &trials[k].start);
+}
+
+/* What the trial starts from. */
+static bool begin(const sp_polishing *polishing, sp_trial *trial, sp_draft *start, sp_error *error)
+{
+    const sp_draft *from = trial->kind == SP_TRIAL_OTHER  ? &trial->other
+                           : trial->kind == SP_TRIAL_WALK ? &trial->start
+                                                          : &trial->draft;
     if (!sp_draft_copy(polishing->search, from, start, error))
         return false;
-    if (trial->kind == SP_TRIAL_WALK && !sp_walk(&tuned->search, trial->budget * (1 + SP_ROUNDING), WALK, trial->seed,
-                                                 polishing->watch, start, error)) {
-        sp_draft_free(start);
-        return false;
-    }
-    sp_tuned_settle(tuned, start);
+    sp_tuned_settle(&polishing->tuned, start);
     return true;
 }
 
@@ -232,7 +270,7 @@ static bool polish(const sp_polishing *polishing, int thread, sp_trial *trial, s
     sp_sights *sights = &polishing->rough_sights[thread];
     sp_draft start;
     double before;
-    if (!sp_watch_goes_on(polishing->watch, "refine", 0))
+    if (trial->repeats || !sp_watch_goes_on(polishing->watch, "refine", 0))
         return true;
     /* what was looked at before is another thread's luck */
     sp_sights_forget(sights);
@@ -331,8 +369,10 @@ static bool share_drafts(const sp_polishing *polishing, sp_trial *trials, size_t
 
 bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error)
 {
-    bool done =
-        for_each(polishing, trials, count, false, polish, error) && share_merits(polishing, trials, count, error);
+    bool done = for_each(polishing, trials, count, false, walk, error);
+    find_repeats(trials, count);
+    done = done && for_each(polishing, trials, count, false, polish, error) &&
+           share_merits(polishing, trials, count, error);
     bool *keeps = calloc(count ? count : 1, sizeof *keeps);
     if (!keeps)
         done = sp_fail_memory(error);
@@ -343,8 +383,10 @@ bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error
     free(keeps);
     done = done && for_each(polishing, trials, count, true, take_over, error) &&
            share_drafts(polishing, trials, count, true, error);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
+        sp_draft_free(&trials[i].start);
         sp_draft_free(&trials[i].refined);
+    }
     return done;
 }
 

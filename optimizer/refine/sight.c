@@ -121,6 +121,7 @@ const sp_sight *sp_sights_look(sp_sights *sights, const sp_placed *placed, sp_er
         .position = placed->nozzle.position, .axis = placed->origin.axis, .half_angle = needed(search, placed)};
     if (!sp_launch_table_find(search->candidates->table, &placed->nozzle, &wanted.launch, error))
         return NULL;
+    wanted.gravity = sp_evaluator_gravity(search->coarse, &wanted.launch);
     sp_sight *sight = known(sights, &wanted);
     if (!sight) {
         sight = &sights->items[0];
@@ -143,8 +144,7 @@ bool sp_sight_fly(const sp_search *search, const sp_sight *sight, const sp_seen 
                   sp_flight *flight, double *transfer)
 {
     sp_flight near = {.direction = seen->direction, .time = seen->time};
-    if (!sp_launch_flight_near(&sight->launch, position, seen->point,
-                               sp_evaluator_gravity(search->coarse, &sight->launch), (int)seen->arc, &near, flight))
+    if (!sp_launch_flight_near(&sight->launch, position, seen->point, sight->gravity, (int)seen->arc, &near, flight))
         return false;
     double against = -sp_dot(flight->velocity, seen->normal);
     if (sp_evaluator_patches(search->coarse)->side[seen->patch] == SP_SIDE_BOTH)

@@ -20,7 +20,8 @@ typedef struct {
 typedef struct {
     sp_vec3 position;
     sp_launch launch;
-    sp_vec3 axis; /* what lies within half_angle about it */
+    sp_vec3 gravity; /* m/s², of what flies without drag */
+    sp_vec3 axis;    /* what lies within half_angle about it */
     double half_angle;
     size_t count;
     sp_seen *seen; /* [count], ascending by patch */

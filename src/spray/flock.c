@@ -95,7 +95,8 @@ static void take(const sp_gathering *own, const sp_target *target, const sp_flig
         sp_arrival *arrival = &flock->arrivals[flock->count];
         size_t bit = 2 * (size_t)own->patch + (size_t)k;
         bool traced = sp_way_is_traced(source->evaluator, aim, part);
-        if (aim->known && !(aim->known[bit / 8] >> bit % 8 & 1))
+        if ((aim->known && !(aim->known[bit / 8] >> bit % 8 & 1)) ||
+            sp_dot(flights[k].direction, aim->axis) < aim->outside)
             continue;
         if (!sp_arrive(source, target, &flights[k], arrival) || (aim->passing && !arrival->passes))
             continue;

@@ -26,7 +26,9 @@ bool sp_launch_flight_near(const sp_launch *launch, sp_vec3 from, sp_vec3 to, sp
     sp_flight flights[2];
     if (launch->fronts && sp_fronts_flight_near(launch->fronts, from, to, near, flight))
         return true;
-    if (arc >= sp_launch_flights(launch, from, to, gravity, flights))
+    if (!launch->fronts)
+        return sp_flight_by(from, to, launch->speed, gravity, arc, flight);
+    if (arc >= sp_fronts_flights(launch->fronts, from, to, flights))
         return false;
     *flight = flights[arc];
     return true;

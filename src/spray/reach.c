@@ -12,9 +12,11 @@
 
 sp_aim sp_aim_at(sp_vec3 axis, double half_angle)
 {
+    double most = half_angle + sp_spray_fringe(SP_BREADTH_MOST);
     return (sp_aim){.axis = axis,
                     .half_angle = half_angle,
                     .cosine = half_angle < M_PI ? cos(half_angle) - 1e-12 : -2,
+                    .outside = most < M_PI ? cos(most) - 1e-12 : -2,
                     .end = SIZE_MAX};
 }
 

@@ -9,6 +9,7 @@
 typedef struct {
     sp_vec3 axis;              /* unit */
     double half_angle, cosine; /* rad; of it */
+    double outside;            /* the cosine below which nothing counts, however broad its patch looks */
     bool passing;              /* only what meets the criterion's speed and incidence */
     size_t first, end;         /* of the patches; those there are */
     const uint8_t *known;      /* NULL, or bit 2 patch + arc: what arrives, so that nothing has to be traced */

@@ -48,6 +48,22 @@ static void both_arcs_arrive(void **state)
     }
 }
 
+static void each_flight_can_be_asked_for_by_itself(void **state)
+{
+    (void)state;
+    sp_vec3 from = sp_v(0.3, -0.2, 1.1), none = sp_v(0, 0, 0);
+    for (int i = 0; i < 400; i++) {
+        sp_vec3 to = sp_along(from, 0.01 * i, sp_v(cos(0.7 * i), sin(0.7 * i), 1.3 * cos(0.3 * i)));
+        sp_flight flights[2] = {{.time = 0}}, flight;
+        int count = sp_flights(from, to, 4, i % 3 ? down : none, flights);
+        for (int k = 0; k < 2; k++) {
+            assert_int_equal(sp_flight_by(from, to, 4, i % 3 ? down : none, k, &flight), k < count);
+            if (k < count)
+                assert_memory_equal(&flight, &flights[k], sizeof flight);
+        }
+    }
+}
+
 static void nothing_reaches_beyond_the_envelope(void **state)
 {
     (void)state;
@@ -156,6 +172,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_arcs_arrive),
+        cmocka_unit_test(each_flight_can_be_asked_for_by_itself),
         cmocka_unit_test(nothing_reaches_beyond_the_envelope),
         cmocka_unit_test(a_line_is_the_limit_of_weak_gravity),
         cmocka_unit_test(extremes_keep_their_digits),
