@@ -6,6 +6,15 @@
 #include <signal.h>
 #include <time.h>
 
+/* That any number of ranks gives the same bytes is seen without sanitizers; there two run all that several do. */
+#ifdef SPRAYPLAN_SANITIZE
+#define LEAST_RANKS 2
+#define MOST_RANKS 2
+#else
+#define LEAST_RANKS 1
+#define MOST_RANKS 4
+#endif
+
 /* Any user, more ranks than cores; what MPI itself leaves allocated is its own affair. */
 #define MPIRUN                                                                                                         \
     "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ASAN_OPTIONS=detect_leaks=0 SOURCE_DATE_EPOCH=0 exec "  \
@@ -122,7 +131,7 @@ static void any_number_of_ranks_gives_the_same_bytes(void **state)
     (void)state;
     skip_without_mpi();
     write_file("types.yaml", types_yaml);
-    compare(room_yaml, "room", 1, 4);
+    compare(room_yaml, "room", LEAST_RANKS, MOST_RANKS);
 }
 
 static void so_it_does_with_much_to_refine(void **state)
@@ -216,7 +225,7 @@ static pid_t begin(const char *how, pid_t ranks[3])
         }
     clockid_t clock;
     assert_int_equal(clock_getcpuclockid(ranks[0], &clock), 0);
-    while (worked.tv_sec < 3) {
+    while (worked.tv_sec < 2) {
         assert_int_equal(waitpid(child, NULL, WNOHANG), 0);
         nanosleep(&pause, NULL);
         assert_int_equal(clock_gettime(clock, &worked), 0);

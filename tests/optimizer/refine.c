@@ -125,6 +125,12 @@ static void roll_follows_the_plank(void **state)
     room_close(&j.room);
 }
 
+#ifdef SPRAYPLAN_SANITIZE
+#define SCALED_TEXEL 0.0625 /* times the room's edge */
+#else
+#define SCALED_TEXEL 0.03125
+#endif
+
 /* A room of `edge` m by .8 by .6 of that, and nozzles whose water grows with its area. */
 static void open_scaled_room(job *j, double edge)
 {
@@ -137,7 +143,7 @@ static void open_scaled_room(job *j, double edge)
     j->room.setup.cavity = SP_CAVITY_POINT;
     j->room.setup.cavity_point = sp_v(0.5 * edge, 0.5 * edge, 0.25 * edge);
     j->room.setup.criterion.flux = 2 * LITRES_PER_MINUTE;
-    room_open(&j->room, &b, 0.03125 * edge);
+    room_open(&j->room, &b, SCALED_TEXEL * edge);
     j->type = room_cone("set", 100 * DEGREE, 8 * edge * edge);
     j->type.angle_min = 80 * DEGREE;
     j->type.angle_max = 140 * DEGREE;
