@@ -379,7 +379,7 @@ static void a_kept_nozzle_must_stand_in_the_liquid(void **state)
         bool stands;
     } places[] = {{{0, 0, 1}, true}, {{1, 0, 0.5}, false}, {{3, 0, 0.5}, false}, {{0.999999, 0.7, 0.5}, false}};
     job j;
-    job_open(&j);
+    job_open_coarse(&j, 0.1);
     j.options.max_nozzles = 2;
     for (size_t i = 0; i < sizeof places / sizeof *places; i++)
         for (int keep = 0; keep < 2; keep++) {
@@ -448,7 +448,7 @@ static void threads_do_not_matter(void **state)
 {
     (void)state;
     job j;
-    job_open(&j);
+    job_open_coarse(&j, 0.1);
     j.mounts[0].tilt = 40 * DEGREE;
     j.mounts[0].spacing = 0.8;
     j.types[0].angle_min = 80 * DEGREE;
