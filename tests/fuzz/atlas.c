@@ -36,7 +36,7 @@ static double page_length(const sp_unfolding *unfolding, const sp_mesh *mesh)
 static double texel_to_ask(const sp_unfolding *unfolding, const sp_mesh *mesh)
 {
     double area = sp_mesh_area(mesh), edge = unfolding->page_edge;
-    if (edge >= 1 && edge <= MOST_EDGE && edge == floor(edge) && isfinite(unfolding->texel) &&
+    if (edge >= 1 && edge <= MOST_EDGE && edge == floor(edge) && unfolding->texel > 0 && isfinite(unfolding->texel) &&
         area <= MOST_TEXELS * unfolding->texel * unfolding->texel)
         return 0;
     double least = page_length(unfolding, mesh) / MOST_EDGE;
