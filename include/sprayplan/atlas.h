@@ -198,9 +198,9 @@ typedef struct {
 } sp_atlas_figures;
 SP_API bool sp_atlas_measure(const sp_atlas *atlas, const sp_mesh *mesh, sp_atlas_figures *figures, sp_error *error);
 
-/* The mesh with its UVs as OBJ text: every source triangle in order, groups as they came, `v` and `vt` with 17
- * significant digits, usemtl page_0, page_1, ... Malloc'd, terminated; the caller frees. Only an atlas of one texel
- * length can be read back by sp_atlas_reuse. */
+/* The mesh with its UVs as OBJ text: every source triangle in order, groups named as sp_mesh_write_obj does,
+ * `v` and `vt` with 17 significant digits, usemtl page_0, page_1, ... Malloc'd, terminated; the caller frees. Only an
+ * atlas of one texel length can be read back by sp_atlas_reuse. */
 SP_API char *sp_atlas_obj(const sp_atlas *atlas, const sp_mesh *mesh, sp_error *error);
 
 #ifdef __cplusplus

@@ -1,5 +1,6 @@
 /* The mesh and its place on the pages as OBJ text. */
 #include "atlas/reuse.h"
+#include "mesh/obj_name.h"
 
 #include <sprayplan/atlas.h>
 
@@ -104,6 +105,14 @@ static void degenerate_place(const places *p, const uint32_t triangle[3], uint32
     corner[0] = corner[1] = corner[2] = found;
 }
 
+static void append_group(text *out, const char *name)
+{
+    append(out, "g ");
+    for (size_t at = 0; name[at]; at++)
+        append(out, "%c", sp_obj_name_letter(name, at));
+    append(out, "\n");
+}
+
 static void write_faces(text *out, const places *p, const sp_mesh *mesh)
 {
     uint32_t part = SP_NONE, page = SP_NONE;
@@ -117,7 +126,7 @@ static void write_faces(text *out, const places *p, const sp_mesh *mesh)
             degenerate_place(p, triangle, corner);
         if (mesh->source_part[s] != part) {
             part = mesh->source_part[s];
-            append(out, "g %s\n", mesh->parts[part].name);
+            append_group(out, mesh->parts[part].name);
         }
         if (p->places[corner[0]].page != page) {
             page = p->places[corner[0]].page;

@@ -2,20 +2,18 @@
 #include <sprayplan/mesh.h>
 
 #include "mesh/locales.h"
+#include "mesh/obj_name.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* `#` begins a comment where a word would begin, a backslash at its end makes the next line part of this one. */
 static void write_group(FILE *file, const char *name)
 {
     fputs("g ", file);
-    for (const char *at = name; *at; at++) {
-        bool comment = *at == '#' && (at == name || at[-1] == ' ');
-        fputc(comment || (*at == '\\' && !at[1]) ? '_' : *at, file);
-    }
+    for (size_t at = 0; name[at]; at++)
+        fputc(sp_obj_name_letter(name, at), file);
     fputc('\n', file);
 }
 

@@ -285,6 +285,26 @@ static void shapes_stand_sound_in_the_file(void **state)
     }
 }
 
+/* Of a name that OBJ cannot say what it can is written: a backslash at the end would swallow the line behind it. */
+static void names_that_obj_cannot_say_do_no_harm(void **state)
+{
+    (void)state;
+    sp_error error = {0};
+    sp_mesh *mesh = net(24, 24, on_saddle, 1);
+    free(mesh->parts[0].name);
+    mesh->parts[0].name = strdup("#1 shell #2 a#b \\");
+    sp_charts *charts = charts_of(mesh, 0.05 * 100);
+    sp_atlas_options options = {.texel = 0.05, .page_edge = 100};
+    sp_atlas *atlas = sp_atlas_create(mesh, charts, &options, &error);
+    char *text = sp_atlas_obj(atlas, mesh, &error);
+    assert_non_null(strstr(text, "\ng _1 shell _2 a#b _\n"));
+    expect_taken_back(text);
+    free(text);
+    sp_atlas_destroy(atlas);
+    sp_charts_destroy(charts);
+    sp_mesh_destroy(mesh);
+}
+
 static void expect_sound_data(const char *name)
 {
     char path[1024];
@@ -419,6 +439,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shapes_stand_sound_in_the_file),
+        cmocka_unit_test(names_that_obj_cannot_say_do_no_harm),
         cmocka_unit_test(beetle_stands_sound_in_the_file),
         cmocka_unit_test(elephant_stands_sound_in_the_file),
         cmocka_unit_test(pages_are_used),
