@@ -1,5 +1,6 @@
 #include "watch.h"
 
+#include "clock.h"
 #include "mesh/grow.h"
 #include "ranks/gather.h"
 
@@ -8,25 +9,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #define LEISURE 100.0 /* s of time limit, added up over the threads of all ranks: with less a placement hurries */
 
-static double read_clock(clockid_t clock)
-{
-    struct timespec time = {0};
-    clock_gettime(clock, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static double now(void)
-{
-    return read_clock(CLOCK_MONOTONIC);
-}
-
 sp_watch sp_watch_start(const sp_run *run)
 {
-    double start = now(), processor = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    double start = sp_now(), processor = sp_clock(CLOCK_PROCESS_CPUTIME_ID);
     return (sp_watch){.run = *run,
                       .start = start,
                       .processor = processor,
@@ -50,7 +38,7 @@ static bool can_ask(const sp_watch *watch)
  * or one has failed, it is time to stop, too. */
 static double agree(sp_watch *watch)
 {
-    double elapsed = now() - watch->start;
+    double elapsed = sp_now() - watch->start;
     double known[] = {watch->asked || watch->cancelled, watch->interrupted, elapsed};
     if (!sp_ranks_highest(watch->run.ranks, "watch", known, 3, NULL) || sp_ranks_lost(watch->run.ranks))
         known[0] = 1;
@@ -61,7 +49,7 @@ static double agree(sp_watch *watch)
 
 double sp_watch_elapsed(sp_watch *watch)
 {
-    return can_ask(watch) ? agree(watch) : now() - watch->start;
+    return can_ask(watch) ? agree(watch) : sp_now() - watch->start;
 }
 
 void sp_watch_allow(sp_watch *watch, double share)
@@ -77,7 +65,7 @@ double sp_watch_left(sp_watch *watch)
 
 double sp_watch_pace(const sp_watch *watch)
 {
-    double taken = now() - watch->start, worked = read_clock(CLOCK_PROCESS_CPUTIME_ID) - watch->processor;
+    double taken = sp_now() - watch->start, worked = sp_clock(CLOCK_PROCESS_CPUTIME_ID) - watch->processor;
     return is_alone(watch) && taken > 0 ? worked / taken : 1;
 }
 
@@ -128,7 +116,7 @@ static bool goes_on(sp_watch *watch, const char *stage, double done, bool loses)
         if (is_alone(watch)) {
             if (watch->asked || sp_ranks_lost(watch->run.ranks))
                 watch->cancelled = watch->interrupted = true;
-            on = decide(watch, stage, now() - watch->start, loses);
+            on = decide(watch, stage, sp_now() - watch->start, loses);
         } else {
             on = !watch->cancelled && !watch->over;
         }
@@ -148,7 +136,7 @@ bool sp_watch_has_time(sp_watch *watch, const char *stage, double done)
 
 bool sp_watch_stage(sp_watch *watch, const char *name, sp_error *error)
 {
-    double end = now(), processor = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    double end = sp_now(), processor = sp_clock(CLOCK_PROCESS_CPUTIME_ID);
     sp_stage own = {.seconds = end - watch->stage_start, .processor_seconds = processor - watch->stage_processor};
     watch->stage_start = end;
     watch->stage_processor = processor;

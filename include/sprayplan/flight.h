@@ -20,8 +20,8 @@ typedef struct {
 /* The closed-form flights from `from` to `to` at `speed` under `gravity`, without drag, low arc first. Returns 0, 1 or
  * 2. A line (gravity zero) has one. */
 SP_API int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_flight flights[2]);
-/* One of these, by its number; false where there is none. */
-SP_API bool sp_flight_by(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, int arc, sp_flight *flight);
+/* One of these, `arc` 0 the low one or the line, 1 the high one; false where there is none. */
+SP_API bool sp_flight_on_arc(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, int arc, sp_flight *flight);
 /* How broad a square of this edge length (m) about the flight's end looks from where it starts, at most, however it is
  * turned: by how much the flight's direction has to change for its end to move so far. Never more than SP_BREADTH_MOST
  * (rad): a patch that looks broader is cut into cells that do not, and the spray's edge is blurred over them by as

@@ -245,7 +245,7 @@ SP_API bool sp_find_swabs(const sp_design *design, sp_swab swabs[SP_SWABS], size
  * empty; texts as in nozzles.csv. Malloc'd. */
 SP_API char *sp_swabs_csv(const sp_design *design, sp_error *error);
 
-/* A set of files that is written whole or not at all: each goes to a folder .sprayplan-new-XXXXXX in `directory`
+/* A set of files that is written whole or not at all: each goes to a folder .sprayplan-new-* in `directory`
  * (created where missing, with its parents), and commit moves them all; discard removes them. An existing file is
  * replaced only by commit, after all of the set is on the disk. Sets of several processes or threads do not mix: one
  * commit at a time, the others wait for up to 30 s. A process that is killed leaves the old files, or, killed while it

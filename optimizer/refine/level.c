@@ -114,6 +114,7 @@ static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool sl
 {
     borne->flight.direction = seen->direction;
     borne->transfer = seen->transfer;
+    /* from where it was traced the direction is known, and most need not be flown to be left out */
     if (!posed->moved && sp_dot(seen->direction, posed->frame.z) < posed->least)
         return false;
     if (flies &&

@@ -20,7 +20,7 @@ typedef struct {
     double budget;    /* m³/s of outlay */
     uint64_t seed;    /* of the walk */
     sp_draft start;   /* where the walk of that kind ended */
-    bool repeats;     /* another of that kind goes the same way from there */
+    bool repeats;     /* another is refined in the same way from there */
     bool better;      /* it came to cover more on few patches; the search's and the final ones may see it otherwise */
     sp_draft refined; /* on few patches */
     double covered;   /* m² of these */

@@ -50,9 +50,9 @@ static bool read_wish(const cli_options *options, bench_wish *wish)
 static sp_mesh *load_mesh(const char *path, bench_load *load, sp_error *error)
 {
     cli_meter_start();
-    double start = bench_now();
+    double start = sp_now();
     sp_mesh *mesh = cli_load_mesh(path, error);
-    *load = (bench_load){.seconds = bench_now() - start, .peak_bytes = cli_meter_peak()};
+    *load = (bench_load){.seconds = sp_now() - start, .peak_bytes = cli_meter_peak()};
     if (mesh)
         load->bytes = mesh->vertex_count * sizeof *mesh->vertices +
                       mesh->triangle_count * (sizeof *mesh->triangles + sizeof *mesh->part + sizeof *mesh->source) +

@@ -9,7 +9,6 @@
 #include <jansson.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <time.h>
 
 /* Exit status, DESIGN §4. */
 enum { EXIT_DONE = 0, EXIT_OTHER = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_SHORT = 4, EXIT_INTERRUPTED = 130 };
@@ -97,8 +96,6 @@ typedef struct {
     size_t count;
     double since, processor;
 } cli_clock;
-/* Seconds of a POSIX clock. */
-double cli_read_clock(clockid_t clock);
 void cli_clock_start(cli_clock *clock);
 void cli_clock_stage(cli_clock *clock, const char *name);
 

@@ -1,9 +1,10 @@
 /* How what follows the search is kept within the time limit. */
 #include "cli.h"
 
+#include "../clock.h"
+
 #include <stdarg.h>
 #include <stdlib.h>
-#include <time.h>
 
 /* Of what of the limit is beyond a rough layout, s, at most, for pictures, which get smaller then: without a layout
  * that is worth a look they are worth nothing. */
@@ -30,10 +31,10 @@ static bool try_pictures(const sp_design *design, size_t count, double *pictures
     for (size_t i = 0; i < count; i++)
         designs[i] = *design;
     sp_result result = {.command = "place", .scene = "", .designs = designs, .design_count = count};
-    double start = cli_read_clock(CLOCK_MONOTONIC), worked = cli_read_clock(CLOCK_THREAD_CPUTIME_ID);
+    double start = sp_now(), worked = sp_clock(CLOCK_THREAD_CPUTIME_ID);
     bool known = sp_report_picture_time(&result, pictures, error);
-    worked = cli_read_clock(CLOCK_THREAD_CPUTIME_ID) - worked;
-    *busy = worked > 0 ? fmax(1, (cli_read_clock(CLOCK_MONOTONIC) - start) / worked) : 1;
+    worked = sp_clock(CLOCK_THREAD_CPUTIME_ID) - worked;
+    *busy = worked > 0 ? fmax(1, (sp_now() - start) / worked) : 1;
     free(designs);
     return known;
 }

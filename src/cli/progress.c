@@ -1,11 +1,12 @@
 /* Ctrl-C and the request to end, and how far a command has come, on standard error and only when that is a terminal. */
 #include "cli.h"
 
+#include "../clock.h"
+
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { CELLS = 20, LINE = 79 };
@@ -29,18 +30,6 @@ static struct {
     bool on_screen;
 } bar;
 
-double cli_read_clock(clockid_t clock)
-{
-    struct timespec time = {0};
-    clock_gettime(clock, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static double now(void)
-{
-    return cli_read_clock(CLOCK_MONOTONIC);
-}
-
 static void on_interrupt(int number)
 {
     (void)number;
@@ -49,7 +38,7 @@ static void on_interrupt(int number)
 
 double cli_time_left(void)
 {
-    return bar.ends > 0 ? bar.ends - now() : INFINITY;
+    return bar.ends > 0 ? bar.ends - sp_now() : INFINITY;
 }
 
 bool cli_interrupted(void)
@@ -152,7 +141,7 @@ static void write_line(char *line, size_t size, const char *stage, double time, 
 
 static void draw(const char *stage, double done)
 {
-    double time = now();
+    double time = sp_now();
     bool fresh = strcmp(stage, bar.name) != 0;
     if (fresh) {
         snprintf(bar.name, sizeof bar.name, "%s", stage);
@@ -222,7 +211,7 @@ sp_run cli_run(const cli_options *options)
     visible = is_visible(options);
     bar.kind = kind_of_terminal();
     if (options->time_limit > 0 && !(bar.ends > 0))
-        bar.ends = now() + options->time_limit;
+        bar.ends = sp_now() + options->time_limit;
     /* SIGTERM is what timeout(1), schedulers and shutting down send: no reason to lose what was found. The second of
      * either ends the program at once. */
     struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
@@ -243,12 +232,12 @@ sp_run cli_search_run(const cli_options *options)
 
 void cli_clock_start(cli_clock *clock)
 {
-    *clock = (cli_clock){.since = now(), .processor = cli_read_clock(CLOCK_PROCESS_CPUTIME_ID)};
+    *clock = (cli_clock){.since = sp_now(), .processor = sp_clock(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
 void cli_clock_stage(cli_clock *clock, const char *name)
 {
-    double time = now(), processor = cli_read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    double time = sp_now(), processor = sp_clock(CLOCK_PROCESS_CPUTIME_ID);
     size_t at = 0;
     while (at < clock->count && strcmp(clock->stages[at].name, name))
         at++;

@@ -1,4 +1,5 @@
 /* Three views of every design, with the colour bar. */
+#include "clock.h"
 #include "labels.h"
 #include "layers.h"
 #include "overlay.h"
@@ -9,7 +10,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #ifndef PIXELS /* fewer under the sanitizers */
 #define PIXELS 900
@@ -177,13 +177,6 @@ static bool add_views(const sp_page *page, sp_text *text, size_t drawn, sp_error
     return done;
 }
 
-static double now(void)
-{
-    struct timespec time = {0};
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 /* What one view takes, s: whatever its size, to trace it, and of each design to paint and pack it. */
 typedef struct {
     double layers, tracing, painting;
@@ -198,15 +191,15 @@ static bool try_view(const sp_result *result, const sp_design *design, int pixel
     sp_shot shot = {0};
     const colouring by = {&layers, &scale, &design->coverage->deposits};
     size_t size = 0;
-    double start = now();
+    double start = sp_now();
     bool done = sp_layers_create_for(&layers, design->evaluator, &scale, error);
-    double laid = now();
+    double laid = sp_now();
     done =
         done && sp_shot_create(&shot, design->evaluator, &camera, scale.style.wireframe, look_at_patch, &layers, error);
-    double traced = now();
+    double traced = sp_now();
     uint8_t *drawn = done ? sp_shot_picture(&shot, colour_patch, &by, error) : NULL;
     uint8_t *bytes = drawn ? sp_image_encode_webp(drawn, shot.width, shot.height, &size, error) : NULL;
-    *taken = (view_time){laid - start, traced - laid, now() - traced};
+    *taken = (view_time){laid - start, traced - laid, sp_now() - traced};
     done = bytes != NULL;
     free(bytes);
     free(drawn);

@@ -1,4 +1,4 @@
-/* A folder DIR/.sprayplan-new-XXXXXX in which a set of files is prepared for DIR. The file `lock` in it is locked for
+/* A folder DIR/.sprayplan-new-* in which a set of files is prepared for DIR. The file `lock` in it is locked for
  * as long as the process lives that made it, so that what a killed process left is known, on whichever machine, and
  * goes. */
 #ifndef RESULT_STAGING_H

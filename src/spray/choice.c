@@ -1,9 +1,9 @@
 #include "choice.h"
 
+#include "clock.h"
 #include "resolution.h"
 
 #include <stdio.h>
-#include <time.h>
 
 #define SHORTER 0.7 /* of a texel that does not keep the accuracy */
 #define SAVES 0.1   /* of the run: less is not worth lines */
@@ -20,17 +20,10 @@
 #define TRIANGLE_OPEN 5 /* the same where no cavity is named */
 #define PATCH 1.4       /* cut out of the atlas */
 
-double sp_evaluator_clock(void)
-{
-    struct timespec time = {0};
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 bool sp_trial_late(const sp_trial *trial)
 {
     double limit = trial->evaluator->setup.run.time_limit;
-    return limit > 0 && sp_evaluator_clock() - trial->evaluator->began > LATE * limit;
+    return limit > 0 && sp_now() - trial->evaluator->began > LATE * limit;
 }
 
 bool sp_trial_run(sp_trial *trial, sp_error *error)

@@ -1,5 +1,6 @@
 /* Building an evaluator, choosing what is left to auto, and asking it. */
 #include "choice.h"
+#include "clock.h"
 #include "movers.h"
 #include "resolution.h"
 #include "rundown.h"
@@ -199,7 +200,7 @@ sp_evaluator *sp_evaluator_create_for(const sp_setup *setup, const sp_layout *la
     if (!evaluator)
         return sp_fail_memory(error);
     evaluator->setup = *setup;
-    evaluator->began = sp_evaluator_clock();
+    evaluator->began = sp_now();
     if (!resolve(setup, &evaluator->fidelity, error)) {
         sp_evaluator_destroy(evaluator);
         return NULL;

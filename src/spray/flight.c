@@ -65,7 +65,7 @@ int sp_flights(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, sp_fligh
     return count;
 }
 
-bool sp_flight_by(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, int arc, sp_flight *flight)
+bool sp_flight_on_arc(sp_vec3 from, sp_vec3 to, double speed, sp_vec3 gravity, int arc, sp_flight *flight)
 {
     span s;
     if (arc >= span_create(from, to, speed, gravity, &s))

@@ -27,7 +27,7 @@ bool sp_launch_flight_near(const sp_launch *launch, sp_vec3 from, sp_vec3 to, sp
     if (launch->fronts && sp_fronts_flight_near(launch->fronts, from, to, near, flight))
         return true;
     if (!launch->fronts)
-        return sp_flight_by(from, to, launch->speed, gravity, arc, flight);
+        return sp_flight_on_arc(from, to, launch->speed, gravity, arc, flight);
     if (arc >= sp_fronts_flights(launch->fronts, from, to, flights))
         return false;
     *flight = flights[arc];

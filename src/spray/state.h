@@ -44,8 +44,6 @@ sp_vec3 sp_pull_at(const sp_evaluator *evaluator, sp_trajectory own);
 bool sp_air_is_known(const sp_setup *setup);
 /* Reports progress; false, with the error set, where the caller is to stop. */
 bool sp_evaluator_progress(const sp_setup *setup, const char *stage, double done, sp_error *error);
-/* choice.c: s, of a monotonic clock. */
-double sp_evaluator_clock(void);
 /* False, with the error that nothing is to be cleaned. */
 bool sp_fail_nothing(sp_error *error);
 

@@ -1,21 +1,14 @@
 /* Seconds of wall time and of processor time. */
+#include "clock.h"
 #include "state.h"
 
 #include <stdlib.h>
-#include <time.h>
 
 #define ENOUGH 0.33 /* s after which there is no further round */
 
-static double seconds_of(clockid_t clock)
-{
-    struct timespec time;
-    clock_gettime(clock, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 sp_moment sp_moment_now(void)
 {
-    return (sp_moment){seconds_of(CLOCK_MONOTONIC), seconds_of(CLOCK_PROCESS_CPUTIME_ID)};
+    return (sp_moment){sp_now(), sp_clock(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
 sp_moment sp_moment_since(sp_moment start)

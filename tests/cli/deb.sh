@@ -53,10 +53,11 @@ lintian --allow-root --fail-on error,warning ./*.deb || status=1
 for package in *.deb; do
     dpkg-deb -x "$package" root
 done
-cd root/usr/share/doc/sprayplan/examples
+program=$(find "$PWD/root" -type f -name sprayplan -perm -u+x)
+cd "$(find root -type d -name examples)"
 for scene in $(grep -l ^geometry: *.yaml); do
     [ "$scene" != vessel.yaml ] || pictures="-o $scratch/out"
-    "$scratch/root/usr/bin/sprayplan" check "$scene" --set "simulate.texel=200 mm" ${pictures:-} >"$scratch/log" 2>&1 ||
+    "$program" check "$scene" --set "simulate.texel=200 mm" ${pictures:-} >"$scratch/log" 2>&1 ||
         { cat "$scratch/log"; wrong "$scene does not run"; }
 done
 [ -s "$scratch/out/wet.png" ] || wrong "there is no picture of the vessel"

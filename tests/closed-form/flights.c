@@ -57,7 +57,7 @@ static void each_flight_can_be_asked_for_by_itself(void **state)
         sp_flight flights[2] = {{.time = 0}}, flight;
         int count = sp_flights(from, to, 4, i % 3 ? down : none, flights);
         for (int k = 0; k < 2; k++) {
-            assert_int_equal(sp_flight_by(from, to, 4, i % 3 ? down : none, k, &flight), k < count);
+            assert_int_equal(sp_flight_on_arc(from, to, 4, i % 3 ? down : none, k, &flight), k < count);
             if (k < count)
                 assert_memory_equal(&flight, &flights[k], sizeof flight);
         }

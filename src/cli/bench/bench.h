@@ -3,6 +3,7 @@
 #define CLI_BENCH_H
 
 #include "../atlas.h"
+#include "../../clock.h"
 #include "../cli.h"
 #include "../embree/module.h"
 
@@ -30,8 +31,6 @@ typedef struct {
     size_t bytes;   /* besides the mesh */
 } bench_build_row;
 
-/* Wall time, s. */
-double bench_now(void);
 /* The middle one of values[count], which get sorted. */
 double bench_median(double *values, size_t count);
 

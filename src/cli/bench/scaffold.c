@@ -44,9 +44,9 @@ static bool build(bench_scaffold *scaffold, contestant *who, sp_error *error)
     int at = who->accelerator;
     if (at < OWN) {
         sp_tracer_destroy(scaffold->tracers[at]);
-        double start = bench_now();
+        double start = sp_now();
         scaffold->tracers[at] = sp_tracer_create(mesh, own[at].value, who->threads, error);
-        who->seconds[who->rounds++] = bench_now() - start;
+        who->seconds[who->rounds++] = sp_now() - start;
         if (!scaffold->tracers[at])
             return false;
         who->bytes = sp_tracer_bytes(scaffold->tracers[at]);

@@ -25,9 +25,9 @@ static bool sort(bench_set *set)
     if (good)
         memcpy(unsorted, set->rays, set->count * sizeof *unsorted);
     for (int i = 0; good && i < 3; i++) {
-        double start = bench_now();
+        double start = sp_now();
         good = bench_sort(unsorted, set->count, set->rays, order);
-        seconds[i] = bench_now() - start;
+        seconds[i] = sp_now() - start;
     }
     if (good) {
         set->sort_seconds = bench_median(seconds, 3);

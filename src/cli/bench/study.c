@@ -48,10 +48,10 @@ static bench_study_row measure(const sp_tracer *tracer, const sp_atlas *atlas, c
     size_t rounds = 0;
     bench_study_row row = {.rays = count};
     while (rounds < MOST_ROUNDS && sum < ENOUGH) {
-        double start = bench_now();
+        double start = sp_now();
         spray(tracer, rays, count, gravity, hits);
         write_deposits(sp_tracer_mesh(tracer), atlas, rays, hits, count, gravity, texture);
-        seconds[rounds] = bench_now() - start;
+        seconds[rounds] = sp_now() - start;
         sum += seconds[rounds++];
     }
     for (size_t i = 0; i < count; i++)

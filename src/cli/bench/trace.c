@@ -153,12 +153,12 @@ static bool run_once(const race *race, contestant *who, size_t round)
             return false;
         embree->work_reset(who->work);
     }
-    double start = bench_now();
+    double start = sp_now();
     if (is_own)
         run_own(race, who);
     else
         run_embree(race, who);
-    who->seconds[round] = bench_now() - start;
+    who->seconds[round] = sp_now() - start;
     return true;
 }
 
@@ -202,9 +202,9 @@ static bool run_race(race *race, const sp_run *run, bench_trace *trace, sp_error
 {
     bench_trace_row rows[MOST_CONTESTANTS];
     size_t round = 0;
-    double start = bench_now();
+    double start = sp_now();
     memset(rows, 0, sizeof rows);
-    for (; round < MOST_ROUNDS && (round < LEAST_ROUNDS || bench_now() - start < ENOUGH); round++)
+    for (; round < MOST_ROUNDS && (round < LEAST_ROUNDS || sp_now() - start < ENOUGH); round++)
         for (size_t i = 0; i < race->count; i++) {
             contestant *who = &race->list[i];
             if (round > 0 && who->accelerator == OWN_NONE)

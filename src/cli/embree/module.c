@@ -1,11 +1,12 @@
 /* Scenes, and the module's one door. */
 #include "rays.h"
 
+#include "../../clock.h"
+
 #include <pmmintrin.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <xmmintrin.h>
 
 static bool count_bytes(void *user, ssize_t bytes, bool after)
@@ -14,13 +15,6 @@ static bool count_bytes(void *user, ssize_t bytes, bool after)
     bench_embree_scene *scene = user;
     __atomic_fetch_add(&scene->bytes, bytes, __ATOMIC_RELAXED);
     return true;
-}
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
 static void scene_destroy(bench_embree_scene *scene)
@@ -63,9 +57,9 @@ static bench_embree_scene *scene_create(const float *vertices, size_t vertex_cou
     built->device = rtcNewDevice(settings);
     if (built->device) {
         rtcSetDeviceMemoryMonitorFunction(built->device, count_bytes, built);
-        double start = now();
+        double start = sp_now();
         commit(built, vertices, vertex_count, triangles, triangle_count, robust);
-        *seconds = now() - start;
+        *seconds = sp_now() - start;
     }
     if (built->device && rtcGetDeviceError(built->device) == RTC_ERROR_NONE)
         return built;

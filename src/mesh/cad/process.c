@@ -1,6 +1,8 @@
 #define _GNU_SOURCE /* pipe2: no other thread's child may inherit the ends */
 #include "mesh/cad/process.h"
 
+#include "clock.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -14,13 +16,6 @@
 enum { TICK = 100 }; /* ms between two looks at whether to go on */
 
 extern char **environ;
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 /* The program's output is the pipe, it reads nothing and what it says is for nobody; signals do what they always do,
  * whatever this program has made of them. */
@@ -66,7 +61,7 @@ static bool read_all(int pipe_end, double until, sp_cad_stream *stream, const sp
     for (;;) {
         if (cancelled(stream, run, error))
             return false;
-        if (now() > until)
+        if (sp_now() > until)
             return sp_fail(error, SP_ERROR_INPUT, stream->path, 0, 0, "cannot be read: sprayplan-cad %s", late);
         if (poll(&wait, 1, TICK) <= 0)
             continue;
@@ -129,7 +124,7 @@ bool sp_cad_process_run(char *const *arguments, double seconds, sp_cad_stream *s
         close(ends[0]);
         return sp_fail(error, SP_ERROR_FILE, arguments[0], 0, 0, "cannot be started: %s", strerror(problem));
     }
-    bool whole = read_all(ends[0], now() + seconds, stream, run, error);
+    bool whole = read_all(ends[0], sp_now() + seconds, stream, run, error);
     close(ends[0]);
     int status = reap(child, whole);
     return whole && !cancelled(stream, run, error) && judge(stream, status, error);

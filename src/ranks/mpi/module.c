@@ -1,5 +1,7 @@
 #include "ranks/mpi/module.h"
 
+#include "clock.h"
+
 #include <limits.h>
 #include <mpi.h>
 #include <stdlib.h>
@@ -16,13 +18,6 @@
 
 static double patience;
 
-static double now(void)
-{
-    struct timespec time = {0};
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 /* Of MPI's own waiting a process that is gone would never let go. */
 static bool await(MPI_Request *request, bool (*ends)(void))
 {
@@ -36,8 +31,8 @@ static bool await(MPI_Request *request, bool (*ends)(void))
         if (round < SPINS)
             continue;
         if (ends && ends()) {
-            asked = asked > 0 ? asked : now();
-            if (now() - asked > patience)
+            asked = asked > 0 ? asked : sp_now();
+            if (sp_now() - asked > patience)
                 return false;
         }
         nanosleep(&(struct timespec){0, round < SPINS + NAPS ? NAP : NAP_LONG}, NULL);
