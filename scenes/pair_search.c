@@ -88,7 +88,7 @@ static void refine(placement *p, const sp_tuned *tuned, const sp_table *table, c
     sp_sights sights;
     sp_lineup lineup;
     sp_draft draft;
-    if (!sp_sights_create(&p->search, SIGHTS, &sights, &error) || !sp_lineup_create(table, &lineup, &error))
+    if (!sp_sights_create(&p->search, SIGHTS, false, &sights, &error) || !sp_lineup_create(table, &lineup, &error))
         fail(&error);
     sp_lineup_set(&lineup, start->row, start->count);
     if (!sp_lineup_draft(&lineup, &draft, &error))

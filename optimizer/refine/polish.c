@@ -26,13 +26,13 @@
     0.005 /* of what was covered before a walk: with more to make up for, annealing is the end of it                   \
            */
 
-static bool sights_create(const sp_search *search, int threads, size_t capacity, sp_sights **sights, sp_error *error)
+static bool sights_create(const sp_search *search, int threads, bool exact, sp_sights **sights, sp_error *error)
 {
     *sights = calloc(threads > 0 ? (size_t)threads : 1, sizeof **sights);
     if (!*sights)
         return sp_fail_memory(error);
     for (int i = 0; i < threads; i++)
-        if (!sp_sights_create(search, capacity, &(*sights)[i], error))
+        if (!sp_sights_create(search, SIGHTS, exact, &(*sights)[i], error))
             return false;
     return true;
 }
@@ -71,7 +71,7 @@ static bool create_sharp(sp_polishing *polishing, const sp_evaluator *fine, sp_e
     return sharp &&
            sp_search_create(sharp, search->options, search->sites, search->candidates, search->visibility,
                             &polishing->sharp, error) &&
-           sights_create(&polishing->sharp, polishing->threads, SIGHTS, &polishing->sharp_sights, error);
+           sights_create(&polishing->sharp, polishing->threads, false, &polishing->sharp_sights, error);
 }
 
 bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine, sp_watch *watch,
@@ -89,8 +89,8 @@ bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_
                                 search->visibility, &polishing->rough, error);
     }
     done = done && create_sharp(polishing, fine, error) &&
-           sights_create(search, polishing->threads, SIGHTS, &polishing->sights, error) &&
-           sights_create(&polishing->rough, polishing->threads, SIGHTS, &polishing->rough_sights, error);
+           sights_create(search, polishing->threads, true, &polishing->sights, error) &&
+           sights_create(&polishing->rough, polishing->threads, false, &polishing->rough_sights, error);
     if (!done)
         sp_polishing_free(polishing);
     return done;
@@ -117,17 +117,6 @@ static bool transfer(sp_sights *sights, const sp_draft *from, sp_draft *to, sp_e
     if (!done)
         sp_draft_free(to);
     return done;
-}
-
-/* What every nozzle covers from just where it is: sights from beside it tell that of patches near by less well. */
-static bool look_again(const sp_search *search, sp_draft *draft, sp_error *error)
-{
-    for (size_t i = 0; i < draft->count; i++)
-        if (sp_type_is_uniform(draft->items[i].nozzle.type) &&
-            !sp_field_nozzle(search, &draft->items[i].nozzle, NULL, draft->items[i].field, error))
-            return false;
-    sp_draft_refresh(search, draft);
-    return true;
 }
 
 static bool fits_within(const sp_search *search, const sp_draft *draft, double budget)
@@ -255,8 +244,7 @@ static bool take_over(const sp_polishing *polishing, int thread, sp_trial *trial
     if (!transfer(sights, &trial->refined, &draft, error))
         return false;
     double water = sp_draft_water(polishing->search, &draft, trial->budget);
-    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, water, polishing->watch, &draft, error) ||
-        !look_again(polishing->search, &draft, error)) {
+    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, water, polishing->watch, &draft, error)) {
         sp_draft_free(&draft);
         return false;
     }
@@ -304,14 +292,14 @@ static sp_ranks *ranks_of(const sp_polishing *polishing)
 }
 
 /* Takes the step for every trial that is this rank's, or for those that are better; the last, which have most nozzles,
- * first, so that no thread is left alone with one of these. */
+ * first, so that no thread is left alone with one of these. A trial alone has all threads for itself. */
 static bool for_each(const sp_polishing *polishing, sp_trial *trials, size_t count, bool better, trial_step step,
                      sp_error *error)
 {
     sp_error failure = {0};
     sp_ranks *ranks = ranks_of(polishing);
     sp_ranks_part(ranks);
-#pragma omp parallel for num_threads(polishing->threads) schedule(dynamic, 1)
+#pragma omp parallel for num_threads(polishing->threads) schedule(dynamic, 1) if (count > 1)
     for (size_t k = 0; k < count; k++) {
         size_t i = count - 1 - k;
         sp_error mine = {0};
@@ -408,16 +396,11 @@ static bool sharpen(const sp_polishing *polishing, int thread, sp_trial *trial, 
         return false;
     sp_draft_free(&trial->draft);
     trial->draft = draft;
-    return look_again(polishing->search, &trial->draft, error);
+    return true;
 }
 
 bool sp_sharpen(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error)
 {
     return for_each(polishing, trials, count, false, sharpen, error) &&
            share_drafts(polishing, trials, count, false, error);
-}
-
-bool sp_look_anew(sp_polishing *polishing, sp_draft *draft, sp_error *error)
-{
-    return look_again(polishing->search, draft, error);
 }

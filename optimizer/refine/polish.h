@@ -35,7 +35,7 @@ typedef struct {
     sp_search sharp;               /* on these */
     sp_tuned tuned;                /* where walks and other drafts find their poses */
     int threads;
-    sp_sights *sights, *rough_sights, *sharp_sights; /* [threads] */
+    sp_sights *sights, *rough_sights, *sharp_sights; /* [threads]; the first are exact */
 } sp_polishing;
 
 bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine, sp_watch *watch,
@@ -47,7 +47,5 @@ void sp_polishing_free(sp_polishing *polishing);
 bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error);
 /* Polishes every trial's draft sharply on the final patches, where it never gets worse. */
 bool sp_sharpen(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error);
-/* Looks anew on the search's own patches. */
-bool sp_look_anew(sp_polishing *polishing, sp_draft *draft, sp_error *error);
 
 #endif

@@ -16,7 +16,9 @@ bool sp_save_flow(sp_refining *refining, const sp_draft *full)
         low += sp_least_flow(search, &full->items[i]);
     if (!(low < high * (1 - 1e-6)))
         return true;
+    sp_sights *sights = &refining->polishing.sights[0]; /* liquid flies alike at every flow */
     bool done = true;
+    sp_sights_forget(sights);
     for (int trial = 0; done && trial < FLOW_TRIALS && sp_watch_goes_on(refining->watch, "refine", 1); trial++) {
         sp_draft draft;
         sp_front_point point;
@@ -25,7 +27,7 @@ bool sp_save_flow(sp_refining *refining, const sp_draft *full)
         if (!done)
             break;
         sp_turn_down(search, &draft, middle);
-        done = sp_look_anew(&refining->polishing, &draft, refining->error) &&
+        done = sp_draft_look(sights, &draft, refining->error) &&
                sp_front_measure(front, search, &draft, &point, refining->error);
         sp_draft_free(&draft);
         if (done && point.area >= front->target)

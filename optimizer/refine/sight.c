@@ -21,10 +21,11 @@ bool sp_sights_reserve(sp_sights *sights, size_t capacity, sp_error *error)
     return true;
 }
 
-bool sp_sights_create(const sp_search *search, size_t capacity, sp_sights *sights, sp_error *error)
+bool sp_sights_create(const sp_search *search, size_t capacity, bool exact, sp_sights *sights, sp_error *error)
 {
-    *sights = (sp_sights){
-        .search = search, .asked = capacity, .tolerance = NEAR * sp_evaluator_fidelity(search->coarse)->texel};
+    *sights = (sp_sights){.search = search,
+                          .asked = capacity,
+                          .tolerance = exact ? 0 : NEAR * sp_evaluator_fidelity(search->coarse)->texel};
     return sp_sights_reserve(sights, capacity, error);
 }
 
@@ -96,7 +97,7 @@ static bool trace(const sp_search *search, sp_sight *sight, sp_error *error)
 static sp_sight *known(const sp_sights *sights, const sp_sight *wanted)
 {
     sp_sight *best = NULL;
-    double nearest = sights->tolerance;
+    double nearest = nextafter(sights->tolerance, INFINITY);
     for (size_t i = 0; i < sights->capacity; i++) {
         sp_sight *item = &sights->items[i];
         if (!item->seen || !is_same(&item->launch, &wanted->launch) || item->half_angle < wanted->half_angle ||

@@ -31,17 +31,17 @@ typedef struct {
 /* Sights kept for another look: annealing, line search and compass come back to the same places. */
 typedef struct {
     const sp_search *search;
-    double tolerance; /* m */
+    double tolerance; /* m; 0: sights from just there alone */
     uint64_t clock;
     size_t asked; /* capacity that it was created with */
     size_t capacity;
     sp_sight *items; /* [capacity], unused ones all zero */
 } sp_sights;
 
-/* Keeps the last `capacity` sights. What lies in the way of a nozzle that moved by less than a fraction of a texel is
- * taken to be as it was: shadows' edges are not known better anyway. So what is seen depends on what was looked at
- * before, until it is forgotten. */
-bool sp_sights_create(const sp_search *search, size_t capacity, sp_sights *sights, sp_error *error);
+/* Keeps the last `capacity` sights. Unless they are to be exact, what lies in the way of a nozzle that moved by less
+ * than a fraction of a texel is taken to be as it was: shadows' edges are not known better anyway. So what is seen then
+ * depends on what was looked at before, until it is forgotten. */
+bool sp_sights_create(const sp_search *search, size_t capacity, bool exact, sp_sights *sights, sp_error *error);
 /* Room for at least as many, until it forgets. */
 bool sp_sights_reserve(sp_sights *sights, size_t capacity, sp_error *error);
 void sp_sights_forget(sp_sights *sights);

@@ -39,7 +39,7 @@ static void bench_open(bench *b)
                                      &b->visibility, &error));
     assert_true(sp_search_create(j->room.evaluator, &j->options, &b->sites, &b->candidates, &b->visibility, &b->search,
                                  &error));
-    assert_true(sp_sights_create(&b->search, 4, &b->sights, &error));
+    assert_true(sp_sights_create(&b->search, 4, false, &b->sights, &error));
     assert_true(sp_draft_create(&b->search, &b->draft, &error));
     assert_true(sp_draft_add_pose(&b->search, &b->draft, (sp_pose){0, 0, 0, 0}, &error));
 }
