@@ -45,11 +45,17 @@ typedef struct {
     double dry;   /* share that is not covered by the edges */
     double cells; /* share that cells cover by themselves */
 } sp_wetting;
-/* `flux`: of the arrival inside the spray; `share` of the `part` of the patch that is inside; `holds`: its point is. */
+/* Whether an arrival meets the criterion by itself, whatever comes with it. */
+static inline bool sp_wetting_alone(double flux, double threshold)
+{
+    return flux > 0 && flux >= threshold;
+}
+/* `flux`: of the arrival inside the spray; `share` of the `part` of the patch that is inside; `holds`: its point is,
+ * which is not asked of one that meets the criterion alone. */
 static inline void sp_wetting_add(sp_wetting *wetting, double flux, double threshold, double part, double share,
                                   bool holds)
 {
-    bool alone = flux > 0 && flux >= threshold;
+    bool alone = sp_wetting_alone(flux, threshold);
     if (alone && part < 1)
         wetting->cells += part * share;
     else if (alone && share < 1)

@@ -84,27 +84,57 @@ static int by_flux(const void *left, const void *right)
     return (a->area > b->area) - (a->area < b->area);
 }
 
+/* The patches of no more flux than so much, into `shares`; returns how many. */
+static size_t list_up_to(const sp_patches *patches, const double *flux, double most, flux_share *shares)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < patches->count; i++)
+        if (flux[i] <= most)
+            shares[count++] = (flux_share){flux[i], patches->area[i]};
+    return count;
+}
+
+static double area_up_to(const sp_patches *patches, const double *flux, double most)
+{
+    double area = 0;
+    for (size_t i = 0; i < patches->count; i++)
+        area += flux[i] <= most ? patches->area[i] : 0;
+    return area;
+}
+
+/* No flux, or one halved from the highest, up to which there are `share` of the area and more, by more than a sum in
+ * another order is off: only these need be sorted. */
+static double bound_percentile(const sp_patches *patches, const double *flux, double highest, double share)
+{
+    double enough = (share + 1e-6) * patches->total_area, bound = highest;
+    if (area_up_to(patches, flux, 0) > enough)
+        return 0;
+    while (0.5 * bound < bound && area_up_to(patches, flux, 0.5 * bound) > enough)
+        bound *= 0.5;
+    return bound;
+}
+
 /* Minimum, mean, maximum and 5th percentile of the flux, by area. */
 static bool draw_flux_figures(const sp_patches *patches, sp_coverage *coverage, sp_error *error)
 {
+    const double *flux = coverage->deposits.flux, share = 0.05;
     if (patches->count == 0)
         return true;
     flux_share *shares = malloc(patches->count * sizeof *shares);
     if (!shares)
         return sp_fail_memory(error);
-    double liquid = 0;
+    double liquid = 0, below = 0;
     for (size_t i = 0; i < patches->count; i++) {
-        shares[i] = (flux_share){coverage->deposits.flux[i], patches->area[i]};
-        liquid += shares[i].flux * shares[i].area;
+        liquid += flux[i] * patches->area[i];
+        coverage->flux_max = fmax(coverage->flux_max, flux[i]);
     }
-    qsort(shares, patches->count, sizeof *shares, by_flux);
-    double below = 0;
-    size_t rank = 0;
-    while (rank + 1 < patches->count && below + shares[rank].area < 0.05 * patches->total_area)
+    double most = bound_percentile(patches, flux, coverage->flux_max, share);
+    size_t rank = 0, count = list_up_to(patches, flux, most, shares);
+    qsort(shares, count, sizeof *shares, by_flux);
+    while (rank + 1 < count && below + shares[rank].area < share * patches->total_area)
         below += shares[rank++].area;
     coverage->flux_min = shares[0].flux;
     coverage->flux_p05 = shares[rank].flux;
-    coverage->flux_max = shares[patches->count - 1].flux;
     coverage->flux_mean = liquid / patches->total_area;
     free(shares);
     return true;

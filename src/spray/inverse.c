@@ -24,11 +24,12 @@ static void lay_patch(const sp_emitter *emitter, double flow, const sp_arrival *
         if (!arrival->passes)
             continue;
         counted += mean;
+        bool alone = sp_wetting_alone(flux, setup->criterion.flux);
         if (emitter->source.evaluator->movers)
             wetting.even = counted; /* what passes by adds up */
         else
             sp_wetting_add(&wetting, flux, setup->criterion.flux, arrival->part, share,
-                           sp_emitter_holds(emitter, arrival->direction));
+                           !alone && sp_emitter_holds(emitter, arrival->direction));
     }
     sp_tally_add(tally, first->patch, counted, &wetting);
 }
