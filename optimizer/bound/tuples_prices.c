@@ -29,10 +29,13 @@ static void fill_prices(sp_tuples *o, size_t k, const float *price)
     const sp_line *line = o->line;
     const double *lighter = NULL;
     for (size_t kind = line->kind_count; kind-- > 0;) {
-        double best = 0, *most = sp_tuples_of_kind(o, o->most_priced[k], kind);
-        for (size_t i = line->kind_start[kind]; i < line->kind_start[kind + 1] && line->weight[kind] <= o->water; i++)
-            best = fmax(best, (double)price[i]);
-        sp_tuples_fill_kind(o, kind, best, lighter, most);
+        float best = 0;
+        double *most = sp_tuples_of_kind(o, o->most_priced[k], kind);
+        size_t end = line->weight[kind] <= o->water ? line->kind_start[kind + 1] : 0;
+#pragma omp parallel for num_threads(line->threads) reduction(max : best)
+        for (size_t i = line->kind_start[kind]; i < end; i++)
+            best = price[i] > best ? price[i] : best;
+        sp_tuples_fill_kind(o, kind, (double)best, lighter, most);
         lighter = most;
     }
 }
@@ -74,10 +77,13 @@ double sp_tuples_target_for(const sp_tuples *o, size_t most, const float *above,
 static void shut_out(const sp_tuples *o, size_t k, const float *price, uint8_t *alive)
 {
     const sp_line *line = o->line;
-    for (size_t kind = 0; kind < line->kind_count; kind++)
+    for (size_t kind = 0; kind < line->kind_count; kind++) {
+        bool fits = line->weight[kind] <= o->water;
+        size_t left = fits ? o->water - line->weight[kind] : 0;
+#pragma omp parallel for num_threads(line->threads)
         for (size_t i = line->kind_start[kind]; i < line->kind_start[kind + 1]; i++)
-            alive[i] &= line->weight[kind] <= o->water &&
-                        priced_above(o, k, (double)price[i], 0, o->water - line->weight[kind]);
+            alive[i] &= fits && priced_above(o, k, (double)price[i], 0, left);
+    }
 }
 
 /* Prices what is alive anew, exactly. */
@@ -94,6 +100,7 @@ static void mix(sp_tuples *o, float *const price[BY_PRICES])
     for (; o->priced < BY_PRICES; o->priced++) {
         double part = (double)(o->priced - 1) / (BY_PRICES - 1);
         o->rest[o->priced] = part * o->rest[0] + (1 - part) * o->rest[1];
+#pragma omp parallel for num_threads(o->line->threads)
         for (size_t i = 0; i < o->line->count; i++) {
             double mean = part * (double)price[0][i] + (1 - part) * (double)price[1][i];
             price[o->priced][i] = nextafterf((float)mean, INFINITY);
@@ -133,6 +140,7 @@ static void sift(sp_tuples *o, uint8_t *alive, float *const price[BY_PRICES])
 {
     for (int round = 0; round < SIFTED; round++)
         for (size_t k = 0; k < o->priced; k++) {
+#pragma omp parallel for num_threads(o->line->threads)
             for (size_t i = 0; i < o->line->count; i++)
                 price[k][i] = alive[i] ? price[k][i] : 0;
             fill_prices(o, k, price[k]);
@@ -148,6 +156,7 @@ static void raise_floor(sp_tuples *o, const float *found, float *above)
 {
     const sp_line *line = o->line;
     for (size_t kind = 0; kind < line->kind_count; kind++)
+#pragma omp parallel for num_threads(line->threads)
         for (size_t i = line->kind_start[kind]; i < line->kind_start[kind + 1]; i++)
             above[i] = line->weight[kind] > o->water ? 0 : (float)above_by(o, 0, (double)found[i], kind);
     o->target = sp_tuples_target_for(o, o->most, above, line->count);

@@ -17,9 +17,8 @@
 #define SWEPT_MORE 1e-5f   /* more than single precision puts a swept share, or flux, wrong */
 #define PART_MORE 5e-5f    /* more than single precision puts a share at an edge wrong */
 #define ROWS_AT_A_TIME 300
-#define TOLD_LEAST 0.5 /* of what a pose must be worth to matter: below this an upper bound is enough to be shut out   \
-                        */
-#define STRIDE 7       /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
+#define TOLD_LEAST 0.75 /* of what a pose must be worth to matter: below, an upper bound is enough to be shut out */
+#define STRIDE 7        /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
 
 /* The pose of highest price of a site and make. */
 typedef struct {
@@ -34,7 +33,7 @@ typedef struct {
     sp_cull cull;
     sp_desk *desk;
     const sp_prices *prices; /* of now */
-    sp_field_sweeper fields; /* where film is asked for, of which `worth` holds the arrays */
+    sp_field_sweeper fields; /* of which `worth` holds the arrays */
     float *field;            /* [field_count] */
     uint32_t *texels;        /* [2 patch_count], of the row of a field or footprint */
     float *shares;
@@ -203,8 +202,9 @@ static size_t write_row(const sp_pose_prices *prices, const float *field, uint32
 {
     size_t count = 0, patches = prices->search->patch_count;
     for (uint32_t t = 0; t < patches; t++) {
-        sp_print print = {t, fmaxf(field[t], 0), fmaxf(-field[t], 0), prices->film_need ? field[patches + t] : 0};
-        if (print.hit > 0 || print.edge > 0 || print.film > 0)
+        float hit = field[t], film = prices->film_need ? field[patches + t] : 0;
+        sp_print print = {t, hit > 0 ? hit : 0, hit < 0 ? -hit : 0, film};
+        if (hit != 0 || film > 0)
             count = write_print(prices, &print, texels, shares, count);
     }
     return count;
@@ -252,17 +252,36 @@ bool sp_pose_prices_found(const sp_pose_prices *prices, const sp_placed *placed,
                : add_footprint(prices, placed->pose, SP_OWN_KEY, port, tier, rows, error);
 }
 
+/* The field of a pose that sweeps know, rounded upwards, into the thread's own. */
+static void sweep_pose(const sp_pose_prices *prices, scratch *own, sp_pose pose)
+{
+    const sp_search *search = prices->search;
+    const sp_make *make = &search->candidates->makes[pose.make];
+    sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
+    sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
+    sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, up);
+    sp_desk *desk = NULL;
+    own->fields.view = sp_visibility_look(search->visibility, pose.site, make->launch, &desk);
+    memset(own->field, 0, search->field_count * sizeof *own->field);
+    if (own->fields.view->start) {
+        sp_region region = sp_region_create(&make->spray, &frame, sp_make_strength(search, make), SLACK);
+        sp_cull_create(&search->visibility->bins, own->fields.view, &make->spray, SP_COUNT_SHARE, &own->cull);
+        sp_field_sweep(search, &own->fields, make, &region, own->field);
+    }
+    sp_visibility_leave(search->visibility, &desk);
+}
+
 bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *rows, sp_error *error)
 {
     const sp_search *search = prices->search;
-    float *field = prices->scratches[omp_get_thread_num()].field;
+    scratch *own = &prices->scratches[omp_get_thread_num()];
     size_t key = sp_pose_order_position(prices->order, pose),
            port = prices->ports[search->sites->items[pose.site].mount];
     uint32_t tier = tier_at(prices, pose.site, pose.make);
     if (!sp_type_is_uniform(search->candidates->makes[pose.make].type))
         return add_footprint(prices, pose, key, port, tier, rows, error);
-    sp_field_pose(search, pose, field);
-    return sp_pose_prices_row(prices, field, key, port, tier, rows, error);
+    sweep_pose(prices, own, pose);
+    return sp_pose_prices_row(prices, own->field, key, port, tier, rows, error);
 }
 
 /* What each arrival of a view brings to a make; returns the make's region about the site's axis. */

@@ -58,7 +58,7 @@ typedef struct {
     float *share, *counts;    /* [largest view + 2 SP_LANES] */
     sp_run_of_arrivals *runs; /* [SP_BINS] */
 } sp_field_sweeper;
-/* Where film is asked for, of a make in a region that was turned to the pose. */
+/* The field of a make in a region that was turned to the pose. */
 void sp_field_sweep(const sp_search *search, const sp_field_sweeper *sweeper, const sp_make *make,
                     const sp_region *region, float *field);
 
