@@ -94,37 +94,96 @@ static sp_turned turned(double angle)
     return (sp_turned){(float)cos(angle), (float)sin(angle)};
 }
 
-/* Cosines of `angle` more and less what a bin takes; past half a turn and below none what no cosine comes up to. */
-static inline float cosine_more(sp_turned angle, float cosine, float sine)
+/* Cosines of `angle` more and less what a bin, or block, takes; past half a turn and below none what no cosine comes up
+ * to. Sums are made in any case, so that compilers take many at a time. */
+static void set_more(sp_turned angle, const float *restrict cosine, const float *restrict sine, size_t count,
+                     float *restrict cosines)
 {
-    return cosine <= -angle.cosine ? -2 : angle.cosine * cosine - angle.sine * sine;
+    for (size_t i = 0; i < count; i++) {
+        float more = angle.cosine * cosine[i] - angle.sine * sine[i];
+        cosines[i] = cosine[i] <= -angle.cosine ? -2 : more;
+    }
 }
-static inline float cosine_less(sp_turned angle, float cosine, float sine)
+static void set_less(sp_turned angle, const float *restrict cosine, const float *restrict sine, float *restrict cosines)
 {
-    return cosine < angle.cosine ? 2 : angle.cosine * cosine + angle.sine * sine;
+    for (size_t b = 0; b < SP_BINS; b++) {
+        float less = angle.cosine * cosine[b] + angle.sine * sine[b];
+        cosines[b] = cosine[b] < angle.cosine ? 2 : less;
+    }
+}
+
+static void set_all(float value, size_t count, float *cosines)
+{
+    for (size_t i = 0; i < count; i++)
+        cosines[i] = value;
+}
+
+/* Where a pattern of this reach ends; for fans nothing is wholly inside. */
+static void cull_reach(const sp_view *view, double reach, bool fan, sp_cull *cull)
+{
+    sp_turned outer = turned(fmin(reach, M_PI));
+    if (reach >= M_PI) {
+        set_all(-2, SP_BINS, cull->outside);
+        set_all(-2, SP_BLOCKS, cull->near);
+    } else {
+        set_more(outer, view->cosine, view->sine, SP_BINS, cull->outside);
+        set_more(outer, view->block_cosine, view->block_sine, SP_BLOCKS, cull->near);
+    }
+    if (fan || reach >= M_PI)
+        set_all(fan ? 2 : -2, SP_BINS, cull->inside);
+    else
+        set_less(outer, view->cosine, view->sine, cull->inside);
+}
+
+/* Where a cone is hollow. */
+static void cull_hole(const sp_view *view, double hole, sp_cull *cull)
+{
+    sp_turned inner = turned(hole);
+    if (hole > 0) {
+        set_less(inner, view->cosine, view->sine, cull->inner_outside);
+        set_more(inner, view->cosine, view->sine, SP_BINS, cull->inner_inside);
+    } else {
+        set_all(2, SP_BINS, cull->inner_outside);
+        set_all(2, SP_BINS, cull->inner_inside);
+    }
+}
+
+/* The latitudes up to which a fan of this half-thickness reaches; a cone reaches all. */
+static void cull_sides(const sp_view *view, bool fan, double half_thickness, sp_cull *cull)
+{
+    const float *restrict cosine = view->cosine, *restrict sine = view->sine;
+    float *restrict latitude = cull->latitude;
+    sp_turned side = turned(half_thickness);
+    if (!fan)
+        set_all(2, SP_BINS, latitude);
+    for (size_t b = 0; fan && b < SP_BINS; b++) {
+        float more = side.sine * cosine[b] + side.cosine * sine[b];
+        latitude[b] = sine[b] < side.cosine ? more : 2;
+    }
+}
+
+/* Breadth from which patches look broad against a pattern. */
+static float broad_against(double reach, double hole)
+{
+    double chord = fmin(2 * sin(0.5 * reach), reach >= M_PI ? 2 : 2 * cos(0.5 * reach));
+    float broad = (float)(chord / SP_VIEW_SPOT);
+    return hole > 0 ? fminf(broad, (float)(2 * sin(0.5 * hole) / SP_VIEW_SPOT)) : broad;
 }
 
 /* The radii are a little too large (see sp_bins_create), so that round-off cannot put a bin on the wrong side. */
 void sp_cull_create(const sp_bins *bins, const sp_view *view, const sp_spray *spray, sp_count count, sp_cull *cull)
 {
-    double reach = sp_spray_reach(spray);
-    bool fan = spray->kind == SP_PATTERN_FLAT_FAN, all_round = reach >= M_PI, hole = !fan && spray->inner > 0;
+    bool fan = spray->kind == SP_PATTERN_FLAT_FAN;
+    double reach = sp_spray_reach(spray), hole = fan ? 0 : spray->inner;
     /* beyond a corner of a fan more is blurred than beyond its edges */
     double corner = fan ? (SP_VIEW_CORNER - SP_VIEW_BLUR) * (double)view->most : 0;
-    sp_turned outer = turned(fmin(reach + corner, M_PI)), inner = turned(spray->inner),
-              side = turned(spray->half_thickness);
-    float broad = (float)(fmin(2 * sin(0.5 * reach), all_round ? 2 : 2 * cos(0.5 * reach)) / SP_VIEW_SPOT);
-    if (hole)
-        broad = fminf(broad, (float)(2 * sin(0.5 * spray->inner) / SP_VIEW_SPOT));
-    for (size_t b = 0; b < SP_BINS; b++) {
-        float c = view->cosine[b], s = view->sine[b];
-        cull->outside[b] = all_round || reach + corner >= M_PI ? -2 : cosine_more(outer, c, s);
-        cull->inside[b] = fan ? 2 : all_round ? -2 : cosine_less(outer, c, s);
-        cull->inner_outside[b] = hole ? cosine_less(inner, c, s) : 2;
-        cull->inner_inside[b] = hole ? cosine_more(inner, c, s) : 2;
-        cull->latitude[b] = fan && s < side.cosine ? side.sine * c + side.cosine * s : 2;
-    }
+    float broad = fan ? INFINITY : broad_against(reach, hole);
+    cull_reach(view, reach + corner, fan, cull);
+    cull_hole(view, hole, cull);
+    cull_sides(view, fan, spray->half_thickness, cull);
     for (size_t b = 0; b < SP_BINS; b++)
-        if (count == SP_COUNT_GENEROUS || (!fan && view->broadest[b] >= broad))
+        if (count == SP_COUNT_GENEROUS || view->broadest[b] >= broad) {
             cull_broad((double)bins->radius[b], (double)view->broadest[b], spray, count, b, cull);
+            cull->near[b / SP_LANES] = -2;
+        }
 }

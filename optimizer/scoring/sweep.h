@@ -42,6 +42,7 @@ typedef struct {
     float outside[SP_BINS], inside[SP_BINS]; /* less than `outside`: missed; `inside` or more: not cut off */
     float inner_outside[SP_BINS], inner_inside[SP_BINS]; /* the same for the hole of a hollow cone, downwards */
     float latitude[SP_BINS];
+    float near[SP_BLOCKS]; /* cosine between a block's centre and the axis, below which all of its bins are missed */
 } sp_cull;
 
 /* What to sum: a weight per arrival (padded by SP_LANES) and its sums per bin, as `total` makes them. */

@@ -373,16 +373,28 @@ INLINE void sum_run(const sp_region *region, bool fan, sp_count count, const sp_
 
 /* What the bins have that a pattern may hold. */
 typedef struct {
-    unsigned cut[SP_BINS / SP_LANES];    /* bit i of each: bin i of these lanes, which the pattern's edge crosses */
-    unsigned inside[SP_BINS / SP_LANES]; /* the same: which is wholly inside */
-    lanes whole[SP_WEIGHTS];             /* of the bins that are wholly inside */
-    lanes open[SP_WEIGHTS];              /* of those that are cut */
+    unsigned cut[SP_BLOCKS];    /* bit i of each: bin i of these lanes, which the pattern's edge crosses */
+    unsigned inside[SP_BLOCKS]; /* the same: which is wholly inside */
+    lanes whole[SP_WEIGHTS];    /* of the bins that are wholly inside */
+    lanes open[SP_WEIGHTS];     /* of those that are cut */
 } binned;
+
+/* Bit i: block i, of whose bins the pattern may hold any. Most lie on another side of the nozzle. */
+INLINE uint64_t near_blocks(const sp_bins *bins, const sp_cull *cull, const sp_region *region)
+{
+    uint64_t bits = 0;
+    for (size_t i = 0; i < SP_BLOCKS; i += SP_LANES) {
+        lanes along = dot(load(&bins->block_x[i]), load(&bins->block_y[i]), load(&bins->block_z[i]), region->z);
+        bits |= (uint64_t)bits_of(at_least(along, load(&cull->near[i]))) << i;
+    }
+    return bits;
+}
 
 INLINE void look_at_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *region, bool fan,
                          const sp_weight *weights, size_t weight_count, binned *found)
 {
-    for (size_t b = 0; b < SP_BINS; b += SP_LANES) {
+    for (uint64_t blocks = near_blocks(bins, cull, region); blocks; blocks &= blocks - 1) {
+        size_t b = SP_LANES * (size_t)__builtin_ctzll(blocks);
         lanes x = load(&bins->x[b]), y = load(&bins->y[b]), z = load(&bins->z[b]), along = dot(x, y, z, region->z);
         mask cut = both(at_least(along, load(&cull->outside[b])), at_least(load(&cull->inner_outside[b]), along));
         if (fan) {
@@ -402,10 +414,10 @@ INLINE void look_at_bins(const sp_bins *bins, const sp_cull *cull, const sp_regi
 }
 
 /* Arrivals of the bins that are set, as runs that rise. */
-INLINE size_t join_bins(const unsigned bins[SP_BINS / SP_LANES], const sp_view *view, sp_run_of_arrivals *runs)
+INLINE size_t join_bins(const unsigned bins[SP_BLOCKS], const sp_view *view, sp_run_of_arrivals *runs)
 {
     size_t count = 0;
-    for (size_t b = 0; b < SP_BINS / SP_LANES; b++)
+    for (size_t b = 0; b < SP_BLOCKS; b++)
         for (unsigned bits = bins[b]; bits; bits &= bits - 1) {
             size_t bin = b * SP_LANES + (size_t)__builtin_ctz(bits);
             uint32_t first = view->start[bin], end = view->start[bin + 1];
@@ -454,7 +466,7 @@ INLINE size_t share_bins(const sp_bins *bins, const sp_cull *cull, const sp_regi
 {
     binned found = {.cut = {0}};
     look_at_bins(bins, cull, region, fan, NULL, 0, &found);
-    for (size_t b = 0; b < SP_BINS / SP_LANES; b++)
+    for (size_t b = 0; b < SP_BLOCKS; b++)
         found.cut[b] |= found.inside[b];
     size_t count = join_bins(found.cut, view, runs);
     /* rising, so that what a run writes behind its end the next one puts right */

@@ -37,6 +37,26 @@ static uint16_t bin_of(sp_vec3 direction)
     return (uint16_t)(j * SP_BINS_EDGE + i);
 }
 
+static sp_vec3 centre_of(const sp_bins *bins, size_t b)
+{
+    return sp_v((double)bins->x[b], (double)bins->y[b], (double)bins->z[b]);
+}
+
+static void set_block(sp_bins *bins, size_t block)
+{
+    sp_vec3 sum = {0};
+    double cosine = 1;
+    for (size_t i = 0; i < SP_LANES; i++)
+        sum = sp_add(sum, centre_of(bins, block * SP_LANES + i));
+    sp_vec3 centre = sp_unit(sum);
+    for (size_t i = 0; i < SP_LANES; i++)
+        cosine = fmin(cosine, sp_dot(centre, centre_of(bins, block * SP_LANES + i)));
+    bins->block_x[block] = (float)centre.x;
+    bins->block_y[block] = (float)centre.y;
+    bins->block_z[block] = (float)centre.z;
+    bins->block_radius[block] = (float)(acos(cosine) + 1e-3);
+}
+
 void sp_bins_create(sp_bins *bins)
 {
     const double edge = 2.0 / SP_BINS_EDGE;
@@ -53,6 +73,8 @@ void sp_bins_create(sp_bins *bins)
         bins->z[b] = (float)centre.z;
         bins->radius[b] = (float)(acos(cosine) + 1e-3);
     }
+    for (size_t i = 0; i < SP_BLOCKS; i++)
+        set_block(bins, i);
 }
 
 size_t sp_sightings_work(size_t cells)
@@ -138,7 +160,8 @@ void sp_sightings_free(sp_sightings *sightings)
 
 size_t sp_view_bytes(size_t count, bool any_marked)
 {
-    return (SP_BINS + 1 + count) * sizeof(uint32_t) + (3 * SP_BINS + COLUMNS * (count + SP_LANES)) * sizeof(float) +
+    return (SP_BINS + 1 + count) * sizeof(uint32_t) +
+           (3 * SP_BINS + 2 * SP_BLOCKS + COLUMNS * (count + SP_LANES)) * sizeof(float) +
            (any_marked ? count * (sizeof(float) + 2 * sizeof(uint8_t)) : 0);
 }
 
@@ -151,7 +174,9 @@ static void lay_out(void *block, size_t count, bool any_marked, sp_view *view)
     view->broadest = (float *)(view->patch + count);
     view->cosine = view->broadest + SP_BINS;
     view->sine = view->cosine + SP_BINS;
-    float *columns = view->sine + SP_BINS;
+    view->block_cosine = view->sine + SP_BINS;
+    view->block_sine = view->block_cosine + SP_BLOCKS;
+    float *columns = view->block_sine + SP_BLOCKS;
     float **column[COLUMNS] = {&view->x, &view->y, &view->z, &view->transfer, &view->sharp};
     for (size_t i = 0; i < COLUMNS; i++) {
         *column[i] = columns + i * padded;
@@ -161,6 +186,23 @@ static void lay_out(void *block, size_t count, bool any_marked, sp_view *view)
     view->part = any_marked ? columns + COLUMNS * padded : NULL;
     view->twice = any_marked ? (uint8_t *)(view->part + count) : NULL;
     view->fails = any_marked ? view->twice + count : NULL;
+}
+
+/* How far round its centre a bin's patches may lie in a pattern, and a block's bins. */
+static void set_angles(const sp_bins *bins, sp_view *view)
+{
+    double most[SP_BLOCKS] = {0};
+    for (size_t b = 0; b < SP_BINS; b++) {
+        double angle = (double)bins->radius[b] + SP_VIEW_BLUR * (double)view->broadest[b];
+        view->cosine[b] = (float)cos(angle);
+        view->sine[b] = (float)sin(angle);
+        most[b / SP_LANES] = fmax(most[b / SP_LANES], angle);
+    }
+    for (size_t i = 0; i < SP_BLOCKS; i++) {
+        double angle = fmin(M_PI, (double)bins->block_radius[i] + most[i]);
+        view->block_cosine[i] = (float)cos(angle);
+        view->block_sine[i] = (float)sin(angle);
+    }
 }
 
 void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *block, sp_view *view)
@@ -196,9 +238,5 @@ void sp_view_write(const sp_sightings *sightings, const sp_bins *bins, void *blo
                 view->fails[at] = from->fails;
             }
         }
-    for (size_t b = 0; b < SP_BINS; b++) {
-        double angle = (double)bins->radius[b] + SP_VIEW_BLUR * (double)view->broadest[b];
-        view->cosine[b] = (float)cos(angle);
-        view->sine[b] = (float)sin(angle);
-    }
+    set_angles(bins, view);
 }

@@ -15,21 +15,23 @@
 #define SP_VIEW_FRINGE (1.423 * SP_SPRAY_BLUR)
 #define SP_VIEW_SPOT (1.004 * SP_SPRAY_BLUR)
 #define SP_LANES 16 /* floats that a sweep takes at a time: views have as many more, all 0, behind their last */
+#define SP_BLOCKS (SP_BINS / SP_LANES) /* of as many bins */
 
 /* Arrivals that pass the criterion's speed and incidence, or where film is asked for all, sorted by the octahedral bin
  * of their direction, then by patch. */
 typedef struct {
     uint32_t count;
-    float most;           /* rad, the greatest breadth of a patch */
-    uint32_t *start;      /* [SP_BINS + 1]; NULL: nothing is known to be reached */
-    float *broadest;      /* [SP_BINS], rad, the greatest breadth of a bin's patches */
-    float *cosine, *sine; /* [SP_BINS], of the bin's radius and SP_VIEW_BLUR of that together */
-    float *x, *y, *z;     /* [count + SP_LANES], unit direction at the nozzle */
-    float *transfer;      /* [count + SP_LANES], per area of all patches */
-    float *sharp;         /* [count + SP_LANES], 1/rad: over the patch's breadth */
-    uint32_t *patch;      /* [count] */
-    float *part;          /* [count], share of the patch that the arrival is of; NULL: 1, and none twice */
-    uint8_t *twice;       /* [count], whether the patch has other arrivals, by its other arc or cells; NULL: none has */
+    float most;                       /* rad, the greatest breadth of a patch */
+    uint32_t *start;                  /* [SP_BINS + 1]; NULL: nothing is known to be reached */
+    float *broadest;                  /* [SP_BINS], rad, the greatest breadth of a bin's patches */
+    float *cosine, *sine;             /* [SP_BINS], of the bin's radius and SP_VIEW_BLUR of that together */
+    float *block_cosine, *block_sine; /* [SP_BLOCKS], of the block's radius and the greatest of these angles together */
+    float *x, *y, *z;                 /* [count + SP_LANES], unit direction at the nozzle */
+    float *transfer;                  /* [count + SP_LANES], per area of all patches */
+    float *sharp;                     /* [count + SP_LANES], 1/rad: over the patch's breadth */
+    uint32_t *patch;                  /* [count] */
+    float *part;                      /* [count], share of the patch that the arrival is of; NULL: 1, and none twice */
+    uint8_t *twice; /* [count], whether the patch has other arrivals, by its other arc or cells; NULL: none has */
     uint8_t *fails; /* [count], whether speed or incidence fail the criterion, so that it only feeds the film; NULL:
                      * none does */
 } sp_view;
@@ -39,10 +41,13 @@ static inline float sp_view_part(const sp_view *view, uint32_t i)
     return view->part ? view->part[i] : 1;
 }
 
-/* The bins' cones: all directions of a bin are within `radius` of its centre. */
+/* The bins' cones: all directions of a bin are within `radius` of its centre, all centres of a block within its radius
+ * of its own. */
 typedef struct {
     float x[SP_BINS], y[SP_BINS], z[SP_BINS];
     float radius[SP_BINS]; /* rad */
+    float block_x[SP_BLOCKS], block_y[SP_BLOCKS], block_z[SP_BLOCKS];
+    float block_radius[SP_BLOCKS]; /* rad */
 } sp_bins;
 
 void sp_bins_create(sp_bins *bins);
