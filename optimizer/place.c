@@ -1,4 +1,5 @@
 #include "attainable/attainable.h"
+#include "scoring/prepare.h"
 #include "certificate/certificate.h"
 #include "forward_check.h"
 #include "remedies.h"

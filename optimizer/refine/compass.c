@@ -34,7 +34,7 @@ static bool is_promising(sp_needle *needle, const sp_placed *trial, bool *promis
     *promising = sp_field_gain(needle->search, needle->draft, needle->trial) >= needle->gain * (1 - HOPELESS);
     if (!*promising)
         return true;
-    if (!sp_field_nozzle(needle->search, &trial->nozzle, needle->draft, needle->trial, needle->error))
+    if (!sp_field_nozzle(needle->search, &trial->nozzle, needle->draft->wet, needle->trial, needle->error))
         return false;
     *promising = sp_field_gain(needle->search, needle->draft, needle->trial) > needle->gain + needle->least;
     return true;

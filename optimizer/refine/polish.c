@@ -1,5 +1,6 @@
 #include "refine/polish.h"
 
+#include "scoring/prepare.h"
 #include "refine/compass.h"
 #include "scoring/draft_told.h"
 #include "scoring/scoring.h"

@@ -1,5 +1,6 @@
 #include "refine/refine.h"
 
+#include "scoring/prepare.h"
 #include "refine/hurry.h"
 #include "refine/saving.h"
 

@@ -1,5 +1,6 @@
 #include "refine/sight.h"
 
+#include "scoring/field.h"
 #include "scoring/footprints.h"
 
 #include <stdlib.h>

@@ -1,3 +1,5 @@
+#include "scoring/field.h"
+
 #include "scoring/footprints.h"
 
 #include <stdlib.h>
@@ -145,9 +147,9 @@ void sp_field_pose(const sp_search *search, sp_pose pose, float *field)
     sp_visibility_leave(search->visibility, &desk);
 }
 
-/* What is in reach of a nozzle, where a draft is given only on the patches that it leaves dry, unless film runs from
- * one to the next. */
-static sp_reach *reach_of(const sp_search *search, const sp_nozzle *nozzle, const sp_draft *draft, sp_error *error)
+/* What is in reach of a nozzle, where `wet` is given only on the patches that are dry, unless film runs from one to the
+ * next. */
+static sp_reach *reach_of(const sp_search *search, const sp_nozzle *nozzle, const float *wet, sp_error *error)
 {
     sp_spray spray = sp_spray_create(nozzle->type, sp_nozzle_angle(nozzle));
     double half_angle = fmin(M_PI, sp_spray_reach(&spray) + 1e-6);
@@ -156,21 +158,20 @@ static sp_reach *reach_of(const sp_search *search, const sp_nozzle *nozzle, cons
         return NULL;
     if (search->all_feeds)
         return sp_evaluator_reach(search->coarse, nozzle->position, launch, nozzle->axis, half_angle, error);
-    bool *dry = draft ? malloc((search->patch_count + 1) * sizeof *dry) : NULL;
-    if (draft && !dry)
+    bool *dry = wet ? malloc((search->patch_count + 1) * sizeof *dry) : NULL;
+    if (wet && !dry)
         return sp_fail_memory(error);
     for (size_t p = 0; dry && p < search->patch_count; p++)
-        dry[p] = draft->wet[p] < SP_ENOUGH;
+        dry[p] = wet[p] < SP_ENOUGH;
     sp_reach *reach =
         sp_evaluator_reach_passing(search->coarse, nozzle->position, launch, nozzle->axis, half_angle, dry, error);
     free(dry);
     return reach;
 }
 
-bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, const sp_draft *draft, float *field,
-                     sp_error *error)
+bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, const float *wet, float *field, sp_error *error)
 {
-    sp_reach *reach = reach_of(search, nozzle, draft, error);
+    sp_reach *reach = reach_of(search, nozzle, wet, error);
     if (!reach)
         return false;
     sp_posed_spray posed = sp_posed_spray_of(search, nozzle);
@@ -183,28 +184,4 @@ bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, const sp_
     sp_field_end(&making);
     sp_reach_destroy(reach);
     return true;
-}
-
-double sp_field_gain(const sp_search *search, const sp_draft *draft, const float *field)
-{
-    double gain = 0;
-    if (draft->film)
-        return sp_field_score(search, draft, field).gain;
-    for (size_t p = 0; p < search->patch_count; p++)
-        if (field[p] != 0 && draft->wet[p] < SP_ENOUGH) {
-            float wet = draft->wet[p], dry = draft->dry[p];
-            sp_pour(search, field[p], &wet, &dry);
-            gain += (double)(search->area[p] *
-                             (sp_worth(search, wet, dry) - sp_worth(search, draft->wet[p], draft->dry[p])));
-        }
-    return gain * search->all;
-}
-
-sp_score sp_field_score(const sp_search *search, const sp_draft *draft, const float *field)
-{
-    sp_credit credit = {search->single, search->credit, 0};
-    sp_wetted wetted = {search->patch_count, search->area, draft->hit, draft->film, draft->wet, draft->dry};
-    double sums[2];
-    search->sweeps->score(&credit, &wetted, field, field + search->patch_count, sums);
-    return (sp_score){sums[0] * search->all, sums[1] * search->all};
 }

@@ -1,19 +1,8 @@
-/* Fields: what one nozzle brings to every patch, and what that adds to a draft. */
+/* Fields: what one nozzle brings to every patch. */
 #ifndef OPTIMIZER_FIELD_H
 #define OPTIMIZER_FIELD_H
 
-#include "scoring/draft.h"
-
-typedef struct {
-    double gain; /* m² by which the draft's value would rise */
-    double room; /* m² by which it could rise at most, whatever the flow: never grows while a draft only grows */
-} sp_score;
-
-/* The worth of a patch per m² at this flux over threshold on all of it, `dry` of it being beyond what edges cover. */
-static inline float sp_worth(const sp_search *search, float wet, float dry)
-{
-    return wet >= SP_ENOUGH ? 1 : 1 - dry * (1 - search->credit * wet);
-}
+#include "scoring/wetness.h"
 
 /* A nozzle's spray in the world. */
 typedef struct {
@@ -45,11 +34,10 @@ void sp_field_end(const sp_field_making *making);
 
 /* Field of a spray at a view's mounting point; its strength is per transfer as the view has it. */
 void sp_field_view(const sp_search *search, const sp_view *view, const sp_posed_spray *posed, float *field);
-/* The same of a candidate pose; of any nozzle that sweeps know, traced anew, where a draft is given only on the patches
- * that it leaves dry: what the nozzle adds to it is the same. */
+/* The same of a candidate pose; of any nozzle that sweeps know, traced anew, where `wet` [patch_count] is given (NULL:
+ * everywhere) only on the patches that a draft leaves dry so: what the nozzle adds to it is the same. */
 void sp_field_pose(const sp_search *search, sp_pose pose, float *field);
-bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, const sp_draft *draft, float *field,
-                     sp_error *error);
+bool sp_field_nozzle(const sp_search *search, const sp_nozzle *nozzle, const float *wet, float *field, sp_error *error);
 /* One thread's memory for fields by sweeps, which are a little less exact and made much faster. */
 typedef struct {
     const sp_view *view;
@@ -64,9 +52,4 @@ void sp_field_sweep(const sp_search *search, const sp_field_sweeper *sweeper, co
 
 /* Flux over threshold per transfer of a view. */
 double sp_make_strength(const sp_search *search, const sp_make *make);
-/* What a field adds to a draft, where film is asked for. */
-sp_score sp_field_score(const sp_search *search, const sp_draft *draft, const float *field);
-/* What it gains, whatever is asked for. */
-double sp_field_gain(const sp_search *search, const sp_draft *draft, const float *field);
-
 #endif

@@ -199,23 +199,3 @@ void sp_footprint_field(const sp_search *search, const sp_footprint *footprint, 
             field[search->patch_count + print->patch] = print->film;
     }
 }
-
-sp_score sp_footprint_score(const sp_search *search, const sp_draft *draft, const sp_footprint *footprint)
-{
-    sp_score score = {0, 0};
-    for (size_t i = 0; i < footprint->count; i++) {
-        const sp_print *print = &footprint->prints[i];
-        uint32_t p = print->patch;
-        float before = sp_worth(search, draft->wet[p], draft->dry[p]), hit = draft->hit[p], dry = draft->dry[p];
-        if (draft->wet[p] >= SP_ENOUGH || search->area[p] <= 0)
-            continue;
-        sp_pour(search, print->hit, &hit, &dry);
-        sp_pour(search, -print->edge, &hit, &dry);
-        float wet = draft->film ? fmaxf(hit, draft->film[p] + print->film) : hit;
-        score.gain += (double)(search->area[p] * (sp_worth(search, wet, dry) - before));
-        score.room += (double)(search->area[p] * (1 - before));
-    }
-    score.gain *= search->all;
-    score.room *= search->all;
-    return score;
-}

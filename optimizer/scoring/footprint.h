@@ -3,7 +3,7 @@
 #ifndef OPTIMIZER_FOOTPRINT_H
 #define OPTIMIZER_FOOTPRINT_H
 
-#include "scoring/field.h"
+#include "scoring/wetness.h"
 
 /* One patch of it. */
 typedef struct {
@@ -26,7 +26,5 @@ void sp_footprint_pour(const sp_search *search, const sp_footprint *footprint, f
 /* As a field, which has room for one of hit and edge: of a patch that has both, and is not covered by the hit alone,
  * the edge. */
 void sp_footprint_field(const sp_search *search, const sp_footprint *footprint, float *field);
-/* What it adds to a draft. */
-sp_score sp_footprint_score(const sp_search *search, const sp_draft *draft, const sp_footprint *footprint);
 
 #endif

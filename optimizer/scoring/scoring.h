@@ -3,6 +3,7 @@
 #define OPTIMIZER_SCORING_H
 
 #include "scoring/field.h"
+#include "scoring/gain.h"
 
 /* What scores many poses one after the other, those of one mounting point together: what an arrival is worth to a make
  * does not depend on where the nozzle points, so that it is found once and then only summed. One thread's own. The

@@ -1,5 +1,6 @@
 #include "search/find.h"
 
+#include "scoring/prepare.h"
 #include "scoring/draft_told.h"
 #include "search/fewest.h"
 #include "search/guess.h"

@@ -1,4 +1,5 @@
 #include "placement.h"
+#include "scoring/prepare.h"
 
 #include <stdio.h>
 #include <stdlib.h>

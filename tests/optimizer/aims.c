@@ -2,6 +2,7 @@
  * what their aims are worth. */
 #include "room.h"
 
+#include "scoring/prepare.h"
 #include "certificate/aim_prices.h"
 #include "scoring/scoring.h"
 

@@ -1,6 +1,7 @@
 /* What is attainable, and why the rest is not, where it is known in closed form. */
 #include "room.h"
 
+#include "scoring/prepare.h"
 #include "scoring/footprints.h"
 
 #define TEXEL 0.04

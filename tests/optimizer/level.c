@@ -2,6 +2,7 @@
  */
 #include "room.h"
 
+#include "scoring/prepare.h"
 #include "refine/level.h"
 #include "scoring/scoring.h"
 

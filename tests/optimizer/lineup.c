@@ -1,6 +1,7 @@
 /* Searches on a table of poses against every layout that can be made of them. */
 #include "room.h"
 
+#include "scoring/prepare.h"
 #include "search/guess.h"
 #include "search/tuned.h"
 

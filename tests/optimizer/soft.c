@@ -1,6 +1,7 @@
 /* The smoothed coverage is maximised, by Ceres: a disc over a square floor comes to lie in its middle. */
 #include "floor.h"
 
+#include "scoring/prepare.h"
 #include "refine/anneal.h"
 #include "refine/soft.h"
 

@@ -1,6 +1,7 @@
 /* The sweep against one question at a time: what a view holds, what a pose's field is, and what scores add up to. */
 #include "room.h"
 
+#include "scoring/prepare.h"
 #include "scoring/scoring.h"
 
 #ifdef SPRAYPLAN_SANITIZE

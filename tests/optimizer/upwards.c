@@ -2,6 +2,7 @@
  * what the public evaluator says that its nozzle does alone. */
 #include "room.h"
 
+#include "scoring/prepare.h"
 #include "certificate/pose_prices.h"
 #include "certificate/water_units.h"
 
