@@ -2,7 +2,7 @@
 #ifndef FORWARD_CHECK_H
 #define FORWARD_CHECK_H
 
-#include "watch.h"
+#include "watch/watch.h"
 
 #include <sprayplan/place.h>
 

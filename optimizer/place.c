@@ -5,7 +5,7 @@
 #include "remedies.h"
 #include "scoring/footprints.h"
 #include "search/find.h"
-#include "refine/least_squares.h"
+#include "ceres/least_squares.h"
 #include "refine/refine.h"
 #include "refine/settings.h"
 

@@ -3,7 +3,7 @@
 #define OPTIMIZER_REMEDIES_H
 
 #include "scoring/scoring.h"
-#include "watch.h"
+#include "watch/watch.h"
 
 /* Of each of the largest SP_REMEDIES shadows of `draft`, whose `coverage` is that on `fine`, the candidate found that,
  * beside the draft, covers most of it, whatever the limits on number and water. `remedies` [SP_REMEDIES] is the

@@ -3,7 +3,7 @@
 #define OPTIMIZER_PASSING_H
 
 #include "scoring/draft.h"
-#include "watch.h"
+#include "watch/watch.h"
 
 /* Tells of every patch of `fine` that is not attained how near a flight from any mounting point brings it at any time
  * of the pass, on the search's patches, within what the mounts let nozzles reach. Ends early, the rest unknown, where

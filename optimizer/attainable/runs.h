@@ -4,7 +4,7 @@
 
 #include "attainable/offers.h"
 #include "scoring/draft.h"
-#include "watch.h"
+#include "watch/watch.h"
 
 /* Makes SP_REASON_ATTAINABLE of any other reason where the films of as many poses as number, water and ports allow,
  * and of the kept nozzles, could together suffice, on the search's patches; and where what hits could of poses that no

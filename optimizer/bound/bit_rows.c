@@ -1,7 +1,7 @@
 #include "bound/bit_rows.h"
 
 #include "mesh/grow.h"
-#include "ranking.h"
+#include "ranking/ranking.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,7 @@
 #include "bound/bound.h"
 
+#include "bound/solve.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,7 @@
 #include "bound/coarse.h"
 
+#include "bound/iterate.h"
+
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,17 +1,12 @@
 #include "bound/dual.h"
 
 #include "mesh/grow.h"
-#include "bound/coarse.h"
-#include "bound/hybrid.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define LOOK 25            /* iterations between two looks at the bound */
 #define CHOICE_LEAST 1e-4f /* of a row, that is worth a look */
 #define KIND_BETTER 1e-3f  /* by which another lift must cover less */
-#define WEIGHT_FIRST 5     /* primal weight to begin with, in mean texel areas */
 
 bool sp_dual_create(const sp_cover *cover, sp_dual *dual, sp_error *error)
 {
@@ -60,42 +55,6 @@ bool sp_dual_make_room(sp_dual *dual, size_t rows, sp_error *error)
     for (; dual->row_capacity < capacity; dual->row_capacity++)
         dual->x[dual->row_capacity] = dual->choice[dual->row_capacity] = 0;
     return true;
-}
-
-bool sp_dual_iterate(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_error *error)
-{
-    sp_hybrid h;
-    if (!sp_hybrid_create(dual, rows, task, &h, error))
-        return false;
-    dual->bound = INFINITY;
-    dual->reached = -INFINITY;
-    for (size_t i = 1; i <= task->iterations; i++) {
-        sp_hybrid_step(&h);
-        if (i % LOOK == 0 && (sp_hybrid_look(&h, i) || !sp_cover_goes_on(dual->cover)))
-            break;
-    }
-    memcpy(dual->dual_resource, h.dual_resource, h.resources * sizeof *h.dual_resource);
-    sp_hybrid_free(&h);
-    return true;
-}
-
-bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_error *error)
-{
-    if (!(dual->weight > 0)) {
-        double area = 0;
-        for (size_t t = 0; t < dual->texels; t++)
-            area += (double)dual->cover->area[t];
-        dual->weight = fmax(WEIGHT_FIRST * area / (double)(dual->texels ? dual->texels : 1), 1e-30);
-    }
-    if (!sp_dual_make_room(dual, rows->count, error))
-        return false;
-    if (task->coarse) {
-        sp_dual_task coarse = *task;
-        coarse.iterations = task->coarse;
-        if (!sp_coarse_solve(dual, rows, &coarse, error))
-            return false;
-    }
-    return sp_dual_iterate(dual, rows, task, error);
 }
 
 bool sp_dual_lift(sp_dual *dual, const sp_rows *rows, const sp_lifts *lifts, sp_error *error)

@@ -40,12 +40,6 @@ typedef struct {
     const float *lifted;   /* [rows->used], the shares lifted; NULL: as lifts and kinds make them */
 } sp_dual_task;
 
-/* Goes on from where the last solve ended; rows that are new since then start at 0. Primal-dual hybrid gradient with
- * averages, restarts and diagonal steps: Chambolle and Pock 2011; Pock and Chambolle 2011; Applegate et al., Practical
- * large-scale linear programming using primal-dual hybrid gradient, 2021. */
-bool sp_dual_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_error *error);
-/* The same on these texels alone, from prices and choices that are there. */
-bool sp_dual_iterate(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_error *error);
 /* Room for the choices of so many rows. */
 bool sp_dual_make_room(sp_dual *dual, size_t rows, sp_error *error);
 /* Gives every texel the lift under which what the last solve chose covers it least. */

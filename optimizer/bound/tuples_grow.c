@@ -1,7 +1,7 @@
 #include "bound/tuples_work.h"
 
 #include "mesh/grow.h"
-#include "ranking.h"
+#include "ranking/ranking.h"
 
 #include <omp.h>
 #include <stdlib.h>

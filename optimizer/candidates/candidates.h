@@ -3,6 +3,7 @@
 #define OPTIMIZER_CANDIDATES_H
 
 #include "candidates/mounts.h"
+#include "candidates/ranges.h"
 
 #include <sprayplan/launch.h>
 
@@ -17,15 +18,6 @@ typedef struct {
     double reach;      /* rad, half-angle of the cone that holds the pattern */
     size_t roll_count; /* 1 where it is the same at every roll */
 } sp_make;
-
-/* True of a type whose liquid is spread evenly over one region, as sp_spray_is_uniform: it is judged from what a view
- * of its site holds, and refinement may change it. What any other brings is found by footprints, and it stays at the
- * poses of candidates. */
-static inline bool sp_type_is_uniform(const sp_nozzle_type *type)
-{
-    return type->pattern == SP_PATTERN_FULL_CONE || type->pattern == SP_PATTERN_HOLLOW_CONE ||
-           type->pattern == SP_PATTERN_FLAT_FAN || type->pattern == SP_PATTERN_SOLID_STREAM;
-}
 
 /* Axes within a mount's tilt, about +z. */
 typedef struct {
@@ -61,14 +53,6 @@ static inline const sp_axes *sp_candidates_axes(const sp_candidates *candidates,
 size_t sp_candidates_number(const sp_candidates *candidates, const sp_sites *sites, sp_pose pose);
 /* Turns an axis about +z to lie about the z of a frame: for a site sp_nozzle_frame(site->axis, 0, up). */
 sp_vec3 sp_frame_axis(const sp_frame *frame, sp_vec3 axis);
-/* The pressure at which a type is fed that is offered one: the nearest that can be set. */
-double sp_fed_pressure(const sp_nozzle_type *type, double pressure);
-/* What refinement may set, between settings where there are steps: angle (rad), and flow (m³/s) of a type at a
- * pressure. With drag the flow of a stream stays: how far it flies before it breaks up depends on it, and with that all
- * flights. */
-void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high);
-void sp_flow_range(const sp_place_options *options, const sp_setup *setup, const sp_nozzle_type *type, double pressure,
-                   double *low, double *high);
 /* The roll of step i. */
 double sp_make_roll(const sp_make *make, size_t i);
 /* The pose as a nozzle without a name. */

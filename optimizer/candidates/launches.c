@@ -1,6 +1,6 @@
 #include "candidates/launches.h"
 
-#include "candidates/candidates.h"
+#include "candidates/ranges.h"
 
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 #include "certificate/pose_order.h"
 
-#include "ranking.h"
+#include "ranking/ranking.h"
 #include "scoring/scoring.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 #include "certificate/pose_prices.h"
 
-#include "ranking.h"
+#include "ranking/ranking.h"
 #include "ranks/gather.h"
 
 #include "scoring/footprints.h"

@@ -1,6 +1,6 @@
 #include "refine/hurry.h"
 
-#include "ranking.h"
+#include "ranking/ranking.h"
 #include "refine/saving.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 #include "refine/soft.h"
 
-#include "refine/least_squares.h"
+#include "ceres/least_squares.h"
 #include "refine/soft_film.h"
 #include "scoring/footprints.h"
 

@@ -3,7 +3,7 @@
 #define OPTIMIZER_FOOTPRINTS_H
 
 #include "scoring/footprint.h"
-#include "watch.h"
+#include "watch/watch.h"
 
 typedef struct sp_footprints sp_footprints;
 

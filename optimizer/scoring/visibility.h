@@ -6,7 +6,7 @@
 #define OPTIMIZER_VISIBILITY_H
 
 #include "scoring/view.h"
-#include "watch.h"
+#include "watch/watch.h"
 
 /* Where one view at a time is worked out that is not kept. */
 typedef struct sp_desk {

@@ -1,7 +1,7 @@
 #include "search/greedy.h"
 
 #include "mesh/grow.h"
-#include "ranking.h"
+#include "ranking/ranking.h"
 #include "ranks/gather.h"
 
 #include <omp.h>

@@ -1,6 +1,6 @@
 #include "search/guess.h"
 
-#include "ranking.h"
+#include "ranking/ranking.h"
 #include "ranks/gather.h"
 
 #include <omp.h>

@@ -1,3 +1,5 @@
+#include "film/film.h"
+
 #include "film/drips.h"
 #include "film/shares.h"
 

@@ -2,7 +2,7 @@
 #ifndef FILM_LINKS_H
 #define FILM_LINKS_H
 
-#include "film/film.h"
+#include "film/film_surface.h"
 
 #define SP_FILM_FLAT 1e-3   /* sine of the slope: less is level, as geometry in single precision tells it */
 #define SP_FILM_ACROSS 1e-9 /* of a cell's edge: less across the flow is round-off */

@@ -1,7 +1,7 @@
 #include "flock.h"
 
+#include "free_share.h"
 #include "near.h"
-#include "passing.h"
 #include "spray/drag/fronts.h"
 
 #include <stdlib.h>
@@ -31,18 +31,6 @@ void sp_flock_free(sp_flock *flock)
     free(flock->blocked);
     free(flock->passing);
     free(flock->shaded);
-}
-
-bool sp_aim_takes(const sp_aim *aim, const sp_arrival *arrival)
-{
-    double along = sp_dot(arrival->direction, aim->axis);
-    if (along < aim->cosine) {
-        double most = aim->half_angle + sp_spray_fringe(arrival->breadth);
-        if (most < M_PI && along < cos(most))
-            return false;
-    }
-    return !aim->emitter || sp_emitter_share(aim->emitter, arrival) > 0 ||
-           sp_emitter_holds(aim->emitter, arrival->direction);
 }
 
 /* The flight as it leaves on one of four sides of itself. */

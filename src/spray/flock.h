@@ -2,42 +2,11 @@
 #ifndef SPRAY_FLOCK_H
 #define SPRAY_FLOCK_H
 
-#include "reach.h"
-
-/* What else is to be known of a ray where goods move. */
-typedef struct {
-    size_t position; /* theirs */
-    uint32_t target; /* triangle, of the setup's mesh */
-} sp_passing_ray;
-
-typedef struct sp_flock {
-    size_t count, capacity;
-    sp_arrival *arrivals; /* [capacity], as what follows */
-    size_t ray_count;
-    sp_ray *rays; /* of those whose way is not known yet */
-    bool *blocked;
-    sp_passing_ray *passing;
-    bool *shaded;  /* [positions of the goods], while one way is looked along */
-    size_t places; /* that flights were solved for */
-    size_t ways;   /* that were looked along, with drag one by one */
-    bool failed;   /* for want of memory */
-} sp_flock;
+#include "gathering.h"
 
 /* Room for as many more arrivals; false where memory ran out, as from then on. */
 bool sp_flock_make_room(sp_flock *flock, size_t more);
 void sp_flock_free(sp_flock *flock);
-
-/* One patch while its flights are gathered. */
-typedef struct {
-    sp_source source; /* as the patch sees it from where the mesh has it */
-    const sp_aim *aim;
-    uint32_t patch;
-    sp_flock *flock;
-    double share;    /* of the pass, that the goods' position stands for */
-    double step;     /* m, that the goods move from one position to the next; 0: the patch does not */
-    size_t position; /* theirs */
-    sp_vec3 offset;  /* m, theirs */
-} sp_gathering;
 
 /* The flights to the patch, whole or in cells, from where the source is. */
 void sp_gather_flights(sp_gathering *own, const sp_target *target);

@@ -1,5 +1,4 @@
-/* Goods on their way past a nozzle, as what it reaches: patches that move are looked at in every position, and ways in
- * those in which goods may be in the way. */
+/* Goods on their way past a nozzle, as what it reaches: patches that move are looked at in every position. */
 #ifndef SPRAY_PASSING_H
 #define SPRAY_PASSING_H
 
@@ -7,10 +6,5 @@
 
 /* The flights to a patch that moves, in all positions. */
 void sp_gather_passing(sp_gathering *own, const sp_target *target);
-/* The share of an arrival's time in which no goods are in the way of the flock's ray `i`: all or none where they are
- * looked at in one position, and of what stands the mean over the pass. */
-double sp_ray_free_share(const sp_source *source, sp_flock *flock, uint32_t patch, size_t i);
-/* The same of a flight with drag, of what stands as well. */
-double sp_pass_free_share(const sp_gathering *own, const sp_target *target, const sp_flight *way);
 
 #endif

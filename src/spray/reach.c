@@ -1,6 +1,8 @@
 /* What one point can reach at one speed: the flights to every patch, less those that something blocks. */
 #include "reach.h"
 
+#include "flock.h"
+#include "free_share.h"
 #include "movers.h"
 #include "passing.h"
 
@@ -9,16 +11,6 @@
 
 #define CHUNK 4096     /* patches whose flights are traced together: the tracer likes many of one origin */
 #define CHUNK_DRAG 256 /* the same with drag, where each is traced for itself */
-
-sp_aim sp_aim_at(sp_vec3 axis, double half_angle)
-{
-    double most = half_angle + sp_spray_fringe(SP_BREADTH_MOST);
-    return (sp_aim){.axis = axis,
-                    .half_angle = half_angle,
-                    .cosine = half_angle < M_PI ? cos(half_angle) - 1e-12 : -2,
-                    .outside = most < M_PI ? cos(most) - 1e-12 : -2,
-                    .end = SIZE_MAX};
-}
 
 static void gather(const sp_source *source, const sp_aim *aim, uint32_t patch, sp_flock *flock)
 {

@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "refine/least_squares.h"
+#include "ceres/least_squares.h"
 
 #define OBSERVATIONS 14
 

@@ -6,7 +6,7 @@
 
 #include "bound/bound.h"
 #include "bound/line.h"
-#include "ranking.h"
+#include "ranking/ranking.h"
 
 typedef struct {
     const sp_cover *cover;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <cmocka.h>
 
-#include "watch.h"
+#include "watch/watch.h"
 
 static void only_its_share_of_the_limit_may_be_spent(void **state)
 {

@@ -3,7 +3,7 @@
  * many equal candidates instead. */
 #include "../optimizer/floor.h"
 
-#include "refine/least_squares.h"
+#include "ceres/least_squares.h"
 #include "refine/freedom.h"
 
 #include <stdio.h>

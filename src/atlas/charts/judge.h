@@ -4,8 +4,7 @@
 
 #include "atlas/charts/sheets.h"
 
-#define SP_STRAIN_BOUND 0.05       /* that most of a chart must keep */
-#define SP_STRAIN_SHARE 0.05       /* of its area that need not */
+#define SP_STRAIN_BOUND 0.05       /* that a chart must keep but for SP_STRAIN_SHARE of its area */
 #define SP_EXACT_STRAIN 1e-10      /* round-off */
 #define SP_DEVELOPABLE_STRAIN 1e-4 /* round-off of files */
 

@@ -1,4 +1,4 @@
-#include "atlas/charts/judge.h"
+#include "atlas/charts/sheets.h"
 
 #include <math.h>
 #include <stdlib.h>

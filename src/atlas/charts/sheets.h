@@ -5,6 +5,8 @@
 
 #include <sprayplan/mesh.h>
 
+#define SP_STRAIN_SHARE 0.05 /* of a chart's area that may have more strain than SP_STRAIN_BOUND */
+
 typedef struct {
     size_t triangle_count, vertex_count;
     uint32_t *triangle;    /* [triangle_count], of the mesh */

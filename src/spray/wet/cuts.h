@@ -3,15 +3,9 @@
 #define SPRAY_CUTS_H
 
 #include "spray/wet/shells.h"
+#include "spray/wet/stretches.h"
 
-#define SP_CONTACT 1e-6     /* of the geometry's diagonal: surfaces nearer than this to each other touch */
-#define SP_CELL 0x80000000u /* a child that is a cell: its number with this bit */
-
-/* A straight cut through a triangle: the distance (m) of the point (1-u-v, u, v) from it is a u + b v + c. */
-typedef struct {
-    double a, b, c;
-    uint32_t child[2]; /* where that is below 0 and where it is above: a cut, or a cell with SP_CELL */
-} sp_cut;
+#define SP_CONTACT 1e-6 /* of the geometry's diagonal: surfaces nearer than this to each other touch */
 
 typedef struct {
     double contact; /* m: what is nearer than this touches */

@@ -3,7 +3,15 @@
 #ifndef SPRAY_STRETCHES_H
 #define SPRAY_STRETCHES_H
 
-#include "spray/wet/cuts.h"
+#include <sprayplan/mesh.h>
+
+#define SP_CELL 0x80000000u /* a child that is a cell: its number with this bit */
+
+/* A straight cut through a triangle: the distance (m) of the point (1-u-v, u, v) from it is a u + b v + c. */
+typedef struct {
+    double a, b, c;
+    uint32_t child[2]; /* where that is below 0 and where it is above: a cut, or a cell with SP_CELL */
+} sp_cut;
 
 typedef struct {
     double from[2], to[2];

@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_CERES_SOLVE_H
 #define OPTIMIZER_CERES_SOLVE_H
 
-#include "refine/least_squares.h"
+#include "ceres/least_squares.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,8 +1,8 @@
 /* Arguments are checked here, the module of Ceres solves. */
-#include "refine/least_squares.h"
+#include "ceres/least_squares.h"
 
 #include "module/module.h"
-#include "refine/ceres/solve.h"
+#include "ceres/solve.h"
 
 #include <limits.h>
 

@@ -1,5 +1,5 @@
 // The module that calls Ceres Solver 2.1; nothing else in the house includes it.
-#include "refine/ceres/solve.h"
+#include "ceres/solve.h"
 
 #include <ceres/ceres.h>
 

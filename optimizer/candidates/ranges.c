@@ -1,0 +1,28 @@
+#include "candidates/ranges.h"
+
+void sp_angle_range(const sp_place_options *options, const sp_nozzle_type *type, double *low, double *high)
+{
+    double change = sp_type_is_uniform(type) ? options->refine.angle : 0;
+    double least = fmax(type->angle_min, type->angle - change), most = fmin(type->angle_max, type->angle + change);
+    *low = sp_step_nearest(type->angle_step, type->angle, least, least, most);
+    *high = sp_step_nearest(type->angle_step, type->angle, most, least, most);
+}
+
+double sp_fed_pressure(const sp_nozzle_type *type, double pressure)
+{
+    return sp_step_nearest(type->pressure_step, 0, pressure, sp_step_size(type->pressure_step), INFINITY);
+}
+
+void sp_flow_range(const sp_place_options *options, const sp_setup *setup, const sp_nozzle_type *type, double pressure,
+                   double *low, double *high)
+{
+    sp_trajectory trajectory = type->trajectory == SP_TRAJECTORY_AUTO ? setup->fidelity.trajectory : type->trajectory;
+    bool breaks_up = trajectory == SP_TRAJECTORY_DRAG && type->pattern == SP_PATTERN_SOLID_STREAM;
+    double change = sp_type_is_uniform(type) && !breaks_up ? options->refine.flow : 0;
+    double least = fmax(type->flow_min, type->flow * (1 - change));
+    double most = fmin(type->flow_max, type->flow * (1 + change));
+    *low =
+        sp_type_flow(type, sp_step_nearest(type->flow_step, type->flow, least, least, most), pressure, &setup->liquid);
+    *high =
+        sp_type_flow(type, sp_step_nearest(type->flow_step, type->flow, most, least, most), pressure, &setup->liquid);
+}
