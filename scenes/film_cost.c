@@ -2,7 +2,7 @@
  * running it. Each as many times as the third argument says, or ten times. */
 #include "film/film.h"
 #include "film/laminar.h"
-#include "spray/state.h"
+#include "spray/state/state.h"
 
 #include <sprayplan/sprayplan.h>
 

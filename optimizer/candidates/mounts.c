@@ -10,7 +10,6 @@
 #define SITES_MOST 100000   /* beyond that a spacing is taken for a mistake */
 #define SAMPLES_PER_SITE 16 /* points to choose from, per square of the spacing */
 #define NM 1e9              /* to a metre */
-#define STANDOFF_LEAST 1e-3 /* of the spacing: on the surface itself every line of sight would start in it */
 
 static bool append(sp_sites *sites, const sp_site *site, sp_error *error)
 {
@@ -114,17 +113,6 @@ static bool line_sites(const sp_mount *mount, uint32_t index, sp_sites *sites, s
             return false;
     }
     return true;
-}
-
-bool sp_mount_has(const sp_mesh *mesh, const sp_mount *mount, uint32_t triangle)
-{
-    uint32_t part = mesh->part[triangle];
-    return mesh->parts[part].geometry == mount->geometry && (mount->part == SP_NONE || mount->part == part);
-}
-
-double sp_mount_standoff(const sp_mount *mount)
-{
-    return fmax(mount->standoff, STANDOFF_LEAST * mount->spacing);
 }
 
 static sp_site stood_off(const sp_setup *setup, const sp_mount *mount, uint32_t index, uint32_t triangle, sp_vec3 point,

@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_MOUNTS_H
 #define OPTIMIZER_MOUNTS_H
 
-#include <sprayplan/place.h>
+#include "mounts/holds.h"
 
 /* A mounting point inside the cavity and clear of walls. */
 typedef struct {
@@ -26,17 +26,6 @@ static inline size_t sp_mount_room(const sp_mount *mount)
 /* All mounting points in the mounts' order. Fails with SP_ERROR_INPUT where none is inside and clear. */
 bool sp_sites_create(const sp_evaluator *evaluator, const sp_place_options *options, sp_sites *sites, sp_error *error);
 void sp_sites_free(sp_sites *sites);
-
-/* holds.c: m, by which a nozzle may lie off a mount that it is taken to sit on. */
-double sp_mount_tolerance(const sp_setup *setup);
-/* A port's lance reaches the point, or all but the tolerance. */
-bool sp_port_holds(const sp_mount *mount, sp_vec3 point, double tolerance);
-
-/* A surface mount's: whether a triangle belongs to it, how far nozzles stand off (m), and of its triangles the one
- * nearest to a point, SP_NONE where there is none. */
-bool sp_mount_has(const sp_mesh *mesh, const sp_mount *mount, uint32_t triangle);
-double sp_mount_standoff(const sp_mount *mount);
-uint32_t sp_mount_triangle(const sp_mesh *mesh, const sp_mount *mount, sp_vec3 point);
 
 /* Where a port's lance ends at this depth; with steps of depth to the nanometre, so that the place reads as a short
  * number. */

@@ -1,5 +1,5 @@
 /* How good an atlas is: cuts, distortion, use of the pages, and checks that hold for every atlas. */
-#include "atlas/adjacent.h"
+#include "mesh/adjacent.h"
 #include "atlas/overlap.h"
 #include "atlas/texels/texels.h"
 

@@ -4,7 +4,7 @@
 #include "atlas/charts/outline.h"
 #include "atlas/charts/sheets.h"
 #include "atlas/plane.h"
-#include "atlas/adjacent.h"
+#include "mesh/adjacent.h"
 
 #include <stdlib.h>
 #include <string.h>

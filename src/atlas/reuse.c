@@ -1,5 +1,5 @@
 /* Makes an atlas of what files lay flat, and believes nothing of it. */
-#include "atlas/adjacent.h"
+#include "mesh/adjacent.h"
 #include "atlas/overlap.h"
 #include "atlas/texels/texels.h"
 

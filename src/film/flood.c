@@ -1,7 +1,7 @@
 #include "film/flood.h"
 
-#include "atlas/least.h"
-#include "atlas/order.h"
+#include "mesh/least.h"
+#include "mesh/order.h"
 #include "mesh/disjoint_sets.h"
 #include "mesh/heap.h"
 

@@ -4,7 +4,7 @@
 #include "mesh/distance.h"
 #include "spray/restore.h"
 #include "spray/wet/told.h"
-#include "trace/visit.h"
+#include "trace/ray/visit.h"
 
 #include <stdlib.h>
 #include <string.h>

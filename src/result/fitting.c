@@ -1,8 +1,8 @@
 /* A layout as a fitter measures it. */
 #include <sprayplan/fitting.h>
 
-#include "candidates/mounts.h"
 #include "mesh/distance.h"
+#include "mounts/holds.h"
 
 #include <stdlib.h>
 

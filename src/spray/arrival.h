@@ -2,7 +2,7 @@
 #ifndef SPRAY_ARRIVAL_H
 #define SPRAY_ARRIVAL_H
 
-#include "state.h"
+#include "spray/state/state.h"
 
 #include <sprayplan/flight.h>
 

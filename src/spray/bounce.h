@@ -3,7 +3,7 @@
 #define SPRAY_BOUNCE_H
 
 #include "drag/chain.h"
-#include "state.h"
+#include "spray/state/state.h"
 
 /* Where a ray without drag, whose flight is all one piece, has come to: its hit, of something. `pull`: m/s². */
 sp_landing sp_landing_of(const sp_ray *ray, const sp_hit *hit, sp_vec3 pull);

@@ -2,7 +2,7 @@
 #ifndef SPRAY_CHOICE_H
 #define SPRAY_CHOICE_H
 
-#include "state.h"
+#include "spray/state/state.h"
 
 /* The coarsest and the finest texels that are tried, as how many there are of what is cleaned and counted. Longer ones
  * save little of a run and cost the search of a layout and the pictures their detail; shorter ones take gigabytes. */

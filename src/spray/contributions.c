@@ -1,6 +1,6 @@
 /* What each nozzle does by itself, and what is lost without it. Liquid of one does not depend on the others, whichever
  * way it flies or runs down: what any of them do together follows from what each does alone. */
-#include "state.h"
+#include "spray/state/state.h"
 
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
 #ifndef SPRAY_DENSITY_H
 #define SPRAY_DENSITY_H
 
-#include "state.h"
+#include "spray/state/state.h"
 
 typedef struct {
     double *texel;  /* [chart_count], m */

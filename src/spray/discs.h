@@ -2,7 +2,7 @@
 #ifndef SPRAY_DISCS_H
 #define SPRAY_DISCS_H
 
-#include "state.h"
+#include "spray/state/state.h"
 
 /* One thread's memory for laying discs on cells. */
 typedef struct {

@@ -1,7 +1,7 @@
 #include "launch.h"
 
 #include "spray/drag/chain.h"
-#include "state.h"
+#include "spray/state/state.h"
 
 #include <stdlib.h>
 

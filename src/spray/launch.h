@@ -2,7 +2,7 @@
 #ifndef SPRAY_LAUNCH_H
 #define SPRAY_LAUNCH_H
 
-#include "state.h"
+#include "spray/state/state.h"
 
 #include <sprayplan/launch.h>
 

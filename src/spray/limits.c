@@ -1,6 +1,6 @@
 /* What can be reckoned with in double precision, and errors for what cannot. */
 #include "spray/wet/cuts.h"
-#include "state.h"
+#include "spray/state/state.h"
 
 #define MOST_SPEED 1e30        /* m/s: far beyond, fourth powers that flights are reckoned from overflow */
 #define MOST_LENGTH 1e50       /* m, and its inverse: far beyond, so do fourth powers of lengths */

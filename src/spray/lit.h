@@ -2,7 +2,7 @@
 #ifndef SPRAY_LIT_H
 #define SPRAY_LIT_H
 
-#include "state.h"
+#include "spray/state/state.h"
 
 #define SP_LIT_EDGE 8 /* a texel's cells along either edge; bit y * SP_LIT_EDGE + x of a mask is a cell */
 

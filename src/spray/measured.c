@@ -1,5 +1,5 @@
 /* How far a coverage is off, measured at points. */
-#include "state.h"
+#include "spray/state/state.h"
 
 #include <sprayplan/points.h>
 

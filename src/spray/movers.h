@@ -7,7 +7,7 @@
 
 #include "nozzle/scramble.h"
 #include "spray/drag/chain.h"
-#include "state.h"
+#include "spray/state/state.h"
 
 typedef enum { SP_STANDING, SP_MOVING } sp_motion;
 

@@ -1,6 +1,6 @@
 /* Patches: the clean, wet part of each texel, on each side. */
 #include "middle.h"
-#include "state.h"
+#include "spray/state/state.h"
 
 #include <stdlib.h>
 

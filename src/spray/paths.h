@@ -2,7 +2,7 @@
 #ifndef SPRAY_PATHS_H
 #define SPRAY_PATHS_H
 
-#include "state.h"
+#include "spray/state/state.h"
 
 /* They are followed to this many walls after their first. */
 #define SP_PATH_BOUNCES 3

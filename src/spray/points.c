@@ -1,6 +1,6 @@
 /* Points drawn evenly from what is counted. */
 #include "nozzle/scramble.h"
-#include "state.h"
+#include "spray/state/state.h"
 
 #include <sprayplan/points.h>
 

@@ -2,7 +2,7 @@
 #ifndef SPRAY_RESOLUTION_H
 #define SPRAY_RESOLUTION_H
 
-#include "state.h"
+#include "spray/state/state.h"
 
 #define SP_PLAIN_TEXELS 100000 /* on what is cleaned and counted, where the texel is left open and nothing measured */
 

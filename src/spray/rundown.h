@@ -3,7 +3,7 @@
 #define SPRAY_RUNDOWN_H
 
 #include "film/film.h"
-#include "state.h"
+#include "spray/state/state.h"
 
 typedef struct sp_rundown {
     sp_evaluator *walls; /* all wet sides, cleaned or not, in cells: owned, or the evaluator itself */

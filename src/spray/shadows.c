@@ -1,5 +1,5 @@
 /* Shadows: connected regions that the criteria do not find covered. */
-#include "state.h"
+#include "spray/state/state.h"
 
 #include <stdlib.h>
 

@@ -3,8 +3,8 @@
 #define SPRAY_SHAFT_H
 
 #include "mesh/half_edge.h"
-#include "state.h"
-#include "trace/visit.h"
+#include "spray/state/state.h"
+#include "trace/ray/visit.h"
 
 /* A convex, flat part of the piece. */
 typedef struct {

@@ -2,7 +2,7 @@
 #ifndef SPRAY_SPLAT_H
 #define SPRAY_SPLAT_H
 
-#include "state.h"
+#include "spray/state/state.h"
 
 #define SP_SPLAT_CORNERS 4 /* pixels whose centres are around a point */
 #define SP_SPLAT_SIDES 4   /* charts, or sides of a cut, on which it may lie */

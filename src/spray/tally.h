@@ -2,7 +2,7 @@
 #ifndef SPRAY_TALLY_H
 #define SPRAY_TALLY_H
 
-#include "state.h"
+#include "spray/state/state.h"
 
 typedef struct {
     const sp_evaluator *evaluator;

@@ -1,7 +1,7 @@
 /* What the charts of large meshes rest on: the mesh put in order, made coarse, and sheets carried back to it. */
 #include "shapes.h"
 
-#include "atlas/adjacent.h"
+#include "mesh/adjacent.h"
 #include "atlas/charts/coarsen.h"
 #include "atlas/charts/making.h"
 #include "atlas/charts/refine.h"

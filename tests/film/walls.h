@@ -6,7 +6,7 @@
 
 #include "film/film.h"
 #include "film/laminar.h"
-#include "spray/state.h"
+#include "spray/state/state.h"
 
 typedef struct {
     sp_mesh *mesh;

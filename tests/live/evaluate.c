@@ -10,7 +10,7 @@
 #include "live/numbers.h"
 #include "spray/paths.h"
 #include "spray/restore.h"
-#include "trace/visit.h"
+#include "trace/ray/visit.h"
 
 #include <sprayplan/sprayplan.h>
 

@@ -2,7 +2,7 @@
 #include "shapes.h"
 
 #include "spray/splat.h"
-#include "spray/state.h"
+#include "spray/state/state.h"
 
 #define TEXEL 0.02
 

@@ -1,7 +1,7 @@
 /* Thin parts: texels no longer than an eighth of their girth, and what that makes of them. */
 #include "shapes.h"
 
-#include "spray/state.h"
+#include "spray/state/state.h"
 
 #define RADIUS 0.0015
 #define LENGTH 0.4

@@ -1,5 +1,5 @@
 /* Roots of a/2 t² + b t + c where textbook formulas lose their digits. */
-#include "trace/parabola.h"
+#include "trace/ray/parabola.h"
 
 #include <float.h>
 #include <setjmp.h>

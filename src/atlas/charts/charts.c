@@ -8,7 +8,7 @@
 #include "atlas/charts/making.h"
 #include "atlas/charts/orient.h"
 #include "atlas/charts/renumber.h"
-#include "atlas/adjacent.h"
+#include "mesh/adjacent.h"
 
 #include <math.h>
 #include <stdlib.h>

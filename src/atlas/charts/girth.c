@@ -2,7 +2,7 @@
  * by the angle between its two triangles, about its own direction, over its length. Summed over a chart as a tensor in
  * the chart's plane (D. Cohen-Steiner and J.-M. Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003)
  * this tells a rod from a sheet that is merely wavy or rough, where bends of opposite sense cancel out. */
-#include "atlas/adjacent.h"
+#include "mesh/adjacent.h"
 
 #include <sprayplan/atlas.h>
 

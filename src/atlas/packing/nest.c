@@ -3,8 +3,8 @@
  * so that few rows answer for most places. */
 #include "atlas/packing/nest.h"
 
-#include "atlas/bits.h"
-#include "atlas/order.h"
+#include "mesh/bits.h"
+#include "mesh/order.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 #include "atlas/packing/shape.h"
 
-#include "atlas/bits.h"
+#include "mesh/bits.h"
 #include "atlas/texels/cover.h"
-#include "atlas/least.h"
+#include "mesh/least.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
  * Maillot, "Least squares conformal maps" (2002), on as many pages as it takes. */
 #include "atlas/packing/skyline.h"
 
-#include "atlas/order.h"
+#include "mesh/order.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 #include "atlas/texels/borders.h"
-#include "atlas/least.h"
+#include "mesh/least.h"
 #include "atlas/texels/texels.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
  * what lies to the right of it there, and what it climbs to all further pixels of the row (S. Barrett, "How the
  * stb_truetype anti-aliased software rasterizer v2 works", 2015). */
 #include "atlas/texels/cover.h"
-#include "atlas/least.h"
+#include "mesh/least.h"
 
 #include <math.h>
 #include <stdlib.h>

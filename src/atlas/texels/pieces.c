@@ -1,6 +1,6 @@
 /* How a triangle's area on the surface is shared among its texels. */
 #include "atlas/texels/texels.h"
-#include "atlas/least.h"
+#include "mesh/least.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* Which pixels hold surface. */
-#include "atlas/bits.h"
+#include "mesh/bits.h"
 #include "atlas/texels/texels.h"
 
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /* Pixels that several patches cross. Only where a cut passes can a pixel hold more than one: elsewhere the chart goes
  * on in all directions. There the pixel's triangles are joined wherever they touch along an edge of the mesh inside the
  * pixel, which says what is one patch of the surface however the chart was cut. */
-#include "atlas/adjacent.h"
-#include "atlas/bits.h"
-#include "atlas/order.h"
+#include "mesh/adjacent.h"
+#include "mesh/bits.h"
+#include "mesh/order.h"
 #include "atlas/texels/texels.h"
-#include "atlas/least.h"
+#include "mesh/least.h"
 
 #include <math.h>
 #include <stdlib.h>

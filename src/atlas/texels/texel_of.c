@@ -1,6 +1,6 @@
 /* Which texel holds what, and where it lies. */
 #include "atlas/texels/texels.h"
-#include "atlas/least.h"
+#include "mesh/least.h"
 
 #include <math.h>
 #include <stddef.h>

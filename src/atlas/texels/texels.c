@@ -1,6 +1,6 @@
 /* Cuts the laid triangles by the pixels of the pages. */
 #include "atlas/texels/texels.h"
-#include "atlas/adjacent.h"
+#include "mesh/adjacent.h"
 
 #include <stdlib.h>
 

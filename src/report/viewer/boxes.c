@@ -1,6 +1,6 @@
 #include "boxes.h"
 
-#include "trace/visit.h"
+#include "trace/ray/visit.h"
 
 #include <stdlib.h>
 

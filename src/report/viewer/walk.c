@@ -1,7 +1,7 @@
 /* walk.js does the same the other way round: whatever is changed here is changed there. */
 #include "walk.h"
 
-#include "atlas/order.h"
+#include "mesh/order.h"
 
 #include <stdlib.h>
 #include <string.h>

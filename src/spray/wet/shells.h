@@ -2,7 +2,7 @@
 #ifndef SPRAY_SHELLS_H
 #define SPRAY_SHELLS_H
 
-#include "spray/state.h"
+#include "spray/state/state.h"
 
 /* Triangles that hang together by edges, and that are closed together or open together. */
 typedef struct {

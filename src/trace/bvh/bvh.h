@@ -6,8 +6,8 @@
 #ifndef SPRAYPLAN_TRACE_BVH_H
 #define SPRAYPLAN_TRACE_BVH_H
 
-#include "trace/search.h"
-#include "trace/visit.h"
+#include "trace/ray/search.h"
+#include "trace/ray/visit.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* Rays of one origin: put in the order of their directions, then traced in bundles of neighbours. */
 #include "trace/line/bundle.h"
 #include "trace/bvh/direction_order.h"
-#include "trace/line.h"
+#include "trace/ray/line.h"
 #include "trace/line/line_bvh.h"
 
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include "trace/bvh/bvh.h"
 #include "trace/bvh/direction_order.h"
 #include "trace/bvh/instructions.h"
-#include "trace/line.h"
+#include "trace/ray/line.h"
 
 /* Lines that come from farther away, in the hierarchy's space, than single precision is good for begin near the box. */
 #define SP_BVH_NEAR_ENOUGH 7.0

@@ -3,7 +3,7 @@
 #define SPRAYPLAN_TRACE_PARABOLA_HITS_H
 
 #include "trace/bvh/bvh.h"
-#include "trace/parabola.h"
+#include "trace/ray/parabola.h"
 
 enum { SP_PARABOLA_HITS = 32 };
 

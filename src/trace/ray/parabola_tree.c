@@ -1,6 +1,6 @@
 /* Parabolas through kd-trees. A flight is taken in pieces between the times at which it turns along an axis; within a
  * piece every coordinate goes one way only, so that it crosses a plane once, as a line does. */
-#include "trace/parabola.h"
+#include "trace/ray/parabola.h"
 
 typedef struct {
     const sp_parabola *flight;

@@ -22,8 +22,8 @@
  * Towards the vertical the plane's direction and the times at which points are passed become mere rounding, but depths
  * do not: the time is then found from the depth. When the flight is within 2^-42 of its reach of one vertical line, it
  * is taken to be on it, and the decision is the line's. */
-#include "trace/parabola.h"
-#include "trace/weigh.h"
+#include "trace/ray/parabola.h"
+#include "trace/ray/weigh.h"
 
 static inline double dot(const double a[3], const double b[3])
 {

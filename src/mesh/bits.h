@@ -1,6 +1,6 @@
 /* Rows of bits, 64 to a word, the lowest first. */
-#ifndef ATLAS_BITS_H
-#define ATLAS_BITS_H
+#ifndef MESH_BITS_H
+#define MESH_BITS_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -3,7 +3,7 @@
 #define SPRAYPLAN_TRACE_LINE_H
 
 #include "trace/kd/kd_tree.h"
-#include "trace/search.h"
+#include "trace/ray/search.h"
 
 /* A line x(t) = origin + velocity t, made ready. */
 typedef struct {

@@ -1,9 +1,9 @@
-/* Which mount holds a nozzle, and whether it takes it. */
-#include "candidates/mounts.h"
+#include "mounts/holds.h"
 
 #include "mesh/distance.h"
 
-#define TOLERANCE 4e-4 /* of the geometry's diagonal */
+#define TOLERANCE 4e-4      /* of the geometry's diagonal */
+#define STANDOFF_LEAST 1e-3 /* of the spacing: on the surface itself every line of sight would start in it */
 
 double sp_mount_tolerance(const sp_setup *setup)
 {
@@ -68,6 +68,17 @@ static bool holds(const sp_setup *setup, const sp_mount *mount, sp_vec3 point, d
         return box_holds(mount, point, tolerance);
     }
     return false;
+}
+
+bool sp_mount_has(const sp_mesh *mesh, const sp_mount *mount, uint32_t triangle)
+{
+    uint32_t part = mesh->part[triangle];
+    return mesh->parts[part].geometry == mount->geometry && (mount->part == SP_NONE || mount->part == part);
+}
+
+double sp_mount_standoff(const sp_mount *mount)
+{
+    return fmax(mount->standoff, STANDOFF_LEAST * mount->spacing);
 }
 
 uint32_t sp_mount_triangle(const sp_mesh *mesh, const sp_mount *mount, sp_vec3 point)

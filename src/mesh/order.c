@@ -1,5 +1,5 @@
 /* Radix sort, least significant digit first: stable and linear (Knuth, TAOCP 3, 5.2.5). */
-#include "atlas/order.h"
+#include "mesh/order.h"
 
 #include <stdlib.h>
 #include <string.h>

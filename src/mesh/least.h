@@ -1,6 +1,6 @@
 /* The lesser and the greater of two numbers, neither of them NaN: fmin and fmax are calls into the C library. */
-#ifndef ATLAS_LEAST_H
-#define ATLAS_LEAST_H
+#ifndef MESH_LEAST_H
+#define MESH_LEAST_H
 
 static inline double sp_least(double a, double b)
 {

@@ -1,4 +1,4 @@
-#include "trace/parabola.h"
+#include "trace/ray/parabola.h"
 
 /* b² - 2 a c. Where the two nearly cancel, with the products' rounding errors (Kahan, "On the Cost of Floating-Point
  * Computation Without Extra-Precise Arithmetic", 2004). */

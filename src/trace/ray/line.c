@@ -1,5 +1,5 @@
-#include "trace/line.h"
-#include "trace/weigh.h"
+#include "trace/ray/line.h"
+#include "trace/ray/weigh.h"
 
 bool sp_line_start(sp_line *line, const sp_ray *ray)
 {

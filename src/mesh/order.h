@@ -1,6 +1,6 @@
 /* Sorting by 64-bit keys. */
-#ifndef ATLAS_ORDER_H
-#define ATLAS_ORDER_H
+#ifndef MESH_ORDER_H
+#define MESH_ORDER_H
 
 #include <stdbool.h>
 #include <stddef.h>

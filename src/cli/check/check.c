@@ -1,10 +1,10 @@
 /* sprayplan check: what is in a scene and what is wrong with it. */
-#include "check/boxes.h"
-#include "check/cad.h"
-#include "check/flaws.h"
-#include "check/repair.h"
-#include "check/size.h"
-#include "cli.h"
+#include "boxes.h"
+#include "cad.h"
+#include "flaws.h"
+#include "repair.h"
+#include "size.h"
+#include "../cli.h"
 
 #include <stdarg.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* The report as one self-contained page: nothing fetched, and all but the viewer there without its script. */
-#include "page.h"
-#include "viewer/live.h"
+#include "report/page.h"
+#include "report/viewer/live.h"
 
 #include <sprayplan/sprayplan.h>
 

@@ -1,6 +1,6 @@
 /* Across which edges the surface goes on. */
-#ifndef ATLAS_ADJACENT_H
-#define ATLAS_ADJACENT_H
+#ifndef MESH_ADJACENT_H
+#define MESH_ADJACENT_H
 
 #include "mesh/half_edge.h"
 

@@ -1,4 +1,4 @@
-#include "atlas/adjacent.h"
+#include "mesh/adjacent.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* sprayplan bench: what every accelerator takes to build and to trace on one mesh, and what the atlas takes. */
-#include "bench/bench.h"
+#include "bench.h"
 
 #include <errno.h>
 #include <omp.h>

@@ -3,7 +3,7 @@
 #define SPRAYPLAN_TRACE_PARABOLA_H
 
 #include "trace/kd/kd_tree.h"
-#include "trace/search.h"
+#include "trace/ray/search.h"
 
 /* Gravity, made ready. */
 typedef struct {
