@@ -148,17 +148,26 @@ static void cull_hole(const sp_view *view, double hole, sp_cull *cull)
     }
 }
 
-/* The latitudes up to which a fan of this half-thickness reaches; a cone reaches all. */
+/* Sines of the latitudes up to which a fan of this half-thickness reaches. */
+static void set_latitude(sp_turned side, const float *restrict cosine, const float *restrict sine, size_t count,
+                         float *restrict latitude)
+{
+    for (size_t i = 0; i < count; i++) {
+        float more = side.sine * cosine[i] + side.cosine * sine[i];
+        latitude[i] = cosine[i] > 0 && sine[i] < side.cosine ? more : 2;
+    }
+}
+
+/* A cone reaches all latitudes. */
 static void cull_sides(const sp_view *view, bool fan, double half_thickness, sp_cull *cull)
 {
-    const float *restrict cosine = view->cosine, *restrict sine = view->sine;
-    float *restrict latitude = cull->latitude;
     sp_turned side = turned(half_thickness);
-    if (!fan)
-        set_all(2, SP_BINS, latitude);
-    for (size_t b = 0; fan && b < SP_BINS; b++) {
-        float more = side.sine * cosine[b] + side.cosine * sine[b];
-        latitude[b] = sine[b] < side.cosine ? more : 2;
+    if (fan) {
+        set_latitude(side, view->cosine, view->sine, SP_BINS, cull->latitude);
+        set_latitude(side, view->block_cosine, view->block_sine, SP_BLOCKS, cull->near_latitude);
+    } else {
+        set_all(2, SP_BINS, cull->latitude);
+        set_all(2, SP_BLOCKS, cull->near_latitude);
     }
 }
 
@@ -185,5 +194,6 @@ void sp_cull_create(const sp_bins *bins, const sp_view *view, const sp_spray *sp
         if (count == SP_COUNT_GENEROUS || view->broadest[b] >= broad) {
             cull_broad((double)bins->radius[b], (double)view->broadest[b], spray, count, b, cull);
             cull->near[b / SP_LANES] = -2;
+            cull->near_latitude[b / SP_LANES] = 2;
         }
 }

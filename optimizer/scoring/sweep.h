@@ -42,7 +42,8 @@ typedef struct {
     float outside[SP_BINS], inside[SP_BINS]; /* less than `outside`: missed; `inside` or more: not cut off */
     float inner_outside[SP_BINS], inner_inside[SP_BINS]; /* the same for the hole of a hollow cone, downwards */
     float latitude[SP_BINS];
-    float near[SP_BLOCKS]; /* cosine between a block's centre and the axis, below which all of its bins are missed */
+    /* the same as `outside` and `latitude` of a block's centre, for all of its bins */
+    float near[SP_BLOCKS], near_latitude[SP_BLOCKS];
 } sp_cull;
 
 /* What to sum: a weight per arrival (padded by SP_LANES) and its sums per bin, as `total` makes them. */

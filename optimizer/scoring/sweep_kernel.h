@@ -380,12 +380,15 @@ typedef struct {
 } binned;
 
 /* Bit i: block i, of whose bins the pattern may hold any. Most lie on another side of the nozzle. */
-INLINE uint64_t near_blocks(const sp_bins *bins, const sp_cull *cull, const sp_region *region)
+INLINE uint64_t near_blocks(const sp_bins *bins, const sp_cull *cull, const sp_region *region, bool fan)
 {
     uint64_t bits = 0;
     for (size_t i = 0; i < SP_BLOCKS; i += SP_LANES) {
-        lanes along = dot(load(&bins->block_x[i]), load(&bins->block_y[i]), load(&bins->block_z[i]), region->z);
-        bits |= (uint64_t)bits_of(at_least(along, load(&cull->near[i]))) << i;
+        lanes x = load(&bins->block_x[i]), y = load(&bins->block_y[i]), z = load(&bins->block_z[i]);
+        mask near = at_least(dot(x, y, z, region->z), load(&cull->near[i]));
+        if (fan)
+            near = both(near, at_least(load(&cull->near_latitude[i]), magnitude(dot(x, y, z, region->y))));
+        bits |= (uint64_t)bits_of(near) << i;
     }
     return bits;
 }
@@ -393,7 +396,7 @@ INLINE uint64_t near_blocks(const sp_bins *bins, const sp_cull *cull, const sp_r
 INLINE void look_at_bins(const sp_bins *bins, const sp_cull *cull, const sp_region *region, bool fan,
                          const sp_weight *weights, size_t weight_count, binned *found)
 {
-    for (uint64_t blocks = near_blocks(bins, cull, region); blocks; blocks &= blocks - 1) {
+    for (uint64_t blocks = near_blocks(bins, cull, region, fan); blocks; blocks &= blocks - 1) {
         size_t b = SP_LANES * (size_t)__builtin_ctzll(blocks);
         lanes x = load(&bins->x[b]), y = load(&bins->y[b]), z = load(&bins->z[b]), along = dot(x, y, z, region->z);
         mask cut = both(at_least(along, load(&cull->outside[b])), at_least(load(&cull->inner_outside[b]), along));

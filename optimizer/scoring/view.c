@@ -27,6 +27,16 @@ sp_vec3 sp_octahedron_decode(double u, double v)
     return sp_unit(sp_v(copysign(1 - fabs(v), u), copysign(1 - fabs(u), v), z));
 }
 
+/* Bins that lie together have numbers together: TILE x TILE of them are a block. */
+#define TILE 4
+#define TILES (SP_BINS_EDGE / TILE)
+_Static_assert(TILE *TILE == SP_LANES, "a block is a tile");
+
+static size_t number_of(size_t i, size_t j)
+{
+    return (j / TILE * TILES + i / TILE) * SP_LANES + j % TILE * TILE + i % TILE;
+}
+
 static uint16_t bin_of(sp_vec3 direction)
 {
     double u, v;
@@ -34,7 +44,7 @@ static uint16_t bin_of(sp_vec3 direction)
     int i = (int)((u + 1) * (0.5 * SP_BINS_EDGE)), j = (int)((v + 1) * (0.5 * SP_BINS_EDGE));
     i = i < 0 ? 0 : i >= SP_BINS_EDGE ? SP_BINS_EDGE - 1 : i;
     j = j < 0 ? 0 : j >= SP_BINS_EDGE ? SP_BINS_EDGE - 1 : j;
-    return (uint16_t)(j * SP_BINS_EDGE + i);
+    return (uint16_t)number_of((size_t)i, (size_t)j);
 }
 
 static sp_vec3 centre_of(const sp_bins *bins, size_t b)
@@ -60,8 +70,9 @@ static void set_block(sp_bins *bins, size_t block)
 void sp_bins_create(sp_bins *bins)
 {
     const double edge = 2.0 / SP_BINS_EDGE;
-    for (size_t b = 0; b < SP_BINS; b++) {
-        double u = (double)(b % SP_BINS_EDGE) * edge - 1, v = (double)(b / SP_BINS_EDGE) * edge - 1;
+    for (size_t n = 0; n < SP_BINS; n++) {
+        size_t i = n % SP_BINS_EDGE, j = n / SP_BINS_EDGE, b = number_of(i, j);
+        double u = (double)i * edge - 1, v = (double)j * edge - 1;
         sp_vec3 centre = sp_octahedron_decode(u + 0.5 * edge, v + 0.5 * edge);
         double cosine = 1;
         /* A cell's sides are arcs of great circles, so that its corners lie farthest out. */
