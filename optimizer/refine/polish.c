@@ -292,25 +292,33 @@ static sp_ranks *ranks_of(const sp_polishing *polishing)
     return polishing->search->options->run.ranks;
 }
 
-/* Takes the step for every trial that is this rank's, or for those that are better; the last, which have most nozzles,
- * first, so that no thread is left alone with one of these. A trial alone has all threads for itself. */
+/* Takes the step for trial i where it is this rank's, and all are asked for, or it is better. */
+static void take(const sp_polishing *polishing, int thread, sp_trial *trials, size_t i, bool better, trial_step step,
+                 sp_error *failure)
+{
+    sp_error mine = {0};
+    if (sp_ranks_mine(ranks_of(polishing), i) && (!better || trials[i].better) &&
+        !step(polishing, thread, &trials[i], &mine)) {
+#pragma omp critical(sp_polish_failure)
+        *failure = mine;
+    }
+}
+
+/* Every trial, or those that are better; the last, which have most nozzles, first, so that no thread is left alone with
+ * one of these. A trial alone is taken outside of a parallel region, so that what it does may have all threads. */
 static bool for_each(const sp_polishing *polishing, sp_trial *trials, size_t count, bool better, trial_step step,
                      sp_error *error)
 {
     sp_error failure = {0};
-    sp_ranks *ranks = ranks_of(polishing);
-    sp_ranks_part(ranks);
-#pragma omp parallel for num_threads(polishing->threads) schedule(dynamic, 1) if (count > 1)
-    for (size_t k = 0; k < count; k++) {
-        size_t i = count - 1 - k;
-        sp_error mine = {0};
-        if (sp_ranks_mine(ranks, i) && (!better || trials[i].better) &&
-            !step(polishing, omp_get_thread_num(), &trials[i], &mine)) {
-#pragma omp critical(sp_polish_failure)
-            failure = mine;
-        }
+    sp_ranks_part(ranks_of(polishing));
+    if (count == 1) {
+        take(polishing, 0, trials, 0, better, step, &failure);
+    } else {
+#pragma omp parallel for num_threads(polishing->threads) schedule(dynamic, 1)
+        for (size_t k = 0; k < count; k++)
+            take(polishing, omp_get_thread_num(), trials, count - 1 - k, better, step, &failure);
     }
-    sp_ranks_rejoin(ranks);
+    sp_ranks_rejoin(ranks_of(polishing));
     if (failure.kind == SP_OK)
         return true;
     return sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
