@@ -79,7 +79,8 @@ static void lay_patch(const posed *pattern, const sp_arrival *first, const sp_ar
         if (s->arriving)
             s->arriving[first->patch] += brings;
         if (arrival->passes)
-            sp_wetting_add(&wetting, flux, threshold, arrival->part, share, holds(pattern, arrival->direction));
+            sp_wetting_add(&wetting, flux, threshold, arrival->part, share,
+                           !sp_wetting_alone(flux, threshold) && holds(pattern, arrival->direction));
     }
     sp_wetting settled = sp_wetting_settle(wetting, threshold);
     s->even[first->patch] += settled.even;
