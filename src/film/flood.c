@@ -1,6 +1,6 @@
 #include "film/flood.h"
 
-#include "mesh/least.h"
+#include "mesh/lesser.h"
 #include "mesh/order.h"
 #include "mesh/disjoint_sets.h"
 #include "mesh/heap.h"
@@ -48,8 +48,8 @@ static void measure_heights(flood *own)
     size_t count = own->links->count;
     double low = INFINITY, high = -INFINITY;
     for (uint32_t i = 0; i < count; i++) {
-        low = sp_least(low, height_of(own->surface, i));
-        high = sp_most(high, height_of(own->surface, i));
+        low = sp_lesser(low, height_of(own->surface, i));
+        high = sp_greater(high, height_of(own->surface, i));
     }
     own->step = LEVEL * (high - low);
     for (uint32_t i = 0; i < count; i++)

@@ -112,7 +112,7 @@ void sp_tracer_use(sp_tracer *tracer, sp_instructions instructions)
     tracer->instructions = instructions;
 }
 
-static void search_line(const sp_tracer *tracer, const sp_ray *ray, sp_search *search)
+static void search_line(const sp_tracer *tracer, const sp_ray *ray, sp_ray_search *search)
 {
     const sp_corners *corners = (const sp_corners *)tracer->corners;
     sp_line line;
@@ -124,7 +124,7 @@ static void search_line(const sp_tracer *tracer, const sp_ray *ray, sp_search *s
         sp_line_search_tree(&line, corners, &tracer->tree, search);
 }
 
-static void search_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp_pull *pull, sp_search *search)
+static void search_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp_pull *pull, sp_ray_search *search)
 {
     const sp_corners *corners = (const sp_corners *)tracer->corners;
     sp_parabola parabola;
@@ -137,7 +137,7 @@ static void search_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp
         sp_parabola_search_tree(&parabola, corners, &tracer->tree, search);
 }
 
-static void trace_line(const sp_tracer *tracer, const sp_ray *ray, sp_search *search)
+static void trace_line(const sp_tracer *tracer, const sp_ray *ray, sp_ray_search *search)
 {
     bool occluded = false;
     sp_bvh_trace_lines(&tracer->bvh, tracer->instructions, ray, NULL, 1, search->any ? NULL : &search->best, &occluded);
@@ -145,7 +145,7 @@ static void trace_line(const sp_tracer *tracer, const sp_ray *ray, sp_search *se
         search->best.triangle = 0; /* or another */
 }
 
-static void trace_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp_pull *pull, sp_search *search)
+static void trace_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp_pull *pull, sp_ray_search *search)
 {
     const uint32_t only = 0;
     bool occluded = false;
@@ -157,7 +157,7 @@ static void trace_parabola(const sp_tracer *tracer, const sp_ray *ray, const sp_
 
 static sp_hit trace(const sp_tracer *tracer, const sp_ray *ray, const sp_pull *pull, bool any)
 {
-    sp_search search = sp_search_start(ray, any);
+    sp_ray_search search = sp_ray_search_start(ray, any);
     bool is_bvh = tracer->accelerator == SP_ACCELERATOR_BVH;
     if (pull->strength != 0 && is_bvh)
         trace_parabola(tracer, ray, pull, &search);

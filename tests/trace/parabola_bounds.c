@@ -191,7 +191,7 @@ static void check_start(const world *w, const sp_ray *ray, const sp_pull *pull, 
     static void (*const prepares[])(const sp_bvh_jets *, sp_bvh_starts *) = {
         sp_bvh_prepare_starts_portable, sp_bvh_prepare_starts_avx2, sp_bvh_prepare_starts_avx512};
     static sp_bvh_jet jet;
-    sp_search search = sp_search_start(ray, false);
+    sp_ray_search search = sp_ray_search_start(ray, false);
     sp_parabola parabola;
     double from = search.t_min, last = search.limit;
     jet.asked = ray;
@@ -226,14 +226,14 @@ static void check_start(const world *w, const sp_ray *ray, const sp_pull *pull, 
 static void check_flight(const world *w, const sp_ray *ray, sp_vec3 gravity, tally *seen)
 {
     sp_pull pull = sp_pull_of(gravity);
-    sp_search search = sp_search_start(ray, false);
+    sp_ray_search search = sp_ray_search_start(ray, false);
     static sp_bvh_jet jet;
     jet.asked = ray;
     double from = search.t_min, last = search.limit, times[COUNT];
     sp_parabola parabola;
     assert_true(sp_parabola_start(&parabola, ray, &pull, w->bvh.low, w->bvh.high));
     for (uint32_t t = 0; t < w->mesh->triangle_count; t++) {
-        sp_search alone = search;
+        sp_ray_search alone = search;
         sp_corners corners;
         sp_bvh_corners(&w->bvh, t, corners);
         sp_parabola_test(&parabola, (const double(*)[3])corners, t, &alone);

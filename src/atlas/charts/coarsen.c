@@ -3,7 +3,7 @@
  * cheaper vertices go, none of them beside another; so all costs of a pass hold, and its order does not matter much. */
 #include "atlas/charts/coarsen.h"
 
-#include "mesh/least.h"
+#include "mesh/lesser.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -68,7 +68,7 @@ static bool is_sound(sp_vec3 a, sp_vec3 b, sp_vec3 before)
     double squared = sp_dot(normal, normal), along = sp_dot(normal, before);
     if (!(along > 0) || along * along < LEAST_COSINE * LEAST_COSINE * squared * sp_dot(before, before))
         return false;
-    double longest = sp_most(sp_dot(a, a), sp_most(sp_dot(b, b), sp_dot(c, c)));
+    double longest = sp_greater(sp_dot(a, a), sp_greater(sp_dot(b, b), sp_dot(c, c)));
     return squared > LEAST_HEIGHT * LEAST_HEIGHT * longest * longest;
 }
 

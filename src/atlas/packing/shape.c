@@ -2,7 +2,7 @@
 
 #include "mesh/bits.h"
 #include "atlas/texels/cover.h"
-#include "mesh/least.h"
+#include "mesh/lesser.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -88,20 +88,20 @@ static bool frame(const chart *c, uint32_t limit, sp_shape *shape, sp_error *err
     for (uint32_t i = 0; i < c->count; i++)
         for (int corner = 0; corner < 3; corner++)
             for (int k = 0; k < 2; k++) {
-                low[k] = sp_least(low[k], c->charts->flat[c->members[i]][corner][k]);
-                high[k] = sp_most(high[k], c->charts->flat[c->members[i]][corner][k]);
+                low[k] = sp_lesser(low[k], c->charts->flat[c->members[i]][corner][k]);
+                high[k] = sp_greater(high[k], c->charts->flat[c->members[i]][corner][k]);
             }
     for (int k = 0; k < 2; k++) {
         double extent = (high[k] - low[k]) / c->texel, whole = round(extent);
         bool fitting = whole >= 1 && fabs(extent - whole) < WHOLE;
-        double pixels = sp_least(fitting ? whole + 2 : floor(extent + 2 * MARGIN) + 1, limit);
+        double pixels = sp_lesser(fitting ? whole + 2 : floor(extent + 2 * MARGIN) + 1, limit);
         /* Less a part in 10^9: a chart of a whole number of texels is not too large for round-off. */
         if (!(extent * (1 - 1e-9) <= limit))
             return sp_fail(error, SP_ERROR_INPUT, NULL, 0, 0,
                            "a flat piece of the surface of %g m by %g m does not fit a page of %u texels of %g m",
                            high[0] - low[0], high[1] - low[1], limit, c->texel);
         size[k] = (uint32_t)pixels;
-        place[k] = (pixels == whole + 2 ? 1 : sp_most(0, 0.5 * (pixels - extent))) - low[k] / c->texel;
+        place[k] = (pixels == whole + 2 ? 1 : sp_greater(0, 0.5 * (pixels - extent))) - low[k] / c->texel;
     }
     shape->width = size[0];
     shape->height = size[1];

@@ -1,5 +1,5 @@
 #include "atlas/texels/borders.h"
-#include "mesh/least.h"
+#include "mesh/lesser.h"
 #include "atlas/texels/texels.h"
 
 #include <math.h>
@@ -34,8 +34,8 @@ static void cut_line(const double (*uv)[2], int k, double at, double cut[2])
         if ((p[k] < at) == (q[k] < at))
             continue;
         double there = p[1 - k] + (at - p[k]) / (q[k] - p[k]) * (q[1 - k] - p[1 - k]);
-        from = sp_least(from, there);
-        to = sp_most(to, there);
+        from = sp_lesser(from, there);
+        to = sp_greater(to, there);
     }
     cut[0] = from;
     cut[1] = to;
@@ -44,7 +44,7 @@ static void cut_line(const double (*uv)[2], int k, double at, double cut[2])
 /* What of that lies within [low, low + 1]; 0 for none. */
 static double length_within(const double cut[2], double low)
 {
-    return sp_most(0, sp_least(cut[1], low + 1) - sp_most(cut[0], low));
+    return sp_greater(0, sp_lesser(cut[1], low + 1) - sp_greater(cut[0], low));
 }
 
 /* The border between pixel x, y and the next one along x or, `above`, along y. */

@@ -2,7 +2,7 @@
  * what lies to the right of it there, and what it climbs to all further pixels of the row (S. Barrett, "How the
  * stb_truetype anti-aliased software rasterizer v2 works", 2015). */
 #include "atlas/texels/cover.h"
-#include "mesh/least.h"
+#include "mesh/lesser.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,18 +25,18 @@ bool sp_cover_begin(sp_cover *cover, const double uv[3][2], sp_cover_kind kind)
 {
     double slack = kind == SP_COVER_TOUCHED ? SP_COVER_SLACK : 0, low[2], high[2];
     for (int k = 0; k < 2; k++) {
-        low[k] = floor(sp_least(uv[0][k], sp_least(uv[1][k], uv[2][k])) - slack);
+        low[k] = floor(sp_lesser(uv[0][k], sp_lesser(uv[1][k], uv[2][k])) - slack);
         for (int i = 0; i < 3; i++)
             cover->corner[i][k] = uv[i][k] - low[k]; /* loses nothing */
-        high[k] = sp_most(cover->corner[0][k], sp_most(cover->corner[1][k], cover->corner[2][k]));
+        high[k] = sp_greater(cover->corner[0][k], sp_greater(cover->corner[1][k], cover->corner[2][k]));
     }
     double(*c)[2] = cover->corner;
     cover->kind = kind;
-    cover->width = high[0] - sp_least(c[0][0], sp_least(c[1][0], c[2][0]));
+    cover->width = high[0] - sp_lesser(c[0][0], sp_lesser(c[1][0], c[2][0]));
     cover->base_x = (uint32_t)low[0];
     cover->base_y = (uint32_t)low[1];
-    cover->columns = (uint32_t)sp_most(ceil(high[0] + slack), 1);
-    cover->rows = (uint32_t)sp_most(ceil(high[1] + slack), 1);
+    cover->columns = (uint32_t)sp_greater(ceil(high[0] + slack), 1);
+    cover->rows = (uint32_t)sp_greater(ceil(high[1] + slack), 1);
     cover->row = 0;
     cover->cut_at = -1;
     cover->flat = 0.5 * ((c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[1][1] - c[0][1]) * (c[2][0] - c[0][0]));
@@ -68,7 +68,7 @@ static double at_height(const double p[2], const double q[2], double y)
     if (y >= q[1])
         return q[0];
     double x = p[0] + (y - p[1]) / (q[1] - p[1]) * (q[0] - p[0]);
-    return sp_least(sp_most(x, sp_least(p[0], q[0])), sp_most(p[0], q[0]));
+    return sp_lesser(sp_greater(x, sp_lesser(p[0], q[0])), sp_greater(p[0], q[0]));
 }
 
 /* Where a row cuts the triangle: the long edge, and the two short ones, which meet at the middle corner. */
@@ -82,7 +82,7 @@ typedef struct {
 static strip cut(sp_cover *cover, double low, double high)
 {
     const double(*c)[2] = (const double(*)[2])cover->corner;
-    strip s = {sp_most(low, c[0][1]), sp_least(high, c[2][1]), 0, 0, 0, 0, false};
+    strip s = {sp_greater(low, c[0][1]), sp_lesser(high, c[2][1]), 0, 0, 0, 0, false};
     if (s.low == cover->cut_at) {
         s.long_low = cover->cut_long;
         s.short_low = cover->cut_short;
@@ -103,7 +103,7 @@ static strip cut(sp_cover *cover, double low, double high)
  * the sums from area[0] to area[k] are the pixels' areas. */
 static void accumulate(double *area, double xa, double ya, double xb, double yb, double sign)
 {
-    double rise = sign * (yb - ya), left = sp_least(xa, xb), right = sp_most(xa, xb);
+    double rise = sign * (yb - ya), left = sp_lesser(xa, xb), right = sp_greater(xa, xb);
     uint32_t first = (uint32_t)left, last = (uint32_t)right;
     if (first == last) {
         double here = rise * (first + 1 - 0.5 * (left + right));
@@ -127,7 +127,7 @@ static void accumulate(double *area, double xa, double ya, double xb, double yb,
 
 static double within(double x, double low, double high)
 {
-    return sp_least(sp_most(x - low, 0), high - low);
+    return sp_lesser(sp_greater(x - low, 0), high - low);
 }
 
 /* `first` and `end` are the strip's columns. What was dropped as slivers beyond them goes to the outermost. */
@@ -165,22 +165,22 @@ static bool take_row(sp_cover *cover, uint32_t row)
 {
     double slack = cover->kind == SP_COVER_TOUCHED ? SP_COVER_SLACK : 0;
     strip s = cut(cover, row - slack, row + 1 + slack);
-    if (s.high - s.low < (slack > 0 ? 0 : SP_SLIVER * sp_least(1, cover->height)))
+    if (s.high - s.low < (slack > 0 ? 0 : SP_SLIVER * sp_lesser(1, cover->height)))
         return false;
-    double left = sp_least(sp_least(s.long_low, s.long_high), sp_least(s.short_low, s.short_high));
-    double right = sp_most(sp_most(s.long_low, s.long_high), sp_most(s.short_low, s.short_high));
+    double left = sp_lesser(sp_lesser(s.long_low, s.long_high), sp_lesser(s.short_low, s.short_high));
+    double right = sp_greater(sp_greater(s.long_low, s.long_high), sp_greater(s.short_low, s.short_high));
     if (s.bent) {
-        left = sp_least(left, cover->corner[1][0]);
-        right = sp_most(right, cover->corner[1][0]);
+        left = sp_lesser(left, cover->corner[1][0]);
+        right = sp_greater(right, cover->corner[1][0]);
     }
-    double shrink = slack > 0 ? -slack : SP_SLIVER * sp_least(1, cover->width);
+    double shrink = slack > 0 ? -slack : SP_SLIVER * sp_lesser(1, cover->width);
     double first = floor(left + shrink), end = ceil(right - shrink);
     if (!(end > first)) {
         first = floor(0.5 * (left + right));
         end = first + 1;
     }
-    first = sp_least(first, cover->columns - 1.0);
-    end = sp_most(sp_least(end, cover->columns), first + 1);
+    first = sp_lesser(first, cover->columns - 1.0);
+    end = sp_greater(sp_lesser(end, cover->columns), first + 1);
     cover->y = cover->base_y + row;
     cover->x = cover->base_x + (uint32_t)first;
     cover->count = (uint32_t)(end - first);
@@ -194,8 +194,8 @@ static bool take_middle(sp_cover *cover)
 {
     const double(*c)[2] = (const double(*)[2])cover->corner;
     double x = (c[0][0] + c[1][0] + c[2][0]) / 3, y = (c[0][1] + c[1][1] + c[2][1]) / 3;
-    cover->x = cover->base_x + (uint32_t)sp_least(x, cover->columns - 1.0);
-    cover->y = cover->base_y + (uint32_t)sp_least(y, cover->rows - 1.0);
+    cover->x = cover->base_x + (uint32_t)sp_lesser(x, cover->columns - 1.0);
+    cover->y = cover->base_y + (uint32_t)sp_lesser(y, cover->rows - 1.0);
     cover->count = 1;
     if (cover->kind == SP_COVER_AREAS)
         cover->area[0] = 0;

@@ -1,6 +1,6 @@
 /* How a triangle's area on the surface is shared among its texels. */
 #include "atlas/texels/texels.h"
-#include "mesh/least.h"
+#include "mesh/lesser.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -34,7 +34,7 @@ static void measure_row(sp_pieces *pieces)
     const sp_cover *cover = &pieces->cover;
     sp_piece *row = pieces->items + (pieces->count - cover->count);
     for (uint32_t i = 0; i < cover->count; i++)
-        row[i].area = sp_most(cover->area[i], LEAST_SHARE * cover->flat);
+        row[i].area = sp_greater(cover->area[i], LEAST_SHARE * cover->flat);
 }
 
 bool sp_pieces_of(sp_pieces *pieces, const sp_atlas *atlas, const sp_mesh *mesh, uint32_t triangle)

@@ -5,7 +5,7 @@
 #include "mesh/bits.h"
 #include "mesh/order.h"
 #include "atlas/texels/texels.h"
-#include "mesh/least.h"
+#include "mesh/lesser.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -107,8 +107,8 @@ static void clip_edge(const sp_atlas *atlas, uint32_t half_edge, double x, doubl
             continue;
         }
         double a = (low[k] - p[k]) / step, b = (high[k] - p[k]) / step;
-        *from = sp_most(*from, sp_least(a, b));
-        *to = sp_least(*to, sp_most(a, b));
+        *from = sp_greater(*from, sp_lesser(a, b));
+        *to = sp_lesser(*to, sp_greater(a, b));
     }
 }
 
@@ -118,7 +118,7 @@ static bool meet_in(const sp_atlas *atlas, uint32_t a, uint32_t b, sp_texel_plac
     double from_a, to_a, from_b, to_b;
     clip_edge(atlas, a, at.x, at.y, &from_a, &to_a);
     clip_edge(atlas, b, at.x, at.y, &from_b, &to_b);
-    return from_a < to_a && from_b < to_b && sp_most(from_a, 1 - to_b) < sp_least(to_a, 1 - from_b);
+    return from_a < to_a && from_b < to_b && sp_greater(from_a, 1 - to_b) < sp_lesser(to_a, 1 - from_b);
 }
 
 /* The triangles of one pixel, as their pairs, and the patches that they make. */

@@ -1,6 +1,6 @@
 /* Which texel holds what, and where it lies. */
 #include "atlas/texels/texels.h"
-#include "mesh/least.h"
+#include "mesh/lesser.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -80,9 +80,9 @@ static uint32_t nearest_own(const sp_atlas *atlas, uint32_t triangle, double x, 
     uint32_t nearest = SP_NONE;
     sp_atlas_cover(atlas, triangle, SP_COVER_PIXELS, &cover); /* needs no memory */
     while (sp_cover_next(&cover)) {
-        double column = sp_least(sp_most(floor(x), cover.x), cover.x + cover.count - 1.0);
-        double dx = sp_most(0, sp_most(column - x, x - column - 1)),
-               dy = sp_most(0, sp_most(cover.y - y, y - cover.y - 1));
+        double column = sp_lesser(sp_greater(floor(x), cover.x), cover.x + cover.count - 1.0);
+        double dx = sp_greater(0, sp_greater(column - x, x - column - 1)),
+               dy = sp_greater(0, sp_greater(cover.y - y, y - cover.y - 1));
         if (dx * dx + dy * dy >= least)
             continue;
         least = dx * dx + dy * dy;

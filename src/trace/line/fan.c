@@ -15,7 +15,7 @@ static const sp_bundle_kernel *const kernels[] = SP_KERNELS(&sp_bundle);
 sp_hit sp_bundle_ask(const sp_bundle *b, int lane, uint32_t triangle, uint32_t other)
 {
     const sp_ray *ray = &b->rays[b->ray[lane]];
-    sp_search search = sp_search_start(ray, false);
+    sp_ray_search search = sp_ray_search_start(ray, false);
     sp_line line;
     uint32_t candidates[2] = {triangle, other};
     bool good = sp_line_start(&line, ray);

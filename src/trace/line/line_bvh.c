@@ -28,7 +28,7 @@ static bool enter(const sp_line *line, const double low[3], const double high[3]
     return *from <= to;
 }
 
-static void test_block(const sp_bvh *bvh, const sp_line *line, const sp_bvh_block *block, sp_search *search)
+static void test_block(const sp_bvh *bvh, const sp_line *line, const sp_bvh_block *block, sp_ray_search *search)
 {
     for (int i = 0; i < SP_BVH_WIDTH && block->triangle[i] != SP_NONE; i++) {
         sp_corners corners;
@@ -39,7 +39,7 @@ static void test_block(const sp_bvh *bvh, const sp_line *line, const sp_bvh_bloc
 
 sp_hit sp_bvh_line_walk(const sp_bvh *bvh, const sp_ray *ray, bool any)
 {
-    sp_search search = sp_search_start(ray, any);
+    sp_ray_search search = sp_ray_search_start(ray, any);
     sp_line line;
     pending stack[SP_BVH_STACK];
     int height = 1;
@@ -50,7 +50,7 @@ sp_hit sp_bvh_line_walk(const sp_bvh *bvh, const sp_ray *ray, bool any)
     for (int axis = 0; axis < 3; axis++)
         farthest = sp_greater(
             farthest, sp_greater(fabs(bvh->low[axis] - line.origin[axis]), fabs(bvh->high[axis] - line.origin[axis])));
-    while (height > 0 && !sp_search_done(&search)) {
+    while (height > 0 && !sp_ray_search_done(&search)) {
         pending at = stack[--height];
         if (at.from > search.limit)
             continue;
@@ -98,10 +98,10 @@ static void ask(const sp_bvh *bvh, sp_bvh_flight *flight, uint32_t triangle)
 void sp_bvh_flight_settle(const sp_bvh_stream *stream, sp_bvh_flight *flight, uint32_t triangle)
 {
     const sp_ray *ray = &stream->rays[flight->ray.number];
-    const sp_search *search = &flight->search;
+    const sp_ray_search *search = &flight->search;
     if (!flight->in_doubt) {
         sp_line_start(&flight->line, ray);
-        flight->search = sp_search_start(ray, !stream->hits);
+        flight->search = sp_ray_search_start(ray, !stream->hits);
     }
     flight->in_doubt = true;
     ask(stream->bvh, flight, triangle);
@@ -117,7 +117,7 @@ void sp_bvh_flight_settle(const sp_bvh_stream *stream, sp_bvh_flight *flight, ui
 
 sp_hit sp_bvh_line_ask(const sp_bvh *bvh, const sp_ray *ray, uint32_t triangle)
 {
-    sp_search search = sp_search_start(ray, false);
+    sp_ray_search search = sp_ray_search_start(ray, false);
     sp_line line;
     sp_corners corners;
     if (sp_line_start(&line, ray)) {

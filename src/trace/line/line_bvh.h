@@ -45,7 +45,7 @@ typedef struct {
     sp_bvh_verdict found;
     bool in_doubt; /* double precision has been asked: the next two are ready */
     sp_line line;
-    sp_search search;
+    sp_ray_search search;
     uint32_t child[SP_BVH_STACK + SP_BVH_WIDTH];
     float way[SP_BVH_STACK + SP_BVH_WIDTH]; /* where the line enters */
 } sp_bvh_flight;

@@ -8,7 +8,7 @@ typedef struct {
     double from, to; /* s */
 } pending;
 
-static void test_block(const sp_parabola *flight, const sp_bvh *bvh, const sp_bvh_block *block, sp_search *search)
+static void test_block(const sp_parabola *flight, const sp_bvh *bvh, const sp_bvh_block *block, sp_ray_search *search)
 {
     for (int i = 0; i < SP_BVH_WIDTH && block->triangle[i] != SP_NONE; i++) {
         sp_corners corners;
@@ -17,13 +17,13 @@ static void test_block(const sp_parabola *flight, const sp_bvh *bvh, const sp_bv
     }
 }
 
-static void walk(const sp_parabola *flight, const sp_bvh *bvh, double from, double to, sp_search *search)
+static void walk(const sp_parabola *flight, const sp_bvh *bvh, double from, double to, sp_ray_search *search)
 {
     pending stack[SP_BVH_STACK];
     int height = 1;
     stack[0] = (pending){0, from, to};
     double margin = sp_parabola_margin(flight, sp_greater(fabs(from), fabs(to)));
-    while (height > 0 && !sp_search_done(search)) {
+    while (height > 0 && !sp_ray_search_done(search)) {
         pending at = stack[--height];
         if (at.from > search->limit)
             continue;
@@ -61,11 +61,11 @@ static void search_far(const sp_bvh_jets *jets, sp_bvh_jet *jet)
 {
     const sp_bvh *bvh = jets->bvh;
     sp_parabola *p = &jet->parabola;
-    sp_search *search = &jet->search;
+    sp_ray_search *search = &jet->search;
     if (!sp_parabola_start(p, jet->asked, jets->pull, bvh->low, bvh->high) || !sp_parabola_limit(p, search))
         return;
     double from = search->t_min, last = search->limit;
-    while (from <= sp_lesser(last, search->limit) && !sp_search_done(search)) {
+    while (from <= sp_lesser(last, search->limit) && !sp_ray_search_done(search)) {
         double to = sp_parabola_turn(p, from, last);
         walk(p, bvh, from, sp_lesser(to, search->limit), search);
         if (to == last)
@@ -143,7 +143,7 @@ static void set_out(const sp_bvh_jets *jets, uint32_t number, sp_bvh_jet *jet)
 {
     jet->asked = &jets->rays[number];
     jet->number = number;
-    jet->search = sp_search_start(jet->asked, !jets->hits);
+    jet->search = sp_ray_search_start(jet->asked, !jets->hits);
     jet->parabola_ready = jet->course_ready = jet->ending = false;
     jet->triangle = SP_NONE;
     jet->low = INFINITY;
@@ -200,7 +200,7 @@ static inline bool is_exact(const sp_bvh_jet *jet)
 bool sp_bvh_jet_go_on(const sp_bvh_jets *jets, sp_bvh_jet *jet)
 {
     /* What was surely hit was so within the last piece. */
-    if (is_exact(jet) && jet->later && !sp_search_done(&jet->search) && begin_piece(jets, jet, jet->to))
+    if (is_exact(jet) && jet->later && !sp_ray_search_done(&jet->search) && begin_piece(jets, jet, jet->to))
         return true;
     if (is_exact(jet) || jet->ending || jet->search.any)
         return false;

@@ -53,7 +53,7 @@ typedef struct {
     double to, last;     /* from when on, and to when, s */
     sp_bvh_course course[3];
     double summed, speed, strength; /* the largest place and speed along an axis; of gravity */
-    sp_search search;
+    sp_ray_search search;
     sp_parabola parabola;
     int height;
     uint32_t child[SP_BVH_STACK + SP_BVH_WIDTH];

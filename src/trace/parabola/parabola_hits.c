@@ -2,7 +2,7 @@
 
 sp_hit sp_parabola_ask(const sp_bvh *bvh, const sp_pull *pull, const sp_ray *ray, uint32_t triangle, uint32_t other)
 {
-    sp_search search = sp_search_start(ray, false);
+    sp_ray_search search = sp_ray_search_start(ray, false);
     sp_parabola parabola;
     uint32_t candidates[2] = {triangle, other};
     bool good = sp_parabola_start(&parabola, ray, pull, bvh->low, bvh->high);

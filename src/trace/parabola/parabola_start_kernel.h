@@ -23,7 +23,7 @@ static void gather_starts(const sp_bvh_jets *jets, const sp_bvh_starts *s, start
             lanes->speed[k][i] = velocity[axis[k]] * scale;
         }
         lanes->from[i] = ray->t_min;
-        lanes->to[i] = sp_search_limit(ray);
+        lanes->to[i] = sp_ray_search_limit(ray);
     }
 }
 

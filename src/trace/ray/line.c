@@ -19,7 +19,7 @@ bool sp_line_start(sp_line *line, const sp_ray *ray)
 }
 
 /* The triangle is sheared so that the line becomes the z axis. */
-static inline void test(const sp_line *line, const sp_corners corners, uint32_t triangle, sp_search *search)
+static inline void test(const sp_line *line, const sp_corners corners, uint32_t triangle, sp_ray_search *search)
 {
     double x[3], y[3], z[3], weights[3];
     for (int i = 0; i < 3; i++) {
@@ -31,18 +31,18 @@ static inline void test(const sp_line *line, const sp_corners corners, uint32_t 
         return;
     double sum = weights[0] + weights[1] + weights[2];
     double t = (weights[0] * z[0] + weights[1] * z[1] + weights[2] * z[2]) / sum * line->inverse_z;
-    if (triangle != search->skip && sp_search_wants(search, t, triangle))
-        sp_search_take(search, t, weights[1] / sum, weights[2] / sum, triangle);
+    if (triangle != search->skip && sp_ray_search_wants(search, t, triangle))
+        sp_ray_search_take(search, t, weights[1] / sum, weights[2] / sum, triangle);
 }
 
-void sp_line_test(const sp_line *line, const sp_corners corners, uint32_t triangle, sp_search *search)
+void sp_line_test(const sp_line *line, const sp_corners corners, uint32_t triangle, sp_ray_search *search)
 {
     test(line, corners, triangle, search);
 }
 
-void sp_line_search_all(const sp_line *line, const sp_corners *corners, size_t count, sp_search *search)
+void sp_line_search_all(const sp_line *line, const sp_corners *corners, size_t count, sp_ray_search *search)
 {
-    for (size_t t = 0; t < count && !sp_search_done(search); t++)
+    for (size_t t = 0; t < count && !sp_ray_search_done(search); t++)
         test(line, corners[t], (uint32_t)t, search);
 }
 
@@ -115,7 +115,7 @@ static inline void step(const walk *w, const sp_kd_node *node, pending *at, pend
     }
 }
 
-void sp_line_search_tree(const sp_line *line, const sp_corners *corners, const sp_kd_tree *tree, sp_search *search)
+void sp_line_search_tree(const sp_line *line, const sp_corners *corners, const sp_kd_tree *tree, sp_ray_search *search)
 {
     walk w = {.line = line};
     pending stack[SP_KD_DEPTH + 1], at = {0, search->t_min, search->limit};
@@ -132,7 +132,7 @@ void sp_line_search_tree(const sp_line *line, const sp_corners *corners, const s
         for (uint32_t i = 0; i < node->size / 4; i++)
             test(line, corners[references[i]], references[i], search);
         do {
-            if (height == 0 || sp_search_done(search))
+            if (height == 0 || sp_ray_search_done(search))
                 return;
             at = stack[--height];
         } while (at.from > search->limit);

@@ -20,10 +20,10 @@ bool sp_line_start(sp_line *line, const sp_ray *ray);
 #define SP_LINE_MARGIN 0x1p-36
 
 /* Tests one triangle. */
-void sp_line_test(const sp_line *line, const sp_corners corners, uint32_t triangle, sp_search *search);
+void sp_line_test(const sp_line *line, const sp_corners corners, uint32_t triangle, sp_ray_search *search);
 /* Searches all triangles. */
-void sp_line_search_all(const sp_line *line, const sp_corners *corners, size_t count, sp_search *search);
+void sp_line_search_all(const sp_line *line, const sp_corners *corners, size_t count, sp_ray_search *search);
 /* Searches those that the line passes in the tree. */
-void sp_line_search_tree(const sp_line *line, const sp_corners *corners, const sp_kd_tree *tree, sp_search *search);
+void sp_line_search_tree(const sp_line *line, const sp_corners *corners, const sp_kd_tree *tree, sp_ray_search *search);
 
 #endif

@@ -102,7 +102,7 @@ bool sp_parabola_start(sp_parabola *p, const sp_ray *ray, const sp_pull *pull, c
     return isfinite(p->across + p->speed + p->pull + p->farthest);
 }
 
-bool sp_parabola_limit(const sp_parabola *p, sp_search *search)
+bool sp_parabola_limit(const sp_parabola *p, sp_ray_search *search)
 {
     double reach = 2 * p->farthest; /* along gravity and across it; a space diagonal has at most √3 */
     double longest = (fabs(p->fall) + sqrt(p->fall * p->fall + 2 * p->pull * reach)) / p->pull;
@@ -177,18 +177,18 @@ typedef struct {
 } segment;
 
 /* Takes the point at that share of the way from the first end to the second, if it is wanted. */
-static bool offer(const segment *s, double share, sp_search *search)
+static bool offer(const segment *s, double share, sp_ray_search *search)
 {
     const crossing *a = &s->ends[0], *b = &s->ends[1];
     double t = arrival(s->flight, a->time + share * (b->time - a->time), a->depth + share * (b->depth - a->depth));
-    if (!sp_search_wants(search, t, s->triangle))
+    if (!sp_ray_search_wants(search, t, s->triangle))
         return false;
     double weights[3];
     weights[s->corner[1]] = (1 - share) * (s->negative ? a->share : 1 - a->share);
     weights[s->corner[2]] = share * (s->negative ? b->share : 1 - b->share);
     weights[s->corner[0]] =
         (1 - share) * (s->negative ? 1 - a->share : a->share) + share * (s->negative ? 1 - b->share : b->share);
-    sp_search_take(search, t, weights[1], weights[2], s->triangle);
+    sp_ray_search_take(search, t, weights[1], weights[2], s->triangle);
     return true;
 }
 
@@ -196,7 +196,7 @@ static bool offer(const segment *s, double share, sp_search *search)
  * k = pull/2 (their times' difference)², the segment at μ is (A + B + k) μ - k μ² - A below the flight, and crosses it
  * at 2 A / (A + B + k + √(slope²)), the slope there being √((k - A)² + B² + 2 B (k + A)): sums of what is not
  * negative. */
-static void cross_once(const segment *s, int upper, sp_search *search)
+static void cross_once(const segment *s, int upper, sp_ray_search *search)
 {
     const crossing *a = &s->ends[upper], *b = &s->ends[1 - upper];
     double above = -a->below, below = b->below, step = b->time - a->time;
@@ -213,7 +213,7 @@ static void cross_once(const segment *s, int upper, sp_search *search)
 
 /* Between two ends above the flight: it comes nearest where it is as steep as the segment, and what the segment is
  * below it there tells how long before and after it crosses. */
-static void cross_twice(const segment *s, sp_search *search)
+static void cross_twice(const segment *s, sp_ray_search *search)
 {
     const sp_parabola *p = s->flight;
     const crossing *a = &s->ends[0], *b = &s->ends[1];
@@ -229,7 +229,7 @@ static void cross_twice(const segment *s, sp_search *search)
         offer(s, sp_lesser(sp_greater(share + way, 0), 1), search);
 }
 
-static void cross_segment(const segment *s, sp_search *search)
+static void cross_segment(const segment *s, sp_ray_search *search)
 {
     bool first = s->ends[0].below >= 0, second = s->ends[1].below >= 0;
     if (first != second)
@@ -239,7 +239,7 @@ static void cross_segment(const segment *s, sp_search *search)
 }
 
 /* `positive`: bit i for corner i. */
-static void cut(const sp_parabola *p, const view *v, unsigned positive, uint32_t triangle, sp_search *search)
+static void cut(const sp_parabola *p, const view *v, unsigned positive, uint32_t triangle, sp_ray_search *search)
 {
     static const int lone[8] = {0, 0, 1, 2, 2, 1, 0, 0};
     if (positive == 0 || positive == 7)
@@ -255,7 +255,7 @@ static void cut(const sp_parabola *p, const view *v, unsigned positive, uint32_t
 }
 
 /* Of a flight that is a vertical line, up and down again. */
-static void pierce(const sp_parabola *p, const view *v, uint32_t triangle, sp_search *search)
+static void pierce(const sp_parabola *p, const view *v, uint32_t triangle, sp_ray_search *search)
 {
     double weights[3], roots[2];
     if (!sp_weigh(v->time, v->beside, weights))
@@ -265,13 +265,13 @@ static void pierce(const sp_parabola *p, const view *v, uint32_t triangle, sp_se
     if (!sp_quadratic_roots(p->pull, p->fall, -depth, roots))
         return;
     for (int i = 0; i < 2; i++)
-        if (sp_search_wants(search, roots[i], triangle)) {
-            sp_search_take(search, roots[i], weights[1] / sum, weights[2] / sum, triangle);
+        if (sp_ray_search_wants(search, roots[i], triangle)) {
+            sp_ray_search_take(search, roots[i], weights[1] / sum, weights[2] / sum, triangle);
             return;
         }
 }
 
-void sp_parabola_test(const sp_parabola *p, const sp_corners corners, uint32_t triangle, sp_search *search)
+void sp_parabola_test(const sp_parabola *p, const sp_corners corners, uint32_t triangle, sp_ray_search *search)
 {
     if (triangle == search->skip)
         return;
@@ -290,8 +290,8 @@ void sp_parabola_test(const sp_parabola *p, const sp_corners corners, uint32_t t
         cut(p, &v, positive | within, triangle, search);
 }
 
-void sp_parabola_search_all(const sp_parabola *parabola, const sp_corners *corners, size_t count, sp_search *search)
+void sp_parabola_search_all(const sp_parabola *parabola, const sp_corners *corners, size_t count, sp_ray_search *search)
 {
-    for (size_t t = 0; t < count && !sp_search_done(search); t++)
+    for (size_t t = 0; t < count && !sp_ray_search_done(search); t++)
         sp_parabola_test(parabola, corners[t], (uint32_t)t, search);
 }

@@ -36,7 +36,7 @@ typedef struct {
 bool sp_parabola_start(sp_parabola *parabola, const sp_ray *ray, const sp_pull *pull, const double low[3],
                        const double high[3]);
 /* Leaves the search no times at which the flight is not in that box; false where there are no others. */
-bool sp_parabola_limit(const sp_parabola *parabola, sp_search *search);
+bool sp_parabola_limit(const sp_parabola *parabola, sp_ray_search *search);
 /* x, along one axis, and all that it is summed from, m. */
 static inline double sp_parabola_coordinate(const sp_parabola *p, int axis, double t)
 {
@@ -67,11 +67,12 @@ double sp_parabola_turn(const sp_parabola *parabola, double from, double last);
 bool sp_parabola_cut(const sp_parabola *parabola, int axis, double low, double high, double *from, double *to);
 
 /* Takes the first hit of this triangle, if it is better than what was found. */
-void sp_parabola_test(const sp_parabola *parabola, const sp_corners corners, uint32_t triangle, sp_search *search);
+void sp_parabola_test(const sp_parabola *parabola, const sp_corners corners, uint32_t triangle, sp_ray_search *search);
 /* Searches all triangles. */
-void sp_parabola_search_all(const sp_parabola *parabola, const sp_corners *corners, size_t count, sp_search *search);
+void sp_parabola_search_all(const sp_parabola *parabola, const sp_corners *corners, size_t count,
+                            sp_ray_search *search);
 /* Searches those that the flight passes in the tree. */
 void sp_parabola_search_tree(const sp_parabola *parabola, const sp_corners *corners, const sp_kd_tree *tree,
-                             sp_search *search);
+                             sp_ray_search *search);
 
 #endif

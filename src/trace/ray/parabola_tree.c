@@ -115,7 +115,7 @@ static inline void step(const walk *w, const sp_kd_node *node, pending *at, pend
 }
 
 static void search_piece(const sp_parabola *flight, const sp_corners *corners, const sp_kd_tree *tree, double from,
-                         double to, sp_search *search)
+                         double to, sp_ray_search *search)
 {
     walk w = {.flight = flight};
     pending stack[SP_KD_DEPTH + 1], at = {0, from, to};
@@ -132,7 +132,7 @@ static void search_piece(const sp_parabola *flight, const sp_corners *corners, c
         for (uint32_t i = 0; i < node->size / 4; i++)
             sp_parabola_test(flight, corners[references[i]], references[i], search);
         do {
-            if (height == 0 || sp_search_done(search))
+            if (height == 0 || sp_ray_search_done(search))
                 return;
             at = stack[--height];
         } while (at.from > search->limit);
@@ -150,10 +150,11 @@ double sp_parabola_turn(const sp_parabola *p, double from, double last)
     return last;
 }
 
-void sp_parabola_search_tree(const sp_parabola *p, const sp_corners *corners, const sp_kd_tree *tree, sp_search *search)
+void sp_parabola_search_tree(const sp_parabola *p, const sp_corners *corners, const sp_kd_tree *tree,
+                             sp_ray_search *search)
 {
     double from = search->t_min, last = search->limit;
-    while (from <= sp_lesser(last, search->limit) && !sp_search_done(search)) {
+    while (from <= sp_lesser(last, search->limit) && !sp_ray_search_done(search)) {
         double to = sp_parabola_turn(p, from, last);
         search_piece(p, corners, tree, from, sp_lesser(to, search->limit), search);
         if (to == last)

@@ -2,20 +2,12 @@
 #ifndef SPRAYPLAN_TRACE_SEARCH_H
 #define SPRAYPLAN_TRACE_SEARCH_H
 
+#include "mesh/lesser.h"
+
 #include <sprayplan/trace.h>
 
 #include <float.h>
 #include <string.h>
-
-/* fmin and fmax without their rule for NaN, which costs a call. */
-static inline double sp_lesser(double a, double b)
-{
-    return a < b ? a : b;
-}
-static inline double sp_greater(double a, double b)
-{
-    return a > b ? a : b;
-}
 
 /* Corners of a triangle, m. */
 typedef double sp_corners[3][3];
@@ -26,10 +18,10 @@ typedef struct {
     uint32_t skip;
     bool any; /* the first hit found will do */
     sp_hit best;
-} sp_search;
+} sp_ray_search;
 
 /* The last time before t_max. */
-static inline double sp_search_limit(const sp_ray *ray)
+static inline double sp_ray_search_limit(const sp_ray *ray)
 {
     if (!(ray->t_max > 0))
         return nextafter(ray->t_max, -INFINITY);
@@ -41,24 +33,24 @@ static inline double sp_search_limit(const sp_ray *ray)
     return limit;
 }
 
-static inline sp_search sp_search_start(const sp_ray *ray, bool any)
+static inline sp_ray_search sp_ray_search_start(const sp_ray *ray, bool any)
 {
-    return (sp_search){ray->t_min, sp_search_limit(ray), ray->skip, any, {INFINITY, 0, 0, SP_NONE}};
+    return (sp_ray_search){ray->t_min, sp_ray_search_limit(ray), ray->skip, any, {INFINITY, 0, 0, SP_NONE}};
 }
 
 /* Of equal times the lowest triangle wins, in whatever order they come. */
-static inline bool sp_search_wants(const sp_search *search, double t, uint32_t triangle)
+static inline bool sp_ray_search_wants(const sp_ray_search *search, double t, uint32_t triangle)
 {
     return t > search->t_min && (t < search->limit || (t == search->limit && triangle < search->best.triangle));
 }
 
-static inline void sp_search_take(sp_search *search, double t, double u, double v, uint32_t triangle)
+static inline void sp_ray_search_take(sp_ray_search *search, double t, double u, double v, uint32_t triangle)
 {
     search->limit = t;
     search->best = (sp_hit){t, u, v, triangle};
 }
 
-static inline bool sp_search_done(const sp_search *search)
+static inline bool sp_ray_search_done(const sp_ray_search *search)
 {
     return search->any && search->best.triangle != SP_NONE;
 }

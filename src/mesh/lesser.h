@@ -1,13 +1,13 @@
 /* The lesser and the greater of two numbers, neither of them NaN: fmin and fmax are calls into the C library. */
-#ifndef MESH_LEAST_H
-#define MESH_LEAST_H
+#ifndef MESH_LESSER_H
+#define MESH_LESSER_H
 
-static inline double sp_least(double a, double b)
+static inline double sp_lesser(double a, double b)
 {
     return a < b ? a : b;
 }
 
-static inline double sp_most(double a, double b)
+static inline double sp_greater(double a, double b)
 {
     return a > b ? a : b;
 }
