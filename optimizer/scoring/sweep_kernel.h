@@ -42,6 +42,11 @@ typedef struct {
 } wide_lanes;
 
 #define INLINE static inline __attribute__((always_inline))
+#ifdef __SANITIZE_ADDRESS__
+#define IN_MANY_LOOPS static /* or compiling would take three times as long */
+#else
+#define IN_MANY_LOOPS INLINE
+#endif
 #define EACH_PART(i) for (int i = 0; i < PARTS; i++)
 
 INLINE lanes load(const float *from)
@@ -260,7 +265,7 @@ typedef struct {
     mask held;
 } shares;
 
-INLINE shares cone_shares(const sp_region *region, lanes x, lanes y, lanes z, lanes sharp)
+IN_MANY_LOOPS shares cone_shares(const sp_region *region, lanes x, lanes y, lanes z, lanes sharp)
 {
     lanes chord2 = chords(region->z, x, y, z);
     bool hollow = region->inner.edge2 > 0;
@@ -273,7 +278,7 @@ INLINE shares cone_shares(const sp_region *region, lanes x, lanes y, lanes z, la
     return s;
 }
 
-INLINE shares fan_shares(const sp_region *region, lanes x, lanes y, lanes z, lanes sharp)
+IN_MANY_LOOPS shares fan_shares(const sp_region *region, lanes x, lanes y, lanes z, lanes sharp)
 {
     lanes up = dot(x, y, z, region->y), end[2] = {dot(x, y, z, region->end[0]), dot(x, y, z, region->end[1])};
     shares s = {.held = at_least(all(region->height), magnitude(up)), .share = all(1)};
@@ -297,7 +302,7 @@ INLINE shares fan_shares(const sp_region *region, lanes x, lanes y, lanes z, lan
 }
 
 /* All of a patch that any aim may give any share of. */
-INLINE lanes generous_shares(const sp_region *region, bool fan, lanes x, lanes y, lanes z, lanes sharp)
+IN_MANY_LOOPS lanes generous_shares(const sp_region *region, bool fan, lanes x, lanes y, lanes z, lanes sharp)
 {
     lanes breadth = divide(all(1), sharp), spread = scale(breadth, (float)SP_VIEW_CORNER); /* corners of fans */
     if (!fan) {
