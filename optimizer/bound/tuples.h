@@ -9,7 +9,7 @@
 #ifndef OPTIMIZER_TUPLES_H
 #define OPTIMIZER_TUPLES_H
 
-#include "bound/line.h"
+#include "bound/candidate_list.h"
 
 /* The candidates that layouts of so much water could be made of. */
 typedef struct sp_tuples sp_tuples;
@@ -20,11 +20,12 @@ typedef struct {
     double bound;       /* m² that none is known to exceed */
     size_t most;        /* candidates at a time */
     const sp_prices *u; /* read while sp_tuples_create runs, as the next one */
-    const float *price; /* [line->count], what a candidate is worth at u, or more */
+    const float *price; /* [list->count], what a candidate is worth at u, or more */
 } sp_tuple_task;
 
-/* Borrows cover and line. */
-sp_tuples *sp_tuples_create(const sp_cover *cover, const sp_line *line, const sp_tuple_task *task, sp_error *error);
+/* Borrows cover and list. */
+sp_tuples *sp_tuples_create(const sp_cover *cover, const sp_candidate_list *list, const sp_tuple_task *task,
+                            sp_error *error);
 void sp_tuples_destroy(sp_tuples *tuples);
 /* The lowest target for which no more than so many candidates, at most task->most, come into question by their prices;
  * the bound where there is none. */

@@ -104,14 +104,14 @@ static void settle(const sp_tuples *o, level *at)
 {
     const double *lighter = NULL;
     size_t first = 0;
-    for (size_t k = 0; k < o->line->kind_count; k++) {
+    for (size_t k = 0; k < o->list->kind_count; k++) {
         size_t end = first;
         while (end < at->count && o->items[at->entries[end].at].kind == k)
             end++;
         sp_rank_falling(at->entries + first, end - first);
         at->end[k] = first = end;
     }
-    for (size_t k = o->line->kind_count; k-- > 0;) {
+    for (size_t k = o->list->kind_count; k-- > 0;) {
         size_t start = k ? at->end[k - 1] : 0;
         double *most = sp_tuples_of_kind(o, at->most, k);
         sp_tuples_fill_kind(o, k, at->end[k] > start ? at->entries[start].merit : 0, lighter, most);
@@ -203,7 +203,7 @@ static void grow(worker *own, size_t depth, double covered, const double *priced
 static bool worker_create(sp_tuples *o, worker *own)
 {
     *own = (worker){.all = o};
-    size_t deep = o->water / o->lightest, kinds = o->line->kind_count;
+    size_t deep = o->water / o->lightest, kinds = o->list->kind_count;
     own->united = malloc((o->sets.words + 1) * sizeof *own->united);
     if (!own->united)
         return false;

@@ -11,7 +11,7 @@
 
 void sp_tuples_fill_kind(const sp_tuples *o, size_t kind, double best, const double *lighter, double *most)
 {
-    size_t own = o->line->weight[kind] / o->unit;
+    size_t own = o->list->weight[kind] / o->unit;
     for (size_t s = 0; s <= o->steps; s++)
         most[s] = lighter ? lighter[s] : 0;
     for (size_t s = own; best > 0 && s <= o->steps; s++)
@@ -26,14 +26,14 @@ double *sp_tuples_of_kind(const sp_tuples *o, double *tables, size_t kind)
 /* What candidates could add to the sums of the k-th prices, `price` by position: the best of each kind. */
 static void fill_prices(sp_tuples *o, size_t k, const float *price)
 {
-    const sp_line *line = o->line;
+    const sp_candidate_list *list = o->list;
     const double *lighter = NULL;
-    for (size_t kind = line->kind_count; kind-- > 0;) {
+    for (size_t kind = list->kind_count; kind-- > 0;) {
         float best = 0;
         double *most = sp_tuples_of_kind(o, o->most_priced[k], kind);
-        size_t end = line->weight[kind] <= o->water ? line->kind_start[kind + 1] : 0;
-#pragma omp parallel for num_threads(line->threads) reduction(max : best)
-        for (size_t i = line->kind_start[kind]; i < end; i++)
+        size_t end = list->weight[kind] <= o->water ? list->kind_start[kind + 1] : 0;
+#pragma omp parallel for num_threads(list->threads) reduction(max : best)
+        for (size_t i = list->kind_start[kind]; i < end; i++)
             best = price[i] > best ? price[i] : best;
         sp_tuples_fill_kind(o, kind, (double)best, lighter, most);
         lighter = most;
@@ -59,7 +59,7 @@ bool sp_tuples_all_above(const sp_tuples *o, const double *priced, const float *
 /* The highest target that a candidate could be part of a layout above, by the k-th prices. */
 static double above_by(const sp_tuples *o, size_t k, double price, size_t kind)
 {
-    return (o->rest[k] + price + o->most_priced[k][(o->water - o->line->weight[kind]) / o->unit]) * UPWARDS;
+    return (o->rest[k] + price + o->most_priced[k][(o->water - o->list->weight[kind]) / o->unit]) * UPWARDS;
 }
 
 double sp_tuples_target_for(const sp_tuples *o, size_t most, const float *above, size_t count)
@@ -76,12 +76,12 @@ double sp_tuples_target_for(const sp_tuples *o, size_t most, const float *above,
 /* Leaves alive what the k-th prices do. */
 static void shut_out(const sp_tuples *o, size_t k, const float *price, uint8_t *alive)
 {
-    const sp_line *line = o->line;
-    for (size_t kind = 0; kind < line->kind_count; kind++) {
-        bool fits = line->weight[kind] <= o->water;
-        size_t left = fits ? o->water - line->weight[kind] : 0;
-#pragma omp parallel for num_threads(line->threads)
-        for (size_t i = line->kind_start[kind]; i < line->kind_start[kind + 1]; i++)
+    const sp_candidate_list *list = o->list;
+    for (size_t kind = 0; kind < list->kind_count; kind++) {
+        bool fits = list->weight[kind] <= o->water;
+        size_t left = fits ? o->water - list->weight[kind] : 0;
+#pragma omp parallel for num_threads(list->threads)
+        for (size_t i = list->kind_start[kind]; i < list->kind_start[kind + 1]; i++)
             alive[i] &= fits && priced_above(o, k, (double)price[i], 0, left);
     }
 }
@@ -90,7 +90,7 @@ static void shut_out(const sp_tuples *o, size_t k, const float *price, uint8_t *
 static bool price_by(sp_tuples *o, const sp_prices *u, const uint8_t *alive, float *price, sp_error *error)
 {
     o->rest[o->priced++] = o->cover->base + sp_cover_rest(o->cover, u);
-    return o->line->price(o->line->user, u, alive, price, error);
+    return o->list->price(o->list->user, u, alive, price, error);
 }
 
 /* Prices between the first two: what holds for both does for these, and the best completions by one need not be those
@@ -100,8 +100,8 @@ static void mix(sp_tuples *o, float *const price[BY_PRICES])
     for (; o->priced < BY_PRICES; o->priced++) {
         double part = (double)(o->priced - 1) / (BY_PRICES - 1);
         o->rest[o->priced] = part * o->rest[0] + (1 - part) * o->rest[1];
-#pragma omp parallel for num_threads(o->line->threads)
-        for (size_t i = 0; i < o->line->count; i++) {
+#pragma omp parallel for num_threads(o->list->threads)
+        for (size_t i = 0; i < o->list->count; i++) {
             double mean = part * (double)price[0][i] + (1 - part) * (double)price[1][i];
             price[o->priced][i] = nextafterf((float)mean, INFINITY);
         }
@@ -111,10 +111,10 @@ static void mix(sp_tuples *o, float *const price[BY_PRICES])
 /* The candidates that the prices left. */
 static bool list_items(sp_tuples *o, const uint8_t *alive, float *const price[BY_PRICES], sp_error *error)
 {
-    const sp_line *line = o->line;
-    for (size_t r = 0; r < line->run_count; r++) {
-        size_t kind = sp_line_kind(line, line->run_start[r]);
-        for (size_t i = line->run_start[r]; i < line->run_start[r + 1]; i++) {
+    const sp_candidate_list *list = o->list;
+    for (size_t r = 0; r < list->run_count; r++) {
+        size_t kind = sp_candidate_list_kind(list, list->run_start[r]);
+        for (size_t i = list->run_start[r]; i < list->run_start[r + 1]; i++) {
             if (!alive[i])
                 continue;
             if (!sp_grow(&o->items, &o->capacity, o->count + 1, sizeof *o->items))
@@ -122,9 +122,9 @@ static bool list_items(sp_tuples *o, const uint8_t *alive, float *const price[BY
             sp_tuple_item *own = &o->items[o->count++];
             *own = (sp_tuple_item){.position = i,
                                    .kind = kind,
-                                   .weight = line->weight[kind],
+                                   .weight = list->weight[kind],
                                    .set = NO_SET,
-                                   .port = line->run_port[r],
+                                   .port = list->run_port[r],
                                    .above = INFINITY};
             for (size_t k = 0; k < o->priced; k++) {
                 own->price[k] = price[k][i];
@@ -140,8 +140,8 @@ static void sift(sp_tuples *o, uint8_t *alive, float *const price[BY_PRICES])
 {
     for (int round = 0; round < SIFTED; round++)
         for (size_t k = 0; k < o->priced; k++) {
-#pragma omp parallel for num_threads(o->line->threads)
-            for (size_t i = 0; i < o->line->count; i++)
+#pragma omp parallel for num_threads(o->list->threads)
+            for (size_t i = 0; i < o->list->count; i++)
                 price[k][i] = alive[i] ? price[k][i] : 0;
             fill_prices(o, k, price[k]);
             shut_out(o, k, price[k], alive);
@@ -154,12 +154,12 @@ static void sift(sp_tuples *o, uint8_t *alive, float *const price[BY_PRICES])
  * overwritten. */
 static void raise_floor(sp_tuples *o, const float *found, float *above)
 {
-    const sp_line *line = o->line;
-    for (size_t kind = 0; kind < line->kind_count; kind++)
-#pragma omp parallel for num_threads(line->threads)
-        for (size_t i = line->kind_start[kind]; i < line->kind_start[kind + 1]; i++)
-            above[i] = line->weight[kind] > o->water ? 0 : (float)above_by(o, 0, (double)found[i], kind);
-    o->target = sp_tuples_target_for(o, o->most, above, line->count);
+    const sp_candidate_list *list = o->list;
+    for (size_t kind = 0; kind < list->kind_count; kind++)
+#pragma omp parallel for num_threads(list->threads)
+        for (size_t i = list->kind_start[kind]; i < list->kind_start[kind + 1]; i++)
+            above[i] = list->weight[kind] > o->water ? 0 : (float)above_by(o, 0, (double)found[i], kind);
+    o->target = sp_tuples_target_for(o, o->most, above, list->count);
 }
 
 /* What is left by prices as they were found, then by all. */
@@ -190,7 +190,7 @@ static bool price_items(sp_tuples *o, const sp_prices *u, const float *found, ui
 
 bool sp_tuples_find_items(sp_tuples *o, const sp_prices *u, const float *found, sp_error *error)
 {
-    size_t positions = o->line->count + 1;
+    size_t positions = o->list->count + 1;
     uint8_t *alive = malloc(positions);
     float *price[BY_PRICES];
     bool done = alive != NULL;

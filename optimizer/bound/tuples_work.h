@@ -28,7 +28,7 @@ typedef struct {
 
 struct sp_tuples {
     const sp_cover *cover;
-    const sp_line *line;
+    const sp_candidate_list *list;
     size_t water, most;
     double floor, bound, target;
     double least;                   /* of targets, for which all candidates in question are items; INFINITY: of none */

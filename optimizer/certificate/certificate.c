@@ -217,9 +217,9 @@ static bool look_at(certifying *c, size_t water, double found, double least, eff
     const sp_tuple_task task = {
         water, found, *bound, most.candidates, &c->bound.dual.price, sp_pose_prices_last(c->problem.prices)};
     sp_tuple_answer answer = {.complete = true, .bound = *bound};
-    sp_tuples *tuples = sp_tuples_create(&c->problem.cover, &c->problem.line, &task, error);
+    sp_tuples *tuples = sp_tuples_create(&c->problem.cover, &c->problem.list, &task, error);
     bool done = tuples != NULL, better = false;
-    *work += WORK_LOOK * (double)c->problem.line.count;
+    *work += WORK_LOOK * (double)c->problem.list.count;
     for (size_t count = CANDIDATES_FIRST;
          done && answer.complete && !better && *bound > found * (1 + least) && count <= most.candidates &&
          most.each > WORK_STEP * answer.work && has_time(c, c->done);
@@ -244,7 +244,7 @@ static bool look_at(certifying *c, size_t water, double found, double least, eff
 static bool take_turn(certifying *c, size_t i, effort most, double *work, sp_error *error)
 {
     const point *own = &c->points[i];
-    *work += WORK_BEGIN * (double)(most.rounds * c->problem.line.count);
+    *work += WORK_BEGIN * (double)(most.rounds * c->problem.list.count);
     if (!price_for(c, own->water, open_at(c, i), most.rounds, error))
         return false;
     for (size_t k = 0; k < c->point_count && c->bound.complete; k++) {
@@ -282,7 +282,7 @@ static bool raise_water(certifying *c, double area, size_t most, effort effort, 
         if (!water || water >= most)
             return true;
         size_t higher = water + (size_t)ceil(step * (double)(most - water));
-        work += WORK_BEGIN * (double)(effort.rounds * c->problem.line.count);
+        work += WORK_BEGIN * (double)(effort.rounds * c->problem.list.count);
         if (!price_for(c, higher, 0, effort.rounds, error) ||
             (c->bound.complete && c->bound.by_water[higher] >= area &&
              !look_at(c, higher, area * (1 - LESS), 0, effort, &work, error)))
@@ -295,7 +295,7 @@ static bool raise_water(certifying *c, double area, size_t most, effort effort, 
 /* What a point may take at first. */
 static double work_at_point(const certifying *c)
 {
-    return WORK_POINT_LEAST + WORK_POINT * (double)c->problem.line.count;
+    return WORK_POINT_LEAST + WORK_POINT * (double)c->problem.list.count;
 }
 
 /* The bounds at the proposal once more, more carefully, then the front's. */
@@ -318,7 +318,7 @@ static bool prove(certifying *c, size_t water, double area, sp_error *error)
 /* What is proved without being asked for more: the proposal's water, one nozzle's, less water, then the front. */
 static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
 {
-    double left = sp_watch_left(c->watch), candidates = (double)c->problem.line.count;
+    double left = sp_watch_left(c->watch), candidates = (double)c->problem.list.count;
     const effort most = {WORK_LEAST + WORK_EACH * candidates, work_at_point(c), 1, CANDIDATES};
     for (size_t round = 0; round < ROUNDS_EXPLORING && has_time(c, 0.02 * (double)round); round++)
         if (sp_watch_left(c->watch) < left * (1 - EXPLORING_MOST))

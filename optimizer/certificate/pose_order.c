@@ -95,7 +95,7 @@ static uint32_t *order_sites(const sp_sites *sites)
     return NULL;
 }
 
-/* What a line in the making is made of. */
+/* What a list is built from. */
 typedef struct {
     sp_pose_order *order;
     const sp_cover *cover;
@@ -103,26 +103,26 @@ typedef struct {
     const size_t *ports;
     uint32_t *sites;
     uint32_t *tiers; /* by falling weight */
-} lining;
+} list_builder;
 
-/* Ends the line with a block of so many candidates. */
-static void add_block(lining *l, sp_pose_block block, size_t port, size_t count)
+/* Ends the list with a block of so many candidates. */
+static void add_block(list_builder *l, sp_pose_block block, size_t port, size_t count)
 {
-    sp_line *line = &l->order->line;
-    size_t kind = line->kind_count - 1;
-    block.start = line->count;
+    sp_candidate_list *list = &l->order->list;
+    size_t kind = list->kind_count - 1;
+    block.start = list->count;
     l->order->blocks[l->order->block_count++] = block;
-    bool goes_on = line->run_count && line->run_start[line->run_count - 1] >= line->kind_start[kind] &&
-                   line->run_port[line->run_count - 1] == port;
+    bool goes_on = list->run_count && list->run_start[list->run_count - 1] >= list->kind_start[kind] &&
+                   list->run_port[list->run_count - 1] == port;
     if (!goes_on) {
-        line->run_start[line->run_count] = line->count;
-        line->run_port[line->run_count++] = port;
+        list->run_start[list->run_count] = list->count;
+        list->run_port[list->run_count++] = port;
     }
-    line->count += count;
+    list->count += count;
 }
 
 /* The make's poses in mounts where it is of the tier. */
-static void add_make(lining *l, uint32_t make, uint32_t tier)
+static void add_make(list_builder *l, uint32_t make, uint32_t tier)
 {
     const sp_search *search = l->order->search;
     const sp_candidates *candidates = search->candidates;
@@ -138,7 +138,7 @@ static void add_make(lining *l, uint32_t make, uint32_t tier)
 }
 
 /* Found nozzles of the tier, port by port. */
-static void add_found(lining *l, uint32_t tier, size_t *listed)
+static void add_found(list_builder *l, uint32_t tier, size_t *listed)
 {
     const sp_rows *own = l->order->own;
     for (size_t port = 0; port <= l->cover->port_count; port++) {
@@ -151,9 +151,9 @@ static void add_found(lining *l, uint32_t tier, size_t *listed)
     }
 }
 
-static void fill(lining *l)
+static void fill(list_builder *l)
 {
-    sp_line *line = &l->order->line;
+    sp_candidate_list *list = &l->order->list;
     size_t listed = 0;
     for (size_t i = 0; i < l->cover->tier_count; i++) {
         size_t at = i;
@@ -163,16 +163,16 @@ static void fill(lining *l)
     }
     for (size_t i = 0; i < l->cover->tier_count; i++) {
         uint32_t tier = l->tiers[i];
-        size_t before = line->count;
-        line->kind_start[line->kind_count] = before;
-        line->weight[line->kind_count++] = l->cover->weight[tier];
+        size_t before = list->count;
+        list->kind_start[list->kind_count] = before;
+        list->weight[list->kind_count++] = l->cover->weight[tier];
         for (uint32_t k = 0; k < l->order->search->candidates->make_count; k++)
             add_make(l, k, tier);
         add_found(l, tier, &listed);
-        line->kind_count -= line->count == before;
+        list->kind_count -= list->count == before;
     }
-    line->kind_start[line->kind_count] = line->run_start[line->run_count] = line->count;
-    l->order->blocks[l->order->block_count].start = line->count;
+    list->kind_start[list->kind_count] = list->run_start[list->run_count] = list->count;
+    l->order->blocks[l->order->block_count].start = list->count;
 }
 
 bool sp_pose_order_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of, const size_t *ports,
@@ -183,14 +183,14 @@ bool sp_pose_order_create(const sp_search *search, const sp_cover *cover, const 
     order->own_order = malloc((own->count + 1) * sizeof *order->own_order);
     order->blocks = malloc(blocks * sizeof *order->blocks);
     order->block_of = malloc((cells + 1) * sizeof *order->block_of);
-    order->line.kind_start = malloc((cover->tier_count + 1) * sizeof(size_t));
-    order->line.weight = malloc((cover->tier_count + 1) * sizeof(uint32_t));
-    order->line.run_start = malloc(blocks * sizeof(size_t));
-    order->line.run_port = malloc(blocks * sizeof(size_t));
-    lining l = {
+    order->list.kind_start = malloc((cover->tier_count + 1) * sizeof(size_t));
+    order->list.weight = malloc((cover->tier_count + 1) * sizeof(uint32_t));
+    order->list.run_start = malloc(blocks * sizeof(size_t));
+    order->list.run_port = malloc(blocks * sizeof(size_t));
+    list_builder l = {
         order, cover, tier_of, ports, order_sites(search->sites), malloc((cover->tier_count + 1) * sizeof(uint32_t))};
-    bool done = order->own_order && order->blocks && order->block_of && order->line.kind_start && order->line.weight &&
-                order->line.run_start && order->line.run_port && l.sites && l.tiers && order_axes(order);
+    bool done = order->own_order && order->blocks && order->block_of && order->list.kind_start && order->list.weight &&
+                order->list.run_start && order->list.run_port && l.sites && l.tiers && order_axes(order);
     for (size_t i = 0; done && i < cells; i++)
         order->block_of[i] = SIZE_MAX;
     if (done)
@@ -215,7 +215,7 @@ void sp_pose_order_free(sp_pose_order *order)
     free(order->own_order);
     free(order->blocks);
     free(order->block_of);
-    sp_line_free(&order->line);
+    sp_candidate_list_free(&order->list);
     *order = (sp_pose_order){0};
 }
 

@@ -1,10 +1,10 @@
-/* All poses, and the nozzles of layouts that were found, in one line as sp_line wants them: by falling weight, then
- * make, mount, site and axis, so that neighbours spray much the same. */
+/* All poses, and the nozzles of layouts that were found, in one list as sp_candidate_list wants them: by falling
+ * weight, then make, mount, site and axis, so that neighbours spray much the same. */
 #ifndef OPTIMIZER_POSE_ORDER_H
 #define OPTIMIZER_POSE_ORDER_H
 
 #include "scoring/draft.h"
-#include "bound/line.h"
+#include "bound/candidate_list.h"
 
 /* The poses of one make at one site, or found nozzles of one weight in one port. */
 typedef struct {
@@ -17,11 +17,11 @@ typedef struct {
     const sp_rows *own; /* the found nozzles */
     size_t *own_order;  /* [own rows] */
     size_t block_count;
-    sp_pose_block *blocks; /* [block_count + 1] */
-    size_t *block_of;      /* [sites x makes], SIZE_MAX: is no candidate */
-    uint32_t **axis_at;    /* [mounts x makes], axes in their order; NULL: none */
-    uint32_t **rank_of;    /* the inverse */
-    sp_line line;          /* without the callbacks that price */
+    sp_pose_block *blocks;  /* [block_count + 1] */
+    size_t *block_of;       /* [sites x makes], SIZE_MAX: is no candidate */
+    uint32_t **axis_at;     /* [mounts x makes], axes in their order; NULL: none */
+    uint32_t **rank_of;     /* the inverse */
+    sp_candidate_list list; /* without the callbacks that price */
 } sp_pose_order;
 
 /* Borrows all. tier_of [mounts x makes], tiers of the cover; ports [mounts]. Poses that were not traced, or whose port

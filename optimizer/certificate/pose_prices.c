@@ -45,8 +45,8 @@ struct sp_pose_prices {
     const uint32_t *tier_of;
     const float *need, *film_need;
     const size_t *ports;
-    const sp_pose_order *order; /* NULL until a line is asked for */
-    float *last;                /* [order->line.count], see sp_pose_prices_last */
+    const sp_pose_order *order; /* NULL until a list is asked for */
+    float *last;                /* [order->list.count], see sp_pose_prices_last */
     best *bests;                /* [sites x makes] */
     int threads;
     scratch *scratches; /* [threads] */
@@ -504,7 +504,7 @@ static bool price_poses(void *user, const sp_prices *u, const double *needed, bo
     sp_pose_prices *prices = user;
     const sp_search *search = prices->search;
     size_t makes = search->candidates->make_count, sites = search->sites->count;
-    memset(prices->last, 0, prices->order->line.count * sizeof *prices->last);
+    memset(prices->last, 0, prices->order->list.count * sizeof *prices->last);
     price_found(prices->order, u, NULL, prices->last);
     price_sites(prices, u, needed, all ? 1 : STRIDE, offers);
     if (!share_prices(prices, all ? prices->last : NULL, true, error))
@@ -540,7 +540,7 @@ static void price_block(sp_pose_prices *prices, scratch *own, size_t block, cons
                 (float)price_of(prices, own, view, sp_pose_order_at(prices->order, block, i), &region, 0), INFINITY);
 }
 
-static bool price_line(void *user, const sp_prices *u, const uint8_t *alive, float *price, sp_error *error)
+static bool price_list(void *user, const sp_prices *u, const uint8_t *alive, float *price, sp_error *error)
 {
     sp_pose_prices *prices = user;
     const sp_pose_order *order = prices->order;
@@ -559,7 +559,7 @@ static bool price_line(void *user, const sp_prices *u, const uint8_t *alive, flo
     return share_prices(prices, price, false, error);
 }
 
-static bool row_of_line(void *user, size_t position, sp_rows *rows, sp_error *error)
+static bool row_of_list(void *user, size_t position, sp_rows *rows, sp_error *error)
 {
     const sp_pose_prices *prices = user;
     const sp_pose_order *order = prices->order;
@@ -572,15 +572,15 @@ static bool row_of_line(void *user, size_t position, sp_rows *rows, sp_error *er
                        own->share + own->start[row], own->start[row + 1] - own->start[row], error);
 }
 
-bool sp_pose_line(sp_pose_prices *prices, const sp_pose_order *order, sp_line *line, sp_error *error)
+bool sp_pose_list(sp_pose_prices *prices, const sp_pose_order *order, sp_candidate_list *list, sp_error *error)
 {
-    *line = order->line;
-    line->user = prices;
-    line->price = price_line;
-    line->row = row_of_line;
-    line->threads = prices->threads;
+    *list = order->list;
+    list->user = prices;
+    list->price = price_list;
+    list->row = row_of_list;
+    list->threads = prices->threads;
     prices->order = order;
-    prices->last = calloc(order->line.count + 1, sizeof *prices->last);
+    prices->last = calloc(order->list.count + 1, sizeof *prices->last);
     return prices->last || sp_fail_memory(error);
 }
 

@@ -25,11 +25,11 @@ typedef struct sp_pose_prices sp_pose_prices;
 sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of,
                                       const float *need, const float *film_need, const size_t *ports, sp_error *error);
 void sp_pose_prices_destroy(sp_pose_prices *prices);
-/* The line of all poses and of order->own, whose arrays stay the order's, which is borrowed. Goes before the pricer:
+/* The list of all poses and of order->own, whose arrays stay the order's, which is borrowed. Goes before the pricer:
  * the keys of rows are positions. */
-bool sp_pose_line(sp_pose_prices *prices, const sp_pose_order *order, sp_line *line, sp_error *error);
+bool sp_pose_list(sp_pose_prices *prices, const sp_pose_order *order, sp_candidate_list *list, sp_error *error);
 sp_pricer sp_pose_pricer(sp_pose_prices *prices);
-/* What the pricer found everything to be worth when it last priced all, by position of the line, rounded upwards: a
+/* What the pricer found everything to be worth when it last priced all, by position of the list, rounded upwards: a
  * little, or by more where it is far from what it must be to raise the bound. */
 const float *sp_pose_prices_last(const sp_pose_prices *prices);
 /* What each arrival of a view brings to a nozzle of a strength, flux over threshold per transfer, from `least` to

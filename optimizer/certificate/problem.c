@@ -224,7 +224,7 @@ static bool prepare(sp_problem *p, sp_error *error)
     p->pricer = sp_pose_pricer(p->prices);
     return add_own(p, error) && (!p->search->costly || set_sums(p, error)) &&
            sp_pose_order_create(p->search, &p->cover, p->tier_of, p->ports, &p->nozzles, &p->order, error) &&
-           sp_pose_line(p->prices, &p->order, &p->line, error);
+           sp_pose_list(p->prices, &p->order, &p->list, error);
 }
 
 bool sp_problem_create(const sp_search *search, const sp_front *front, sp_problem *problem, bool *possible,

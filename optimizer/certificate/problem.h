@@ -25,7 +25,7 @@ typedef struct {
     sp_pose_prices *prices;
     sp_rows nozzles; /* of the front */
     sp_pose_order order;
-    sp_line line;
+    sp_candidate_list list;
     sp_pricer pricer;
 } sp_problem;
 

@@ -140,12 +140,12 @@ static void set_prices(instance *in, int way, size_t water, sp_lifts *lifts, sp_
 static sp_tuples *tuples_of(const stored_line *s, size_t water, double floor, double bound, const sp_prices *u)
 {
     sp_error error = {0};
-    float *price = malloc((s->line.count + 1) * sizeof *price);
-    uint8_t *alive = malloc(s->line.count + 1);
-    memset(alive, 1, s->line.count + 1);
-    assert_true(s->line.price(s->line.user, u, alive, price, &error));
-    const sp_tuple_task task = {water, floor, bound, s->line.count, u, price};
-    sp_tuples *tuples = sp_tuples_create(s->cover, &s->line, &task, &error);
+    float *price = malloc((s->list.count + 1) * sizeof *price);
+    uint8_t *alive = malloc(s->list.count + 1);
+    memset(alive, 1, s->list.count + 1);
+    assert_true(s->list.price(s->list.user, u, alive, price, &error));
+    const sp_tuple_task task = {water, floor, bound, s->list.count, u, price};
+    sp_tuples *tuples = sp_tuples_create(s->cover, &s->list, &task, &error);
     assert_non_null(tuples);
     free(price);
     free(alive);

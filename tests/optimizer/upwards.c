@@ -152,7 +152,7 @@ typedef struct {
     sp_prices prices;
     sp_rows own;
     sp_pose_order order;
-    sp_line line;
+    sp_candidate_list list;
     sp_pose_prices *poses;
 } stage;
 
@@ -250,7 +250,7 @@ static void stage_open(stage *s, sp_criterion criterion, sp_trajectory trajector
     s->poses = sp_pose_prices_create(&s->search, &s->cover, s->tier, s->need, s->film_need, s->ports, &error);
     assert_non_null(s->poses);
     assert_true(sp_pose_order_create(&s->search, &s->cover, s->tier, s->ports, &s->own, &s->order, &error));
-    assert_true(sp_pose_line(s->poses, &s->order, &s->line, &error));
+    assert_true(sp_pose_list(s->poses, &s->order, &s->list, &error));
 }
 
 static void stage_close(stage *s)
@@ -307,7 +307,7 @@ static void check_prices(stage *s)
     sp_pricer pricer = sp_pose_pricer(s->poses);
     assert_true(pricer.price(pricer.user, &s->prices, needed, true, &offers, &rows, &error));
     const float *last = sp_pose_prices_last(s->poses);
-    size_t stride = 1 + s->order.line.count / POSES;
+    size_t stride = 1 + s->order.list.count / POSES;
     for (size_t block = 0; block < s->order.block_count; block++)
         for (size_t at = s->order.blocks[block].start; at < s->order.blocks[block + 1].start; at += stride) {
             sp_pose pose = sp_pose_order_at(&s->order, block, at);

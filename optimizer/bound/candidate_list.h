@@ -1,7 +1,7 @@
-/* All candidates in one line in which those that are alike stand together: heavier ones first, and within a weight as
+/* All candidates in one list in which those that are alike stand together: heavier ones first, and within a weight as
  * their owner orders them. */
-#ifndef OPTIMIZER_LINE_H
-#define OPTIMIZER_LINE_H
+#ifndef OPTIMIZER_CANDIDATE_LIST_H
+#define OPTIMIZER_CANDIDATE_LIST_H
 
 #include "bound/cover.h"
 
@@ -19,12 +19,12 @@ typedef struct {
     /* Appends the candidate's row, its position as key. */
     bool (*row)(void *user, size_t position, sp_rows *rows, sp_error *error);
     int threads; /* that may ask for rows at a time */
-} sp_line;
+} sp_candidate_list;
 
-/* What all lines have in common; frees nothing of the owner's. */
-void sp_line_free(sp_line *line);
+/* What all lists have in common; frees nothing of the owner's. */
+void sp_candidate_list_free(sp_candidate_list *list);
 /* The kind, the run of a position. */
-size_t sp_line_kind(const sp_line *line, size_t position);
-size_t sp_line_run(const sp_line *line, size_t position);
+size_t sp_candidate_list_kind(const sp_candidate_list *list, size_t position);
+size_t sp_candidate_list_run(const sp_candidate_list *list, size_t position);
 
 #endif

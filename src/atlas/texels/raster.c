@@ -1,7 +1,7 @@
 /* Exact areas by signed accumulation along the edges, as font rasterisers do: an edge gives every pixel that it passes
  * what lies to the right of it there, and what it climbs to all further pixels of the row (S. Barrett, "How the
  * stb_truetype anti-aliased software rasterizer v2 works", 2015). */
-#include "atlas/texels/cover.h"
+#include "atlas/texels/raster.h"
 #include "mesh/lesser.h"
 
 #include <math.h>
@@ -21,44 +21,44 @@ static void sort_by_height(double corner[3][2])
     }
 }
 
-bool sp_cover_begin(sp_cover *cover, const double uv[3][2], sp_cover_kind kind)
+bool sp_raster_begin(sp_raster *raster, const double uv[3][2], sp_raster_kind kind)
 {
-    double slack = kind == SP_COVER_TOUCHED ? SP_COVER_SLACK : 0, low[2], high[2];
+    double slack = kind == SP_RASTER_TOUCHED ? SP_RASTER_SLACK : 0, low[2], high[2];
     for (int k = 0; k < 2; k++) {
         low[k] = floor(sp_lesser(uv[0][k], sp_lesser(uv[1][k], uv[2][k])) - slack);
         for (int i = 0; i < 3; i++)
-            cover->corner[i][k] = uv[i][k] - low[k]; /* loses nothing */
-        high[k] = sp_greater(cover->corner[0][k], sp_greater(cover->corner[1][k], cover->corner[2][k]));
+            raster->corner[i][k] = uv[i][k] - low[k]; /* loses nothing */
+        high[k] = sp_greater(raster->corner[0][k], sp_greater(raster->corner[1][k], raster->corner[2][k]));
     }
-    double(*c)[2] = cover->corner;
-    cover->kind = kind;
-    cover->width = high[0] - sp_lesser(c[0][0], sp_lesser(c[1][0], c[2][0]));
-    cover->base_x = (uint32_t)low[0];
-    cover->base_y = (uint32_t)low[1];
-    cover->columns = (uint32_t)sp_greater(ceil(high[0] + slack), 1);
-    cover->rows = (uint32_t)sp_greater(ceil(high[1] + slack), 1);
-    cover->row = 0;
-    cover->cut_at = -1;
-    cover->flat = 0.5 * ((c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[1][1] - c[0][1]) * (c[2][0] - c[0][0]));
+    double(*c)[2] = raster->corner;
+    raster->kind = kind;
+    raster->width = high[0] - sp_lesser(c[0][0], sp_lesser(c[1][0], c[2][0]));
+    raster->base_x = (uint32_t)low[0];
+    raster->base_y = (uint32_t)low[1];
+    raster->columns = (uint32_t)sp_greater(ceil(high[0] + slack), 1);
+    raster->rows = (uint32_t)sp_greater(ceil(high[1] + slack), 1);
+    raster->row = 0;
+    raster->cut_at = -1;
+    raster->flat = 0.5 * ((c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[1][1] - c[0][1]) * (c[2][0] - c[0][0]));
     sort_by_height(c);
-    cover->height = c[2][1] - c[0][1];
+    raster->height = c[2][1] - c[0][1];
     /* Above 0 where the middle corner lies right of the edge from the lowest to the highest. */
-    cover->turn = (c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[1][1] - c[0][1]) * (c[2][0] - c[0][0]);
-    size_t need = (size_t)cover->columns + 1;
-    if (kind == SP_COVER_AREAS && need > cover->capacity) {
-        double *area = realloc(cover->area, 2 * need * sizeof *area);
+    raster->turn = (c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[1][1] - c[0][1]) * (c[2][0] - c[0][0]);
+    size_t need = (size_t)raster->columns + 1;
+    if (kind == SP_RASTER_AREAS && need > raster->capacity) {
+        double *area = realloc(raster->area, 2 * need * sizeof *area);
         if (!area)
             return false;
-        cover->area = area;
-        cover->capacity = 2 * need;
+        raster->area = area;
+        raster->capacity = 2 * need;
     }
     return true;
 }
 
-void sp_cover_free(sp_cover *cover)
+void sp_raster_free(sp_raster *raster)
 {
-    free(cover->area);
-    *cover = (sp_cover){0};
+    free(raster->area);
+    *raster = (sp_raster){0};
 }
 
 static double at_height(const double p[2], const double q[2], double y)
@@ -79,22 +79,22 @@ typedef struct {
     bool bent; /* the middle corner lies between them */
 } strip;
 
-static strip cut(sp_cover *cover, double low, double high)
+static strip cut(sp_raster *raster, double low, double high)
 {
-    const double(*c)[2] = (const double(*)[2])cover->corner;
+    const double(*c)[2] = (const double(*)[2])raster->corner;
     strip s = {sp_greater(low, c[0][1]), sp_lesser(high, c[2][1]), 0, 0, 0, 0, false};
-    if (s.low == cover->cut_at) {
-        s.long_low = cover->cut_long;
-        s.short_low = cover->cut_short;
+    if (s.low == raster->cut_at) {
+        s.long_low = raster->cut_long;
+        s.short_low = raster->cut_short;
     } else {
         s.long_low = at_height(c[0], c[2], s.low);
         s.short_low = s.low < c[1][1] ? at_height(c[0], c[1], s.low) : at_height(c[1], c[2], s.low);
     }
     s.long_high = at_height(c[0], c[2], s.high);
     s.short_high = s.high <= c[1][1] ? at_height(c[0], c[1], s.high) : at_height(c[1], c[2], s.high);
-    cover->cut_at = s.high;
-    cover->cut_long = s.long_high;
-    cover->cut_short = s.short_high;
+    raster->cut_at = s.high;
+    raster->cut_long = s.long_high;
+    raster->cut_short = s.short_high;
     s.bent = c[1][1] > s.low && c[1][1] < s.high;
     return s;
 }
@@ -131,84 +131,84 @@ static double within(double x, double low, double high)
 }
 
 /* `first` and `end` are the strip's columns. What was dropped as slivers beyond them goes to the outermost. */
-static void measure(sp_cover *cover, const strip *s, uint32_t first, uint32_t end)
+static void measure(sp_raster *raster, const strip *s, uint32_t first, uint32_t end)
 {
-    const double *middle = cover->corner[1];
-    double sign = cover->turn >= 0 ? 1 : -1, width_low = sign * (s->short_low - s->long_low),
+    const double *middle = raster->corner[1];
+    double sign = raster->turn >= 0 ? 1 : -1, width_low = sign * (s->short_low - s->long_low),
            width_high = sign * (s->short_high - s->long_high);
     if (end - first == 1) { /* trapezes from their widths, which keeps needles exact */
         if (!s->bent) {
-            cover->area[0] = 0.5 * (s->high - s->low) * (width_low + width_high);
+            raster->area[0] = 0.5 * (s->high - s->low) * (width_low + width_high);
             return;
         }
-        double bend = sign * (middle[0] - at_height(cover->corner[0], cover->corner[2], middle[1]));
-        cover->area[0] =
+        double bend = sign * (middle[0] - at_height(raster->corner[0], raster->corner[2], middle[1]));
+        raster->area[0] =
             0.5 * ((middle[1] - s->low) * (width_low + bend) + (s->high - middle[1]) * (bend + width_high));
         return;
     }
-    memset(cover->area, 0, (end - first + 1) * sizeof *cover->area);
+    memset(raster->area, 0, (end - first + 1) * sizeof *raster->area);
     double a = first, b = nextafter(end, 0);
-    accumulate(cover->area, within(s->long_low, a, b), s->low, within(s->long_high, a, b), s->high, sign);
+    accumulate(raster->area, within(s->long_low, a, b), s->low, within(s->long_high, a, b), s->high, sign);
     if (s->bent) {
         double x = within(middle[0], a, b);
-        accumulate(cover->area, within(s->short_low, a, b), s->low, x, middle[1], -sign);
-        accumulate(cover->area, x, middle[1], within(s->short_high, a, b), s->high, -sign);
+        accumulate(raster->area, within(s->short_low, a, b), s->low, x, middle[1], -sign);
+        accumulate(raster->area, x, middle[1], within(s->short_high, a, b), s->high, -sign);
     } else {
-        accumulate(cover->area, within(s->short_low, a, b), s->low, within(s->short_high, a, b), s->high, -sign);
+        accumulate(raster->area, within(s->short_low, a, b), s->low, within(s->short_high, a, b), s->high, -sign);
     }
     for (uint32_t k = 1; k < end - first; k++)
-        cover->area[k] += cover->area[k - 1];
+        raster->area[k] += raster->area[k - 1];
 }
 
 /* The strip's columns; false where the row holds but a sliver. */
-static bool take_row(sp_cover *cover, uint32_t row)
+static bool take_row(sp_raster *raster, uint32_t row)
 {
-    double slack = cover->kind == SP_COVER_TOUCHED ? SP_COVER_SLACK : 0;
-    strip s = cut(cover, row - slack, row + 1 + slack);
-    if (s.high - s.low < (slack > 0 ? 0 : SP_SLIVER * sp_lesser(1, cover->height)))
+    double slack = raster->kind == SP_RASTER_TOUCHED ? SP_RASTER_SLACK : 0;
+    strip s = cut(raster, row - slack, row + 1 + slack);
+    if (s.high - s.low < (slack > 0 ? 0 : SP_SLIVER * sp_lesser(1, raster->height)))
         return false;
     double left = sp_lesser(sp_lesser(s.long_low, s.long_high), sp_lesser(s.short_low, s.short_high));
     double right = sp_greater(sp_greater(s.long_low, s.long_high), sp_greater(s.short_low, s.short_high));
     if (s.bent) {
-        left = sp_lesser(left, cover->corner[1][0]);
-        right = sp_greater(right, cover->corner[1][0]);
+        left = sp_lesser(left, raster->corner[1][0]);
+        right = sp_greater(right, raster->corner[1][0]);
     }
-    double shrink = slack > 0 ? -slack : SP_SLIVER * sp_lesser(1, cover->width);
+    double shrink = slack > 0 ? -slack : SP_SLIVER * sp_lesser(1, raster->width);
     double first = floor(left + shrink), end = ceil(right - shrink);
     if (!(end > first)) {
         first = floor(0.5 * (left + right));
         end = first + 1;
     }
-    first = sp_lesser(first, cover->columns - 1.0);
-    end = sp_greater(sp_lesser(end, cover->columns), first + 1);
-    cover->y = cover->base_y + row;
-    cover->x = cover->base_x + (uint32_t)first;
-    cover->count = (uint32_t)(end - first);
-    if (cover->kind == SP_COVER_AREAS)
-        measure(cover, &s, (uint32_t)first, (uint32_t)end);
+    first = sp_lesser(first, raster->columns - 1.0);
+    end = sp_greater(sp_lesser(end, raster->columns), first + 1);
+    raster->y = raster->base_y + row;
+    raster->x = raster->base_x + (uint32_t)first;
+    raster->count = (uint32_t)(end - first);
+    if (raster->kind == SP_RASTER_AREAS)
+        measure(raster, &s, (uint32_t)first, (uint32_t)end);
     return true;
 }
 
 /* A triangle that rounding left without area lies in the pixel of its middle. */
-static bool take_middle(sp_cover *cover)
+static bool take_middle(sp_raster *raster)
 {
-    const double(*c)[2] = (const double(*)[2])cover->corner;
+    const double(*c)[2] = (const double(*)[2])raster->corner;
     double x = (c[0][0] + c[1][0] + c[2][0]) / 3, y = (c[0][1] + c[1][1] + c[2][1]) / 3;
-    cover->x = cover->base_x + (uint32_t)sp_lesser(x, cover->columns - 1.0);
-    cover->y = cover->base_y + (uint32_t)sp_lesser(y, cover->rows - 1.0);
-    cover->count = 1;
-    if (cover->kind == SP_COVER_AREAS)
-        cover->area[0] = 0;
-    cover->row = cover->rows;
+    raster->x = raster->base_x + (uint32_t)sp_lesser(x, raster->columns - 1.0);
+    raster->y = raster->base_y + (uint32_t)sp_lesser(y, raster->rows - 1.0);
+    raster->count = 1;
+    if (raster->kind == SP_RASTER_AREAS)
+        raster->area[0] = 0;
+    raster->row = raster->rows;
     return true;
 }
 
-bool sp_cover_next(sp_cover *cover)
+bool sp_raster_next(sp_raster *raster)
 {
-    if (!(cover->flat > 0) && cover->kind != SP_COVER_TOUCHED && cover->row == 0)
-        return take_middle(cover);
-    while (cover->row < cover->rows)
-        if (take_row(cover, cover->row++))
+    if (!(raster->flat > 0) && raster->kind != SP_RASTER_TOUCHED && raster->row == 0)
+        return take_middle(raster);
+    while (raster->row < raster->rows)
+        if (take_row(raster, raster->row++))
             return true;
     return false;
 }
