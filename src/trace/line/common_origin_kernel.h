@@ -1,10 +1,10 @@
-/* What rays of one origin are before they are traced together: their places in the order of directions, and bundles of
+/* What rays of one origin are before they are traced together: their places in the order of directions, and packets of
  * neighbours. For the kernels, which are compiled once for each set of instructions: a compiler sees vectors in the
  * loops over lanes. */
-#ifndef SPRAYPLAN_TRACE_FAN_KERNEL_H
-#define SPRAYPLAN_TRACE_FAN_KERNEL_H
+#ifndef SPRAYPLAN_TRACE_COMMON_ORIGIN_KERNEL_H
+#define SPRAYPLAN_TRACE_COMMON_ORIGIN_KERNEL_H
 
-#include "trace/line/bundle.h"
+#include "trace/line/line_packet.h"
 #include "trace/bvh/wide.h"
 
 /* No depth within the box is larger, for an origin that is near enough. */
@@ -43,7 +43,7 @@ static inline void see_key_lanes(key_lanes *l, double scale)
         l->key[i] = sp_direction_key((uint32_t)(int)l->z[i], (float)l->u[i], (float)l->v[i]);
 }
 
-static bool fan_keys(const sp_bvh *bvh, const sp_ray *rays, size_t count, sp_direction_entry *order)
+static bool direction_keys(const sp_bvh *bvh, const sp_ray *rays, size_t count, sp_direction_entry *order)
 {
     key_lanes l;
     double bad = 0;
@@ -70,26 +70,26 @@ static inline float clamp_depth(double depth)
 }
 
 /* Takes the rays of one side that come next; returns how many. Idle lanes repeat the first. */
-static inline int take_rays(const sp_fan *f, size_t from, sp_bundle *b, double t_min[SP_BUNDLE],
-                            double t_max[SP_BUNDLE])
+static inline int take_rays(const sp_common_origin *c, size_t from, sp_line_packet *b, double t_min[SP_LINE_PACKET],
+                            double t_max[SP_LINE_PACKET])
 {
-    const sp_direction_entry *order = f->order[0] + from;
-    size_t left = f->count - from;
+    const sp_direction_entry *order = c->order[0] + from;
+    size_t left = c->count - from;
     uint32_t side = order[0].key >> 2 * SP_DIRECTION_BITS;
     int count = 0;
     b->z = (int)(side / 2);
     b->x = b->z == 2 ? 0 : b->z + 1;
     b->y = b->z == 0 ? 2 : b->z - 1;
     b->sign = side % 2 ? -1 : 1;
-    while (count < SP_BUNDLE && (size_t)count < left && order[count].key >> 2 * SP_DIRECTION_BITS == side)
+    while (count < SP_LINE_PACKET && (size_t)count < left && order[count].key >> 2 * SP_DIRECTION_BITS == side)
         count++;
-    for (int i = 0; i < SP_BUNDLE; i++) {
+    for (int i = 0; i < SP_LINE_PACKET; i++) {
         uint32_t number = order[i < count ? i : 0].ray;
-        const sp_ray *ray = &f->rays[number];
+        const sp_ray *ray = &c->rays[number];
         const double *velocity = &ray->velocity.x;
-        size_t ahead = (size_t)i + SP_BUNDLE;
-        __builtin_prefetch(&f->rays[order[ahead < left ? ahead : 0].ray].velocity);
-        __builtin_prefetch(&f->rays[order[ahead < left ? ahead : 0].ray].skip);
+        size_t ahead = (size_t)i + SP_LINE_PACKET;
+        __builtin_prefetch(&c->rays[order[ahead < left ? ahead : 0].ray].velocity);
+        __builtin_prefetch(&c->rays[order[ahead < left ? ahead : 0].ray].skip);
         b->velocity[0][i] = velocity[b->x];
         b->velocity[1][i] = velocity[b->y];
         b->velocity[2][i] = velocity[b->z];
@@ -102,11 +102,12 @@ static inline int take_rays(const sp_fan *f, size_t from, sp_bundle *b, double t
 }
 
 /* The range of slopes, its middle, and where the lines are in it. */
-static inline void centre_slopes(const float slope[SP_BUNDLE], float off[SP_BUNDLE], float *centre, float *half)
+static inline void centre_slopes(const float slope[SP_LINE_PACKET], float off[SP_LINE_PACKET], float *centre,
+                                 float *half)
 {
     float least[8], most[8], low = INFINITY, high = -INFINITY;
     wide a = wide_load(slope), z = a;
-    for (int i = 8; i < SP_BUNDLE; i += 8) {
+    for (int i = 8; i < SP_LINE_PACKET; i += 8) {
         a = wide_lesser(a, wide_load(slope + i));
         z = wide_greater(z, wide_load(slope + i));
     }
@@ -117,23 +118,23 @@ static inline void centre_slopes(const float slope[SP_BUNDLE], float off[SP_BUND
         high = most[i] > high ? most[i] : high;
     }
     *centre = 0.5f * (low + high);
-    /* Rounded up, and so that no bundle is without breadth. */
+    /* Rounded up, and so that no packet is without breadth. */
     *half = 0.5f * (high - low) * 1.000001f + 0x1p-23f;
-    for (int i = 0; i < SP_BUNDLE; i++)
+    for (int i = 0; i < SP_LINE_PACKET; i++)
         off[i] = slope[i] - *centre;
 }
 
-static size_t fill_bundle(const sp_fan *f, size_t from, sp_bundle *b)
+static size_t fill_packet(const sp_common_origin *c, size_t from, sp_line_packet *b)
 {
-    double t_min[SP_BUNDLE], t_max[SP_BUNDLE];
-    b->count = take_rays(f, from, b, t_min, t_max);
-    b->place[0] = f->place[b->x];
-    b->place[1] = f->place[b->y];
-    b->place[2] = f->place[b->z];
+    double t_min[SP_LINE_PACKET], t_max[SP_LINE_PACKET];
+    b->count = take_rays(c, from, b, t_min, t_max);
+    b->place[0] = c->place[b->x];
+    b->place[1] = c->place[b->y];
+    b->place[2] = c->place[b->z];
     for (int axis = 0; axis < 3; axis++)
         b->origin[axis] = (float)b->place[axis];
-    for (int i = 0; i < SP_BUNDLE; i++) {
-        double along = fabs(b->velocity[2][i]), inverse = 1 / along, rate = along * f->bvh->scale;
+    for (int i = 0; i < SP_LINE_PACKET; i++) {
+        double along = fabs(b->velocity[2][i]), inverse = 1 / along, rate = along * c->bvh->scale;
         b->slope_u[i] = (float)(b->velocity[0][i] * inverse);
         b->slope_v[i] = (float)(b->velocity[1][i] * inverse);
         b->first[i] = clamp_depth(t_min[i] * rate);
@@ -141,7 +142,7 @@ static size_t fill_bundle(const sp_fan *f, size_t from, sp_bundle *b)
     }
     centre_slopes(b->slope_u, b->u, &b->centre[0], &b->half[0]);
     centre_slopes(b->slope_v, b->v, &b->centre[1], &b->half[1]);
-    for (int i = 0; i < SP_BUNDLE; i++) {
+    for (int i = 0; i < SP_LINE_PACKET; i++) {
         b->low[i] = INFINITY;
         b->high[i] = i < b->count ? b->last[i] + SP_BVH_PAD : -1;
         b->triangle[i] = SP_NONE;

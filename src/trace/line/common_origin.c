@@ -1,5 +1,5 @@
-/* Rays of one origin: put in the order of their directions, then traced in bundles of neighbours. */
-#include "trace/line/bundle.h"
+/* Rays of one origin: put in the order of their directions, then traced in packets of neighbours. */
+#include "trace/line/line_packet.h"
 #include "trace/bvh/direction_order.h"
 #include "trace/ray/line.h"
 #include "trace/line/line_bvh.h"
@@ -10,9 +10,9 @@
 /* Origins farther away are left to single lines, which begin near the mesh. */
 #define NEAR_ENOUGH 7.0
 
-static const sp_bundle_kernel *const kernels[] = SP_KERNELS(&sp_bundle);
+static const sp_line_packet_kernel *const kernels[] = SP_KERNELS(&sp_line_packet);
 
-sp_hit sp_bundle_ask(const sp_bundle *b, int lane, uint32_t triangle, uint32_t other)
+sp_hit sp_line_packet_ask(const sp_line_packet *b, int lane, uint32_t triangle, uint32_t other)
 {
     const sp_ray *ray = &b->rays[b->ray[lane]];
     sp_ray_search search = sp_ray_search_start(ray, false);
@@ -27,9 +27,9 @@ sp_hit sp_bundle_ask(const sp_bundle *b, int lane, uint32_t triangle, uint32_t o
     return search.best;
 }
 
-void sp_bundle_settle(sp_bundle *b, int lane, uint32_t triangle)
+void sp_line_packet_settle(sp_line_packet *b, int lane, uint32_t triangle)
 {
-    sp_hit hit = sp_bundle_ask(b, lane, triangle, b->triangle[lane]);
+    sp_hit hit = sp_line_packet_ask(b, lane, triangle, b->triangle[lane]);
     if (hit.triangle == SP_NONE)
         return;
     float depth = (float)(hit.t * fabs(b->velocity[2][lane]) * b->bvh->scale);
@@ -39,32 +39,32 @@ void sp_bundle_settle(sp_bundle *b, int lane, uint32_t triangle)
 }
 
 /* Where the origin is in the hierarchy's space; false where that is too far away. */
-static bool place_origin(sp_fan *f)
+static bool place_origin(sp_common_origin *c)
 {
     double origin[3], reach = 0;
-    sp_to_array(f->rays[0].origin, origin);
+    sp_to_array(c->rays[0].origin, origin);
     for (int axis = 0; axis < 3; axis++) {
-        double place = (origin[axis] - f->bvh->centre[axis]) * f->bvh->scale;
-        f->place[axis] = place;
+        double place = (origin[axis] - c->bvh->centre[axis]) * c->bvh->scale;
+        c->place[axis] = place;
         reach = sp_greater(reach, fabs(place) + 1);
         if (!(fabs(place) <= NEAR_ENOUGH))
             return false;
     }
-    f->blur = 13 * 0x1p-24f * (float)reach;
+    c->blur = 13 * 0x1p-24f * (float)reach;
     return true;
 }
 
-void sp_fan_room_clear(sp_fan_room *room)
+void sp_common_origin_room_clear(sp_common_origin_room *room)
 {
     free(room->order);
-    *room = (sp_fan_room){0};
+    *room = (sp_common_origin_room){0};
 }
 
-static bool make_room(sp_fan_room *room, size_t count)
+static bool make_room(sp_common_origin_room *room, size_t count)
 {
     if (count <= room->count)
         return true;
-    sp_fan_room_clear(room);
+    sp_common_origin_room_clear(room);
     if (count > SIZE_MAX / (2 * sizeof *room->order))
         return false;
     room->order = malloc(2 * count * sizeof *room->order);
@@ -74,52 +74,52 @@ static bool make_room(sp_fan_room *room, size_t count)
     return true;
 }
 
-/* The hits of a bundle are computed when the next one has been searched, as their corners have to come from memory. */
-static void trace_bundles(const sp_fan *f, const sp_bundle_kernel *kernel, sp_hit *hits, bool *occluded)
+/* The hits of a packet are computed when the next one has been searched, as their corners have to come from memory. */
+static void trace_packets(const sp_common_origin *c, const sp_line_packet_kernel *kernel, sp_hit *hits, bool *occluded)
 {
-    sp_bundle bundles[2];
+    sp_line_packet packets[2];
     int at = 0;
-    bundles[1].count = 0;
-    for (size_t i = 0; i < f->count; at = !at) {
-        sp_bundle *b = &bundles[at];
-        b->bvh = f->bvh;
-        b->rays = f->rays;
-        b->blur = f->blur;
+    packets[1].count = 0;
+    for (size_t i = 0; i < c->count; at = !at) {
+        sp_line_packet *b = &packets[at];
+        b->bvh = c->bvh;
+        b->rays = c->rays;
+        b->blur = c->blur;
         b->any = !hits;
-        i += kernel->fill(f, i, b);
+        i += kernel->fill(c, i, b);
         kernel->search(b);
         for (int k = 0; !hits && k < b->count; k++)
             occluded[b->ray[k]] = b->triangle[k] != SP_NONE;
         if (hits) {
             for (int k = 0; k < b->count; k++)
                 if (b->triangle[k] != SP_NONE)
-                    sp_bvh_fetch_corners(b->bvh, b->triangle[k]);
-            kernel->answer(&bundles[!at], hits);
+                    sp_bvh_prefetch_corners(b->bvh, b->triangle[k]);
+            kernel->answer(&packets[!at], hits);
         }
     }
     if (hits)
-        kernel->answer(&bundles[!at], hits);
+        kernel->answer(&packets[!at], hits);
 }
 
-bool sp_fan_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count, sp_fan_room *room,
-                  sp_hit *hits, bool *occluded)
+bool sp_common_origin_trace(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count,
+                            sp_common_origin_room *room, sp_hit *hits, bool *occluded)
 {
-    sp_fan f = {.bvh = bvh, .rays = rays, .count = count};
-    if (bvh->node_count == 0 || count == 0 || !place_origin(&f))
+    sp_common_origin c = {.bvh = bvh, .rays = rays, .count = count};
+    if (bvh->node_count == 0 || count == 0 || !place_origin(&c))
         return false;
     if (!make_room(room, count))
         return false;
-    f.order[0] = room->order;
-    f.order[1] = f.order[0] + count;
-    if (!kernels[instructions]->keys(bvh, rays, count, f.order[0]))
+    c.order[0] = room->order;
+    c.order[1] = c.order[0] + count;
+    if (!kernels[instructions]->keys(bvh, rays, count, c.order[0]))
         return false;
-    sp_direction_sort(f.order, count);
-    trace_bundles(&f, kernels[instructions], hits, occluded);
+    sp_direction_sort(c.order, count);
+    trace_packets(&c, kernels[instructions], hits, occluded);
     return true;
 }
 
-bool sp_fan_stream(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count, sp_fan_room *room,
-                   sp_hit *hits, bool *occluded)
+bool sp_common_origin_trace_singly(const sp_bvh *bvh, sp_instructions instructions, const sp_ray *rays, size_t count,
+                                   sp_common_origin_room *room, sp_hit *hits, bool *occluded)
 {
     if (!make_room(room, count))
         return false;

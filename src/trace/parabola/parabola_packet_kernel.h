@@ -1,17 +1,17 @@
-/* A volley through the hierarchy. Included once by each file that is compiled for a set of instructions, with
- * SP_KERNEL(name) naming its functions. */
+/* A packet of parabolas through the hierarchy. Included once by each file that is compiled for a set of instructions,
+ * with SP_KERNEL(name) naming its functions. */
 #include "trace/parabola/pending.h"
 #include "trace/bvh/seen.h"
 #include "trace/bvh/sheared.h"
-#include "trace/parabola/volley.h"
+#include "trace/parabola/parabola_packet.h"
 
 static inline float inverse_of(float speed, float when_still)
 {
     return fabsf(speed) > 0x1p-60f ? 1 / speed : when_still;
 }
 
-/* What a volley's node tests have in common. Along an axis without gravity, some jet can be in low..high at a way w if
- * most w >= low and least w <= high: each bounds w from the one or the other side, as its speed's sign has it. */
+/* What a packet's node tests have in common. Along an axis without gravity, some parabola can be in low..high at a way
+ * w if most w >= low and least w <= high: each bounds w from the one or the other side, as its speed's sign has it. */
 typedef struct {
     int axis[3];                      /* steep, and the others */
     float by_low[2], by_high[2];      /* inverse speeds */
@@ -19,11 +19,11 @@ typedef struct {
     float sign, bend;                 /* so that bend <= 0 along sign */
     float least, most;                /* speeds along sign */
     float turn;                       /* where the fastest is highest */
-} volley_slabs;
+} packet_slabs;
 
-static volley_slabs slabs_of(const sp_volley *v)
+static packet_slabs slabs_of(const sp_parabola_packet *v)
 {
-    volley_slabs s;
+    packet_slabs s;
     int axis = v->steep;
     s.axis[0] = axis;
     s.axis[1] = axis == 2 ? 0 : axis + 1;
@@ -43,13 +43,13 @@ static volley_slabs slabs_of(const sp_volley *v)
     return s;
 }
 
-/* Which children some jet may be in, and between which ways.
+/* Which children some parabola may be in, and between which ways.
  *
  * The highest that any is at a way is the parabola of the fastest, the lowest that of the slowest. Between two ways the
  * former is highest where it turns, or at the end next to that, the latter lowest at either end. Rounding as in
  * parabola_kernel.h, with S = 8: 4 e S for the polynomials and less than 8 e R otherwise, less than the boxes' pad. */
-static inline uint32_t meet_children(const sp_bvh_node *node, const sp_volley *v, const volley_slabs *s, wide *first,
-                                     wide *last)
+static inline uint32_t meet_children(const sp_bvh_node *node, const sp_parabola_packet *v, const packet_slabs *s,
+                                     wide *first, wide *last)
 {
     wide low, high, from = wide_set(0), to = wide_set(v->farthest);
     for (int i = 0; i < 2; i++) {
@@ -95,9 +95,9 @@ static inline bool turn_roots(float place, float speed, float bend, float roots[
     return true;
 }
 
-/* Cuts from..to to ways at which some jet may be at the height of the block's triangles; false where none is. */
-static inline bool cut_to_block(const sp_bvh_block *block, const sp_volley *v, const volley_slabs *s, float *from,
-                                float *to)
+/* Cuts from..to to ways at which some parabola may be at the height of the block's triangles; false where none is. */
+static inline bool cut_to_block(const sp_bvh_block *block, const sp_parabola_packet *v, const packet_slabs *s,
+                                float *from, float *to)
 {
     int axis = v->steep;
     float lows[8], highs[8], low = INFINITY, high = -INFINITY, roots[2];
@@ -129,20 +129,22 @@ static inline bool cut_to_block(const sp_bvh_block *block, const sp_volley *v, c
     return *from <= *to;
 }
 
-/* The jets where they pass a block. Since way² there is 2 middle way - middle² but for at most r², r being half the
- * span, they are lines of one origin, from which they are never farther than half of bend r². */
+/* The parabolas where they pass a block. Since way² there is 2 middle way - middle² but for at most r², r being half
+ * the span, they are lines of one origin, from which they are never farther than half of bend r². */
 typedef struct {
     view along;
-    float u[SP_VOLLEY], v[SP_VOLLEY], inverse[SP_VOLLEY]; /* slopes from the centre; ways per depth along z */
+    float u[SP_PARABOLA_PACKET], v[SP_PARABOLA_PACKET],
+        inverse[SP_PARABOLA_PACKET]; /* slopes from the centre; ways per depth along z */
     float half[2];
     float from, to; /* ways between which this is so */
     float blur;     /* how far rounding may move a sheared corner */
-    float sag;      /* how far the bend may move a jet, sheared */
-} volley_lines;
+    float sag;      /* how far the bend may move a parabola, sheared */
+} packet_lines;
 
-/* Slopes of the jets from their middle, where all move along l->along.z; `add` is what the bend adds to each direction.
+/* Slopes of the parabolas from their middle, where all move along l->along.z; `add` is what the bend adds to each
+ * direction.
  */
-static inline void take_slopes(const sp_volley *v, const float add[3], volley_lines *l)
+static inline void take_slopes(const sp_parabola_packet *v, const float add[3], packet_lines *l)
 {
     int z = l->along.z;
     wide low_u = wide_set(INFINITY), high_u = wide_set(-INFINITY), low_v = low_u, high_v = high_u;
@@ -182,14 +184,14 @@ static inline void take_slopes(const sp_volley *v, const float add[3], volley_li
     }
 }
 
-/* How far rounding may move a sheared corner, as the jets see it. With e = 2^-24 and R = 1.02 + reach, the most that a
- * corner is away from the lines' origin along an axis: a corner is off by e for itself and e R for its difference from
- * the origin, along x and, times the slope, along z; shearing adds e R for the product, times the slope, and e R times
- * 1 + slope for the sum: less than e R (3 + 4 slope). A slope is off by 3 of its e, for the inverse, the product and
- * what the centre takes, over R. The origin O is off by e reach, what the bend adds to it, bend (r²/2 - middle²), by 5
- * e of at most 1.5 bend way², their sum by e reach; directions by e for themselves, 2 e for 2 bend middle and e for the
- * sum, over way: e (2 reach + 2 speed way + 14 bend way²) along an axis, times 1 + slope when sheared. What double
- * precision is off its flight is less than e. */
+/* How far rounding may move a sheared corner, as the parabolas see it. With e = 2^-24 and R = 1.02 + reach, the most
+ * that a corner is away from the lines' origin along an axis: a corner is off by e for itself and e R for its
+ * difference from the origin, along x and, times the slope, along z; shearing adds e R for the product, times the
+ * slope, and e R times 1 + slope for the sum: less than e R (3 + 4 slope). A slope is off by 3 of its e, for the
+ * inverse, the product and what the centre takes, over R. The origin O is off by e reach, what the bend adds to it,
+ * bend (r²/2 - middle²), by 5 e of at most 1.5 bend way², their sum by e reach; directions by e for themselves, 2 e for
+ * 2 bend middle and e for the sum, over way: e (2 reach + 2 speed way + 14 bend way²) along an axis, times 1 + slope
+ * when sheared. What double precision is off its flight is less than e. */
 static inline float blur_of(float reach, float slope, float straight, float bent)
 {
     float lines = 2 * reach + 2 * straight + 14 * bent;
@@ -197,7 +199,7 @@ static inline float blur_of(float reach, float slope, float straight, float bent
 }
 
 /* False where they differ too much to be taken together. */
-static inline bool lines_of(const sp_volley *v, float from, float to, volley_lines *l)
+static inline bool lines_of(const sp_parabola_packet *v, float from, float to, packet_lines *l)
 {
     float spare = 0x1p-4f * (to - from) + 16 * SP_BVH_PAD, r = 0.5f * (to - from) + spare, middle = 0.5f * (from + to);
     float add[3] = {0, 0, 0}, origin[3], fastest[3], reach = 0;
@@ -237,20 +239,20 @@ static inline bool lines_of(const sp_volley *v, float from, float to, volley_lin
     return true;
 }
 
-/* What the jets need to know of a block. A jet that sees a corner at most m away sees all of
- * them at most m + across away; a weight then is off by error + 4 (m + across) blur. */
+/* What the parabolas need to know of a block. One that sees a corner at most m away sees all of them at most m + across
+ * away; a weight then is off by error + 4 (m + across) blur. */
 typedef struct {
     weights weights;
     float depth[3][8], x[8], y[8]; /* x, y: of the first corner */
     float error[8], across[8], range[8], nearest[8];
-} volley_block;
+} packet_block;
 
-/* As prepare_block in bundle_kernel.h, where the error of rounding is derived: 16 e M² + 4 m blur + 2 blur², M being
- * the most that any jet sees of the corners, m what the one does that the weight is of. The bend moves all three
- * corners alike, by sag at most, and a weight by no more than that times what the triangle measures across the jets.
- * Where a weight is off by `error`, the mean of the corners' depths by weight is off by at most 4 errors' share of
- * their difference. */
-static inline uint32_t prepare_volley_block(const sp_bvh_block *block, const volley_lines *l, volley_block *p)
+/* As prepare_block in line_packet_kernel.h, where the error of rounding is derived: 16 e M² + 4 m blur + 2 blur², M
+ * being the most that any parabola sees of the corners, m what the one does that the weight is of. The bend moves all
+ * three corners alike, by sag at most, and a weight by no more than that times what the triangle measures across the
+ * parabolas. Where a weight is off by `error`, the mean of the corners' depths by weight is off by at most 4 errors'
+ * share of their difference. */
+static inline uint32_t prepare_packet_block(const sp_bvh_block *block, const packet_lines *l, packet_block *p)
 {
     sheared seen = shear_block(block, l->along);
     wide half_u = wide_set(l->half[0]), half_v = wide_set(l->half[1]);
@@ -281,7 +283,7 @@ static inline uint32_t prepare_volley_block(const sp_bvh_block *block, const vol
 }
 
 /* Takes the way of a sure hit, or asks double precision where that is not sure enough. */
-static inline void take(sp_volley *v, const volley_lines *l, int lane, uint32_t triangle, bool sure, float low,
+static inline void take(sp_parabola_packet *v, const packet_lines *l, int lane, uint32_t triangle, bool sure, float low,
                         float high)
 {
     const float pad = 4 * SP_BVH_PAD;
@@ -290,7 +292,7 @@ static inline void take(sp_volley *v, const volley_lines *l, int lane, uint32_t 
     if (sure && (low > v->high[lane] || low > l->to || high < l->from || high < v->first[lane] - pad))
         return;
     if (!sure || low < v->first[lane] + pad || high > v->last[lane] - pad || low < l->from || high > l->to) {
-        sp_volley_settle(v, lane, triangle);
+        sp_parabola_packet_settle(v, lane, triangle);
     } else if (v->any) {
         v->triangle[lane] = triangle;
         v->high[lane] = -1;
@@ -299,12 +301,13 @@ static inline void take(sp_volley *v, const volley_lines *l, int lane, uint32_t 
         v->low[lane] = low;
         v->high[lane] = high;
     } else {
-        sp_volley_settle(v, lane, triangle);
+        sp_parabola_packet_settle(v, lane, triangle);
     }
 }
 
-/* Tests the jets against triangle i of the block; returns whether anything came of it. */
-static inline bool test_triangle(sp_volley *v, const volley_lines *l, const volley_block *p, int i, uint32_t triangle)
+/* Tests the parabolas against triangle i of the block; returns whether anything came of it. */
+static inline bool test_triangle(sp_parabola_packet *v, const packet_lines *l, const packet_block *p, int i,
+                                 uint32_t triangle)
 {
     bool taken = false;
     for (int group = 0; group < v->count; group += 8) {
@@ -315,7 +318,7 @@ static inline bool test_triangle(sp_volley *v, const volley_lines *l, const voll
         wide error = wide_multiply_add(wide_add(away, wide_set(p->across[i])), wide_set(4 * l->blur),
                                        wide_set(p->error[i])),
              minus = wide_subtract(wide_set(0), error);
-        weigh_ways(&p->weights, i, u, w, weight);
+        barycentric_of_ways(&p->weights, i, u, w, weight);
         wide least = least_of(weight), largest = largest_of(weight);
         uint32_t maybe = (wide_at_most(minus, least) | wide_at_most(largest, error)) &
                          wide_at_most(wide_multiply(wide_set(p->nearest[i]), per_depth), wide_load(v->high + group));
@@ -342,7 +345,7 @@ static inline bool test_triangle(sp_volley *v, const volley_lines *l, const voll
     return taken;
 }
 
-static void find_farthest(sp_volley *v)
+static void find_farthest(sp_parabola_packet *v)
 {
     float farthest = -1;
     for (int i = 0; i < v->count; i++)
@@ -350,16 +353,17 @@ static void find_farthest(sp_volley *v)
     v->farthest = farthest;
 }
 
-static void search_volley_block(sp_volley *v, const volley_slabs *s, const sp_bvh_block *block, float from, float to)
+static void search_packet_block(sp_parabola_packet *v, const packet_slabs *s, const sp_bvh_block *block, float from,
+                                float to)
 {
-    volley_lines l;
-    volley_block p;
+    packet_lines l;
+    packet_block p;
     bool taken = false;
     to = to < v->farthest ? to : v->farthest;
     if (!cut_to_block(block, v, s, &from, &to))
         return;
     if (lines_of(v, from, to, &l)) {
-        for (uint32_t rest = prepare_volley_block(block, &l, &p); rest; rest &= rest - 1) {
+        for (uint32_t rest = prepare_packet_block(block, &l, &p); rest; rest &= rest - 1) {
             int i = __builtin_ctz(rest);
             v->met++;
             taken |= test_triangle(v, &l, &p, i, block->triangle[i]);
@@ -368,16 +372,16 @@ static void search_volley_block(sp_volley *v, const volley_slabs *s, const sp_bv
         for (int i = 0; i < SP_BVH_WIDTH && block->triangle[i] != SP_NONE; i++)
             for (int lane = 0; lane < v->count; lane++)
                 if (v->high[lane] >= 0 && block->triangle[i] != v->skip[lane])
-                    sp_volley_settle(v, lane, block->triangle[i]);
+                    sp_parabola_packet_settle(v, lane, block->triangle[i]);
         taken = true;
     }
     if (taken)
         find_farthest(v);
 }
 
-void SP_KERNEL(sp_volley_search)(sp_volley *v)
+void SP_KERNEL(sp_parabola_packet_search)(sp_parabola_packet *v)
 {
-    volley_slabs slabs = slabs_of(v);
+    packet_slabs slabs = slabs_of(v);
     pending stack[SP_BVH_STACK];
     int height = 1;
     find_farthest(v);
@@ -387,7 +391,7 @@ void SP_KERNEL(sp_volley_search)(sp_volley *v)
         if (at.from > v->farthest)
             continue;
         if (at.child & SP_BVH_LEAF) {
-            search_volley_block(v, &slabs, &v->bvh->blocks[at.child - SP_BVH_LEAF], at.from, at.to);
+            search_packet_block(v, &slabs, &v->bvh->blocks[at.child - SP_BVH_LEAF], at.from, at.to);
             continue;
         }
         const sp_bvh_node *node = &v->bvh->nodes[at.child];

@@ -4,9 +4,9 @@
 #include "trace/line/line_step.h"
 
 /* Visits all that the line passes, the near before the far. */
-static inline void walk_alone(const sp_bvh_stream *stream, sp_bvh_flight *flight)
+static inline void walk_single(const sp_line_queue *queue, sp_line_flight *flight)
 {
-    const sp_bvh *bvh = stream->bvh;
+    const sp_bvh *bvh = queue->bvh;
     const sp_bvh_line *ray = &flight->ray;
     uint32_t child = 0;
     int height = 0;
@@ -15,11 +15,11 @@ static inline void walk_alone(const sp_bvh_stream *stream, sp_bvh_flight *flight
             const sp_bvh_block *block = &bvh->blocks[child - SP_BVH_LEAF];
             test_block(block, ray, &flight->found);
             if (flight->found.maybe) {
-                take_found(stream, flight, block);
-                if (!stream->hits && flight->triangle != SP_NONE)
+                take_found(queue, flight, block);
+                if (!queue->hits && flight->triangle != SP_NONE)
                     return;
                 if (flight->triangle != SP_NONE) /* most often it stays the best */
-                    sp_bvh_fetch_corners(bvh, flight->triangle);
+                    sp_bvh_prefetch_corners(bvh, flight->triangle);
             }
         } else {
             const sp_bvh_node *node = &bvh->nodes[child];
@@ -34,26 +34,26 @@ static inline void walk_alone(const sp_bvh_stream *stream, sp_bvh_flight *flight
         while (flight->way[height] > ray->last);
         child = flight->child[height];
         if (height > 0)
-            sp_bvh_fetch(bvh, flight->child[height - 1]);
+            sp_bvh_prefetch(bvh, flight->child[height - 1]);
     }
 }
 
-void SP_KERNEL(sp_bvh_lines_alone)(sp_bvh_stream *stream)
+void SP_KERNEL(sp_bvh_lines_single)(sp_line_queue *queue)
 {
-    sp_bvh_flight flight;
-    while (stream->next < stream->count) {
-        if (make_ready(stream, 1, &flight.ray) == 0)
+    sp_line_flight flight;
+    while (queue->next < queue->count) {
+        if (make_ready(queue, 1, &flight.ray) == 0)
             continue;
         flight.triangle = SP_NONE;
         flight.low = INFINITY;
         flight.in_doubt = false;
-        walk_alone(stream, &flight);
+        walk_single(queue, &flight);
         uint32_t number = flight.ray.number;
-        if (!stream->hits)
-            stream->occluded[number] = flight.triangle != SP_NONE;
+        if (!queue->hits)
+            queue->occluded[number] = flight.triangle != SP_NONE;
         else if (flight.triangle == SP_NONE)
-            stream->hits[number] = (sp_hit){INFINITY, 0, 0, SP_NONE};
+            queue->hits[number] = (sp_hit){INFINITY, 0, 0, SP_NONE};
         else
-            stream->hits[number] = sp_bvh_line_ask(stream->bvh, &stream->rays[number], flight.triangle);
+            queue->hits[number] = sp_bvh_line_ask(queue->bvh, &queue->rays[number], flight.triangle);
     }
 }

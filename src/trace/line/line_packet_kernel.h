@@ -1,8 +1,8 @@
-/* A bundle through the hierarchy. Included once by each file that is compiled for a set of instructions, with
+/* A packet of lines through the hierarchy. Included once by each file that is compiled for a set of instructions, with
  * SP_KERNEL(name) naming its functions. */
 #include "trace/line/answer.h"
-#include "trace/line/bundle.h"
-#include "trace/line/fan_kernel.h"
+#include "trace/line/line_packet.h"
+#include "trace/line/common_origin_kernel.h"
 #include "trace/bvh/seen.h"
 #include "trace/bvh/sheared.h"
 
@@ -10,9 +10,9 @@ typedef struct {
     uint32_t child;
     float depth;
     uint32_t node, slot; /* whose child it is, for its box */
-} bundle_pending;
+} packet_pending;
 
-/* Boxes whose span low..high has something in common with the bundle's, whose slopes are centre ± half. */
+/* Boxes whose span low..high has something in common with the packet's, whose slopes are centre ± half. */
 static inline uint32_t meet_slopes(wide low, wide high, wide near, wide far, float centre, float half)
 {
     wide least = wide_set(centre - half), most = wide_set(centre + half);
@@ -21,10 +21,10 @@ static inline uint32_t meet_slopes(wide low, wide high, wide near, wide far, flo
     return wide_at_most(low, right) & wide_at_most(left, high);
 }
 
-/* Which children some line of the bundle may pass: boxes against the pyramid that holds all of them. Rounding is less
+/* Which children some line of the packet may pass: boxes against the pyramid that holds all of them. Rounding is less
  * than the boxes' pad, as in line_kernel.h: of the corner and origin 2 e R, of the bounds e R, of the slopes e R, and
  * of their products e R. */
-static inline uint32_t meet_children(const sp_bvh_node *node, const sp_bundle *b, wide *depth)
+static inline uint32_t meet_children(const sp_bvh_node *node, const sp_line_packet *b, wide *depth)
 {
     wide low, high, near, far, zero = wide_set(0);
     see_bounds(node, b->z, b->origin[2], &near, &far);
@@ -44,7 +44,7 @@ static inline uint32_t meet_children(const sp_bvh_node *node, const sp_bundle *b
 }
 
 /* Which lines may pass a node's child, each by itself, and not beyond what it wants. Rounding is as above. */
-static inline uint32_t meet_lines(const sp_bvh_node *node, uint32_t slot, const sp_bundle *b)
+static inline uint32_t meet_lines(const sp_bvh_node *node, uint32_t slot, const sp_line_packet *b)
 {
     float low[3], high[3];
     const int axes[3] = {b->x, b->y, b->z};
@@ -76,18 +76,18 @@ static inline uint32_t meet_lines(const sp_bvh_node *node, uint32_t slot, const 
 typedef struct {
     weights weights;
     float volume[8], error[8], nearest[8], depth_error[8];
-} bundle_block;
+} packet_block;
 
 /* Prepares a block, and returns which of its triangles some line may hit.
  *
- * As in line_kernel.h, e = 2^-24 and R bounds what is seen from the origin. A corner sheared along the bundle's centre,
+ * As in line_kernel.h, e = 2^-24 and R bounds what is seen from the origin. A corner sheared along the packet's centre,
  * x = a - c z, is off by at most 10 e R; a line's own x - u z by e R more: blur is 13 e R. Let M bound what a line of
- * the bundle sees of the corners' x and y, |x| + half z. The weight x2 y1 - y2 x1 with x - u z for x and y - v z for y
+ * the packet sees of the corners' x and y, |x| + half z. The weight x2 y1 - y2 x1 with x - u z for x and y - v z for y
  * is (x2 y1 - y2 x1) + u (y2 z1 - z2 y1) + v (z2 x1 - x2 z1), the products of u v cancel. Corners' errors move it by at
  * most 4 M blur + 2 blur^2; each of its terms is at most 2 M^2 and rounded at most twice before they are added: 16 e
  * M^2. That is `error`. The sum of the weights then is off by 4 errors, the volume by 4 errors times Z, the largest
  * |z|; where the sum is more than 8 errors, the depth is off by at most 16 errors Z over the sum, and by blur. */
-static inline uint32_t prepare_block(const sp_bvh_block *block, const sp_bundle *b, bundle_block *p)
+static inline uint32_t prepare_block(const sp_bvh_block *block, const sp_line_packet *b, packet_block *p)
 {
     const float *origin = b->origin;
     sheared seen = shear_block(
@@ -119,13 +119,13 @@ static inline uint32_t prepare_block(const sp_bvh_block *block, const sp_bundle 
 }
 
 /* Takes the time of a sure hit, or asks double precision where that is not sure enough. */
-static inline void take(sp_bundle *b, int lane, uint32_t triangle, bool sure, float low, float high)
+static inline void take(sp_line_packet *b, int lane, uint32_t triangle, bool sure, float low, float high)
 {
     if (low > b->high[lane] || triangle == b->skip[lane])
         return;
     if (!sure || low < b->first[lane] + 4 * SP_BVH_PAD || high > b->last[lane] - 4 * SP_BVH_PAD) {
         if (!sure || !(high < b->first[lane] - 4 * SP_BVH_PAD))
-            sp_bundle_settle(b, lane, triangle);
+            sp_line_packet_settle(b, lane, triangle);
     } else if (b->any) {
         b->triangle[lane] = triangle;
         b->high[lane] = -1;
@@ -135,17 +135,18 @@ static inline void take(sp_bundle *b, int lane, uint32_t triangle, bool sure, fl
         b->low[lane] = low;
         b->high[lane] = high;
     } else {
-        sp_bundle_settle(b, lane, triangle);
+        sp_line_packet_settle(b, lane, triangle);
     }
 }
 
-/* For what the bundle's view of a block leaves in doubt: the line's own, in double precision, of the corners as the
+/* For what the packet's view of a block leaves in doubt: the line's own, in double precision, of the corners as the
  * block has them. Between which depths it hits; low above high where it surely does not; false where that, too, is in
  * doubt.
  *
  * A corner is off by e along each axis, sheared by 2 e; all else is rounded to 2^-52. As above, weights then are off by
  * 8 M e + 8 e^2, where M itself is off by 2 e, and the depth by 16 of these times Z over the sum, and by 2 e. */
-static inline bool look_closer(const sp_bundle *b, int lane, const sp_bvh_block *block, int i, float *low, float *high)
+static inline bool look_closer(const sp_line_packet *b, int lane, const sp_bvh_block *block, int i, float *low,
+                               float *high)
 {
     const double e = 0x1p-24;
     double x[3], y[3], z[3], inverse = 1 / fabs(b->velocity[2][lane]), most = 0, deepest = 0;
@@ -171,8 +172,8 @@ static inline bool look_closer(const sp_bundle *b, int lane, const sp_bvh_block 
     return (least > error || largest < -error) && fabs(sum) > 8 * error;
 }
 
-/* Takes what the bundle's view found, or looks closer. */
-static inline void take_found(sp_bundle *b, int lane, const sp_bvh_block *block, int i, bool sure, float nearest,
+/* Takes what the packet's view found, or looks closer. */
+static inline void take_found(sp_line_packet *b, int lane, const sp_bvh_block *block, int i, bool sure, float nearest,
                               float low, float high)
 {
     if (!sure) {
@@ -212,8 +213,9 @@ static inline uint32_t decide(const meeting *m, wide error, wide volume, wide de
            wide_at_most(wide_multiply(wide_set(8), error), wide_absolute(m->sum));
 }
 
-/* Tests those of the bundle's lines against triangle i of the block; returns whether anything came of it. */
-static inline bool test_triangle(sp_bundle *b, const bundle_block *p, uint32_t lines, int i, const sp_bvh_block *block)
+/* Tests those of the packet's lines against triangle i of the block; returns whether anything came of it. */
+static inline bool test_triangle(sp_line_packet *b, const packet_block *p, uint32_t lines, int i,
+                                 const sp_bvh_block *block)
 {
     wide error = wide_set(p->error[i]);
     bool taken = false;
@@ -221,7 +223,7 @@ static inline bool test_triangle(sp_bundle *b, const bundle_block *p, uint32_t l
         if (!(lines >> group & 255))
             continue;
         wide u = wide_load(b->u + group), v = wide_load(b->v + group), weight[3];
-        weigh_ways(&p->weights, i, u, v, weight);
+        barycentric_of_ways(&p->weights, i, u, v, weight);
         meeting m = meet(weight, error, wide_set(p->nearest[i]), wide_load(b->high + group));
         if (!m.maybe)
             continue;
@@ -237,7 +239,7 @@ static inline bool test_triangle(sp_bundle *b, const bundle_block *p, uint32_t l
 }
 
 /* Tests one line against those triangles of the block; likewise. */
-static inline bool test_line(sp_bundle *b, const bundle_block *p, uint32_t triangles, int lane,
+static inline bool test_line(sp_line_packet *b, const packet_block *p, uint32_t triangles, int lane,
                              const sp_bvh_block *block)
 {
     wide u = wide_set(b->u[lane]), v = wide_set(b->v[lane]), error = wide_load(p->error), weight[3];
@@ -258,7 +260,7 @@ static inline bool test_line(sp_bundle *b, const bundle_block *p, uint32_t trian
     return true;
 }
 
-static inline void find_farthest(sp_bundle *b)
+static inline void find_farthest(sp_line_packet *b)
 {
     float lane[8], farthest = -1;
     wide most = wide_load(b->high);
@@ -271,9 +273,9 @@ static inline void find_farthest(sp_bundle *b)
 }
 
 /* Lines by triangles, or triangles by lines, whichever is less. */
-static inline void search_bundle_block(sp_bundle *b, const sp_bvh_block *block, uint32_t lines)
+static inline void search_packet_block(sp_line_packet *b, const sp_bvh_block *block, uint32_t lines)
 {
-    bundle_block p;
+    packet_block p;
     bool taken = false;
     uint32_t triangles = prepare_block(block, b, &p);
     if (!triangles)
@@ -292,14 +294,14 @@ static inline void search_bundle_block(sp_bundle *b, const sp_bvh_block *block, 
 }
 
 static inline int push_met(const sp_bvh *bvh, uint32_t parent, uint32_t mask, const float depths[8],
-                           bundle_pending *stack)
+                           packet_pending *stack)
 {
     const sp_bvh_node *node = &bvh->nodes[parent];
     int count = 0;
     for (; mask; mask &= mask - 1) {
         int i = __builtin_ctz(mask), place = count++;
-        bundle_pending item = {node->child[i], depths[i], parent, (uint32_t)i};
-        sp_bvh_fetch(bvh, item.child);
+        packet_pending item = {node->child[i], depths[i], parent, (uint32_t)i};
+        sp_bvh_prefetch(bvh, item.child);
         for (; place > 0 && stack[place - 1].depth < item.depth; place--)
             stack[place] = stack[place - 1];
         stack[place] = item;
@@ -307,21 +309,21 @@ static inline int push_met(const sp_bvh *bvh, uint32_t parent, uint32_t mask, co
     return count;
 }
 
-static void search(sp_bundle *b)
+static void search(sp_line_packet *b)
 {
     const sp_bvh *bvh = b->bvh;
-    bundle_pending stack[SP_BVH_STACK];
+    packet_pending stack[SP_BVH_STACK];
     int height = 1;
-    stack[0] = (bundle_pending){0, 0, 0, 0};
+    stack[0] = (packet_pending){0, 0, 0, 0};
     find_farthest(b);
     while (height > 0) {
-        bundle_pending at = stack[--height];
+        packet_pending at = stack[--height];
         if (at.depth > b->farthest)
             continue;
         if (at.child & SP_BVH_LEAF) {
             uint32_t lines = meet_lines(&bvh->nodes[at.node], at.slot, b);
             if (lines)
-                search_bundle_block(b, &bvh->blocks[at.child - SP_BVH_LEAF], lines);
+                search_packet_block(b, &bvh->blocks[at.child - SP_BVH_LEAF], lines);
             continue;
         }
         const sp_bvh_node *node = &bvh->nodes[at.child];
@@ -333,7 +335,7 @@ static void search(sp_bundle *b)
     }
 }
 
-static void answer(const sp_bundle *b, sp_hit *hits)
+static void answer(const sp_line_packet *b, sp_hit *hits)
 {
     answers a;
     answer_lanes l;
@@ -358,4 +360,4 @@ static void answer(const sp_bundle *b, sp_hit *hits)
         finish_answers(&a, &l);
 }
 
-const sp_bundle_kernel SP_KERNEL(sp_bundle) = {fan_keys, fill_bundle, search, answer};
+const sp_line_packet_kernel SP_KERNEL(sp_line_packet) = {direction_keys, fill_packet, search, answer};

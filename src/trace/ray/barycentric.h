@@ -1,6 +1,6 @@
 /* Which weights of a triangle's corners give the origin, in a plane into which the triangle is projected. */
-#ifndef SPRAYPLAN_TRACE_WEIGH_H
-#define SPRAYPLAN_TRACE_WEIGH_H
+#ifndef SPRAYPLAN_TRACE_BARYCENTRIC_H
+#define SPRAYPLAN_TRACE_BARYCENTRIC_H
 
 #include <math.h>
 #include <stdbool.h>
@@ -24,7 +24,7 @@ static inline bool sp_weights_agree(const double weights[3])
  * edge decide by the same numbers on which side of it the origin is, and an origin on the edge belongs to both. False
  * outside. Where the triangle is seen almost edge-on, the plain weights are mostly round-off, and what is averaged by
  * them would be anywhere along the triangle: there they are taken to the last bit. */
-static inline bool sp_weigh(const double x[3], const double y[3], double weights[3])
+static inline bool sp_barycentric(const double x[3], const double y[3], double weights[3])
 {
     weights[0] = x[2] * y[1] - y[2] * x[1];
     weights[1] = x[0] * y[2] - y[0] * x[2];
