@@ -1,4 +1,4 @@
-#include "flock.h"
+#include "ray_queue.h"
 
 #include "free_share.h"
 #include "near.h"
@@ -6,31 +6,31 @@
 
 #include <stdlib.h>
 
-bool sp_flock_make_room(sp_flock *flock, size_t more)
+bool sp_ray_queue_make_room(sp_ray_queue *queue, size_t more)
 {
-    if (flock->count + more <= flock->capacity)
+    if (queue->count + more <= queue->capacity)
         return true;
-    size_t capacity = flock->count + more > 2 * flock->capacity ? flock->count + more : 2 * flock->capacity;
-    sp_arrival *arrivals = realloc(flock->arrivals, capacity * sizeof *arrivals);
-    flock->arrivals = arrivals ? arrivals : flock->arrivals;
-    sp_ray *rays = realloc(flock->rays, capacity * sizeof *rays);
-    flock->rays = rays ? rays : flock->rays;
-    bool *blocked = realloc(flock->blocked, capacity * sizeof *blocked);
-    flock->blocked = blocked ? blocked : flock->blocked;
-    sp_passing_ray *passing = realloc(flock->passing, capacity * sizeof *passing);
-    flock->passing = passing ? passing : flock->passing;
-    flock->failed = flock->failed || !arrivals || !rays || !blocked || !passing;
-    flock->capacity = flock->failed ? flock->capacity : capacity;
-    return !flock->failed;
+    size_t capacity = queue->count + more > 2 * queue->capacity ? queue->count + more : 2 * queue->capacity;
+    sp_arrival *arrivals = realloc(queue->arrivals, capacity * sizeof *arrivals);
+    queue->arrivals = arrivals ? arrivals : queue->arrivals;
+    sp_ray *rays = realloc(queue->rays, capacity * sizeof *rays);
+    queue->rays = rays ? rays : queue->rays;
+    bool *blocked = realloc(queue->blocked, capacity * sizeof *blocked);
+    queue->blocked = blocked ? blocked : queue->blocked;
+    sp_passing_ray *passing = realloc(queue->passing, capacity * sizeof *passing);
+    queue->passing = passing ? passing : queue->passing;
+    queue->failed = queue->failed || !arrivals || !rays || !blocked || !passing;
+    queue->capacity = queue->failed ? queue->capacity : capacity;
+    return !queue->failed;
 }
 
-void sp_flock_free(sp_flock *flock)
+void sp_ray_queue_free(sp_ray_queue *queue)
 {
-    free(flock->arrivals);
-    free(flock->rays);
-    free(flock->blocked);
-    free(flock->passing);
-    free(flock->shaded);
+    free(queue->arrivals);
+    free(queue->rays);
+    free(queue->blocked);
+    free(queue->passing);
+    free(queue->shaded);
 }
 
 /* The flight as it leaves on one of four sides of itself. */
@@ -53,11 +53,11 @@ bool sp_way_is_traced(const sp_evaluator *evaluator, const sp_aim *aim, double p
 /* The ray of a flight whose way is to be looked along, which is not known yet. */
 static void look_along(const sp_gathering *own, const sp_target *target, const sp_flight *way)
 {
-    sp_flock *flock = own->flock;
-    flock->passing[flock->ray_count] = (sp_passing_ray){own->position, target->triangle};
-    flock->rays[flock->ray_count] = sp_flight_ray(&own->source, target, way);
-    flock->rays[flock->ray_count].origin = sp_add(own->source.position, own->offset);
-    flock->ray_count++;
+    sp_ray_queue *queue = own->queue;
+    queue->passing[queue->ray_count] = (sp_passing_ray){own->position, target->triangle};
+    queue->rays[queue->ray_count] = sp_flight_ray(&own->source, target, way);
+    queue->rays[queue->ray_count].origin = sp_add(own->source.position, own->offset);
+    queue->ray_count++;
 }
 
 /* The share of its time in which nothing is in a flight's way, as far as that is not asked of many at once later. */
@@ -74,13 +74,13 @@ static void take(const sp_gathering *own, const sp_target *target, const sp_flig
 {
     const sp_source *source = &own->source;
     const sp_aim *aim = own->aim;
-    sp_flock *flock = own->flock;
+    sp_ray_queue *queue = own->queue;
     part *= own->share;
-    if (!sp_flock_make_room(flock, 2))
+    if (!sp_ray_queue_make_room(queue, 2))
         return;
-    flock->places++;
+    queue->places++;
     for (int k = 0; k < count; k++) {
-        sp_arrival *arrival = &flock->arrivals[flock->count];
+        sp_arrival *arrival = &queue->arrivals[queue->count];
         size_t bit = 2 * (size_t)own->patch + (size_t)k;
         bool traced = sp_way_is_traced(source->evaluator, aim, part);
         if ((aim->known && !(aim->known[bit / 8] >> bit % 8 & 1)) ||
@@ -101,8 +101,8 @@ static void take(const sp_gathering *own, const sp_target *target, const sp_flig
         arrival->arc = (uint8_t)k;
         arrival->part = arrival->blocked ? part : part * clear;
         arrival->point = sp_add(arrival->point, own->offset);
-        flock->count++;
-        flock->ways += traced;
+        queue->count++;
+        queue->ways += traced;
         if (traced && !source->fronts)
             look_along(own, target, &way);
     }
@@ -121,7 +121,7 @@ static void cut(sp_gathering *own)
     const sp_aim *aim = own->aim;
     if (!sp_patch_cut(&own->source, own->patch, aim->axis, aim->half_angle + sp_spray_fringe(SP_BREADTH_MOST),
                       gather_at, own))
-        own->flock->failed = true;
+        own->queue->failed = true;
 }
 
 /* With drag finding the flights is what takes long. */

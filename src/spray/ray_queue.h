@@ -1,12 +1,12 @@
 /* The flights to a chunk of patches that pass all questions but whether their way is free, while they are gathered. */
-#ifndef SPRAY_FLOCK_H
-#define SPRAY_FLOCK_H
+#ifndef SPRAY_RAY_QUEUE_H
+#define SPRAY_RAY_QUEUE_H
 
 #include "gathering.h"
 
 /* Room for as many more arrivals; false where memory ran out, as from then on. */
-bool sp_flock_make_room(sp_flock *flock, size_t more);
-void sp_flock_free(sp_flock *flock);
+bool sp_ray_queue_make_room(sp_ray_queue *queue, size_t more);
+void sp_ray_queue_free(sp_ray_queue *queue);
 
 /* The flights to the patch, whole or in cells, from where the source is. */
 void sp_gather_flights(sp_gathering *own, const sp_target *target);
