@@ -264,7 +264,8 @@ static bool find_some(remedying *r, const sp_draft *draft, size_t first, size_t 
 }
 
 bool sp_remedies_find(const sp_search *search, const sp_evaluator *fine, const sp_draft *draft,
-                      const sp_coverage *coverage, sp_watch *watch, sp_remedy *remedies, size_t *count, sp_error *error)
+                      const sp_coverage *coverage, sp_deadline *deadline, sp_remedy *remedies, size_t *count,
+                      sp_error *error)
 {
     remedying r = {.search = search, .fine = fine, .coverage = coverage};
     sp_shadow *shadows = NULL;
@@ -274,14 +275,14 @@ bool sp_remedies_find(const sp_search *search, const sp_evaluator *fine, const s
         return false;
     found = found < SP_REMEDIES ? found : SP_REMEDIES;
     bool done = remedying_create(&r, shadows, found, error);
-    while (done && *count < found && sp_watch_has_time(watch, "remedies", (double)*count / (double)found)) {
+    while (done && *count < found && sp_deadline_has_time(deadline, "remedies", (double)*count / (double)found)) {
         size_t end = *count + sp_ranks_count(ranks_of(&r));
         end = end < found ? end : found;
         done = find_some(&r, draft, *count, end, remedies, error);
         *count = done && !sp_ranks_lost(ranks_of(&r)) ? end : *count;
     }
     if (*count < found)
-        sp_watch_cut(watch, "remedies");
+        sp_deadline_cut(deadline, "remedies");
     remedying_free(&r);
     free(shadows);
     return done;

@@ -1,7 +1,7 @@
 /* Is there more to gain with few nozzles than refinement finds? At one amount of water every pose, or every so many-th,
  * at the flows that refinement may set, is given the best partner that the water left allows; the best of these pairs
- * are refined, each by Ceres from a narrow width and by compass. Says what the best of them cover before and after that,
- * and which place in the order it had. One thread. */
+ * are refined, each by Ceres from a narrow width and by compass. Says what the best of them cover before and after
+ * that, and which place in the order it had. One thread. */
 #include "placement.h"
 #include "refine/anneal.h"
 #include "refine/compass.h"
@@ -96,8 +96,8 @@ static void refine(placement *p, const sp_tuned *tuned, const sp_table *table, c
     sp_tuned_settle(tuned, &draft);
     covered[0] = draft.covered;
     double water = sp_draft_water(&p->search, &draft, budget);
-    if (!sp_anneal(&sights, NARROW, SP_WIDTHS, water, &p->watch, &draft, &error) ||
-        !sp_compass(&sights, STEP_FIRST, STEP_LEAST, water, &p->watch, &draft, &error))
+    if (!sp_anneal(&sights, NARROW, SP_WIDTHS, water, &p->deadline, &draft, &error) ||
+        !sp_compass(&sights, STEP_FIRST, STEP_LEAST, water, &p->deadline, &draft, &error))
         fail(&error);
     covered[1] = draft.covered;
     sp_draft_free(&draft);

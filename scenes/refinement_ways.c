@@ -36,9 +36,10 @@ static double refine(placement *p, const sp_draft *from, const way *how, double 
     sp_sights sights;
     sp_draft draft;
     double water = sp_draft_water(&p->search, from, from->outlay), start = processor_seconds();
-    if (!sp_sights_create(&p->search, SIGHTS, false, &sights, &error) || !sp_draft_copy(&p->search, from, &draft, &error) ||
-        (how->start < SP_WIDTHS && !sp_anneal(&sights, how->start, SP_WIDTHS, water, &p->watch, &draft, &error)) ||
-        (how->compass && !sp_compass(&sights, STEP_FIRST, STEP_LEAST, water, &p->watch, &draft, &error)))
+    if (!sp_sights_create(&p->search, SIGHTS, false, &sights, &error) ||
+        !sp_draft_copy(&p->search, from, &draft, &error) ||
+        (how->start < SP_WIDTHS && !sp_anneal(&sights, how->start, SP_WIDTHS, water, &p->deadline, &draft, &error)) ||
+        (how->compass && !sp_compass(&sights, STEP_FIRST, STEP_LEAST, water, &p->deadline, &draft, &error)))
         fail(&error);
     *seconds = processor_seconds() - start;
     double covered = draft.covered;

@@ -161,7 +161,7 @@ static sp_reason patch_reason(const sp_reckoning *reckoning, size_t patch, sp_pl
     return reason;
 }
 
-static bool reckon(const sp_reckoning *reckoning, sp_watch *watch, sp_reason *reasons, sp_error *error)
+static bool reckon(const sp_reckoning *reckoning, sp_deadline *deadline, sp_reason *reasons, sp_error *error)
 {
     size_t patches = sp_evaluator_patches(reckoning->fine)->count;
     size_t places = reckoning->search->options->mount_count + 1;
@@ -172,7 +172,7 @@ static bool reckon(const sp_reckoning *reckoning, sp_watch *watch, sp_reason *re
     size_t batch = (size_t)threads * 16 * CHUNK;
     for (size_t first = 0; first < patches; first += batch) {
         /* a time limit does not stop this: without the target the search would not know when to end */
-        if (!sp_watch_goes_on(watch, "attainable", (double)first / (double)patches) && watch->cancelled)
+        if (!sp_deadline_goes_on(deadline, "attainable", (double)first / (double)patches) && deadline->cancelled)
             break;
         size_t end = first + batch < patches ? first + batch : patches;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
@@ -200,7 +200,7 @@ static sp_scope *scopes_create(const sp_search *search, const sp_setup *setup)
     return scopes;
 }
 
-bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *watch, sp_reason *reasons,
+bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_deadline *deadline, sp_reason *reasons,
                    sp_error *error)
 {
     const sp_place_options *options = search->options;
@@ -223,10 +223,10 @@ bool sp_attainable(const sp_evaluator *fine, const sp_search *search, sp_watch *
         for (size_t p = 0; p < kept->deposits.count; p++)
             reasons[p] = kept->deposits.covered[p] ? SP_REASON_ATTAINABLE : SP_REASON_UNKNOWN;
         bool moves = sp_evaluator_setup(fine)->sweep.speed > 0;
-        done = (moves || reckon(&reckoning, watch, reasons, error)) &&
-               (watch->cancelled || (sp_runs(fine, search, scopes, watch, reasons, error) &&
-                                     (moves ? sp_passing_reasons(fine, search, watch, reasons, error)
-                                            : sp_bounces(fine, search, reasons, error))));
+        done = (moves || reckon(&reckoning, deadline, reasons, error)) &&
+               (deadline->cancelled || (sp_runs(fine, search, scopes, deadline, reasons, error) &&
+                                        (moves ? sp_passing_reasons(fine, search, deadline, reasons, error)
+                                               : sp_bounces(fine, search, reasons, error))));
     }
     free(scopes);
     sp_coverage_destroy(kept);

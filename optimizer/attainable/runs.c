@@ -15,7 +15,7 @@ typedef enum {
 typedef struct {
     question question;
     const sp_search *search;
-    sp_watch *watch;
+    sp_deadline *deadline;
     const sp_scope *scopes;
     size_t count;    /* of patches that are asked about */
     uint32_t *asked; /* [count], coarse */
@@ -94,7 +94,7 @@ static void look_at_sites(const running *r, const sp_draft *nothing)
             int thread = omp_get_thread_num();
             sp_sweeper_look(&r->sweepers[thread], r->search, nothing, (uint32_t)site, candidates->makes[k].launch);
             /* a time limit does not stop this, as it does not stop the rest of what is attainable */
-            bool stopped = !sp_watch_goes_on(r->watch, "attainable", 1) && r->watch->cancelled,
+            bool stopped = !sp_deadline_goes_on(r->deadline, "attainable", 1) && r->deadline->cancelled,
                  uniform = sp_type_is_uniform(candidates->makes[k].type);
             if (stopped || (uniform && (r->question == FOOTPRINTS || !r->sweepers[thread].view->start)))
                 continue;
@@ -159,11 +159,11 @@ static bool ask(const sp_evaluator *fine, running *r, sp_reason *reasons, sp_err
     return done;
 }
 
-bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_watch *watch,
+bool sp_runs(const sp_evaluator *fine, const sp_search *search, const sp_scope *scopes, sp_deadline *deadline,
              sp_reason *reasons, sp_error *error)
 {
     running r = {.search = search,
-                 .watch = watch,
+                 .deadline = deadline,
                  .scopes = scopes,
                  .places = search->options->mount_count + 1,
                  .threads = sp_sweeper_threads(search),

@@ -270,7 +270,7 @@ bool sp_aim_bound(const sp_aim_task *task, sp_front *front, sp_certificate *cert
     a.cover.sums = NULL; /* flows between the candidates' come to others */
     for (size_t i = 0; i < front->by_water.count; i++)
         front->by_water.entries[i].point.every_aim_bound = NAN;
-    if (!sp_watch_stage(task->watch, "certificate", error))
+    if (!sp_deadline_stage(task->deadline, "certificate", error))
         return false;
     bool done = sp_aim_kinds_create(task->search, &a.kinds, error) && list_outlays(&a, error);
     if (done && set_limits(&a)) {
@@ -280,5 +280,5 @@ bool sp_aim_bound(const sp_aim_task *task, sp_front *front, sp_certificate *cert
             conclude(&a, front, certificate);
     }
     aiming_free(&a);
-    return done && sp_watch_stage(task->watch, "every aim", error);
+    return done && sp_deadline_stage(task->deadline, "every aim", error);
 }

@@ -61,7 +61,7 @@ typedef struct {
 
 typedef struct {
     sp_problem problem;
-    sp_watch *watch;
+    sp_deadline *deadline;
     sp_bound bound;
     size_t point_count;
     point *points;
@@ -79,9 +79,9 @@ static void certifying_free(certifying *c)
 static bool goes_on(void *user)
 {
     const certifying *c = user;
-    bool on = sp_watch_has_time(c->watch, "certificate", c->done);
+    bool on = sp_deadline_has_time(c->deadline, "certificate", c->done);
     if (!on)
-        sp_watch_cut(c->watch, "certificate");
+        sp_deadline_cut(c->deadline, "certificate");
     return on;
 }
 
@@ -318,10 +318,10 @@ static bool prove(certifying *c, size_t water, double area, sp_error *error)
 /* What is proved without being asked for more: the proposal's water, one nozzle's, less water, then the front. */
 static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
 {
-    double left = sp_watch_left(c->watch), candidates = (double)c->problem.list.count;
+    double left = sp_deadline_left(c->deadline), candidates = (double)c->problem.list.count;
     const effort most = {WORK_LEAST + WORK_EACH * candidates, work_at_point(c), 1, CANDIDATES};
     for (size_t round = 0; round < ROUNDS_EXPLORING && has_time(c, 0.02 * (double)round); round++)
-        if (sp_watch_left(c->watch) < left * (1 - EXPLORING_MOST))
+        if (sp_deadline_left(c->deadline) < left * (1 - EXPLORING_MOST))
             break;
         else if (!sp_bound_explore(&c->bound, water, error))
             return false;
@@ -367,7 +367,7 @@ static bool certify(certifying *c, sp_front *front, sp_certificate *certificate,
     if (!c->bound.proofs)
         return true;
     conclude(c, front, certificate);
-    const sp_aim_task task = {c->problem.search, c->watch,         &c->problem.cover,
+    const sp_aim_task task = {c->problem.search, c->deadline,      &c->problem.cover,
                               &c->problem.units, c->problem.need,  c->problem.ports,
                               &c->bound.rows,    c->problem.costs, c->problem.cost_count};
     /* film has no discs of aims: what runs down depends on all that hits above; and footprints are of single poses */
@@ -381,15 +381,16 @@ static bool certify(certifying *c, sp_front *front, sp_certificate *certificate,
     return done;
 }
 
-bool sp_certify(const sp_search *search, sp_watch *watch, sp_front *front, sp_certificate *certificate, sp_error *error)
+bool sp_certify(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_certificate *certificate,
+                sp_error *error)
 {
-    certifying c = {.watch = watch};
+    certifying c = {.deadline = deadline};
     bool possible;
     *certificate = (sp_certificate){0};
     for (size_t i = 0; i < front->by_water.count; i++)
         front->by_water.entries[i].point.counted = front->by_water.entries[i].point.bound =
             front->by_water.entries[i].point.every_aim_bound = NAN;
-    if (watch->cancelled || !front->found)
+    if (deadline->cancelled || !front->found)
         return true;
     bool done = sp_problem_create(search, front, &c.problem, &possible, error) &&
                 (!possible || (prepare(&c, error) && certify(&c, front, certificate, error)));

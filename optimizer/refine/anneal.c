@@ -137,7 +137,7 @@ static void keep_better(const sp_search *search, sp_draft *draft, sp_draft *copy
         *draft = *copy;
 }
 
-bool sp_anneal(sp_sights *sights, size_t start, size_t end, double water, sp_watch *watch, sp_draft *draft,
+bool sp_anneal(sp_sights *sights, size_t start, size_t end, double water, sp_deadline *deadline, sp_draft *draft,
                sp_error *error)
 {
     sp_annealing annealing = {sights, water, error};
@@ -147,7 +147,7 @@ bool sp_anneal(sp_sights *sights, size_t start, size_t end, double water, sp_wat
     if (!sp_sights_reserve(sights, draft->count, error) || !sp_draft_copy(sights->search, draft, &moving, error))
         return false;
     bool done = true;
-    for (size_t w = start; done && w < end && sp_watch_goes_on(watch, "refine", (double)w / SP_WIDTHS); w++) {
+    for (size_t w = start; done && w < end && sp_deadline_goes_on(deadline, "refine", (double)w / SP_WIDTHS); w++) {
         sp_draft copy;
         done = step(&annealing, w, &moving) && sp_draft_copy(sights->search, &moving, &copy, error);
         if (done)

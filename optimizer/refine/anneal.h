@@ -10,7 +10,7 @@
 
 /* Anneals from width `start` to before width `end` within `water` (m³/s), and leaves the draft at the best of its
  * steps by what is covered. */
-bool sp_anneal(sp_sights *sights, size_t start, size_t end, double water, sp_watch *watch, sp_draft *draft,
+bool sp_anneal(sp_sights *sights, size_t start, size_t end, double water, sp_deadline *deadline, sp_draft *draft,
                sp_error *error);
 
 /* The flow that a nozzle may be turned down to; its own where that is fixed. */

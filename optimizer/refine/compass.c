@@ -102,7 +102,7 @@ static bool try_nozzle(const sp_search *search, sp_sights *sights, double water,
     return sp_draft_add(search, draft, needle.placed, error) && done;
 }
 
-bool sp_compass(sp_sights *sights, double first, double least, double water, sp_watch *watch, sp_draft *draft,
+bool sp_compass(sp_sights *sights, double first, double least, double water, sp_deadline *deadline, sp_draft *draft,
                 sp_error *error)
 {
     sp_search exact = *sights->search;
@@ -111,7 +111,7 @@ bool sp_compass(sp_sights *sights, double first, double least, double water, sp_
     int sweeps = 0;
     for (double step = first; done && step > least;) {
         bool moved = false;
-        if (!sp_watch_goes_on(watch, "refine", 1))
+        if (!sp_deadline_goes_on(deadline, "refine", 1))
             break;
         /* after all turns the first nozzle is the first again */
         for (size_t i = 0; done && i < draft->count; i++)

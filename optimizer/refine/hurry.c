@@ -143,7 +143,7 @@ bool sp_refine_hurried(sp_refining *refining)
 {
     const sp_front *front = refining->front;
     bool gained = true;
-    for (int pass = 0; gained && sp_watch_goes_on(refining->watch, "refine", 0); pass++) {
+    for (int pass = 0; gained && sp_deadline_goes_on(refining->deadline, "refine", 0); pass++) {
         sp_front_point before = front->measured;
         sp_trials trials = {0};
         bool done = ask_rungs(refining, &trials) && sp_find_others(refining, &trials) &&

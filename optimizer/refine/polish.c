@@ -75,12 +75,12 @@ static bool create_sharp(sp_polishing *polishing, const sp_evaluator *fine, sp_e
            sights_create(&polishing->sharp, polishing->threads, false, &polishing->sharp_sights, error);
 }
 
-bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine, sp_watch *watch,
+bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine, sp_deadline *deadline,
                          sp_polishing *polishing, sp_error *error)
 {
     const sp_patches *patches = sp_evaluator_patches(search->coarse);
     *polishing = (sp_polishing){
-        .search = search, .watch = watch, .rough = *search, .threads = sp_threads(&search->options->run)};
+        .search = search, .deadline = deadline, .rough = *search, .threads = sp_threads(&search->options->run)};
     bool done = sp_tuned_create(search, pool, &polishing->tuned, error);
     if (done && (double)patches->count > 1.5 * ROUGH_PATCHES) {
         polishing->rough_evaluator = sp_evaluator_resample(
@@ -153,7 +153,7 @@ static bool anneal(const sp_polishing *polishing, sp_sights *sights, const sp_tr
     double water = sp_draft_water(polishing->search, draft, trial->budget);
     for (size_t i = 0; i < STARTS; i++)
         if ((trial->kind == SP_TRIAL_ANNEAL || i == turn_of(trial)) &&
-            !sp_anneal(sights, starts[i], SP_WIDTHS, water, polishing->watch, draft, error))
+            !sp_anneal(sights, starts[i], SP_WIDTHS, water, polishing->deadline, draft, error))
             return false;
     return true;
 }
@@ -170,7 +170,7 @@ static bool refine(const sp_polishing *polishing, sp_sights *sights, const sp_tr
     if (done && fits)
         done = anneal(polishing, sights, trial, refined, error) &&
                (refined->covered < before * (1 - BEHIND_MOST) ||
-                sp_compass(sights, STEP_FIRST, STEP_LEAST, water, polishing->watch, refined, error));
+                sp_compass(sights, STEP_FIRST, STEP_LEAST, water, polishing->deadline, refined, error));
     if (!done)
         sp_draft_free(refined);
     return done;
@@ -195,7 +195,7 @@ static bool walk(const sp_polishing *polishing, int thread, sp_trial *trial, sp_
     (void)thread;
     return trial->kind != SP_TRIAL_WALK || (sp_draft_copy(polishing->search, &trial->draft, &trial->start, error) &&
                                             sp_walk(&polishing->tuned.search, trial->budget * (1 + SP_ROUNDING), WALK,
-                                                    trial->seed, polishing->watch, &trial->start, error));
+                                                    trial->seed, polishing->deadline, &trial->start, error));
 }
 
 static bool is_same(const sp_nozzle *a, const sp_nozzle *b)
@@ -245,7 +245,7 @@ static bool take_over(const sp_polishing *polishing, int thread, sp_trial *trial
     if (!transfer(sights, &trial->refined, &draft, error))
         return false;
     double water = sp_draft_water(polishing->search, &draft, trial->budget);
-    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, water, polishing->watch, &draft, error)) {
+    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, water, polishing->deadline, &draft, error)) {
         sp_draft_free(&draft);
         return false;
     }
@@ -259,7 +259,7 @@ static bool polish(const sp_polishing *polishing, int thread, sp_trial *trial, s
     sp_sights *sights = &polishing->rough_sights[thread];
     sp_draft start;
     double before;
-    if (trial->repeats || !sp_watch_goes_on(polishing->watch, "refine", 0))
+    if (trial->repeats || !sp_deadline_goes_on(polishing->deadline, "refine", 0))
         return true;
     /* what was looked at before is another thread's luck */
     sp_sights_forget(sights);
@@ -397,8 +397,8 @@ static bool sharpen(const sp_polishing *polishing, int thread, sp_trial *trial, 
     if (!transfer(sights, &trial->draft, &sharp, error))
         return false;
     double water = sp_draft_water(polishing->search, &sharp, trial->budget);
-    bool done = sp_anneal(sights, SHARP_START, SP_WIDTHS, water, polishing->watch, &sharp, error) &&
-                sp_compass(sights, STEP_SHARP, STEP_LEAST, water, polishing->watch, &sharp, error) &&
+    bool done = sp_anneal(sights, SHARP_START, SP_WIDTHS, water, polishing->deadline, &sharp, error) &&
+                sp_compass(sights, STEP_SHARP, STEP_LEAST, water, polishing->deadline, &sharp, error) &&
                 transfer(own, &sharp, &draft, error);
     sp_draft_free(&sharp);
     if (!done)

@@ -28,7 +28,7 @@ typedef struct {
 
 typedef struct {
     const sp_search *search;
-    sp_watch *watch;
+    sp_deadline *deadline;
     sp_evaluator *rough_evaluator; /* NULL: the search's patches are few enough */
     sp_search rough;
     sp_evaluator *sharp_evaluator; /* NULL: the final patches are few enough */
@@ -38,7 +38,7 @@ typedef struct {
     sp_sights *sights, *rough_sights, *sharp_sights; /* [threads]; the first are exact */
 } sp_polishing;
 
-bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine, sp_watch *watch,
+bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine, sp_deadline *deadline,
                          sp_polishing *polishing, sp_error *error);
 void sp_polishing_free(sp_polishing *polishing);
 

@@ -173,25 +173,27 @@ bool sp_refine_asked(const sp_refine *refine)
 
 typedef bool (*refine_step)(sp_refining *refining);
 
-static bool run(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, refine_step step,
+static bool run(const sp_search *search, const sp_pool *pool, sp_deadline *deadline, sp_front *front, refine_step step,
                 sp_error *error)
 {
-    if (!sp_refine_asked(&search->options->refine) || !sp_watch_goes_on(watch, "refine", 0))
+    if (!sp_refine_asked(&search->options->refine) || !sp_deadline_goes_on(deadline, "refine", 0))
         return true;
-    sp_refining refining = {.search = search, .pool = pool, .watch = watch, .front = front, .error = error};
-    if (!sp_polishing_create(search, pool, front->fine, watch, &refining.polishing, error))
+    sp_refining refining = {.search = search, .pool = pool, .deadline = deadline, .front = front, .error = error};
+    if (!sp_polishing_create(search, pool, front->fine, deadline, &refining.polishing, error))
         return false;
     bool done = step(&refining);
     sp_polishing_free(&refining.polishing);
     return done;
 }
 
-bool sp_refine_first(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error)
+bool sp_refine_first(const sp_search *search, const sp_pool *pool, sp_deadline *deadline, sp_front *front,
+                     sp_error *error)
 {
-    return run(search, pool, watch, front, sp_refine_hurried, error);
+    return run(search, pool, deadline, front, sp_refine_hurried, error);
 }
 
-bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error)
+bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_deadline *deadline, sp_front *front,
+                    sp_error *error)
 {
-    return run(search, pool, watch, front, refine_all, error);
+    return run(search, pool, deadline, front, refine_all, error);
 }

@@ -9,8 +9,10 @@
 bool sp_refine_asked(const sp_refine *refine);
 /* Finds and refines drafts for ever less water from the first one's, for a proposal in a small part of the time that
  * refining all of the front takes. */
-bool sp_refine_first(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error);
+bool sp_refine_first(const sp_search *search, const sp_pool *pool, sp_deadline *deadline, sp_front *front,
+                     sp_error *error);
 /* Refines front->best in place: poses, then less water at the coverage asked for. */
-bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_watch *watch, sp_front *front, sp_error *error);
+bool sp_refine_best(const sp_search *search, const sp_pool *pool, sp_deadline *deadline, sp_front *front,
+                    sp_error *error);
 
 #endif

@@ -19,7 +19,7 @@ bool sp_save_flow(sp_refining *refining, const sp_draft *full)
     sp_sights *sights = &refining->polishing.sights[0]; /* liquid flies alike at every flow */
     bool done = true;
     sp_sights_forget(sights);
-    for (int trial = 0; done && trial < FLOW_TRIALS && sp_watch_goes_on(refining->watch, "refine", 1); trial++) {
+    for (int trial = 0; done && trial < FLOW_TRIALS && sp_deadline_goes_on(refining->deadline, "refine", 1); trial++) {
         sp_draft draft;
         sp_front_point point;
         double middle = 0.5 * (low + high);
@@ -46,7 +46,7 @@ static bool insist(sp_refining *refining, sp_draft *draft, double budget, const 
     bool done = true;
     for (int batch = 0; done && batch <= BATCHES && sp_point_same(before, &front->measured); batch++) {
         double missing = front->target - front->bias - draft->covered;
-        if (missing > MISSING_MOST * front->target || !sp_watch_goes_on(refining->watch, "refine", 0))
+        if (missing > MISSING_MOST * front->target || !sp_deadline_goes_on(refining->deadline, "refine", 0))
             break;
         sp_trials trials = {0};
         for (size_t i = 0; done && i < (batch ? BATCH : 2); i++)
@@ -67,8 +67,8 @@ static bool save_share(sp_refining *refining, double share, bool *saved)
     sp_draft reduced;
     bool found;
     *saved = false;
-    if (!sp_reduce(refining->search, refining->pool, &front->best, budget, front->target - front->bias, refining->watch,
-                   &reduced, &found, refining->error))
+    if (!sp_reduce(refining->search, refining->pool, &front->best, budget, front->target - front->bias,
+                   refining->deadline, &reduced, &found, refining->error))
         return false;
     if (!found)
         return true;
@@ -84,7 +84,7 @@ bool sp_save_water(sp_refining *refining)
     static const double shares[] = {0.06, 0.03};
     for (size_t i = 0; i < sizeof shares / sizeof *shares;) {
         bool saved = false;
-        if (!refining->front->best.count || !sp_watch_goes_on(refining->watch, "refine", 0))
+        if (!refining->front->best.count || !sp_deadline_goes_on(refining->deadline, "refine", 0))
             return true;
         if (!save_share(refining, shares[i], &saved))
             return false;

@@ -204,14 +204,15 @@ static bool try_beside(const sp_search *search, sp_front *front, size_t i, sp_se
     return done;
 }
 
-static bool look_beside(const sp_search *search, sp_watch *watch, sp_front *front, sp_error *error)
+static bool look_beside(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_error *error)
 {
     for (int round = 0; round < ROUNDS; round++) {
         sp_front_point before = front->measured;
         for (size_t i = 0; i < front->best.count; i++)
             for (sp_setting setting = 0; setting < SETTINGS; setting++)
                 for (int way = -1; way <= 1 && sp_type_is_uniform(front->best.items[i].nozzle.type); way += 2)
-                    if (sp_watch_goes_on(watch, "refine", 1) && !try_beside(search, front, i, setting, way, error))
+                    if (sp_deadline_goes_on(deadline, "refine", 1) &&
+                        !try_beside(search, front, i, setting, way, error))
                         return false;
         if (!sp_front_better(front, &front->measured, &before))
             return true;
@@ -229,7 +230,7 @@ static bool has_steps(const sp_place_options *options)
     return any;
 }
 
-bool sp_set_front(const sp_search *search, sp_watch *watch, sp_front *front, sp_error *error)
+bool sp_set_front(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_error *error)
 {
     if (!has_steps(search->options))
         return true;
@@ -238,8 +239,8 @@ bool sp_set_front(const sp_search *search, sp_watch *watch, sp_front *front, sp_
     const sp_front_list *lists[] = {&before.by_water, &before.by_number};
     bool done = set_drafts(search, &before.best, front, error);
     for (int k = 0; k < 2; k++)
-        for (size_t i = 0; done && !watch->cancelled && i < lists[k]->count; i++)
+        for (size_t i = 0; done && !deadline->cancelled && i < lists[k]->count; i++)
             done = set_drafts(search, &lists[k]->entries[i].draft, front, error);
     sp_front_free(&before);
-    return done && look_beside(search, watch, front, error);
+    return done && look_beside(search, deadline, front, error);
 }

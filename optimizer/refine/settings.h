@@ -8,6 +8,6 @@
  * was; front->best becomes the best of these, and then of the settings beside it, while there is time. Does nothing
  * where no mount and no type has steps.
  */
-bool sp_set_front(const sp_search *search, sp_watch *watch, sp_front *front, sp_error *error);
+bool sp_set_front(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_error *error);
 
 #endif

@@ -89,7 +89,7 @@ bool sp_find_others(sp_refining *refining, sp_trials *trials)
     for (size_t i = 0; done && i < count; i++)
         budgets[i] = trials->items[i].budget * (1 + SP_ROUNDING);
     done = done && sp_table_create(&tuned->search, &tuned->pool, nozzles, nozzle_count, &table, refining->error) &&
-           sp_guess(&table, budgets, count, refining->watch, lineups, refining->error);
+           sp_guess(&table, budgets, count, refining->deadline, lineups, refining->error);
     for (size_t i = 0; done && i < count; i++)
         done = sp_lineup_draft(&lineups[i], &trials->items[i].other, refining->error);
     for (size_t i = 0; lineups && i < count; i++)

@@ -10,7 +10,7 @@
 typedef struct {
     const sp_search *search;
     const sp_pool *pool;
-    sp_watch *watch;
+    sp_deadline *deadline;
     sp_front *front;
     sp_polishing polishing;
     uint64_t seeds; /* used so far */

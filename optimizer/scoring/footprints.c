@@ -167,7 +167,7 @@ static size_t end_of_batch(const sp_pose *poses, size_t first, size_t count)
     return end;
 }
 
-bool sp_footprints_fill(sp_footprints *footprints, sp_watch *watch, sp_error *error)
+bool sp_footprints_fill(sp_footprints *footprints, sp_deadline *deadline, sp_error *error)
 {
     size_t count;
     sp_pose *poses = list_poses(&footprints->search, &count);
@@ -176,7 +176,8 @@ bool sp_footprints_fill(sp_footprints *footprints, sp_watch *watch, sp_error *er
     for (size_t first = 0, end; done && first < count; first = end) {
         end = end_of_batch(poses, first, count);
         /* out of time the first are traced all the same, so that there is something to choose from */
-        if (!sp_watch_goes_on(watch, "footprints", (double)first / (double)count) && (first || watch->cancelled))
+        if (!sp_deadline_goes_on(deadline, "footprints", (double)first / (double)count) &&
+            (first || deadline->cancelled))
             break;
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
         for (size_t i = first; i < end; i++)

@@ -36,12 +36,12 @@ static bool replace(const sp_search *search, const sp_pool *pool, double budget,
     return true;
 }
 
-static bool sweep(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_watch *watch,
+static bool sweep(const sp_search *search, const sp_pool *pool, double budget, sp_bench *bench, sp_deadline *deadline,
                   sp_draft *draft, sp_error *error)
 {
     bool done = true, changed = true;
     sp_draft_refresh(search, draft);
-    for (int i = 0; done && changed && i < SWEEPS_MOST && sp_watch_goes_on(watch, "exchange", 0); i++) {
+    for (int i = 0; done && changed && i < SWEEPS_MOST && sp_deadline_goes_on(deadline, "exchange", 0); i++) {
         changed = false;
         done = sp_greedy_pool(search, pool, 1, INFINITY, budget, bench, draft, error);
         /* what is replaced or put back goes to the end, so that the first is always the next */
@@ -51,7 +51,7 @@ static bool sweep(const sp_search *search, const sp_pool *pool, double budget, s
     return done;
 }
 
-bool sp_improve(const sp_search *search, const sp_pool *pool, double budget, sp_watch *watch, sp_draft *draft,
+bool sp_improve(const sp_search *search, const sp_pool *pool, double budget, sp_deadline *deadline, sp_draft *draft,
                 sp_error *error)
 {
     sp_bench bench;
@@ -60,8 +60,8 @@ bool sp_improve(const sp_search *search, const sp_pool *pool, double budget, sp_
     /* credit leads to where nozzles complete one another; in the end only what is covered counts */
     sp_search exact = *search;
     exact.credit = 0;
-    bool done = sweep(search, pool, budget, &bench, watch, draft, error) &&
-                sweep(&exact, pool, budget, &bench, watch, draft, error);
+    bool done = sweep(search, pool, budget, &bench, deadline, draft, error) &&
+                sweep(&exact, pool, budget, &bench, deadline, draft, error);
     sp_draft_refresh(search, draft);
     sp_bench_free(&bench);
     return done;
@@ -100,13 +100,13 @@ static size_t *by_loss(const sp_search *search, const sp_draft *draft, sp_error 
 }
 
 bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double budget, double enough,
-               sp_watch *watch, sp_draft *reduced, bool *found, sp_error *error)
+               sp_deadline *deadline, sp_draft *reduced, bool *found, sp_error *error)
 {
     *found = false;
     size_t *order = by_loss(search, draft, error);
     bool done = order != NULL;
-    for (size_t i = 0;
-         done && i < draft->count && (!*found || reduced->covered < enough) && sp_watch_goes_on(watch, "exchange", 0);
+    for (size_t i = 0; done && i < draft->count && (!*found || reduced->covered < enough) &&
+                       sp_deadline_goes_on(deadline, "exchange", 0);
          i++) {
         sp_draft trial;
         done = sp_draft_copy(search, draft, &trial, error);
@@ -116,7 +116,7 @@ bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_draft *dra
         /* one nozzle may not be enough to leave out: then the smallest remaining follow */
         while (trial.count && trial.outlay > budget)
             sp_draft_remove(search, &trial, trial.count - 1);
-        done = sp_improve(search, pool, budget, watch, &trial, error);
+        done = sp_improve(search, pool, budget, deadline, &trial, error);
         if (done && trial.outlay <= budget && (!*found || sp_covers_more(search, &trial, reduced))) {
             if (*found)
                 sp_draft_free(reduced);
@@ -134,15 +134,16 @@ bool sp_reduce(const sp_search *search, const sp_pool *pool, const sp_draft *dra
     return done;
 }
 
-bool sp_shrink(const sp_search *search, const sp_pool *pool, double target, sp_watch *watch, sp_draft *draft,
+bool sp_shrink(const sp_search *search, const sp_pool *pool, double target, sp_deadline *deadline, sp_draft *draft,
                sp_error *error)
 {
     for (;;) {
         sp_draft reduced;
         bool found;
-        if (draft->count == 0 || !sp_watch_goes_on(watch, "exchange", 0))
+        if (draft->count == 0 || !sp_deadline_goes_on(deadline, "exchange", 0))
             return true;
-        if (!sp_reduce(search, pool, draft, draft->outlay * (1 - OUTLAY_STEP), target, watch, &reduced, &found, error))
+        if (!sp_reduce(search, pool, draft, draft->outlay * (1 - OUTLAY_STEP), target, deadline, &reduced, &found,
+                       error))
             return false;
         if (!found || reduced.covered < target) {
             if (found)

@@ -3,14 +3,14 @@
 #include "search/exchange.h"
 
 /* Exchanges nozzles of the draft, and adds some up to `number`, until nothing is gained. */
-static bool improve(const sp_search *search, const sp_pool *pool, size_t number, double budget, sp_watch *watch,
+static bool improve(const sp_search *search, const sp_pool *pool, size_t number, double budget, sp_deadline *deadline,
                     sp_draft *draft, sp_error *error)
 {
     sp_place_options options = *search->options;
     options.max_nozzles = search->kept_count + number;
     sp_search limited = *search;
     limited.options = &options;
-    return sp_improve(&limited, pool, budget, watch, draft, error);
+    return sp_improve(&limited, pool, budget, deadline, draft, error);
 }
 
 /* The greedy order's first so many. */
@@ -25,13 +25,13 @@ static bool first_of(const sp_search *search, const sp_draft *greedy, size_t num
 
 /* *best, of at most number - 1 nozzles, becomes the best that two starts improve to. */
 static bool add_one(const sp_search *search, const sp_pool *pool, const sp_draft *greedy, size_t number, double budget,
-                    sp_watch *watch, sp_draft *best, sp_error *error)
+                    sp_deadline *deadline, sp_draft *best, sp_error *error)
 {
     sp_draft other;
     if (!first_of(search, greedy, number, &other, error))
         return false;
-    bool done = improve(search, pool, number, budget, watch, &other, error) &&
-                improve(search, pool, number, budget, watch, best, error);
+    bool done = improve(search, pool, number, budget, deadline, &other, error) &&
+                improve(search, pool, number, budget, deadline, best, error);
     bool better = done && sp_covers_more(search, &other, best);
     sp_draft_free(better ? best : &other);
     if (better)
@@ -40,14 +40,14 @@ static bool add_one(const sp_search *search, const sp_pool *pool, const sp_draft
 }
 
 bool sp_find_fewest(const sp_search *search, const sp_pool *pool, const sp_draft *greedy, double budget,
-                    sp_watch *watch, sp_front *front, sp_error *error)
+                    sp_deadline *deadline, sp_front *front, sp_error *error)
 {
     sp_draft draft;
     if (!sp_draft_create(search, &draft, error))
         return false;
     bool done = true;
-    for (size_t number = 1; done && number < front->best.count && sp_watch_goes_on(watch, "front", 1); number++)
-        done = add_one(search, pool, greedy, number, budget, watch, &draft, error) &&
+    for (size_t number = 1; done && number < front->best.count && sp_deadline_goes_on(deadline, "front", 1); number++)
+        done = add_one(search, pool, greedy, number, budget, deadline, &draft, error) &&
                sp_front_measure(front, search, &draft, NULL, error);
     sp_draft_free(&draft);
     return done;

@@ -11,6 +11,6 @@
  * `greedy`.
  */
 bool sp_find_fewest(const sp_search *search, const sp_pool *pool, const sp_draft *greedy, double budget,
-                    sp_watch *watch, sp_front *front, sp_error *error);
+                    sp_deadline *deadline, sp_front *front, sp_error *error);
 
 #endif

@@ -16,7 +16,7 @@
 
 typedef struct {
     const sp_search *search;
-    sp_watch *watch;
+    sp_deadline *deadline;
     sp_front *front;
     sp_pool *pool;
     sp_error *error;
@@ -32,7 +32,7 @@ static bool first_draft(const sp_finding *finding, double enough, sp_draft *draf
     sp_front_point point;
     for (int round = 0; round < ROUNDS_MOST; round++) {
         size_t before = draft->count;
-        if (!sp_greedy(finding->search, 1, coarse, finding->budget, finding->watch, draft, finding->pool,
+        if (!sp_greedy(finding->search, 1, coarse, finding->budget, finding->deadline, draft, finding->pool,
                        finding->error) ||
             !sp_front_measure(finding->front, finding->search, draft, &point, finding->error))
             return false;
@@ -58,7 +58,7 @@ static bool other_draft(const sp_finding *finding, double power)
         sp_bench_free(&bench);
     }
     double budget = draft.covered >= coarse ? draft.outlay * (1 + SP_ROUNDING) : finding->budget;
-    done = done && sp_improve(finding->search, finding->pool, budget, finding->watch, &draft, finding->error) &&
+    done = done && sp_improve(finding->search, finding->pool, budget, finding->deadline, &draft, finding->error) &&
            sp_front_measure(finding->front, finding->search, &draft, NULL, finding->error);
     sp_draft_free(&draft);
     return done;
@@ -77,7 +77,7 @@ static bool shrink_best(const sp_finding *finding)
         double target = before.area < finding->target ? before.area : finding->target;
         /* each round asks the coarse patches for a little more than the last one's miss */
         double coarse = target - front->bias + 0.001 * round * target;
-        done = sp_shrink(finding->search, finding->pool, coarse, finding->watch, &draft, finding->error);
+        done = sp_shrink(finding->search, finding->pool, coarse, finding->deadline, &draft, finding->error);
         bool shrunk = done && draft.outlay < before.outlay;
         if (shrunk)
             done = sp_front_measure(front, finding->search, &draft, &point, finding->error);
@@ -105,11 +105,11 @@ static bool start_from(const sp_finding *finding, const sp_draft *greedy, const 
 static bool start_at(const sp_finding *finding, const sp_draft *greedy, const sp_lineup *guessed, double budget,
                      sp_draft *best)
 {
-    for (size_t i = 0; i < STARTS && sp_watch_goes_on(finding->watch, "front", 0); i++) {
+    for (size_t i = 0; i < STARTS && sp_deadline_goes_on(finding->deadline, "front", 0); i++) {
         sp_draft draft;
         if (!start_from(finding, greedy, guessed, budget, i, &draft))
             return false;
-        bool done = sp_improve(finding->search, finding->pool, budget, finding->watch, &draft, finding->error);
+        bool done = sp_improve(finding->search, finding->pool, budget, finding->deadline, &draft, finding->error);
         bool better = done && sp_covers_more(finding->search, &draft, best);
         sp_draft_free(better ? best : &draft);
         if (better)
@@ -136,7 +136,7 @@ static bool walk_all(const sp_finding *finding, const double *budgets, sp_draft 
         size_t i = count - 1 - k;
         sp_error mine = {0};
         if (sp_ranks_mine(ranks_of(finding), i) &&
-            !sp_walk(finding->search, budgets[i], WALK, i + 1, finding->watch, &drafts[i], &mine)) {
+            !sp_walk(finding->search, budgets[i], WALK, i + 1, finding->deadline, &drafts[i], &mine)) {
 #pragma omp critical(sp_find_failure)
             failure = mine;
         }
@@ -291,7 +291,7 @@ static bool fill_front(const sp_finding *finding, const sp_draft *greedy)
     sp_lineup *guessed = calloc(count + 1, sizeof *guessed);
     bool done = guessed || sp_fail_memory(finding->error);
     done = done && sp_table_create(finding->search, finding->pool, NULL, 0, &table, finding->error) &&
-           sp_guess(&table, budgets, count, finding->watch, guessed, finding->error);
+           sp_guess(&table, budgets, count, finding->deadline, guessed, finding->error);
     done = done && search_budgets(finding, greedy, guessed, budgets, count);
     for (size_t i = 0; guessed && i < count; i++)
         sp_lineup_free(&guessed[i]);
@@ -301,11 +301,12 @@ static bool fill_front(const sp_finding *finding, const sp_draft *greedy)
     return done;
 }
 
-static sp_finding finding_of(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool *pool, sp_error *error)
+static sp_finding finding_of(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_pool *pool,
+                             sp_error *error)
 {
     bool most = front->objective == SP_OBJECTIVE_MAX_COVERAGE;
     return (sp_finding){.search = search,
-                        .watch = watch,
+                        .deadline = deadline,
                         .front = front,
                         .pool = pool,
                         .error = error,
@@ -313,29 +314,29 @@ static sp_finding finding_of(const sp_search *search, sp_watch *watch, sp_front 
                         .budget = search->outlay_most * (1 + SP_ROUNDING)};
 }
 
-bool sp_find_first(const sp_search *search, double enough, sp_watch *watch, sp_front *front, sp_pool *pool,
+bool sp_find_first(const sp_search *search, double enough, sp_deadline *deadline, sp_front *front, sp_pool *pool,
                    sp_draft *first, sp_error *error)
 {
-    sp_finding finding = finding_of(search, watch, front, pool, error);
+    sp_finding finding = finding_of(search, deadline, front, pool, error);
     if (!sp_draft_create(search, first, error))
         return false;
     if (sp_front_measure(front, search, first, NULL, error) && first_draft(&finding, enough, first) &&
-        sp_watch_stage(watch, "greedy", error))
+        sp_deadline_stage(deadline, "greedy", error))
         return true;
     sp_draft_free(first);
     return false;
 }
 
-bool sp_find_more(const sp_search *search, sp_watch *watch, sp_front *front, sp_pool *pool, const sp_draft *first,
+bool sp_find_more(const sp_search *search, sp_deadline *deadline, sp_front *front, sp_pool *pool, const sp_draft *first,
                   sp_error *error)
 {
-    sp_finding finding = finding_of(search, watch, front, pool, error);
+    sp_finding finding = finding_of(search, deadline, front, pool, error);
     bool done = true;
-    if (!sp_watch_goes_on(watch, "exchange", 0))
+    if (!sp_deadline_goes_on(deadline, "exchange", 0))
         return true;
-    for (int i = 0; done && i < 2 && sp_watch_goes_on(watch, "exchange", 0); i++)
+    for (int i = 0; done && i < 2 && sp_deadline_goes_on(deadline, "exchange", 0); i++)
         done = other_draft(&finding, i == 0 ? 0.5 : 0);
-    return done && shrink_best(&finding) && sp_watch_stage(watch, "exchange", error) && fill_front(&finding, first) &&
-           sp_find_fewest(search, pool, first, finding.budget, watch, front, error) &&
-           sp_watch_stage(watch, "front", error);
+    return done && shrink_best(&finding) && sp_deadline_stage(deadline, "exchange", error) &&
+           fill_front(&finding, first) && sp_find_fewest(search, pool, first, finding.budget, deadline, front, error) &&
+           sp_deadline_stage(deadline, "front", error);
 }

@@ -288,8 +288,8 @@ static const sp_round_best *round_best(const sp_rounds *rounds)
     return &rounds->best[0];
 }
 
-bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_watch *watch, sp_draft *draft,
-               sp_pool *pool, sp_error *error)
+bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_deadline *deadline,
+               sp_draft *draft, sp_pool *pool, sp_error *error)
 {
     sp_rounds rounds;
     double least = GAIN_LEAST * search->all;
@@ -299,8 +299,8 @@ bool sp_greedy(const sp_search *search, double power, double target, double budg
     exact.credit = 0;
     /* out of time there is at least one nozzle to show */
     while (done && draft->covered < target &&
-           (sp_watch_goes_on(watch, "greedy", fmin(1, draft->covered / target)) ||
-            (first && !draft->count && !watch->cancelled))) {
+           (sp_deadline_goes_on(deadline, "greedy", fmin(1, draft->covered / target)) ||
+            (first && !draft->count && !deadline->cancelled))) {
         if (is_last(search, draft) && rounds.search != &exact) {
             rounds.search = &exact;
             forget_rooms(&rounds);

@@ -28,8 +28,8 @@ void sp_bench_free(sp_bench *bench);
 /* Adds nozzles to the draft, each the pose of most gain per outlay^power, the first of equals, until it covers `target`
  * (m² of coarse patches) or nothing more is gained or allowed within an outlay of `budget` (m³/s). The poses that came
  * near go to `pool`. */
-bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_watch *watch, sp_draft *draft,
-               sp_pool *pool, sp_error *error);
+bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_deadline *deadline,
+               sp_draft *draft, sp_pool *pool, sp_error *error);
 /* The same over the pool's poses alone. */
 bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, double target, double budget,
                     sp_bench *bench, sp_draft *draft, sp_error *error);

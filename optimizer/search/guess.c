@@ -32,7 +32,7 @@ typedef struct {
     const sp_table *table;
     const double *budgets;
     size_t count;
-    sp_watch *watch;
+    sp_deadline *deadline;
     int threads;
     sp_lineup *scratch; /* [2 x threads] */
     path *paths;
@@ -124,7 +124,7 @@ static const start *promising(const guessing *g, size_t b, size_t rank)
 
 static sp_ranks *ranks_of(const guessing *g)
 {
-    return g->watch->run.ranks;
+    return g->deadline->run.ranks;
 }
 
 static void tell_path(const path *p, sp_told *told)
@@ -167,7 +167,7 @@ static bool follow_all(guessing *g, size_t from, sp_error *error)
     sp_ranks_part(ranks_of(g));
 #pragma omp parallel for num_threads(g->threads) schedule(dynamic, 1)
     for (size_t i = from; i < g->path_count; i++)
-        if (sp_ranks_mine(ranks_of(g), i) && sp_watch_goes_on(g->watch, "front", 0))
+        if (sp_ranks_mine(ranks_of(g), i) && sp_deadline_goes_on(g->deadline, "front", 0))
             follow(g, &g->scratch[omp_get_thread_num()], &g->paths[i]);
     sp_ranks_rejoin(ranks_of(g));
     if (!share_paths(g, from, error))
@@ -240,7 +240,7 @@ static bool guess(guessing *g, sp_error *error)
 /* What the beginnings for one outlay become. */
 static void improve(const guessing *g, size_t b, sp_lineup *own, sp_lineup *scratch, sp_lineup *best)
 {
-    for (size_t k = 0; k < STARTS && sp_watch_goes_on(g->watch, "front", 0); k++) {
+    for (size_t k = 0; k < STARTS && sp_deadline_goes_on(g->deadline, "front", 0); k++) {
         const start *from = promising(g, b, k);
         if (!from)
             break;
@@ -285,10 +285,10 @@ static bool improve_all(const guessing *g, sp_lineup *lineups, sp_error *error)
     return true;
 }
 
-bool sp_guess(const sp_table *table, const double *budgets, size_t count, sp_watch *watch, sp_lineup *lineups,
+bool sp_guess(const sp_table *table, const double *budgets, size_t count, sp_deadline *deadline, sp_lineup *lineups,
               sp_error *error)
 {
-    guessing g = {.table = table, .budgets = budgets, .count = count, .watch = watch};
+    guessing g = {.table = table, .budgets = budgets, .count = count, .deadline = deadline};
     size_t created = 0;
     bool done = guessing_create(&g, error);
     while (done && created < count) {

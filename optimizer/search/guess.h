@@ -9,7 +9,7 @@
 
 /* For each outlay (m³/s) the best lineup found on the table; lineups[count] are created by it, and freed by
  * the caller. What is found does not depend on the number of threads. */
-bool sp_guess(const sp_table *table, const double *budgets, size_t count, sp_watch *watch, sp_lineup *lineups,
+bool sp_guess(const sp_table *table, const double *budgets, size_t count, sp_deadline *deadline, sp_lineup *lineups,
               sp_error *error);
 /* The lineup as a draft. */
 bool sp_lineup_draft(const sp_lineup *lineup, sp_draft *draft, sp_error *error);

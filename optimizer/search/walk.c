@@ -143,12 +143,12 @@ static bool keep(const sp_walker *walker, sp_draft *best)
     return true;
 }
 
-static bool walk(sp_walker *walker, const sp_search *exact, double effort, sp_watch *watch, sp_draft *best)
+static bool walk(sp_walker *walker, const sp_search *exact, double effort, sp_deadline *deadline, sp_draft *best)
 {
     double nozzles = (double)(best->count + 1);
     double steps = effort / (STEP_EFFORT * (double)walker->search->patch_count * nozzles);
     steps = fmin(ceil(steps), STEPS_MOST * nozzles);
-    for (double i = 0; i < steps && sp_watch_goes_on(watch, "front", 0); i++) {
+    for (double i = 0; i < steps && sp_deadline_goes_on(deadline, "front", 0); i++) {
         if (walker->search != exact && i >= CREDIT_SHARE * steps) {
             walker->search = exact;
             sp_draft_refresh(exact, walker->draft);
@@ -159,8 +159,8 @@ static bool walk(sp_walker *walker, const sp_search *exact, double effort, sp_wa
     return true;
 }
 
-bool sp_walk(const sp_search *search, double budget, double effort, uint64_t seed, sp_watch *watch, sp_draft *draft,
-             sp_error *error)
+bool sp_walk(const sp_search *search, double budget, double effort, uint64_t seed, sp_deadline *deadline,
+             sp_draft *draft, sp_error *error)
 {
     sp_search exact = *search;
     exact.credit = 0;
@@ -174,7 +174,7 @@ bool sp_walk(const sp_search *search, double budget, double effort, uint64_t see
                         .sweeper = sp_sweepers_create(search, 1, error),
                         .draft = &moving,
                         .error = error};
-    bool done = walker.sweeper && walk(&walker, &exact, effort, watch, draft);
+    bool done = walker.sweeper && walk(&walker, &exact, effort, deadline, draft);
     sp_sweepers_destroy(walker.sweeper, 1);
     sp_draft_free(&moving);
     sp_draft_refresh(search, draft);

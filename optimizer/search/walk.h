@@ -10,7 +10,7 @@
  * Comput. Phys. 159, 2000), within an outlay of `budget` (m³/s). The draft becomes the layout met that covers most.
  * `effort`: patches gone through, which sets the number of steps. Runs on the thread that calls; the same for the same
  * seed. */
-bool sp_walk(const sp_search *search, double budget, double effort, uint64_t seed, sp_watch *watch, sp_draft *draft,
-             sp_error *error);
+bool sp_walk(const sp_search *search, double budget, double effort, uint64_t seed, sp_deadline *deadline,
+             sp_draft *draft, sp_error *error);
 
 #endif

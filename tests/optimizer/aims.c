@@ -25,7 +25,7 @@ typedef struct {
     double pressure;
     sp_mount mounts[2];
     sp_place_options options;
-    sp_watch watch;
+    sp_deadline deadline;
     sp_sites sites;
     sp_candidates candidates;
     sp_visibility visibility;
@@ -141,10 +141,10 @@ static void stage_open(stage *s, sp_trajectory trajectory, bool sparse, uint64_t
     s->options.mounts = s->mounts;
     s->options.mount_count = 2;
     s->options.run.threads = 1;
-    s->watch = sp_watch_start(&s->options.run);
+    s->deadline = sp_deadline_start(&s->options.run);
     assert_true(sp_sites_create(s->room.evaluator, &s->options, &s->sites, &error));
     assert_true(sp_candidates_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &error));
-    assert_true(sp_visibility_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->watch,
+    assert_true(sp_visibility_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->deadline,
                                      &s->visibility, &error));
     assert_true(sp_search_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->visibility, &s->search,
                                  &error));
@@ -167,7 +167,7 @@ static void stage_close(stage *s)
     sp_visibility_free(&s->visibility);
     sp_candidates_free(&s->candidates);
     sp_sites_free(&s->sites);
-    free(s->watch.stages);
+    free(s->deadline.stages);
     room_close(&s->room);
 }
 

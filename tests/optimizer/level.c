@@ -18,7 +18,7 @@ typedef struct {
     sp_sites sites;
     sp_candidates candidates;
     sp_visibility visibility;
-    sp_watch watch;
+    sp_deadline deadline;
     sp_search search;
     sp_sights sights;
     sp_draft draft;
@@ -61,10 +61,10 @@ static void bench_open(bench *b, sp_pattern pattern, sp_trajectory trajectory, d
     b->options.pressure_count = 1;
     b->options.mounts = &b->mount;
     b->options.mount_count = 1;
-    b->watch = sp_watch_start(&b->options.run);
+    b->deadline = sp_deadline_start(&b->options.run);
     assert_true(sp_sites_create(b->room.evaluator, &b->options, &b->sites, &error));
     assert_true(sp_candidates_create(b->room.evaluator, &b->options, &b->sites, &b->candidates, &error));
-    assert_true(sp_visibility_create(b->room.evaluator, &b->options, &b->sites, &b->candidates, &b->watch,
+    assert_true(sp_visibility_create(b->room.evaluator, &b->options, &b->sites, &b->candidates, &b->deadline,
                                      &b->visibility, &error));
     assert_true(sp_search_create(b->room.evaluator, &b->options, &b->sites, &b->candidates, &b->visibility, &b->search,
                                  &error));
@@ -81,7 +81,7 @@ static void bench_close(bench *b)
     sp_visibility_free(&b->visibility);
     sp_candidates_free(&b->candidates);
     sp_sites_free(&b->sites);
-    free(b->watch.stages);
+    free(b->deadline.stages);
     room_close(&b->room);
 }
 

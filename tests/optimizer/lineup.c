@@ -17,7 +17,7 @@ typedef struct {
     double pressure;
     sp_mount mounts[2];
     sp_place_options options;
-    sp_watch watch;
+    sp_deadline deadline;
     sp_sites sites;
     sp_candidates candidates;
     sp_visibility visibility;
@@ -62,10 +62,10 @@ static void job_open(job *j, bool single)
                               .to = sp_v(0.9, 0.1, 1)};
     j->mounts[1] =
         (sp_mount){.kind = SP_MOUNT_PORT, .name = "P", .position = sp_v(0.5, -0.3, 1.1), .axis = sp_v(0, 0, -1)};
-    j->watch = sp_watch_start(&j->options.run);
+    j->deadline = sp_deadline_start(&j->options.run);
     assert_true(sp_sites_create(j->room.evaluator, &j->options, &j->sites, &error));
     assert_true(sp_candidates_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &error));
-    assert_true(sp_visibility_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &j->watch,
+    assert_true(sp_visibility_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &j->deadline,
                                      &j->visibility, &error));
     assert_true(sp_search_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &j->visibility, &j->search,
                                  &error));
@@ -84,7 +84,7 @@ static void job_close(job *j)
     sp_visibility_free(&j->visibility);
     sp_candidates_free(&j->candidates);
     sp_sites_free(&j->sites);
-    free(j->watch.stages);
+    free(j->deadline.stages);
     room_close(&j->room);
 }
 
@@ -165,7 +165,7 @@ static void guesses_come_near_the_best(void **state)
         assert_true(sp_lineup_create(&table, &scratch, &error));
         for (size_t i = 0; i < 6; i++)
             budgets[i] = LITRES(waters[i]) * (1 + SP_ROUNDING);
-        assert_true(sp_guess(&table, budgets, 6, &j.watch, lineups, &error));
+        assert_true(sp_guess(&table, budgets, 6, &j.deadline, lineups, &error));
         for (size_t i = 0; i < 6; i++) {
             double best = best_of_all(&table, budgets[i], &scratch);
             assert_true(lineups[i].flow <= budgets[i]);

@@ -14,7 +14,7 @@ typedef struct {
     sp_sites sites;
     sp_candidates candidates;
     sp_visibility visibility;
-    sp_watch watch;
+    sp_deadline deadline;
     sp_search search;
     sp_sights sights;
     sp_draft draft; /* one cone, 0.3 m off the middle */
@@ -33,10 +33,10 @@ static void bench_open(bench *b)
                           .from = sp_v(-0.3, 0, HEIGHT),
                           .to = sp_v(0.9, 0, HEIGHT)};
     j->options.refine = (sp_refine){.position = 1};
-    b->watch = sp_watch_start(&j->options.run);
+    b->deadline = sp_deadline_start(&j->options.run);
     assert_true(sp_sites_create(j->room.evaluator, &j->options, &b->sites, &error));
     assert_true(sp_candidates_create(j->room.evaluator, &j->options, &b->sites, &b->candidates, &error));
-    assert_true(sp_visibility_create(j->room.evaluator, &j->options, &b->sites, &b->candidates, &b->watch,
+    assert_true(sp_visibility_create(j->room.evaluator, &j->options, &b->sites, &b->candidates, &b->deadline,
                                      &b->visibility, &error));
     assert_true(sp_search_create(j->room.evaluator, &j->options, &b->sites, &b->candidates, &b->visibility, &b->search,
                                  &error));
@@ -53,7 +53,7 @@ static void bench_close(bench *b)
     sp_visibility_free(&b->visibility);
     sp_candidates_free(&b->candidates);
     sp_sites_free(&b->sites);
-    free(b->watch.stages);
+    free(b->deadline.stages);
     room_close(&b->job.room);
 }
 
@@ -87,7 +87,7 @@ static void annealing_ends_there(void **state)
     sp_error error = {0};
     bench_open(&b);
     double before = b.draft.covered;
-    assert_true(sp_anneal(&b.sights, 0, SP_WIDTHS, INFINITY, &b.watch, &b.draft, &error));
+    assert_true(sp_anneal(&b.sights, 0, SP_WIDTHS, INFINITY, &b.deadline, &b.draft, &error));
     print_message("at %g m, %g m2 for %g\n", b.draft.items[0].nozzle.position.x, b.draft.covered, before);
     assert_true(fabs(b.draft.items[0].nozzle.position.x) < 0.01);
     assert_true(b.draft.covered > before);

@@ -20,7 +20,7 @@ typedef struct {
     double pressures[2];
     sp_mount mounts[2];
     sp_place_options options;
-    sp_watch watch;
+    sp_deadline deadline;
     sp_sites sites;
     sp_candidates candidates;
     sp_visibility visibility;
@@ -80,11 +80,11 @@ static void stage_open(stage *s, sp_criterion criterion, sp_trajectory trajector
     s->options.pressure_count = 2;
     s->options.mounts = s->mounts;
     s->options.mount_count = 2;
-    s->watch = sp_watch_start(&s->options.run);
+    s->deadline = sp_deadline_start(&s->options.run);
     sp_error error = {0};
     assert_true(sp_sites_create(s->room.evaluator, &s->options, &s->sites, &error));
     assert_true(sp_candidates_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &error));
-    assert_true(sp_visibility_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->watch,
+    assert_true(sp_visibility_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->deadline,
                                      &s->visibility, &error));
     assert_true(sp_search_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &s->visibility, &s->search,
                                  &error));

@@ -139,7 +139,7 @@ typedef struct {
     double pressure;
     sp_mount mounts[2];
     sp_place_options options;
-    sp_watch watch;
+    sp_deadline deadline;
     sp_sites sites;
     sp_candidates candidates;
     sp_visibility visibility;
@@ -235,15 +235,15 @@ static void stage_open(stage *s, sp_criterion criterion, sp_trajectory trajector
                               .to = sp_v(0.2, 0.4, 0.9)};
     s->mounts[1] =
         (sp_mount){.kind = SP_MOUNT_PORT, .position = sp_v(0.5, -0.4, 1), .axis = sp_v(0, 0, -1), .tilt = 40 * DEGREE};
-    s->watch = sp_watch_start(&s->options.run);
+    s->deadline = sp_deadline_start(&s->options.run);
     s->evaluator = s->room.evaluator;
     if (criterion.film > 0)
         s->evaluator = s->walls = sp_evaluator_resample(s->room.evaluator, TEXEL, &error);
     assert_string_equal(error.message, "");
     assert_true(sp_sites_create(s->room.evaluator, &s->options, &s->sites, &error));
     assert_true(sp_candidates_create(s->room.evaluator, &s->options, &s->sites, &s->candidates, &error));
-    assert_true(
-        sp_visibility_create(s->evaluator, &s->options, &s->sites, &s->candidates, &s->watch, &s->visibility, &error));
+    assert_true(sp_visibility_create(s->evaluator, &s->options, &s->sites, &s->candidates, &s->deadline, &s->visibility,
+                                     &error));
     assert_true(
         sp_search_create(s->evaluator, &s->options, &s->sites, &s->candidates, &s->visibility, &s->search, &error));
     set_cover(s, random, trajectory == SP_TRAJECTORY_LINE);
@@ -265,7 +265,7 @@ static void stage_close(stage *s)
     sp_candidates_free(&s->candidates);
     sp_sites_free(&s->sites);
     sp_evaluator_destroy(s->walls);
-    free(s->watch.stages);
+    free(s->deadline.stages);
     room_close(&s->room);
 }
 

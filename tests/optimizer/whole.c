@@ -135,15 +135,15 @@ static void wherever_it_stops_the_best_so_far_is_valid(void **state)
 static size_t count_patches(const job *j)
 {
     sp_error error = {0};
-    sp_watch watch = sp_watch_start(&j->options.run);
+    sp_deadline deadline = sp_deadline_start(&j->options.run);
     sp_sites sites = {0};
     sp_candidates candidates = {0};
     sp_evaluator *resampled = NULL;
     sp_visibility visibility;
     assert_true(sp_sites_create(j->room.evaluator, &j->options, &sites, &error));
     assert_true(sp_candidates_create(j->room.evaluator, &j->options, &sites, &candidates, &error));
-    assert_true(sp_visibility_fit(j->room.evaluator, &j->options, &sites, &candidates, &watch, &resampled, &visibility,
-                                  &error));
+    assert_true(sp_visibility_fit(j->room.evaluator, &j->options, &sites, &candidates, &deadline, &resampled,
+                                  &visibility, &error));
     size_t count = sp_evaluator_patches(visibility.evaluator)->count;
     sp_visibility_free(&visibility);
     sp_evaluator_destroy(resampled);

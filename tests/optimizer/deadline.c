@@ -7,43 +7,43 @@
 #include <stdlib.h>
 #include <cmocka.h>
 
-#include "watch/watch.h"
+#include "deadline/deadline.h"
 
 static void only_its_share_of_the_limit_may_be_spent(void **state)
 {
     (void)state;
     sp_run run = {.time_limit = 1e6};
-    sp_watch watch = sp_watch_start(&run);
-    assert_true(sp_watch_left(&watch) > 9e5);
-    sp_watch_allow(&watch, 0.25);
-    assert_true(sp_watch_left(&watch) <= 2.5e5);
-    assert_true(sp_watch_goes_on(&watch, "a", 0));
-    sp_watch_allow(&watch, 0);
-    assert_true(sp_watch_left(&watch) < 0);
-    assert_false(sp_watch_has_time(&watch, "a", 0));
-    assert_false(watch.interrupted);
-    assert_int_equal(watch.cut_count, 0);
-    assert_false(sp_watch_goes_on(&watch, "a", 0));
-    assert_false(sp_watch_goes_on(&watch, "a", 0));
-    assert_true(watch.interrupted);
-    assert_false(watch.cancelled);
-    assert_int_equal(watch.cut_count, 1); /* named once */
-    assert_string_equal(watch.cut[0], "a");
+    sp_deadline deadline = sp_deadline_start(&run);
+    assert_true(sp_deadline_left(&deadline) > 9e5);
+    sp_deadline_allow(&deadline, 0.25);
+    assert_true(sp_deadline_left(&deadline) <= 2.5e5);
+    assert_true(sp_deadline_goes_on(&deadline, "a", 0));
+    sp_deadline_allow(&deadline, 0);
+    assert_true(sp_deadline_left(&deadline) < 0);
+    assert_false(sp_deadline_has_time(&deadline, "a", 0));
+    assert_false(deadline.interrupted);
+    assert_int_equal(deadline.cut_count, 0);
+    assert_false(sp_deadline_goes_on(&deadline, "a", 0));
+    assert_false(sp_deadline_goes_on(&deadline, "a", 0));
+    assert_true(deadline.interrupted);
+    assert_false(deadline.cancelled);
+    assert_int_equal(deadline.cut_count, 1); /* named once */
+    assert_string_equal(deadline.cut[0], "a");
     /* what comes next has the rest */
-    sp_watch_allow(&watch, 1);
-    assert_true(sp_watch_goes_on(&watch, "b", 0));
-    assert_true(watch.interrupted);
+    sp_deadline_allow(&deadline, 1);
+    assert_true(sp_deadline_goes_on(&deadline, "b", 0));
+    assert_true(deadline.interrupted);
 }
 
 static void without_a_limit_there_is_always_time(void **state)
 {
     (void)state;
     sp_run run = {0};
-    sp_watch watch = sp_watch_start(&run);
-    sp_watch_allow(&watch, 0);
-    assert_true(isinf(sp_watch_left(&watch)));
-    assert_true(sp_watch_goes_on(&watch, "a", 0));
-    assert_false(watch.interrupted);
+    sp_deadline deadline = sp_deadline_start(&run);
+    sp_deadline_allow(&deadline, 0);
+    assert_true(isinf(sp_deadline_left(&deadline)));
+    assert_true(sp_deadline_goes_on(&deadline, "a", 0));
+    assert_false(deadline.interrupted);
 }
 
 static void short_limits_of_few_threads_make_haste(void **state)
@@ -68,10 +68,10 @@ static void cancelled_once_it_stays_so(void **state)
     (void)state;
     size_t calls = 0;
     sp_run run = {.progress = cancel, .user = &calls};
-    sp_watch watch = sp_watch_start(&run);
-    assert_false(sp_watch_has_time(&watch, "a", 0));
-    assert_true(watch.cancelled && watch.interrupted);
-    assert_false(sp_watch_goes_on(&watch, "b", 0));
+    sp_deadline deadline = sp_deadline_start(&run);
+    assert_false(sp_deadline_has_time(&deadline, "a", 0));
+    assert_true(deadline.cancelled && deadline.interrupted);
+    assert_false(sp_deadline_goes_on(&deadline, "b", 0));
     assert_int_equal(calls, 1);
 }
 
