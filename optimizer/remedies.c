@@ -90,19 +90,19 @@ static void mask(remedying *r, uint32_t shadow, sp_draft *draft)
 }
 
 /* The first of the equally good. */
-static void scan_make(const remedying *r, sp_sweeper *sweeper, uint32_t make, site_best *best)
+static void scan_variant(const remedying *r, sp_sweeper *sweeper, uint32_t variant, site_best *best)
 {
     const sp_candidates *candidates = r->search->candidates;
     uint32_t mount = r->search->sites->items[sweeper->site].mount;
-    size_t axes = sp_candidates_axes(candidates, mount, make)->count;
+    size_t axes = sp_candidates_axes(candidates, mount, variant)->count;
     double tie = SP_SCORE_TIE * r->search->all;
-    sp_sweeper_take(sweeper, make);
+    sp_sweeper_take(sweeper, variant);
     double most = sp_sweeper_most(sweeper); /* mounting points see little of one shadow, and soon all of that is wet */
     for (uint32_t a = 0; a < axes && most > best->gain + tie; a++)
-        for (uint32_t roll = 0; roll < candidates->makes[make].roll_count; roll++) {
+        for (uint32_t roll = 0; roll < candidates->variants[variant].roll_count; roll++) {
             double gain = sp_sweeper_score(sweeper, a, roll, best->gain + tie).gain;
             if (gain > best->gain + tie)
-                *best = (site_best){{sweeper->site, make, a, roll}, gain};
+                *best = (site_best){{sweeper->site, variant, a, roll}, gain};
         }
 }
 
@@ -115,9 +115,9 @@ static void scan_site(remedying *r, const sp_draft *draft, uint32_t site)
         return;
     for (size_t s = 0; s < candidates->launch_count; s++) {
         sp_sweeper_look(sweeper, &r->masked, draft, site, s);
-        for (uint32_t k = 0; k < candidates->make_count; k++)
-            if (candidates->makes[k].launch == s && sp_search_knows(&r->masked, site, k))
-                scan_make(r, sweeper, k, &r->best[site]);
+        for (uint32_t k = 0; k < candidates->variant_count; k++)
+            if (candidates->variants[k].launch == s && sp_search_knows(&r->masked, site, k))
+                scan_variant(r, sweeper, k, &r->best[site]);
     }
 }
 

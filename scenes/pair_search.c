@@ -37,10 +37,10 @@ static void widen_pool(placement *p)
     const sp_candidates *candidates = &p->candidates;
     size_t stride = candidates->pose_start[p->sites.count] / ROWS + 1, number = 0;
     for (uint32_t s = 0; s < p->sites.count; s++)
-        for (uint32_t k = 0; k < candidates->make_count; k++) {
+        for (uint32_t k = 0; k < candidates->variant_count; k++) {
             size_t axes = sp_candidates_axes(candidates, p->sites.items[s].mount, k)->count;
             for (uint32_t a = 0; a < axes; a++)
-                for (uint32_t r = 0; r < candidates->makes[k].roll_count; r++)
+                for (uint32_t r = 0; r < candidates->variants[k].roll_count; r++)
                     if (number++ % stride == 0 && sp_search_knows(&p->search, s, k) &&
                         !sp_pool_add(&p->pool, (sp_pose){s, k, a, r}, &error))
                         fail(&error);

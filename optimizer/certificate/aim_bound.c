@@ -17,11 +17,11 @@ typedef struct {
     sp_cover cover;
     sp_water_units units;
     sp_aim_kinds kinds;
-    double *outlays; /* [outlay_count], of all that may be taken, the makes' at every cost first */
+    double *outlays; /* [outlay_count], of all that may be taken, the variants' at every cost first */
     size_t outlay_count;
     uint32_t *weight;   /* [tiers] */
     uint32_t **tier_of; /* [mounts x kinds][steps] */
-    uint32_t *none;     /* [mounts x makes], for the poses' prices, which are not asked */
+    uint32_t *none;     /* [mounts x variants], for the poses' prices, which are not asked */
     sp_pose_prices *poses;
     sp_aim_prices *prices;
     sp_pricer pricer;
@@ -51,7 +51,7 @@ static void list_at(aiming *a, double flow)
 static bool list_outlays(aiming *a, sp_error *error)
 {
     const sp_candidates *candidates = a->task->search->candidates;
-    size_t count = candidates->make_count * a->task->cost_count;
+    size_t count = candidates->variant_count * a->task->cost_count;
     for (size_t i = 0; i <= a->front->by_water.count; i++)
         count += sp_front_draft(a->front, i)->count;
     for (size_t k = 0; k < a->kinds.count; k++)
@@ -60,8 +60,8 @@ static bool list_outlays(aiming *a, sp_error *error)
     a->weight = malloc((count + 1) * sizeof *a->weight);
     if (!a->outlays || !a->weight)
         return sp_fail_memory(error);
-    for (size_t k = 0; k < candidates->make_count; k++)
-        list_at(a, candidates->makes[k].flow);
+    for (size_t k = 0; k < candidates->variant_count; k++)
+        list_at(a, candidates->variants[k].flow);
     for (size_t i = 0; i <= a->front->by_water.count; i++)
         for (size_t n = 0; n < sp_front_draft(a->front, i)->count; n++)
             a->outlays[a->outlay_count++] = sp_placed_outlay(a->task->search, &sp_front_draft(a->front, i)->items[n]);
@@ -88,7 +88,7 @@ static bool set_limits(aiming *a)
         a->cover.nozzles = limit - search->kept_count;
     if (a->cover.nozzles > SP_NOZZLES_MOST)
         return false;
-    a->units = sp_water_units_create(a->outlays, search->candidates->make_count * a->task->cost_count, least,
+    a->units = sp_water_units_create(a->outlays, search->candidates->variant_count * a->task->cost_count, least,
                                      a->cover.nozzles, most);
     a->cover.water = sp_water_budget(&a->units, most);
     return true;
@@ -111,7 +111,7 @@ static bool set_tiers(aiming *a, sp_error *error)
     const sp_search *search = a->task->search;
     size_t mounts = search->options->mount_count, kinds = a->kinds.count;
     a->tier_of = calloc(mounts * kinds + 1, sizeof *a->tier_of);
-    a->none = calloc(mounts * search->candidates->make_count + 1, sizeof *a->none);
+    a->none = calloc(mounts * search->candidates->variant_count + 1, sizeof *a->none);
     if (!a->tier_of || !a->none)
         return sp_fail_memory(error);
     for (size_t i = 0; i < a->outlay_count; i++)

@@ -400,7 +400,7 @@ static bool open_all(sp_aim_prices *prices)
             const sp_aim_kind *kind = &prices->kinds->items[k];
             uint32_t mount = search->sites->items[site].mount;
             prices->best[site * prices->kinds->count + k] = (aim){0};
-            if (search->port_taken[mount] || !sp_candidates_axes(search->candidates, mount, kind->make)->count)
+            if (search->port_taken[mount] || !sp_candidates_axes(search->candidates, mount, kind->variant)->count)
                 continue;
             for (uint32_t step = 0; step < kind->step_count; step++) {
                 sp_aim_cell whole = sp_aim_cell_whole(kind, site, k, step);

@@ -20,7 +20,7 @@
 #define TOLD_LEAST 0.75 /* of what a pose must be worth to matter: below, an upper bound is enough to be shut out */
 #define STRIDE 7        /* poses from one that is looked at to the next, where not all are; fans have 8 rolls */
 
-/* The pose of highest price of a site and make. */
+/* The pose of highest price of a site and variant. */
 typedef struct {
     sp_pose pose;
     double price;
@@ -28,7 +28,7 @@ typedef struct {
 
 /* One thread's own. */
 typedef struct {
-    float *worth; /* [2 x (arrivals of a view + 2 SP_LANES)], price that it brings to a make */
+    float *worth; /* [2 x (arrivals of a view + 2 SP_LANES)], price that it brings to a variant */
     float total[SP_BINS];
     sp_cull cull;
     sp_desk *desk;
@@ -47,7 +47,7 @@ struct sp_pose_prices {
     const size_t *ports;
     const sp_pose_order *order; /* NULL until a list is asked for */
     float *last;                /* [order->list.count], see sp_pose_prices_last */
-    best *bests;                /* [sites x makes] */
+    best *bests;                /* [sites x variants] */
     int threads;
     scratch *scratches; /* [threads] */
     float upwards;      /* more than a share may lie off */
@@ -58,7 +58,7 @@ static bool allocate(sp_pose_prices *prices)
 {
     const sp_search *search = prices->search;
     size_t texels = 2 * search->patch_count + 1, room = search->visibility->largest + 2 * SP_LANES;
-    prices->bests = calloc(search->sites->count + 1, search->candidates->make_count * sizeof *prices->bests);
+    prices->bests = calloc(search->sites->count + 1, search->candidates->variant_count * sizeof *prices->bests);
     prices->scratches = calloc((size_t)prices->threads, sizeof *prices->scratches);
     if (!prices->bests || !prices->scratches)
         return false;
@@ -79,9 +79,10 @@ static bool allocate(sp_pose_prices *prices)
     return true;
 }
 
-static uint32_t tier_at(const sp_pose_prices *prices, uint32_t site, uint32_t make)
+static uint32_t tier_at(const sp_pose_prices *prices, uint32_t site, uint32_t variant)
 {
-    return prices->tier_of[prices->search->sites->items[site].mount * prices->search->candidates->make_count + make];
+    return prices
+        ->tier_of[prices->search->sites->items[site].mount * prices->search->candidates->variant_count + variant];
 }
 
 static bool any_bent(const sp_search *search)
@@ -256,17 +257,17 @@ bool sp_pose_prices_found(const sp_pose_prices *prices, const sp_placed *placed,
 static void sweep_pose(const sp_pose_prices *prices, scratch *own, sp_pose pose)
 {
     const sp_search *search = prices->search;
-    const sp_make *make = &search->candidates->makes[pose.make];
+    const sp_variant *variant = &search->candidates->variants[pose.variant];
     sp_vec3 up = sp_evaluator_setup(search->coarse)->up;
     sp_nozzle nozzle = sp_pose_nozzle(search->candidates, search->sites, pose, up);
     sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, up);
     sp_desk *desk = NULL;
-    own->fields.view = sp_visibility_look(search->visibility, pose.site, make->launch, &desk);
+    own->fields.view = sp_visibility_look(search->visibility, pose.site, variant->launch, &desk);
     memset(own->field, 0, search->field_count * sizeof *own->field);
     if (own->fields.view->start) {
-        sp_region region = sp_region_create(&make->spray, &frame, sp_make_strength(search, make), SLACK);
-        sp_cull_create(&search->visibility->bins, own->fields.view, &make->spray, SP_COUNT_SHARE, &own->cull);
-        sp_field_sweep(search, &own->fields, make, &region, own->field);
+        sp_region region = sp_region_create(&variant->spray, &frame, sp_variant_strength(search, variant), SLACK);
+        sp_cull_create(&search->visibility->bins, own->fields.view, &variant->spray, SP_COUNT_SHARE, &own->cull);
+        sp_field_sweep(search, &own->fields, variant, &region, own->field);
     }
     sp_visibility_leave(search->visibility, &desk);
 }
@@ -277,26 +278,26 @@ bool sp_pose_prices_add(const sp_pose_prices *prices, sp_pose pose, sp_rows *row
     scratch *own = &prices->scratches[omp_get_thread_num()];
     size_t key = sp_pose_order_position(prices->order, pose),
            port = prices->ports[search->sites->items[pose.site].mount];
-    uint32_t tier = tier_at(prices, pose.site, pose.make);
-    if (!sp_type_is_uniform(search->candidates->makes[pose.make].type))
+    uint32_t tier = tier_at(prices, pose.site, pose.variant);
+    if (!sp_type_is_uniform(search->candidates->variants[pose.variant].type))
         return add_footprint(prices, pose, key, port, tier, rows, error);
     sweep_pose(prices, own, pose);
     return sp_pose_prices_row(prices, own->field, key, port, tier, rows, error);
 }
 
-/* What each arrival of a view brings to a make; returns the make's region about the site's axis. */
-static sp_region prepare_worth(const sp_pose_prices *prices, scratch *own, const sp_view *view, const sp_make *make,
-                               const sp_frame *frame, const sp_prices *u)
+/* What each arrival of a view brings to a variant; returns the variant's region about the site's axis. */
+static sp_region prepare_worth(const sp_pose_prices *prices, scratch *own, const sp_view *view,
+                               const sp_variant *variant, const sp_frame *frame, const sp_prices *u)
 {
-    double strength = sp_make_strength(prices->search, make);
+    double strength = sp_variant_strength(prices->search, variant);
     own->prices = u;
     own->fields.view = view;
-    if (!sp_type_is_uniform(make->type))
+    if (!sp_type_is_uniform(variant->type))
         return (sp_region){.count = SP_COUNT_SHARE};
     if (!prices->film_need)
         sp_pose_prices_worth(prices, view, (float)strength, (float)strength, u, own->worth, own->total);
-    sp_cull_create(&prices->search->visibility->bins, view, &make->spray, SP_COUNT_SHARE, &own->cull);
-    return sp_region_create(&make->spray, frame, strength, SLACK);
+    sp_cull_create(&prices->search->visibility->bins, view, &variant->spray, SP_COUNT_SHARE, &own->cull);
+    return sp_region_create(&variant->spray, frame, strength, SLACK);
 }
 
 /* The price of the row in hand, of `count` entries. */
@@ -308,10 +309,10 @@ static double row_price(const scratch *own, size_t count)
 }
 
 /* The price of the pose's own row: what runs down comes from everywhere above, which no bin knows. */
-static double field_price_of(const sp_pose_prices *prices, const scratch *own, const sp_make *make,
+static double field_price_of(const sp_pose_prices *prices, const scratch *own, const sp_variant *variant,
                              const sp_region *region)
 {
-    sp_field_sweep(prices->search, &own->fields, make, region, own->field);
+    sp_field_sweep(prices->search, &own->fields, variant, region, own->field);
     return row_price(own, write_row(prices, own->field, own->texels, own->shares));
 }
 
@@ -329,12 +330,12 @@ static double price_of(const sp_pose_prices *prices, const scratch *own, const s
         return row_price(own, write_pose(prices, pose, own->texels, own->shares));
     sp_region_turn(region, &frame);
     if (prices->film_need)
-        return field_price_of(prices, own, &search->candidates->makes[pose.make], region);
+        return field_price_of(prices, own, &search->candidates->variants[pose.variant], region);
     search->sweeps->sum(&search->visibility->bins, &own->cull, region, view, &weight, 1, least / UPWARDS, &price);
     return price * UPWARDS;
 }
 
-/* What a site's pose of a make must be worth to matter: more than is on offer, or than is needed. */
+/* What a site's pose of a variant must be worth to matter: more than is on offer, or than is needed. */
 static double least_of(const sp_pose_prices *prices, size_t port, size_t tier, const double *needed,
                        const sp_offers *offers)
 {
@@ -343,7 +344,7 @@ static double least_of(const sp_pose_prices *prices, size_t port, size_t tier, c
     return prices->cover->weight[tier] > prices->cover->water ? INFINITY : fmin(offered, needed[tier]);
 }
 
-/* What no pose of a make at a site can be worth more than. */
+/* What no pose of a variant at a site can be worth more than. */
 static double all_bins(const scratch *own)
 {
     double sum = 0;
@@ -352,21 +353,21 @@ static double all_bins(const scratch *own)
     return sum * UPWARDS;
 }
 
-/* Prices all poses of a make at a site, or every `stride`th, another one at the next site. The highest price, where one
- * is more than `least`; `needed`: to raise the bound. */
-static best price_make(sp_pose_prices *prices, scratch *own, const sp_view *view, uint32_t site, uint32_t k,
-                       sp_region *region, size_t stride, double least, double needed)
+/* Prices all poses of a variant at a site, or every `stride`th, another one at the next site. The highest price, where
+ * one is more than `least`; `needed`: to raise the bound. */
+static best price_variant(sp_pose_prices *prices, scratch *own, const sp_view *view, uint32_t site, uint32_t k,
+                          sp_region *region, size_t stride, double least, double needed)
 {
     const sp_candidates *candidates = prices->search->candidates;
-    const sp_make *make = &candidates->makes[k];
+    const sp_variant *variant = &candidates->variants[k];
     size_t axes = sp_candidates_axes(candidates, prices->search->sites->items[site].mount, k)->count;
     best found = {.price = 0};
-    double all = prices->film_need || !sp_type_is_uniform(make->type) ? INFINITY : all_bins(own);
+    double all = prices->film_need || !sp_type_is_uniform(variant->type) ? INFINITY : all_bins(own);
     double told = stride == 1 ? TOLD_LEAST * needed : INFINITY; /* below it no price need be exact to be told */
     for (uint32_t a = 0; a < axes; a++)
-        for (uint32_t r = 0; r < make->roll_count; r++) {
+        for (uint32_t r = 0; r < variant->roll_count; r++) {
             sp_pose pose = {site, k, a, r};
-            if ((site + a * make->roll_count + r) % stride)
+            if ((site + a * variant->roll_count + r) % stride)
                 continue;
             double matters = fmin(told, fmax(found.price, least));
             double price = all < matters ? all : price_of(prices, own, view, pose, region, matters);
@@ -378,7 +379,7 @@ static best price_make(sp_pose_prices *prices, scratch *own, const sp_view *view
     return found;
 }
 
-/* The best pose of every make at a site, of those that matter. */
+/* The best pose of every variant at a site, of those that matter. */
 static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, const sp_prices *u, const double *needed,
                        size_t stride, const sp_offers *offers)
 {
@@ -386,26 +387,27 @@ static void price_site(sp_pose_prices *prices, scratch *own, uint32_t site, cons
     uint32_t mount = prices->search->sites->items[site].mount;
     sp_vec3 up = sp_evaluator_setup(prices->search->coarse)->up;
     sp_frame frame = sp_nozzle_frame(prices->search->sites->items[site].axis, 0, up);
-    for (uint32_t k = 0; k < candidates->make_count; k++) {
-        const sp_make *make = &candidates->makes[k];
-        best *found = &prices->bests[site * candidates->make_count + k];
+    for (uint32_t k = 0; k < candidates->variant_count; k++) {
+        const sp_variant *variant = &candidates->variants[k];
+        best *found = &prices->bests[site * candidates->variant_count + k];
         uint32_t tier = tier_at(prices, site, k);
         double least = least_of(prices, prices->ports[mount], tier, needed, offers);
         *found = (best){.price = 0};
         if (!sp_candidates_axes(candidates, mount, k)->count || !isfinite(least) || prices->search->port_taken[mount])
             continue;
-        const sp_view *view = sp_visibility_look(prices->search->visibility, site, make->launch, &own->desk);
-        if (!view->start && sp_type_is_uniform(make->type))
+        const sp_view *view = sp_visibility_look(prices->search->visibility, site, variant->launch, &own->desk);
+        if (!view->start && sp_type_is_uniform(variant->type))
             continue;
-        sp_region region = prepare_worth(prices, own, view, make, &frame, u);
-        *found = price_make(prices, own, view, site, k, &region, stride, least, needed[tier]);
+        sp_region region = prepare_worth(prices, own, view, variant, &frame, u);
+        *found = price_variant(prices, own, view, site, k, &region, stride, least, needed[tier]);
     }
 }
 
 /* Appends the best of the bests that are worth more than needed. */
 static bool hand_out(const sp_pose_prices *prices, const double *needed, sp_rows *rows, sp_error *error)
 {
-    size_t count = prices->search->sites->count * prices->search->candidates->make_count, found = 0, had = rows->count;
+    size_t count = prices->search->sites->count * prices->search->candidates->variant_count, found = 0,
+           had = rows->count;
     sp_ranked *entries = malloc((count + 1) * sizeof *entries);
     uint64_t *keys = sp_rows_keys(rows);
     bool done = entries && keys;
@@ -413,7 +415,7 @@ static bool hand_out(const sp_pose_prices *prices, const double *needed, sp_rows
         sp_fail_memory(error);
     for (size_t i = 0; done && i < count; i++) {
         sp_pose pose = prices->bests[i].pose;
-        double need = needed[tier_at(prices, pose.site, pose.make)], price = prices->bests[i].price;
+        double need = needed[tier_at(prices, pose.site, pose.variant)], price = prices->bests[i].price;
         if (price > need)
             entries[found++] = (sp_ranked){need > 0 ? price / need : price * 1e30, i};
     }
@@ -437,7 +439,7 @@ static void price_found(const sp_pose_order *order, const sp_prices *u, const ui
 {
     for (size_t i = 0; i < order->block_count; i++) {
         const sp_pose_block *found = &order->blocks[i];
-        for (size_t at = found->start; found->make == SP_NONE && at < found[1].start; at++) {
+        for (size_t at = found->start; found->variant == SP_NONE && at < found[1].start; at++) {
             size_t row = order->own_order[found->site + at - found->start];
             price[at] = !alive || alive[at] ? nextafterf((float)sp_rows_price(order->own, row, u), INFINITY) : 0;
         }
@@ -455,11 +457,11 @@ static sp_ranks *ranks_of(const sp_pose_prices *prices)
 static bool share_prices(sp_pose_prices *prices, float *price, bool bests, sp_error *error)
 {
     const sp_pose_order *order = prices->order;
-    size_t makes = prices->search->candidates->make_count, cells = prices->search->sites->count * makes;
+    size_t variants = prices->search->candidates->variant_count, cells = prices->search->sites->count * variants;
     sp_told told = {0};
     sp_heard heard;
     for (size_t i = 0; sp_ranks_count(ranks_of(prices)) > 1 && i < cells; i++) {
-        if (!sp_ranks_mine(ranks_of(prices), i / makes))
+        if (!sp_ranks_mine(ranks_of(prices), i / variants))
             continue;
         const sp_pose_block *block = order->block_of[i] == SIZE_MAX ? NULL : &order->blocks[order->block_of[i]];
         if (price && block)
@@ -470,8 +472,8 @@ static bool share_prices(sp_pose_prices *prices, float *price, bool bests, sp_er
     if (!sp_ranks_gather(ranks_of(prices), "prices", &told, &heard, error))
         return false;
     for (size_t i = 0; i < cells; i++) {
-        size_t rank = sp_ranks_owner(ranks_of(prices), i / makes);
-        if (sp_ranks_mine(ranks_of(prices), i / makes))
+        size_t rank = sp_ranks_owner(ranks_of(prices), i / variants);
+        if (sp_ranks_mine(ranks_of(prices), i / variants))
             continue;
         const sp_pose_block *block = order->block_of[i] == SIZE_MAX ? NULL : &order->blocks[order->block_of[i]];
         if (price && block)
@@ -503,7 +505,7 @@ static bool price_poses(void *user, const sp_prices *u, const double *needed, bo
 {
     sp_pose_prices *prices = user;
     const sp_search *search = prices->search;
-    size_t makes = search->candidates->make_count, sites = search->sites->count;
+    size_t variants = search->candidates->variant_count, sites = search->sites->count;
     memset(prices->last, 0, prices->order->list.count * sizeof *prices->last);
     price_found(prices->order, u, NULL, prices->last);
     price_sites(prices, u, needed, all ? 1 : STRIDE, offers);
@@ -511,10 +513,10 @@ static bool price_poses(void *user, const sp_prices *u, const double *needed, bo
         return false;
     if (!sp_cover_goes_on(prices->cover))
         return true;
-    for (size_t i = 0; i < sites * makes; i++)
+    for (size_t i = 0; i < sites * variants; i++)
         if (prices->bests[i].price > 0)
-            sp_offers_add(offers, prices->ports[search->sites->items[i / makes].mount],
-                          tier_at(prices, (uint32_t)(i / makes), (uint32_t)(i % makes)), prices->bests[i].price);
+            sp_offers_add(offers, prices->ports[search->sites->items[i / variants].mount],
+                          tier_at(prices, (uint32_t)(i / variants), (uint32_t)(i % variants)), prices->bests[i].price);
     return hand_out(prices, needed, rows, error);
 }
 
@@ -525,15 +527,15 @@ static void price_block(sp_pose_prices *prices, scratch *own, size_t block, cons
     const sp_search *search = prices->search;
     const sp_pose_block *poses = &prices->order->blocks[block];
     size_t end = poses[1].start;
-    const sp_make *make = &search->candidates->makes[poses->make];
+    const sp_variant *variant = &search->candidates->variants[poses->variant];
     sp_frame frame = sp_nozzle_frame(search->sites->items[poses->site].axis, 0, sp_evaluator_setup(search->coarse)->up);
     memset(price + poses->start, 0, (end - poses->start) * sizeof *price);
     if (!memchr(alive + poses->start, 1, end - poses->start))
         return;
-    const sp_view *view = sp_visibility_look(search->visibility, poses->site, make->launch, &own->desk);
-    if (!view->start && sp_type_is_uniform(make->type))
+    const sp_view *view = sp_visibility_look(search->visibility, poses->site, variant->launch, &own->desk);
+    if (!view->start && sp_type_is_uniform(variant->type))
         return;
-    sp_region region = prepare_worth(prices, own, view, make, &frame, u);
+    sp_region region = prepare_worth(prices, own, view, variant, &frame, u);
     for (size_t i = poses->start; i < end; i++)
         if (alive[i])
             price[i] = nextafterf(
@@ -544,13 +546,14 @@ static bool price_list(void *user, const sp_prices *u, const uint8_t *alive, flo
 {
     sp_pose_prices *prices = user;
     const sp_pose_order *order = prices->order;
-    size_t makes = prices->search->candidates->make_count, sites = prices->search->sites->count;
+    size_t variants = prices->search->candidates->variant_count, sites = prices->search->sites->count;
     sp_ranks_part(ranks_of(prices));
 #pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
     for (size_t site = 0; site < sites; site++)
-        for (size_t k = 0; k < makes && sp_ranks_mine(ranks_of(prices), site) && sp_cover_goes_on(prices->cover); k++)
-            if (order->block_of[site * makes + k] != SIZE_MAX)
-                price_block(prices, &prices->scratches[omp_get_thread_num()], order->block_of[site * makes + k], u,
+        for (size_t k = 0; k < variants && sp_ranks_mine(ranks_of(prices), site) && sp_cover_goes_on(prices->cover);
+             k++)
+            if (order->block_of[site * variants + k] != SIZE_MAX)
+                price_block(prices, &prices->scratches[omp_get_thread_num()], order->block_of[site * variants + k], u,
                             alive, price);
     for (int i = 0; i < prices->threads; i++)
         sp_visibility_leave(prices->search->visibility, &prices->scratches[i].desk);
@@ -564,7 +567,7 @@ static bool row_of_list(void *user, size_t position, sp_rows *rows, sp_error *er
     const sp_pose_prices *prices = user;
     const sp_pose_order *order = prices->order;
     size_t block = sp_pose_order_block(order, position);
-    if (order->blocks[block].make != SP_NONE)
+    if (order->blocks[block].variant != SP_NONE)
         return sp_pose_prices_add(prices, sp_pose_order_at(order, block, position), rows, error);
     const sp_rows *own = order->own;
     size_t row = order->own_order[order->blocks[block].site + position - order->blocks[block].start];

@@ -18,9 +18,9 @@ static inline double sp_field_margin(size_t nozzles)
 
 typedef struct sp_pose_prices sp_pose_prices;
 
-/* For the cover of `search`, its texels the coarse patches: tier_of [mounts x makes], the tier of each make's outlay
- * in a mount; need [texels], flux over threshold that a texel lacks, 0 where it is not to be counted; film_need the
- * same of film, NULL where that is not asked for; ports [mounts], the port that a mount is, SP_NO_PORT where it is
+/* For the cover of `search`, its texels the coarse patches: tier_of [mounts x variants], the tier of each variant's
+ * outlay in a mount; need [texels], flux over threshold that a texel lacks, 0 where it is not to be counted; film_need
+ * the same of film, NULL where that is not asked for; ports [mounts], the port that a mount is, SP_NO_PORT where it is
  * none. All borrowed. */
 sp_pose_prices *sp_pose_prices_create(const sp_search *search, const sp_cover *cover, const uint32_t *tier_of,
                                       const float *need, const float *film_need, const size_t *ports, sp_error *error);

@@ -15,12 +15,12 @@ typedef struct {
     float *area, *need; /* [patches] */
     float *film_need;   /* [patches], NULL where film is not asked for */
     uint32_t *weight;   /* [tiers] */
-    uint32_t *tier_of;  /* [mounts x makes] */
+    uint32_t *tier_of;  /* [mounts x variants] */
     size_t *ports;      /* [mounts] */
     bool *sums;         /* [cover.water + 1], as the cover's; NULL where no mount costs anything */
     double *costs;      /* [cost_count], m³/s: of mounts, each once */
     size_t cost_count;
-    double *outlays; /* [costs x makes], then one for each nozzle of the front */
+    double *outlays; /* [costs x variants], then one for each nozzle of the front */
     size_t own;      /* nozzles of the front */
     sp_pose_prices *prices;
     sp_rows nozzles; /* of the front */

@@ -131,7 +131,7 @@ bool sp_draft_add_pose(const sp_search *search, sp_draft *draft, sp_pose pose, s
                         .origin = nozzle,
                         .pose = pose,
                         .site = search->sites->items[pose.site],
-                        .flow = search->candidates->makes[pose.make].flow,
+                        .flow = search->candidates->variants[pose.variant].flow,
                         .field = malloc((search->field_count + 1) * sizeof *placed.field)};
     if (!placed.field)
         return sp_fail_memory(error);

@@ -3,32 +3,32 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const sp_nozzle_type *type_of(const sp_search *search, uint64_t make)
+static const sp_nozzle_type *type_of(const sp_search *search, uint64_t variant)
 {
-    return make < search->candidates->make_count ? search->candidates->makes[make].type : NULL;
+    return variant < search->candidates->variant_count ? search->candidates->variants[variant].type : NULL;
 }
 
-static uint64_t make_of(const sp_search *search, const sp_nozzle_type *type)
+static uint64_t variant_of(const sp_search *search, const sp_nozzle_type *type)
 {
-    uint64_t make = 0;
-    while (make < search->candidates->make_count && search->candidates->makes[make].type != type)
-        make++;
-    return make;
+    uint64_t variant = 0;
+    while (variant < search->candidates->variant_count && search->candidates->variants[variant].type != type)
+        variant++;
+    return variant;
 }
 
 void sp_tell_nozzle(const sp_search *search, const sp_nozzle *nozzle, sp_told *told)
 {
-    uint64_t make = make_of(search, nozzle->type);
-    sp_tell(told, &make, sizeof make);
+    uint64_t variant = variant_of(search, nozzle->type);
+    sp_tell(told, &variant, sizeof variant);
     sp_tell(told, nozzle, sizeof *nozzle);
 }
 
 bool sp_hear_nozzle(const sp_search *search, sp_heard *heard, size_t rank, sp_nozzle *nozzle)
 {
-    uint64_t make;
-    if (!sp_hear(heard, rank, &make, sizeof make) || !sp_hear(heard, rank, nozzle, sizeof *nozzle))
+    uint64_t variant;
+    if (!sp_hear(heard, rank, &variant, sizeof variant) || !sp_hear(heard, rank, nozzle, sizeof *nozzle))
         return false;
-    nozzle->type = type_of(search, make);
+    nozzle->type = type_of(search, variant);
     return true;
 }
 

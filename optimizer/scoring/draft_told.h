@@ -5,7 +5,7 @@
 #include "ranks/gather.h"
 #include "scoring/draft.h"
 
-/* A nozzle, whose type is told as the number of a make that has it. */
+/* A nozzle, whose type is told as the number of a variant that has it. */
 void sp_tell_nozzle(const sp_search *search, const sp_nozzle *nozzle, sp_told *told);
 /* False where none is to be heard. */
 bool sp_hear_nozzle(const sp_search *search, sp_heard *heard, size_t rank, sp_nozzle *nozzle);

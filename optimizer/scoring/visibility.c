@@ -53,10 +53,10 @@ double sp_visibility_needed(const sp_place_options *options, const sp_candidates
                             size_t launch)
 {
     double reach = -1;
-    for (size_t k = 0; k < candidates->make_count; k++)
-        if (candidates->makes[k].launch == launch && sp_type_is_uniform(candidates->makes[k].type) &&
+    for (size_t k = 0; k < candidates->variant_count; k++)
+        if (candidates->variants[k].launch == launch && sp_type_is_uniform(candidates->variants[k].type) &&
             sp_candidates_axes(candidates, site->mount, k)->count)
-            reach = fmax(reach, candidates->makes[k].reach);
+            reach = fmax(reach, candidates->variants[k].reach);
     return reach < 0 ? reach : fmin(M_PI, reach + options->mounts[site->mount].tilt + 1e-6);
 }
 
@@ -349,13 +349,14 @@ static double patterns_to_trace(const sp_sites *sites, const sp_candidates *cand
 {
     double patterns = 0;
     for (size_t i = 0; i < sites->count; i++)
-        for (size_t k = 0; k < candidates->make_count; k++) {
-            const sp_make *make = &candidates->makes[k];
-            double count = (double)(sp_candidates_axes(candidates, sites->items[i].mount, k)->count * make->roll_count);
-            if (sp_type_is_uniform(make->type))
+        for (size_t k = 0; k < candidates->variant_count; k++) {
+            const sp_variant *variant = &candidates->variants[k];
+            double count =
+                (double)(sp_candidates_axes(candidates, sites->items[i].mount, k)->count * variant->roll_count);
+            if (sp_type_is_uniform(variant->type))
                 continue;
             *poses += count;
-            patterns += count * (double)sp_nozzle_pattern_count(&(sp_nozzle){.type = make->type});
+            patterns += count * (double)sp_nozzle_pattern_count(&(sp_nozzle){.type = variant->type});
         }
     return patterns;
 }

@@ -237,7 +237,7 @@ static double *densify(double *budgets, size_t *count)
     return dense;
 }
 
-/* What one nozzle of each make takes, in each of the mounts that cost differently; returns how many. */
+/* What one nozzle of each variant takes, in each of the mounts that cost differently; returns how many. */
 static size_t list_singles(const sp_search *search, double *budgets)
 {
     const sp_place_options *options = search->options;
@@ -246,19 +246,20 @@ static size_t list_singles(const sp_search *search, double *budgets)
         bool known = false;
         for (size_t i = 0; i < k; i++)
             known |= options->mounts[i].cost == options->mounts[k].cost;
-        for (size_t m = 0; !known && m < search->candidates->make_count; m++)
-            budgets[found++] = search->kept_flow + sp_outlay_at(search, (uint32_t)k, search->candidates->makes[m].flow);
+        for (size_t m = 0; !known && m < search->candidates->variant_count; m++)
+            budgets[found++] =
+                search->kept_flow + sp_outlay_at(search, (uint32_t)k, search->candidates->variants[m].flow);
     }
     return found;
 }
 
 /* The outlays at which the front is searched: what the greedy order used as it went, all that is allowed where that
- * falls short of the target, what one nozzle of each make takes, that of the scene's own layout, with which the
+ * falls short of the target, what one nozzle of each variant takes, that of the scene's own layout, with which the
  * proposal will be compared, and enough between. Rising; malloc'd, NULL when memory runs out. */
 static double *list_budgets(const sp_finding *finding, const sp_draft *greedy, size_t *count)
 {
     const sp_search *search = finding->search;
-    size_t singles = search->candidates->make_count * search->options->mount_count;
+    size_t singles = search->candidates->variant_count * search->options->mount_count;
     double *budgets = malloc((greedy->count + singles + 2) * sizeof *budgets);
     if (!budgets)
         return NULL;

@@ -4,7 +4,8 @@
 
 #include "scoring/scoring.h"
 
-/* Poses that were among the best of their mounting point and make at some moment of the search; ascending, distinct. */
+/* Poses that were among the best of their mounting point and variant at some moment of the search; ascending, distinct.
+ */
 typedef struct {
     size_t count, capacity;
     sp_pose *items;

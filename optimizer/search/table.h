@@ -34,7 +34,7 @@ static inline uint32_t sp_table_mount(const sp_table *table, size_t row)
 
 static inline double sp_table_flow(const sp_table *table, size_t row)
 {
-    return row < table->pool->count ? table->search->candidates->makes[table->pool->items[row].make].flow
+    return row < table->pool->count ? table->search->candidates->variants[table->pool->items[row].variant].flow
                                     : table->others[row - table->pool->count]->flow;
 }
 

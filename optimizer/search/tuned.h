@@ -4,10 +4,10 @@
 
 #include "search/greedy.h"
 
-/* The search over the pool's poses, those of adjustable makes at several flows each. What is built of them says its
+/* The search over the pool's poses, those of adjustable variants at several flows each. What is built of them says its
  * flows itself, so that it belongs to the original search as well. */
 typedef struct {
-    sp_candidates candidates; /* the original's makes first; poses are not numbered */
+    sp_candidates candidates; /* the original's variants first; poses are not numbered */
     sp_search search;
     sp_pool pool;
 } sp_tuned;

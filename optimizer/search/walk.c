@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#define SITES 3          /* mounting points that are looked at for one nozzle, each with one make */
+#define SITES 3          /* mounting points that are looked at for one nozzle, each with one variant */
 #define POSES 24         /* of each */
 #define MISSES 3         /* times that none of these gains, before a layout counts as full */
 #define HOT 3e-3         /* of the area: the loss that is taken in one of e cases, at first */
@@ -43,17 +43,17 @@ typedef struct {
     double merit; /* gain per outlay^power; 0: none */
 } sp_walk_choice;
 
-/* Some of the poses of one make at one mounting point. */
-static void look(sp_walker *walker, uint32_t site, uint32_t make, double power, sp_walk_choice *best)
+/* Some of the poses of one variant at one mounting point. */
+static void look(sp_walker *walker, uint32_t site, uint32_t variant, double power, sp_walk_choice *best)
 {
     const sp_candidates *candidates = walker->search->candidates;
-    const sp_make *own = &candidates->makes[make];
+    const sp_variant *own = &candidates->variants[variant];
     uint32_t mount = walker->search->sites->items[site].mount;
-    size_t poses = own->roll_count * sp_candidates_axes(candidates, mount, make)->count;
+    size_t poses = own->roll_count * sp_candidates_axes(candidates, mount, variant)->count;
     double price = pow(sp_outlay_at(walker->search, mount, own->flow), power);
     for (size_t i = 0; i < POSES && i < poses; i++) {
         size_t at = poses > POSES ? draw(walker, poses) : i;
-        sp_pose pose = {site, make, (uint32_t)(at / own->roll_count), (uint32_t)(at % own->roll_count)};
+        sp_pose pose = {site, variant, (uint32_t)(at / own->roll_count), (uint32_t)(at % own->roll_count)};
         double least = fmax(GAIN_LEAST * walker->area, best->merit * price);
         double gain = sp_score_pose(walker->sweeper, walker->search, walker->draft, pose, least).gain;
         if (gain > GAIN_LEAST * walker->area && (gain - SP_SCORE_TIE * walker->area) / price > best->merit)
@@ -68,12 +68,12 @@ static bool add(sp_walker *walker, uint32_t near, double power, bool *added)
     sp_walk_choice best = {.merit = 0};
     for (int i = 0; i < SITES; i++) {
         uint32_t site = uniform(walker) < NEAR_SHARE ? near : (uint32_t)draw(walker, search->sites->count);
-        uint32_t make = (uint32_t)draw(walker, search->candidates->make_count);
+        uint32_t variant = (uint32_t)draw(walker, search->candidates->variant_count);
         uint32_t mount = search->sites->items[site].mount;
-        if (sp_affords(search, walker->draft->flow, walker->draft->outlay, mount, search->candidates->makes[make].flow,
-                       walker->budget) &&
+        if (sp_affords(search, walker->draft->flow, walker->draft->outlay, mount,
+                       search->candidates->variants[variant].flow, walker->budget) &&
             sp_draft_has_place(search, walker->draft, mount))
-            look(walker, site, make, power, &best);
+            look(walker, site, variant, power, &best);
     }
     sp_sweepers_forget(walker->sweeper, 1);
     *added = best.merit > 0;

@@ -358,10 +358,10 @@ static double footprints_bytes(const sp_search *search)
     const sp_candidates *candidates = search->candidates;
     double bytes = 0;
     for (uint32_t site = 0; site < search->sites->count; site++)
-        for (uint32_t k = 0; k < candidates->make_count; k++) {
+        for (uint32_t k = 0; k < candidates->variant_count; k++) {
             size_t axes = sp_candidates_axes(candidates, search->sites->items[site].mount, k)->count;
-            for (uint32_t a = 0; a < axes && !sp_type_is_uniform(candidates->makes[k].type); a++)
-                for (uint32_t r = 0; r < candidates->makes[k].roll_count; r++) {
+            for (uint32_t a = 0; a < axes && !sp_type_is_uniform(candidates->variants[k].type); a++)
+                for (uint32_t r = 0; r < candidates->variants[k].roll_count; r++) {
                     const sp_footprint *found = sp_footprints_look(search->footprints, (sp_pose){site, k, a, r});
                     bytes += (double)(sizeof *found + found->count * sizeof *found->prints);
                 }

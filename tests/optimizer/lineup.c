@@ -70,10 +70,10 @@ static void job_open(job *j, bool single)
     assert_true(sp_search_create(j->room.evaluator, &j->options, &j->sites, &j->candidates, &j->visibility, &j->search,
                                  &error));
     for (uint32_t site = 0; site < j->sites.count; site++)
-        for (uint32_t make = 0; make < j->candidates.make_count; make++)
-            for (uint32_t axis = 0; axis < sp_candidates_axes(&j->candidates, j->sites.items[site].mount, make)->count;
-                 axis++)
-                assert_true(sp_pool_add(&j->pool, (sp_pose){site, make, axis, 0}, &error));
+        for (uint32_t variant = 0; variant < j->candidates.variant_count; variant++)
+            for (uint32_t axis = 0;
+                 axis < sp_candidates_axes(&j->candidates, j->sites.items[site].mount, variant)->count; axis++)
+                assert_true(sp_pool_add(&j->pool, (sp_pose){site, variant, axis, 0}, &error));
     sp_pool_settle(&j->pool);
 }
 
@@ -198,7 +198,7 @@ static void two_merge_into_the_best_one(void **state)
     assert_true(sp_lineup_create(&table, &lineup, &error) && sp_lineup_create(&table, &scratch, &error));
     uint32_t narrow[3], found = 0;
     for (uint32_t r = 0; r < table.row_count && found < 3; r++)
-        if (j.candidates.makes[j.pool.items[r].make].type == &j.types[1])
+        if (j.candidates.variants[j.pool.items[r].variant].type == &j.types[1])
             narrow[found++] = r;
     assert_int_equal(found, 3);
     for (int i = 0; i < 2; i++) {
@@ -273,10 +273,10 @@ static void tuned_poses_say_their_flow(void **state)
     job_open(&j, false);
     j.options.refine.flow = INFINITY;
     assert_true(sp_tuned_create(&j.search, &j.pool, &tuned, &error));
-    assert_int_equal(tuned.candidates.make_count, 2 + 4);
+    assert_int_equal(tuned.candidates.variant_count, 2 + 4);
     assert_true(tuned.pool.count > j.pool.count);
     for (size_t i = 0; i < tuned.pool.count; i++) {
-        double flow = tuned.candidates.makes[tuned.pool.items[i].make].flow;
+        double flow = tuned.candidates.variants[tuned.pool.items[i].variant].flow;
         assert_true(sp_draft_create(&tuned.search, &draft, &error));
         assert_true(sp_draft_add_pose(&tuned.search, &draft, tuned.pool.items[i], &error));
         sp_tuned_settle(&tuned, &draft);

@@ -121,9 +121,9 @@ static sp_pose pose_of(const stage *s, size_t number)
     while (candidates->pose_start[pose.site + 1] <= number)
         pose.site++;
     number -= candidates->pose_start[pose.site];
-    for (;; pose.make++) {
-        uint32_t rolls = (uint32_t)candidates->makes[pose.make].roll_count;
-        size_t count = sp_candidates_axes(candidates, s->sites.items[pose.site].mount, pose.make)->count * rolls;
+    for (;; pose.variant++) {
+        uint32_t rolls = (uint32_t)candidates->variants[pose.variant].roll_count;
+        size_t count = sp_candidates_axes(candidates, s->sites.items[pose.site].mount, pose.variant)->count * rolls;
         if (number < count) {
             pose.axis = (uint32_t)number / rolls;
             pose.roll = (uint32_t)number % rolls;
@@ -257,22 +257,22 @@ static void every_instruction_set_gives_the_same_bits(void **state)
     float *items[2] = {malloc(room * sizeof(float)), malloc(room * sizeof(float))}, totals[2][SP_BINS];
     for (size_t number = 0; number < poses; number += poses / 300) {
         sp_pose pose = pose_of(&s, number);
-        const sp_make *make = &s.candidates.makes[pose.make];
-        const sp_view *view = &s.visibility.views[pose.site * 2 + make->launch];
+        const sp_variant *variant = &s.candidates.variants[pose.variant];
+        const sp_view *view = &s.visibility.views[pose.site * 2 + variant->launch];
         sp_nozzle nozzle = sp_pose_nozzle(&s.candidates, &s.sites, pose, sp_v(0, 0, 1));
         sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, sp_v(0, 0, 1));
         /* of some arrivals enough for one nozzle alone */
         const double strength = 1 / (s.search.all * (0.3 + 2 * next_random(&random)));
-        sp_region region = sp_region_create(&make->spray, &frame, strength, 0);
+        sp_region region = sp_region_create(&variant->spray, &frame, strength, 0);
         sp_cull cull;
-        sp_cull_create(&s.visibility.bins, view, &make->spray, SP_COUNT_SHARE, &cull);
+        sp_cull_create(&s.visibility.bins, view, &variant->spray, SP_COUNT_SHARE, &cull);
         double naive[2] = {0}, first[2], sums[2];
         for (size_t i = 0; i < room; i++)
             for (int k = 0; k < 2; k++)
                 items[k][i] = (float)next_random(&random);
         for (size_t i = 0; i < view->count; i++)
             for (int k = 0; k < 2; k++)
-                naive[k] += part_of(view, i, &make->spray, &frame, strength) * (double)items[k][i];
+                naive[k] += part_of(view, i, &variant->spray, &frame, strength) * (double)items[k][i];
         for (size_t set = 0; set < sp_sweep_set_count; set++) {
             const sp_sweep_set *sweeps = sp_sweep_sets[set];
             if (!sweeps->available())

@@ -317,7 +317,7 @@ static void check_prices(stage *s)
             double by_row = sp_rows_price(&rows, row, &s->prices);
             if (exact > swept || exact > by_row)
                 fail_msg("type %zu is worth %.9g, swept %.9g, by its row %.9g",
-                         (size_t)(s->candidates.makes[pose.make].type - s->type), exact, swept, by_row);
+                         (size_t)(s->candidates.variants[pose.variant].type - s->type), exact, swept, by_row);
             prices += swept;
             worths += exact;
         }
