@@ -24,7 +24,7 @@
 /* Measuring the proposal's error takes so many seconds of processor, roughly, and may end so much of the limit late. */
 #define MEASURING 0.25
 #define MEASURING_LATE 0.1
-#define FIRST_HURRIED 0.93 /* of the target, for a first draft of which little more than the poses is wanted */
+#define FIRST_HURRIED 0.93 /* of the target, for a first layout of which little more than the poses is wanted */
 
 /* What a placement makes on its way, in the order in which it comes about. */
 typedef struct {
@@ -144,19 +144,19 @@ static bool set_target(sp_placement *placement, sp_proposal *proposal, sp_error 
     return sp_deadline_stage(&placement->deadline, "attainable", error);
 }
 
-/* The best draft so far as a layout with its coverage. */
+/* The best partial layout so far as a layout with its coverage. */
 static bool write_down(const sp_placement *placement, sp_layout **layout, sp_coverage **coverage, sp_error *error)
 {
-    *layout = sp_draft_layout(&placement->search, &placement->front.best, error);
+    *layout = sp_partial_to_layout(&placement->search, &placement->front.best, error);
     *coverage = *layout ? sp_evaluate(placement->fine, *layout, error) : NULL;
     return *coverage != NULL;
 }
 
-/* What the mounts of the best draft's nozzles cost, the kept ones' first; malloc'd, NULL with an error. */
+/* What the mounts of the best layout's nozzles cost, the kept ones' first; malloc'd, NULL with an error. */
 static double *list_costs(const sp_placement *placement, sp_error *error)
 {
     const sp_search *search = &placement->search;
-    const sp_draft *best = &placement->front.best;
+    const sp_partial *best = &placement->front.best;
     double *costs = calloc(search->kept_count + best->count + 1, sizeof *costs);
     for (size_t i = 0; costs && i < best->count; i++)
         costs[search->kept_count + i] = search->options->mounts[best->items[i].site.mount].cost;
@@ -178,7 +178,7 @@ static bool is_sound(const sp_placement *placement, sp_error *error)
 }
 
 /* At leisure all is found on the candidates before anything is refined. In a hurry the proposal comes first: the first
- * draft stands for the best of the candidates, and what is refined next to it comes before better ones and the front.
+ * layout stands for the best of the candidates, and what is refined next to it comes before better ones and the front.
  */
 static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error)
 {
@@ -186,7 +186,7 @@ static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error
     sp_deadline *deadline = &placement->deadline;
     sp_front *front = &placement->front;
     bool hurried = sp_run_hurries(&placement->options->run) && sp_refine_asked(&placement->options->refine);
-    sp_draft first;
+    sp_partial first;
     if (!sp_find_first(search, hurried ? FIRST_HURRIED : 1, deadline, front, &placement->pool, &first, error))
         return false;
     bool done = !hurried || (write_greedy(placement, proposal, error) && is_sound(placement, error) &&
@@ -194,7 +194,7 @@ static bool find(sp_placement *placement, sp_proposal *proposal, sp_error *error
                              sp_deadline_stage(deadline, "refine", error));
     done = done && sp_find_more(search, deadline, front, &placement->pool, &first, error) &&
            (hurried || write_greedy(placement, proposal, error));
-    sp_draft_free(&first);
+    sp_partial_free(&first);
     return done;
 }
 
@@ -206,7 +206,7 @@ static bool propose(const sp_placement *placement, sp_proposal *proposal, sp_err
         !(proposal->costs = list_costs(placement, error)))
         return false;
     proposal->costly = search->costly;
-    proposal->outlay = proposal->coverage->flow + sp_draft_costs(search, &placement->front.best);
+    proposal->outlay = proposal->coverage->flow + sp_partial_costs(search, &placement->front.best);
     proposal->fittings = calloc(proposal->layout->count + 1, sizeof *proposal->fittings);
     for (size_t i = 0; proposal->fittings && i < placement->front.best.count; i++) {
         uint32_t mount = placement->front.best.items[i].site.mount;
@@ -221,14 +221,14 @@ static bool measure(const sp_placement *placement, sp_proposal *proposal, sp_err
                             sp_evaluator_fidelity(placement->fine)->seed, &proposal->coverage->measured, error);
 }
 
-/* Every draft of the fronts, counted on the fine evaluator of now. */
+/* Every layout of the fronts, counted on the fine evaluator of now. */
 static bool count_front_again(sp_placement *placement, const sp_front *before, sp_error *error)
 {
     const sp_front_list *lists[] = {&before->by_water, &before->by_number};
     bool done = sp_front_measure(&placement->front, &placement->search, &before->best, NULL, error);
     for (int k = 0; k < 2; k++)
         for (size_t i = 0; done && i < lists[k]->count; i++)
-            done = sp_front_measure(&placement->front, &placement->search, &lists[k]->entries[i].draft, NULL, error);
+            done = sp_front_measure(&placement->front, &placement->search, &lists[k]->entries[i].partial, NULL, error);
     return done;
 }
 
@@ -310,12 +310,12 @@ static bool mend_own(sp_placement *placement, sp_proposal *proposal, sp_error *e
     sp_search keeping;
     if (!sp_search_keep_all(&placement->search, &keeping, error))
         return false;
-    sp_draft draft = {0};
+    sp_partial partial = {0};
     sp_coverage *coverage = sp_evaluate(placement->fine, own, error);
-    bool done = coverage && sp_draft_create(&keeping, &draft, error) &&
-                sp_remedies_find(&keeping, placement->fine, &draft, coverage, &placement->deadline,
+    bool done = coverage && sp_partial_create(&keeping, &partial, error) &&
+                sp_remedies_find(&keeping, placement->fine, &partial, coverage, &placement->deadline,
                                  proposal->own_remedies, &proposal->own_remedy_count, error);
-    sp_draft_free(&draft);
+    sp_partial_free(&partial);
     sp_coverage_destroy(coverage);
     sp_search_keep_all_free(&keeping);
     return done;

@@ -87,20 +87,20 @@ static void refine(placement *p, const sp_tuned *tuned, const sp_table *table, c
     sp_error error = {0};
     sp_sights sights;
     sp_lineup lineup;
-    sp_draft draft;
+    sp_partial partial;
     if (!sp_sights_create(&p->search, SIGHTS, false, &sights, &error) || !sp_lineup_create(table, &lineup, &error))
         fail(&error);
     sp_lineup_set(&lineup, start->row, start->count);
-    if (!sp_lineup_draft(&lineup, &draft, &error))
+    if (!sp_lineup_partial(&lineup, &partial, &error))
         fail(&error);
-    sp_tuned_settle(tuned, &draft);
-    covered[0] = draft.covered;
-    double water = sp_draft_water(&p->search, &draft, budget);
-    if (!sp_anneal(&sights, NARROW, SP_WIDTHS, water, &p->deadline, &draft, &error) ||
-        !sp_compass(&sights, STEP_FIRST, STEP_LEAST, water, &p->deadline, &draft, &error))
+    sp_tuned_settle(tuned, &partial);
+    covered[0] = partial.covered;
+    double water = sp_partial_water(&p->search, &partial, budget);
+    if (!sp_anneal(&sights, NARROW, SP_WIDTHS, water, &p->deadline, &partial, &error) ||
+        !sp_compass(&sights, STEP_FIRST, STEP_LEAST, water, &p->deadline, &partial, &error))
         fail(&error);
-    covered[1] = draft.covered;
-    sp_draft_free(&draft);
+    covered[1] = partial.covered;
+    sp_partial_free(&partial);
     sp_lineup_free(&lineup);
     sp_sights_free(&sights);
 }

@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_ATTAINABLE_H
 #define OPTIMIZER_ATTAINABLE_H
 
-#include "scoring/draft.h"
+#include "scoring/partial.h"
 
 /* Per patch of `fine`, [patches], the caller's: whether some pose that the mounts allow (its axis anywhere within the
  * tilt, angle and flow as refinement may set them) reaches it with passing speed and incidence, and the kept nozzles

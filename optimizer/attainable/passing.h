@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_PASSING_H
 #define OPTIMIZER_PASSING_H
 
-#include "scoring/draft.h"
+#include "scoring/partial.h"
 #include "deadline/deadline.h"
 
 /* Tells of every patch of `fine` that is not attained how near a flight from any mounting point brings it at any time

@@ -85,7 +85,7 @@ static void look_at_variant(const running *r, int thread, uint32_t site, uint32_
         }
 }
 
-static void look_at_sites(const running *r, const sp_draft *nothing)
+static void look_at_sites(const running *r, const sp_partial *nothing)
 {
     const sp_candidates *candidates = r->search->candidates;
 #pragma omp parallel for num_threads(r->threads) schedule(dynamic, 1)
@@ -137,13 +137,13 @@ static void note(const running *r, const sp_evaluator *fine, const bool *attaine
 static bool ask(const sp_evaluator *fine, running *r, sp_reason *reasons, sp_error *error)
 {
     const sp_search *search = r->search;
-    sp_draft nothing = {0};
+    sp_partial nothing = {0};
     bool *attained = calloc(search->patch_count + 1, sizeof *attained);
     bool done = (attained && list_asked(r, fine, reasons)) || sp_fail_memory(error);
     if (done && r->count) {
         r->offers = calloc((size_t)r->threads * r->count, 2 * r->places * sizeof *r->offers);
         r->sweepers = r->offers ? sp_sweepers_create(search, r->threads, error) : sp_fail_memory(error);
-        done = r->sweepers && sp_draft_create(search, &nothing, error);
+        done = r->sweepers && sp_partial_create(search, &nothing, error);
         if (done)
             look_at_sites(r, &nothing);
         for (size_t i = 0; done && i < r->count; i++)
@@ -151,7 +151,7 @@ static bool ask(const sp_evaluator *fine, running *r, sp_reason *reasons, sp_err
         if (done)
             note(r, fine, attained, reasons);
     }
-    sp_draft_free(&nothing);
+    sp_partial_free(&nothing);
     sp_sweepers_destroy(r->sweepers, r->threads);
     free(r->offers);
     free(r->asked);

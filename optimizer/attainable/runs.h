@@ -3,7 +3,7 @@
 #define OPTIMIZER_RUNS_H
 
 #include "attainable/offers.h"
-#include "scoring/draft.h"
+#include "scoring/partial.h"
 #include "deadline/deadline.h"
 
 /* Makes SP_REASON_ATTAINABLE of any other reason where the films of as many poses as number, water and ports allow,

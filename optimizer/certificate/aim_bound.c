@@ -53,7 +53,7 @@ static bool list_outlays(aiming *a, sp_error *error)
     const sp_candidates *candidates = a->task->search->candidates;
     size_t count = candidates->variant_count * a->task->cost_count;
     for (size_t i = 0; i <= a->front->by_water.count; i++)
-        count += sp_front_draft(a->front, i)->count;
+        count += sp_front_partial(a->front, i)->count;
     for (size_t k = 0; k < a->kinds.count; k++)
         count += a->kinds.items[k].step_count * a->task->cost_count;
     a->outlays = malloc((count + 1) * sizeof *a->outlays);
@@ -63,8 +63,8 @@ static bool list_outlays(aiming *a, sp_error *error)
     for (size_t k = 0; k < candidates->variant_count; k++)
         list_at(a, candidates->variants[k].flow);
     for (size_t i = 0; i <= a->front->by_water.count; i++)
-        for (size_t n = 0; n < sp_front_draft(a->front, i)->count; n++)
-            a->outlays[a->outlay_count++] = sp_placed_outlay(a->task->search, &sp_front_draft(a->front, i)->items[n]);
+        for (size_t n = 0; n < sp_front_partial(a->front, i)->count; n++)
+            a->outlays[a->outlay_count++] = sp_placed_outlay(a->task->search, &sp_front_partial(a->front, i)->items[n]);
     for (size_t k = 0; k < a->kinds.count; k++)
         for (size_t step = 0; step < a->kinds.items[k].step_count; step++)
             list_at(a, a->kinds.items[k].edge[step]);
@@ -80,7 +80,7 @@ static bool set_limits(aiming *a)
     for (size_t i = 0; i < a->outlay_count; i++)
         least = fmin(least, a->outlays[i]);
     for (size_t i = 0; i <= a->front->by_water.count; i++)
-        most = fmax(most, sp_front_draft(a->front, i)->outlay - search->kept_flow);
+        most = fmax(most, sp_front_partial(a->front, i)->outlay - search->kept_flow);
     if (!(most >= least))
         return false;
     a->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
@@ -134,8 +134,8 @@ static bool add_rows(aiming *a, sp_error *error)
 {
     const sp_rows *rows = a->task->rows;
     for (size_t i = 0; i <= a->front->by_water.count; i++)
-        for (size_t n = 0; n < sp_front_draft(a->front, i)->count; n++) {
-            const sp_placed *placed = &sp_front_draft(a->front, i)->items[n];
+        for (size_t n = 0; n < sp_front_partial(a->front, i)->count; n++) {
+            const sp_placed *placed = &sp_front_partial(a->front, i)->items[n];
             uint32_t tier = tier_of_weight(a, sp_water_weight(&a->units, sp_placed_outlay(a->task->search, placed)));
             if (!sp_pose_prices_found(a->poses, placed, tier, &a->bound.rows, error))
                 return false;

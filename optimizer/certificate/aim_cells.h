@@ -5,7 +5,7 @@
 #ifndef OPTIMIZER_AIM_CELLS_H
 #define OPTIMIZER_AIM_CELLS_H
 
-#include "scoring/draft.h"
+#include "scoring/partial.h"
 
 #define SP_AIM_CHILDREN 64
 

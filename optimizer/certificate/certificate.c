@@ -90,8 +90,8 @@ static double found_within(const certifying *c, size_t water)
 {
     double most = c->problem.cover.base;
     for (size_t i = 0; i <= c->problem.front->by_water.count; i++)
-        if (sp_problem_budget(&c->problem, sp_front_draft(c->problem.front, i)->outlay) <= water)
-            most = fmax(most, sp_draft_counted(c->problem.search, sp_front_draft(c->problem.front, i)));
+        if (sp_problem_budget(&c->problem, sp_front_partial(c->problem.front, i)->outlay) <= water)
+            most = fmax(most, sp_partial_counted(c->problem.search, sp_front_partial(c->problem.front, i)));
     return most;
 }
 
@@ -105,7 +105,7 @@ static bool prepare(certifying *c, sp_error *error)
     if (!c->points)
         return sp_fail_memory(error);
     for (size_t i = 0; i < c->point_count; i++) {
-        c->points[i].water = sp_problem_budget(problem, sp_front_draft(problem->front, i)->outlay);
+        c->points[i].water = sp_problem_budget(problem, sp_front_partial(problem->front, i)->outlay);
         c->points[i].found = found_within(c, c->points[i].water);
     }
     return sp_bound_create(&problem->cover, &problem->pricer, &c->bound, error) &&
@@ -333,14 +333,14 @@ static bool lower_all(certifying *c, size_t water, double area, sp_error *error)
 /* Notes the bounds of the candidates. */
 static void conclude(const certifying *c, sp_front *front, sp_certificate *certificate)
 {
-    double whole = 0, counted = sp_draft_counted(c->problem.search, &front->best);
+    double whole = 0, counted = sp_partial_counted(c->problem.search, &front->best);
     /* added up as what is counted is: all of it is no more than the whole, to the last bit */
     for (size_t p = 0; p < c->problem.search->patch_count; p++)
         whole += (double)c->problem.search->area[p];
     whole *= c->problem.search->all;
     for (size_t i = 0; i < front->by_water.count; i++) {
         sp_front_point *point = &front->by_water.entries[i].point;
-        point->counted = sp_draft_counted(c->problem.search, &front->by_water.entries[i].draft);
+        point->counted = sp_partial_counted(c->problem.search, &front->by_water.entries[i].partial);
         point->bound = fmin(whole, c->bound.by_water[sp_problem_budget(&c->problem, point->outlay)]);
     }
     size_t water = sp_bound_water(&c->bound, counted);
@@ -361,7 +361,7 @@ static void conclude(const certifying *c, sp_front *front, sp_certificate *certi
 static bool certify(certifying *c, sp_front *front, sp_certificate *certificate, sp_error *error)
 {
     size_t water = sp_problem_budget(&c->problem, front->best.outlay);
-    double area = sp_draft_counted(c->problem.search, &front->best);
+    double area = sp_partial_counted(c->problem.search, &front->best);
     if (!lower_all(c, water, area, error))
         return false;
     if (!c->bound.proofs)

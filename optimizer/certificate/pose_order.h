@@ -3,7 +3,7 @@
 #ifndef OPTIMIZER_POSE_ORDER_H
 #define OPTIMIZER_POSE_ORDER_H
 
-#include "scoring/draft.h"
+#include "scoring/partial.h"
 #include "bound/candidate_list.h"
 
 /* The poses of one variant at one site, or found nozzles of one weight in one port. */

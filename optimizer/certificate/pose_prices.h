@@ -4,7 +4,7 @@
 #define OPTIMIZER_POSE_PRICES_H
 
 #include "bound/bound.h"
-#include "scoring/draft.h"
+#include "scoring/partial.h"
 #include "certificate/pose_order.h"
 
 #include <math.h>

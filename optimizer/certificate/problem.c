@@ -35,7 +35,7 @@ static bool list_outlays(sp_problem *p, sp_error *error)
     const sp_candidates *candidates = p->search->candidates;
     p->costs = sp_list_costs(p->search->options, &p->cost_count);
     for (size_t i = 0; i <= p->front->by_water.count; i++)
-        p->own += sp_front_draft(p->front, i)->count;
+        p->own += sp_front_partial(p->front, i)->count;
     p->outlays = malloc((p->cost_count * candidates->variant_count + p->own + 1) * sizeof *p->outlays);
     if (!p->costs || !p->outlays)
         return sp_fail_memory(error);
@@ -44,8 +44,8 @@ static bool list_outlays(sp_problem *p, sp_error *error)
         for (size_t k = 0; k < candidates->variant_count; k++)
             p->outlays[count++] = candidates->variants[k].flow + p->costs[c];
     for (size_t i = 0; i <= p->front->by_water.count; i++)
-        for (size_t n = 0; n < sp_front_draft(p->front, i)->count; n++)
-            p->outlays[count++] = sp_placed_outlay(p->search, &sp_front_draft(p->front, i)->items[n]);
+        for (size_t n = 0; n < sp_front_partial(p->front, i)->count; n++)
+            p->outlays[count++] = sp_placed_outlay(p->search, &sp_front_partial(p->front, i)->items[n]);
     return true;
 }
 
@@ -66,7 +66,7 @@ static bool set_limits(sp_problem *p)
     size_t listed = p->cost_count * search->candidates->variant_count, limit = search->options->max_nozzles;
     double most = 0, least = least_of(p->outlays, listed + p->own);
     for (size_t i = 0; i <= p->front->by_water.count; i++)
-        most = fmax(most, sp_front_draft(p->front, i)->outlay - search->kept_flow);
+        most = fmax(most, sp_front_partial(p->front, i)->outlay - search->kept_flow);
     if (!(most >= least) || (limit && limit <= search->kept_count))
         return false;
     p->cover.nozzles = (size_t)fmin(floor(most / least * (1 + 1e-9)), 1e6);
@@ -135,9 +135,9 @@ static bool set_texels(sp_problem *p, sp_error *error)
 static bool add_own(sp_problem *p, sp_error *error)
 {
     for (size_t i = 0; i <= p->front->by_water.count; i++) {
-        const sp_draft *draft = sp_front_draft(p->front, i);
-        for (size_t n = 0; n < draft->count; n++) {
-            const sp_placed *placed = &draft->items[n];
+        const sp_partial *partial = sp_front_partial(p->front, i);
+        for (size_t n = 0; n < partial->count; n++) {
+            const sp_placed *placed = &partial->items[n];
             uint32_t tier = tier_for(p, sp_placed_outlay(p->search, placed));
             if (!sp_pose_prices_found(p->prices, placed, tier, &p->nozzles, error))
                 return false;

@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_FREEDOM_H
 #define OPTIMIZER_FREEDOM_H
 
-#include "scoring/draft.h"
+#include "scoring/partial.h"
 
 #define SP_UNKNOWNS 8 /* at most: three of place, two of axis, roll, angle, flow */
 

@@ -1,4 +1,4 @@
-/* Moving a draft's nozzle to values of its freedom. */
+/* Moving a layout's nozzle to values of its freedom. */
 #ifndef OPTIMIZER_MOVE_H
 #define OPTIMIZER_MOVE_H
 

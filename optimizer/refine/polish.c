@@ -2,7 +2,7 @@
 
 #include "scoring/prepare.h"
 #include "refine/compass.h"
-#include "scoring/draft_told.h"
+#include "scoring/partial_told.h"
 #include "scoring/scoring.h"
 #include "search/walk.h"
 
@@ -20,7 +20,7 @@
 #define SHARP_START 4   /* width at which the last polish starts */
 #define KEEPS_UP 0.002  /* of what is covered, by which few patches may mislead */
 #define STARTS 2        /* of annealing */
-#define TURNS 4         /* of walks and new drafts, as many as STARTS that are annealed first */
+#define TURNS 4         /* of walks and new layouts, as many as STARTS that are annealed first */
 #define WALK 1e8        /* patches that a walk goes through */
 #define GAIN_LEAST 1e-5 /* of what is covered: less is no improvement */
 #define BEHIND_MOST                                                                                                    \
@@ -98,9 +98,9 @@ bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_
 }
 
 /* The same nozzles on other patches, or on the same ones looked at anew. */
-static bool transfer(sp_sights *sights, const sp_draft *from, sp_draft *to, sp_error *error)
+static bool transfer(sp_sights *sights, const sp_partial *from, sp_partial *to, sp_error *error)
 {
-    if (!sp_draft_create(sights->search, to, error))
+    if (!sp_partial_create(sights->search, to, error))
         return false;
     bool done = true;
     for (size_t i = 0; done && i < from->count; i++) {
@@ -109,32 +109,32 @@ static bool transfer(sp_sights *sights, const sp_draft *from, sp_draft *to, sp_e
         if (!placed.field)
             done = sp_fail_memory(error);
         else if (sp_sights_field(sights, &placed, NULL, placed.field, error))
-            done = sp_draft_add(sights->search, to, placed, error);
+            done = sp_partial_add(sights->search, to, placed, error);
         else {
             free(placed.field);
             done = false;
         }
     }
     if (!done)
-        sp_draft_free(to);
+        sp_partial_free(to);
     return done;
 }
 
-static bool fits_within(const sp_search *search, const sp_draft *draft, double budget)
+static bool fits_within(const sp_search *search, const sp_partial *partial, double budget)
 {
-    return draft->flow <= sp_draft_water(search, draft, budget) * (1 + SP_ROUNDING);
+    return partial->flow <= sp_partial_water(search, partial, budget) * (1 + SP_ROUNDING);
 }
 
 /* Within the budget by turning nozzles down; false in *fits where that is not enough. */
-static bool fit(sp_sights *sights, double budget, sp_draft *draft, bool *fits, sp_error *error)
+static bool fit(sp_sights *sights, double budget, sp_partial *partial, bool *fits, sp_error *error)
 {
-    double water = sp_draft_water(sights->search, draft, budget);
-    if (draft->flow > water) {
-        sp_turn_down(sights->search, draft, water);
-        if (!sp_draft_look(sights, draft, error))
+    double water = sp_partial_water(sights->search, partial, budget);
+    if (partial->flow > water) {
+        sp_turn_down(sights->search, partial, water);
+        if (!sp_partial_look(sights, partial, error))
             return false;
     }
-    *fits = fits_within(sights->search, draft, budget);
+    *fits = fits_within(sights->search, partial, budget);
     return true;
 }
 
@@ -146,46 +146,46 @@ static size_t turn_of(const sp_trial *trial)
 }
 
 /* Anneals from ever wider starts: a narrow one keeps what is there; a wide one forgets it, and may find better. */
-static bool anneal(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, sp_draft *draft,
+static bool anneal(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, sp_partial *partial,
                    sp_error *error)
 {
     static const size_t starts[STARTS] = {3, 0};
-    double water = sp_draft_water(polishing->search, draft, trial->budget);
+    double water = sp_partial_water(polishing->search, partial, trial->budget);
     for (size_t i = 0; i < STARTS; i++)
         if ((trial->kind == SP_TRIAL_ANNEAL || i == turn_of(trial)) &&
-            !sp_anneal(sights, starts[i], SP_WIDTHS, water, polishing->deadline, draft, error))
+            !sp_anneal(sights, starts[i], SP_WIDTHS, water, polishing->deadline, partial, error))
             return false;
     return true;
 }
 
 /* What `start` becomes on few patches, if it keeps up with `before`. */
 static bool refine(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, double before,
-                   const sp_draft *start, sp_draft *refined, sp_error *error)
+                   const sp_partial *start, sp_partial *refined, sp_error *error)
 {
     bool fits;
     if (!transfer(sights, start, refined, error))
         return false;
-    double water = sp_draft_water(polishing->search, refined, trial->budget);
+    double water = sp_partial_water(polishing->search, refined, trial->budget);
     bool done = fit(sights, trial->budget, refined, &fits, error);
     if (done && fits)
         done = anneal(polishing, sights, trial, refined, error) &&
                (refined->covered < before * (1 - BEHIND_MOST) ||
                 sp_compass(sights, STEP_FIRST, STEP_LEAST, water, polishing->deadline, refined, error));
     if (!done)
-        sp_draft_free(refined);
+        sp_partial_free(refined);
     return done;
 }
 
 /* What the trial covers on few patches before anything is done to it, within its budget; 0 where it cannot be that. */
 static bool cover_before(sp_sights *sights, const sp_trial *trial, double *covered, sp_error *error)
 {
-    sp_draft draft;
+    sp_partial partial;
     bool fits;
-    if (!transfer(sights, &trial->draft, &draft, error))
+    if (!transfer(sights, &trial->partial, &partial, error))
         return false;
-    bool done = fit(sights, trial->budget, &draft, &fits, error);
-    *covered = done && fits ? draft.covered : 0;
-    sp_draft_free(&draft);
+    bool done = fit(sights, trial->budget, &partial, &fits, error);
+    *covered = done && fits ? partial.covered : 0;
+    sp_partial_free(&partial);
     return done;
 }
 
@@ -193,7 +193,7 @@ static bool cover_before(sp_sights *sights, const sp_trial *trial, double *cover
 static bool walk(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
 {
     (void)thread;
-    return trial->kind != SP_TRIAL_WALK || (sp_draft_copy(polishing->search, &trial->draft, &trial->start, error) &&
+    return trial->kind != SP_TRIAL_WALK || (sp_partial_copy(polishing->search, &trial->partial, &trial->start, error) &&
                                             sp_walk(&polishing->tuned.search, trial->budget * (1 + SP_ROUNDING), WALK,
                                                     trial->seed, polishing->deadline, &trial->start, error));
 }
@@ -205,7 +205,7 @@ static bool is_same(const sp_nozzle *a, const sp_nozzle *b)
 }
 
 /* Nozzle by nozzle, as the order decides which is turned first. */
-static bool are_same(const sp_draft *a, const sp_draft *b)
+static bool are_same(const sp_partial *a, const sp_partial *b)
 {
     bool same = a->count == b->count;
     for (size_t i = 0; same && i < a->count; i++)
@@ -225,39 +225,39 @@ static void find_repeats(sp_trial *trials, size_t count)
 }
 
 /* What the trial starts from. */
-static bool begin(const sp_polishing *polishing, sp_trial *trial, sp_draft *start, sp_error *error)
+static bool begin(const sp_polishing *polishing, sp_trial *trial, sp_partial *start, sp_error *error)
 {
-    const sp_draft *from = trial->kind == SP_TRIAL_OTHER  ? &trial->other
-                           : trial->kind == SP_TRIAL_WALK ? &trial->start
-                                                          : &trial->draft;
-    if (!sp_draft_copy(polishing->search, from, start, error))
+    const sp_partial *from = trial->kind == SP_TRIAL_OTHER  ? &trial->other
+                             : trial->kind == SP_TRIAL_WALK ? &trial->start
+                                                            : &trial->partial;
+    if (!sp_partial_copy(polishing->search, from, start, error))
         return false;
     sp_tuned_settle(&polishing->tuned, start);
     return true;
 }
 
-/* The refined draft on the search's own patches, turned a little more on these, becomes the trial's. */
+/* The refined layout on the search's own patches, turned a little more on these, becomes the trial's. */
 static bool take_over(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
 {
     sp_sights *sights = &polishing->sights[thread];
-    sp_draft draft;
+    sp_partial partial;
     sp_sights_forget(sights);
-    if (!transfer(sights, &trial->refined, &draft, error))
+    if (!transfer(sights, &trial->refined, &partial, error))
         return false;
-    double water = sp_draft_water(polishing->search, &draft, trial->budget);
-    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, water, polishing->deadline, &draft, error)) {
-        sp_draft_free(&draft);
+    double water = sp_partial_water(polishing->search, &partial, trial->budget);
+    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, water, polishing->deadline, &partial, error)) {
+        sp_partial_free(&partial);
         return false;
     }
-    sp_draft_free(&trial->draft);
-    trial->draft = draft;
+    sp_partial_free(&trial->partial);
+    trial->partial = partial;
     return true;
 }
 
 static bool polish(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
 {
     sp_sights *sights = &polishing->rough_sights[thread];
-    sp_draft start;
+    sp_partial start;
     double before;
     if (trial->repeats || !sp_deadline_goes_on(polishing->deadline, "refine", 0))
         return true;
@@ -266,7 +266,7 @@ static bool polish(const sp_polishing *polishing, int thread, sp_trial *trial, s
     if (!cover_before(sights, trial, &before, error) || !begin(polishing, trial, &start, error))
         return false;
     bool done = refine(polishing, sights, trial, before, &start, &trial->refined, error);
-    sp_draft_free(&start);
+    sp_partial_free(&start);
     if (!done)
         return false;
     trial->covered = trial->refined.covered;
@@ -344,8 +344,8 @@ static bool share_merits(const sp_polishing *polishing, sp_trial *trials, size_t
     return true;
 }
 
-/* The others' drafts, of all trials or of those that are better. */
-static bool share_drafts(const sp_polishing *polishing, sp_trial *trials, size_t count, bool better, sp_error *error)
+/* The others' layouts, of all trials or of those that are better. */
+static bool share_partials(const sp_polishing *polishing, sp_trial *trials, size_t count, bool better, sp_error *error)
 {
     const sp_search *search = polishing->search;
     sp_ranks *ranks = ranks_of(polishing);
@@ -353,13 +353,13 @@ static bool share_drafts(const sp_polishing *polishing, sp_trial *trials, size_t
     sp_heard heard;
     for (size_t i = 0; sp_ranks_count(ranks) > 1 && i < count; i++)
         if (sp_ranks_mine(ranks, i) && (!better || trials[i].better))
-            sp_tell_draft(search, &trials[i].draft, &told);
+            sp_tell_partial(search, &trials[i].partial, &told);
     if (!sp_ranks_gather(ranks, "trials", &told, &heard, error))
         return false;
     bool done = true;
     for (size_t i = 0; done && i < count; i++)
         if (!sp_ranks_mine(ranks, i) && (!better || trials[i].better))
-            done = sp_hear_draft(search, &heard, sp_ranks_owner(ranks, i), &trials[i].draft, error);
+            done = sp_hear_partial(search, &heard, sp_ranks_owner(ranks, i), &trials[i].partial, error);
     sp_heard_free(&heard);
     return done;
 }
@@ -379,10 +379,10 @@ bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error
         trials[i].better = keeps[i];
     free(keeps);
     done = done && for_each(polishing, trials, count, true, take_over, error) &&
-           share_drafts(polishing, trials, count, true, error);
+           share_partials(polishing, trials, count, true, error);
     for (size_t i = 0; i < count; i++) {
-        sp_draft_free(&trials[i].start);
-        sp_draft_free(&trials[i].refined);
+        sp_partial_free(&trials[i].start);
+        sp_partial_free(&trials[i].refined);
     }
     return done;
 }
@@ -391,25 +391,25 @@ bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error
 static bool sharpen(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
 {
     sp_sights *sights = &polishing->sharp_sights[thread], *own = &polishing->sights[thread];
-    sp_draft sharp, draft;
+    sp_partial sharp, partial;
     sp_sights_forget(sights);
     sp_sights_forget(own);
-    if (!transfer(sights, &trial->draft, &sharp, error))
+    if (!transfer(sights, &trial->partial, &sharp, error))
         return false;
-    double water = sp_draft_water(polishing->search, &sharp, trial->budget);
+    double water = sp_partial_water(polishing->search, &sharp, trial->budget);
     bool done = sp_anneal(sights, SHARP_START, SP_WIDTHS, water, polishing->deadline, &sharp, error) &&
                 sp_compass(sights, STEP_SHARP, STEP_LEAST, water, polishing->deadline, &sharp, error) &&
-                transfer(own, &sharp, &draft, error);
-    sp_draft_free(&sharp);
+                transfer(own, &sharp, &partial, error);
+    sp_partial_free(&sharp);
     if (!done)
         return false;
-    sp_draft_free(&trial->draft);
-    trial->draft = draft;
+    sp_partial_free(&trial->partial);
+    trial->partial = partial;
     return true;
 }
 
 bool sp_sharpen(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error)
 {
     return for_each(polishing, trials, count, false, sharpen, error) &&
-           share_drafts(polishing, trials, count, false, error);
+           share_partials(polishing, trials, count, false, error);
 }

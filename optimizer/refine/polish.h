@@ -1,4 +1,4 @@
-/* Polishing: refining many drafts at once, each annealed and then improved by compass. */
+/* Polishing: refining many layouts at once, each annealed and then improved by compass. */
 #ifndef OPTIMIZER_POLISH_H
 #define OPTIMIZER_POLISH_H
 
@@ -6,24 +6,24 @@
 #include "search/tuned.h"
 
 typedef enum {
-    SP_TRIAL_ANNEAL, /* the draft as it is, annealed from every start */
+    SP_TRIAL_ANNEAL, /* the layout as it is, annealed from every start */
     SP_TRIAL_POLISH, /* the same, annealed by turns as all that follow */
     SP_TRIAL_WALK,   /* after a walk */
     SP_TRIAL_OTHER,  /* another in its place */
 } sp_trial_kind;
 
-/* One draft to polish at equal water. */
+/* One layout to polish at equal water. */
 typedef struct {
     sp_trial_kind kind;
-    sp_draft draft;   /* what comes out takes its place, if better, and no other of the same water much more so */
-    sp_draft other;   /* of the tuned search, where that kind asks for it */
-    double budget;    /* m³/s of outlay */
-    uint64_t seed;    /* of the walk */
-    sp_draft start;   /* where the walk of that kind ended */
-    bool repeats;     /* another is refined in the same way from there */
-    bool better;      /* it came to cover more on few patches; the search's and the final ones may see it otherwise */
-    sp_draft refined; /* on few patches */
-    double covered;   /* m² of these */
+    sp_partial partial; /* what comes out takes its place, if better, and no other of the same water much more so */
+    sp_partial other;   /* of the tuned search, where that kind asks for it */
+    double budget;      /* m³/s of outlay */
+    uint64_t seed;      /* of the walk */
+    sp_partial start;   /* where the walk of that kind ended */
+    bool repeats;       /* another is refined in the same way from there */
+    bool better;        /* it came to cover more on few patches; the search's and the final ones may see it otherwise */
+    sp_partial refined; /* on few patches */
+    double covered;     /* m² of these */
 } sp_trial;
 
 typedef struct {
@@ -33,7 +33,7 @@ typedef struct {
     sp_search rough;
     sp_evaluator *sharp_evaluator; /* NULL: the final patches are few enough */
     sp_search sharp;               /* on these */
-    sp_tuned tuned;                /* where walks and other drafts find their poses */
+    sp_tuned tuned;                /* where walks and other layouts find their poses */
     int threads;
     sp_sights *sights, *rough_sights, *sharp_sights; /* [threads]; the first are exact */
 } sp_polishing;
@@ -45,7 +45,7 @@ void sp_polishing_free(sp_polishing *polishing);
 /* Polishes every trial on few patches, and the best for each amount of water on the search's own. Trials are dealt out
  * to ranks. What comes out does not depend on the number of threads or ranks. */
 bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error);
-/* Polishes every trial's draft sharply on the final patches, where it never gets worse. */
+/* Polishes every trial's layout sharply on the final patches, where it never gets worse. */
 bool sp_sharpen(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error);
 
 #endif

@@ -436,7 +436,7 @@ static bool solve(sp_soft *soft, double (*values)[SP_UNKNOWNS], sp_error *error)
 }
 
 /* The nozzles that keep their fields, as though every layout contained them, but for their water. */
-static bool hold(const sp_search *search, const sp_draft *draft, sp_search *held, sp_error *error)
+static bool hold(const sp_search *search, const sp_partial *partial, sp_search *held, sp_error *error)
 {
     size_t bytes = (search->patch_count + 1) * sizeof(float), count = search->patch_count;
     *held = *search;
@@ -449,9 +449,9 @@ static bool hold(const sp_search *search, const sp_draft *draft, sp_search *held
     memcpy(held->kept_dry, search->kept_dry, count * sizeof(float));
     if (held->kept_film)
         memcpy(held->kept_film, search->kept_film, count * sizeof(float));
-    for (size_t i = 0; i < draft->count; i++)
-        if (!sp_type_is_uniform(draft->items[i].nozzle.type))
-            sp_footprint_pour(search, sp_footprints_look(search->footprints, draft->items[i].pose), held->kept_hit,
+    for (size_t i = 0; i < partial->count; i++)
+        if (!sp_type_is_uniform(partial->items[i].nozzle.type))
+            sp_footprint_pour(search, sp_footprints_look(search->footprints, partial->items[i].pose), held->kept_hit,
                               held->kept_film, held->kept_dry);
     return true;
 }
@@ -463,19 +463,19 @@ static void let_go(sp_search *held)
     free(held->kept_film);
 }
 
-bool sp_soft_solve(const sp_search *search, const sp_draft *draft, const sp_freedom *freedoms,
+bool sp_soft_solve(const sp_search *search, const sp_partial *partial, const sp_freedom *freedoms,
                    const sp_sight *const *sights, sp_width width, double budget, double (*values)[SP_UNKNOWNS],
                    sp_error *error)
 {
     sp_search held;
-    sp_soft soft = {.search = &held, .width = width, .budget = budget, .nozzle_count = draft->count};
-    for (size_t i = 0; i < draft->count; i++)
+    sp_soft soft = {.search = &held, .width = width, .budget = budget, .nozzle_count = partial->count};
+    for (size_t i = 0; i < partial->count; i++)
         soft.unknowns += freedoms[i].count;
     if (!soft.unknowns)
         return true;
-    bool done = hold(search, draft, &held, error) && soft_create(&soft, freedoms, sights, error) &&
+    bool done = hold(search, partial, &held, error) && soft_create(&soft, freedoms, sights, error) &&
                 (!search->runoffs ||
-                 sp_soft_film_create(&held, freedoms, sights, draft->count, width.level, &soft.film, error)) &&
+                 sp_soft_film_create(&held, freedoms, sights, partial->count, width.level, &soft.film, error)) &&
                 solve(&soft, values, error);
     soft_free(&soft);
     let_go(&held);

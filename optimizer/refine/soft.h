@@ -1,13 +1,13 @@
-/* The smoothed coverage of a draft as a least squares problem in what refinement may change. */
+/* The smoothed coverage of a layout as a least squares problem in what refinement may change. */
 #ifndef OPTIMIZER_SOFT_H
 #define OPTIMIZER_SOFT_H
 
 #include "refine/level.h"
 
-/* Of a draft's nozzles, with visibility frozen as in sights[i], minimises the sum over the coarse patches of area (1 -
+/* Of a layout's nozzles, with visibility frozen as in sights[i], minimises the sum over the coarse patches of area (1 -
  * soft cover)² with Ceres from freedoms[i].value, and writes the values that it ends with to values[i]. The flows' sum
  * stays below `budget` (m³/s) by a penalty. Those without freedom keep their fields. */
-bool sp_soft_solve(const sp_search *search, const sp_draft *draft, const sp_freedom *freedoms,
+bool sp_soft_solve(const sp_search *search, const sp_partial *partial, const sp_freedom *freedoms,
                    const sp_sight *const *sights, sp_width width, double budget, double (*values)[SP_UNKNOWNS],
                    sp_error *error);
 

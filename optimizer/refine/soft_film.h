@@ -1,4 +1,4 @@
-/* The film of a draft as refinement sees it: linear in what the nozzles bring, so that its derivatives are the film of
+/* The film of a layout as refinement sees it: linear in what the nozzles bring, so that its derivatives are the film of
  * theirs. */
 #ifndef OPTIMIZER_SOFT_FILM_H
 #define OPTIMIZER_SOFT_FILM_H

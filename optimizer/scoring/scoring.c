@@ -68,7 +68,8 @@ void sp_sweepers_destroy(sp_sweeper *sweepers, int count)
     free(sweepers);
 }
 
-void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, uint32_t site, size_t launch)
+void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_partial *partial, uint32_t site,
+                     size_t launch)
 {
     if (sweeper->search == search && sweeper->site == site && sweeper->launch == launch)
         return;
@@ -79,13 +80,13 @@ void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draf
     sweeper->site = site;
     sweeper->launch = launch;
     sweeper->frame = sp_nozzle_frame(search->sites->items[site].axis, 0, sp_evaluator_setup(search->coarse)->up);
-    sweeper->draft = draft;
+    sweeper->partial = partial;
     sweeper->fields.view = view;
     if (!view->start || search->runoffs)
         return;
     for (uint32_t i = 0; i < view->count; i++) {
-        sweeper->had[i] = draft->wet[view->patch[i]];
-        sweeper->area[i] = search->area[view->patch[i]] * draft->dry[view->patch[i]] * sp_view_part(view, i);
+        sweeper->had[i] = partial->wet[view->patch[i]];
+        sweeper->area[i] = search->area[view->patch[i]] * partial->dry[view->patch[i]] * sp_view_part(view, i);
     }
     sp_credit credit = {search->single, search->credit, 0};
     search->sweeps->room(&credit, view->count, sweeper->had, sweeper->area, sweeper->room);
@@ -155,12 +156,12 @@ sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t rol
     const sp_search *search = sweeper->search;
     const sp_footprint *footprint = footprint_at(sweeper, axis, roll);
     if (footprint)
-        return sp_footprint_score(search, sweeper->draft, footprint);
+        return sp_footprint_score(search, sweeper->partial, footprint);
     if (!sweeper->view->start)
         return (sp_score){0};
     /* film knows no bins: what runs down comes from everywhere above */
     if (search->runoffs)
-        return sp_field_score(search, sweeper->draft, sp_sweeper_field(sweeper, axis, roll));
+        return sp_field_score(search, sweeper->partial, sp_sweeper_field(sweeper, axis, roll));
     sp_region region = sp_sweeper_region(sweeper, axis, roll);
     const sp_weight weights[] = {{sweeper->gain, sweeper->gain_total}, {sweeper->room, sweeper->room_total}};
     double sums[2];
@@ -180,9 +181,10 @@ double sp_sweeper_most(const sp_sweeper *sweeper)
     return ROUNDED_MORE * sum * search->all;
 }
 
-sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose, double least)
+sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_partial *partial, sp_pose pose,
+                       double least)
 {
-    sp_sweeper_look(sweeper, search, draft, pose.site, search->candidates->variants[pose.variant].launch);
+    sp_sweeper_look(sweeper, search, partial, pose.site, search->candidates->variants[pose.variant].launch);
     sp_sweeper_take(sweeper, pose.variant);
     return sp_sweeper_score(sweeper, pose.axis, pose.roll, least);
 }

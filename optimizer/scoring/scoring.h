@@ -1,4 +1,4 @@
-/* Scoring: what a pose would add to a draft, by sweeping what its mounting point can reach. */
+/* Scoring: what a pose would add to a partial layout, by sweeping what its mounting point can reach. */
 #ifndef OPTIMIZER_SCORING_H
 #define OPTIMIZER_SCORING_H
 
@@ -13,7 +13,7 @@ typedef struct {
     float *had, *area, *room, *gain; /* [largest view + SP_LANES], by arrival */
     float *field;                    /* [field_count], where film or footprints are: of the pose in hand */
     sp_field_sweeper fields;         /* the same, which takes `had` and `area` for its own */
-    const sp_draft *draft;
+    const sp_partial *partial;
     float room_total[SP_BINS], gain_total[SP_BINS];
     const sp_search *search; /* what it looks at, NULL: nothing */
     const sp_view *view;
@@ -34,8 +34,9 @@ void sp_sweepers_destroy(sp_sweeper *sweepers, int count);
 /* Says that what is wet, or the search's credit, has changed, and leaves the desk: all sweepers of a loop are to forget
  * at its end, before anyone else looks. */
 void sp_sweepers_forget(sp_sweeper *sweepers, int count);
-/* Turns to what a site's nozzles of a launch would add to a draft. */
-void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, uint32_t site, size_t launch);
+/* Turns to what a site's nozzles of a launch would add to a partial layout. */
+void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_partial *partial, uint32_t site,
+                     size_t launch);
 /* Then to a variant of that launch. Both do nothing where the sweeper has not turned elsewhere since, nor forgotten.
  */
 void sp_sweeper_take(sp_sweeper *sweeper, size_t variant);
@@ -46,7 +47,8 @@ const float *sp_sweeper_field(const sp_sweeper *sweeper, uint32_t axis, uint32_t
 /* What none of the variant's poses gains more than, m²; INFINITY where its bins do not tell. */
 double sp_sweeper_most(const sp_sweeper *sweeper);
 /* Looks, takes and scores at once. */
-sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_draft *draft, sp_pose pose, double least);
+sp_score sp_score_pose(sp_sweeper *sweeper, const sp_search *search, const sp_partial *partial, sp_pose pose,
+                       double least);
 
 /* False where what a variant's poses at a site bring was left out for want of time. */
 bool sp_search_knows(const sp_search *search, uint32_t site, size_t variant);

@@ -73,9 +73,9 @@ static void forget_rooms(sp_rounds *rounds)
 }
 
 /* Credit is for what later nozzles complete: the last one gets none. */
-static bool is_last(const sp_search *search, const sp_draft *draft)
+static bool is_last(const sp_search *search, const sp_partial *partial)
 {
-    return search->options->max_nozzles && search->kept_count + draft->count + 1 >= search->options->max_nozzles;
+    return search->options->max_nozzles && search->kept_count + partial->count + 1 >= search->options->max_nozzles;
 }
 
 static bool rounds_create(const sp_search *search, double power, double budget, sp_rounds *rounds, sp_error *error)
@@ -139,9 +139,10 @@ static double price_of(const sp_search *search, const sp_pose *pose, double powe
     return pow(sp_outlay_at(search, mount, search->candidates->variants[pose->variant].flow), power);
 }
 
-static bool affords(const sp_search *search, const sp_draft *draft, uint32_t mount, size_t variant, double budget)
+static bool affords(const sp_search *search, const sp_partial *partial, uint32_t mount, size_t variant, double budget)
 {
-    return sp_affords(search, draft->flow, draft->outlay, mount, search->candidates->variants[variant].flow, budget);
+    return sp_affords(search, partial->flow, partial->outlay, mount, search->candidates->variants[variant].flow,
+                      budget);
 }
 
 /* Scores one site's poses of a variant but those that cannot beat `least`, a merit that some pose of this round has.
@@ -171,20 +172,20 @@ static void scan_variant(sp_rounds *rounds, sp_sweeper *sweeper, uint32_t varian
         *best = (sp_round_best){rise.step[0].pose, rise.step[0].gain / price, rise.step[0].gain};
 }
 
-static void scan_site(sp_rounds *rounds, const sp_draft *draft, sp_sweeper *sweeper, uint32_t site, double least)
+static void scan_site(sp_rounds *rounds, const sp_partial *partial, sp_sweeper *sweeper, uint32_t site, double least)
 {
     const sp_candidates *candidates = rounds->search->candidates;
     uint32_t mount = rounds->search->sites->items[site].mount;
     for (size_t k = 0; k < candidates->variant_count; k++)
         rounds->best[site * candidates->variant_count + k] = (sp_round_best){0};
-    if (!sp_draft_has_place(rounds->search, draft, mount))
+    if (!sp_partial_has_place(rounds->search, partial, mount))
         return;
     for (size_t s = 0; s < candidates->launch_count; s++) {
         size_t number = candidates->pose_start[site];
-        sp_sweeper_look(sweeper, rounds->search, draft, site, s);
+        sp_sweeper_look(sweeper, rounds->search, partial, site, s);
         for (size_t k = 0; k < candidates->variant_count; k++) {
             const sp_variant *variant = &candidates->variants[k];
-            if (variant->launch == s && affords(rounds->search, draft, mount, k, rounds->budget))
+            if (variant->launch == s && affords(rounds->search, partial, mount, k, rounds->budget))
                 scan_variant(rounds, sweeper, (uint32_t)k, number, least);
             number += sp_candidates_axes(candidates, mount, k)->count * variant->roll_count;
         }
@@ -198,7 +199,7 @@ static sp_ranks *ranks_of(const sp_rounds *rounds)
 
 /* A merit that this round surely reaches: that of the last round's best poses, scored again, each rank those of its own
  * sites. */
-static double round_floor(sp_rounds *rounds, const sp_draft *draft)
+static double round_floor(sp_rounds *rounds, const sp_partial *partial)
 {
     const sp_search *search = rounds->search;
     size_t count = search->sites->count * search->candidates->variant_count;
@@ -210,11 +211,11 @@ static double round_floor(sp_rounds *rounds, const sp_draft *draft)
         if (best->merit <= 0 || !sp_ranks_mine(ranks_of(rounds), best->pose.site))
             continue;
         uint32_t mount = search->sites->items[best->pose.site].mount;
-        if (!affords(search, draft, mount, best->pose.variant, rounds->budget) ||
-            !sp_draft_has_place(search, draft, mount))
+        if (!affords(search, partial, mount, best->pose.variant, rounds->budget) ||
+            !sp_partial_has_place(search, partial, mount))
             continue;
         sp_sweeper *sweeper = &rounds->sweepers[omp_get_thread_num()];
-        double gain = sp_score_pose(sweeper, search, draft, best->pose, 0).gain;
+        double gain = sp_score_pose(sweeper, search, partial, best->pose, 0).gain;
         least = fmax(least, gain / price_of(search, &best->pose, rounds->power));
     }
     return least;
@@ -239,9 +240,9 @@ static bool share_bests(sp_rounds *rounds, sp_error *error)
 }
 
 /* Each rank scans its own sites, whose rooms it alone knows. */
-static bool scan(sp_rounds *rounds, const sp_draft *draft, sp_error *error)
+static bool scan(sp_rounds *rounds, const sp_partial *partial, sp_error *error)
 {
-    double least = rounds->started ? round_floor(rounds, draft) : 0;
+    double least = rounds->started ? round_floor(rounds, partial) : 0;
     if (!sp_ranks_highest(ranks_of(rounds), "floor", &least, 1, error))
         return false;
     rounds->started = true;
@@ -251,7 +252,7 @@ static bool scan(sp_rounds *rounds, const sp_draft *draft, sp_error *error)
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
     for (size_t i = 0; i < sites; i++)
         if (sp_ranks_mine(ranks_of(rounds), i))
-            scan_site(rounds, draft, &rounds->sweepers[omp_get_thread_num()], (uint32_t)i, least);
+            scan_site(rounds, partial, &rounds->sweepers[omp_get_thread_num()], (uint32_t)i, least);
     sp_sweepers_forget(rounds->sweepers, rounds->threads);
     return share_bests(rounds, error);
 }
@@ -290,7 +291,7 @@ static const sp_round_best *round_best(const sp_rounds *rounds)
 }
 
 bool sp_greedy(const sp_search *search, double power, double target, double budget, sp_deadline *deadline,
-               sp_draft *draft, sp_pool *pool, sp_error *error)
+               sp_partial *partial, sp_pool *pool, sp_error *error)
 {
     sp_rounds rounds;
     double least = GAIN_LEAST * search->all;
@@ -299,18 +300,18 @@ bool sp_greedy(const sp_search *search, double power, double target, double budg
     sp_search exact = *search;
     exact.credit = 0;
     /* out of time there is at least one nozzle to show */
-    while (done && draft->covered < target &&
-           (sp_deadline_goes_on(deadline, "greedy", fmin(1, draft->covered / target)) ||
-            (first && !draft->count && !deadline->cancelled))) {
-        if (is_last(search, draft) && rounds.search != &exact) {
+    while (done && partial->covered < target &&
+           (sp_deadline_goes_on(deadline, "greedy", fmin(1, partial->covered / target)) ||
+            (first && !partial->count && !deadline->cancelled))) {
+        if (is_last(search, partial) && rounds.search != &exact) {
             rounds.search = &exact;
             forget_rooms(&rounds);
         }
-        done = scan(&rounds, draft, error);
+        done = scan(&rounds, partial, error);
         const sp_round_best *best = round_best(&rounds);
         if (!done || best->merit <= 0 || best->gain < least)
             break;
-        done = remember(&rounds, first, pool, error) && sp_draft_add_pose(search, draft, best->pose, error);
+        done = remember(&rounds, first, pool, error) && sp_partial_add_pose(search, partial, best->pose, error);
         first = false;
     }
     rounds_free(&rounds);
@@ -366,8 +367,8 @@ static bool share_scores(const sp_search *search, const sp_pool *pool, sp_bench 
 
 /* Scores all of the pool, each rank the poses of its own sites, exactly where they may be the best or equal to it;
  * `least` as sp_pool_best's. */
-static bool score_pool(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
-                       double least, sp_bench *bench, sp_error *error)
+static bool score_pool(const sp_search *search, const sp_pool *pool, const sp_partial *partial, double power,
+                       double budget, double least, sp_bench *bench, sp_error *error)
 {
     double tie = SP_SCORE_TIE * search->all;
 #pragma omp parallel num_threads(bench->threads)
@@ -383,8 +384,8 @@ static bool score_pool(const sp_search *search, const sp_pool *pool, const sp_dr
             double price = price_of(search, &pose, power), enough = fmax(least, merit * price) - tie;
             uint32_t mount = search->sites->items[pose.site].mount;
             bool allowed =
-                affords(search, draft, mount, pose.variant, budget) && sp_draft_has_place(search, draft, mount);
-            double gain = allowed ? sp_score_pose(sweeper, search, draft, pose, enough).gain : 0;
+                affords(search, partial, mount, pose.variant, budget) && sp_partial_has_place(search, partial, mount);
+            double gain = allowed ? sp_score_pose(sweeper, search, partial, pose, enough).gain : 0;
             bench->scores[i] = gain >= enough ? gain : 0;
             merit = fmax(merit, bench->scores[i] / price);
         }
@@ -393,13 +394,13 @@ static bool score_pool(const sp_search *search, const sp_pool *pool, const sp_dr
     return share_scores(search, pool, bench, error);
 }
 
-bool sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *draft, double power, double budget,
+bool sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_partial *partial, double power, double budget,
                   double least, sp_bench *bench, sp_pose *best, double *gain, sp_error *error)
 {
     const double *scores = bench->scores;
     double merit = 0, tie = SP_SCORE_TIE * search->all;
     *gain = 0;
-    if (!score_pool(search, pool, draft, power, budget, least, bench, error))
+    if (!score_pool(search, pool, partial, power, budget, least, bench, error))
         return false;
     for (size_t i = 0; i < pool->count; i++)
         merit = fmax(merit, scores[i] / price_of(search, &pool->items[i], power));
@@ -413,17 +414,17 @@ bool sp_pool_best(const sp_search *search, const sp_pool *pool, const sp_draft *
 }
 
 bool sp_greedy_pool(const sp_search *search, const sp_pool *pool, double power, double target, double budget,
-                    sp_bench *bench, sp_draft *draft, sp_error *error)
+                    sp_bench *bench, sp_partial *partial, sp_error *error)
 {
     double least = GAIN_LEAST * search->all;
     bool done = true;
-    while (done && draft->covered < target) {
+    while (done && partial->covered < target) {
         sp_pose pose;
         double gain;
-        done = sp_pool_best(search, pool, draft, power, budget, 0, bench, &pose, &gain, error);
+        done = sp_pool_best(search, pool, partial, power, budget, 0, bench, &pose, &gain, error);
         if (!done || gain < least)
             break;
-        done = sp_draft_add_pose(search, draft, pose, error);
+        done = sp_partial_add_pose(search, partial, pose, error);
     }
     return done;
 }

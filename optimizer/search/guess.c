@@ -302,29 +302,29 @@ bool sp_guess(const sp_table *table, const double *budgets, size_t count, sp_dea
     return done;
 }
 
-static bool add_copy(const sp_search *search, const sp_placed *from, sp_draft *draft, sp_error *error)
+static bool add_copy(const sp_search *search, const sp_placed *from, sp_partial *partial, sp_error *error)
 {
     sp_placed placed = *from;
     placed.field = malloc((search->field_count + 1) * sizeof *placed.field);
     if (!placed.field)
         return sp_fail_memory(error);
     memcpy(placed.field, from->field, search->field_count * sizeof *placed.field);
-    return sp_draft_add(search, draft, placed, error);
+    return sp_partial_add(search, partial, placed, error);
 }
 
-bool sp_lineup_draft(const sp_lineup *lineup, sp_draft *draft, sp_error *error)
+bool sp_lineup_partial(const sp_lineup *lineup, sp_partial *partial, sp_error *error)
 {
     const sp_table *table = lineup->table;
-    if (!sp_draft_create(table->search, draft, error))
+    if (!sp_partial_create(table->search, partial, error))
         return false;
     bool done = true;
     for (size_t i = 0; done && i < lineup->count; i++) {
         size_t row = lineup->row[i];
         done = row < table->pool->count
-                   ? sp_draft_add_pose(table->search, draft, table->pool->items[row], error)
-                   : add_copy(table->search, table->others[row - table->pool->count], draft, error);
+                   ? sp_partial_add_pose(table->search, partial, table->pool->items[row], error)
+                   : add_copy(table->search, table->others[row - table->pool->count], partial, error);
     }
     if (!done)
-        sp_draft_free(draft);
+        sp_partial_free(partial);
     return done;
 }

@@ -11,7 +11,7 @@
  * the caller. What is found does not depend on the number of threads. */
 bool sp_guess(const sp_table *table, const double *budgets, size_t count, sp_deadline *deadline, sp_lineup *lineups,
               sp_error *error);
-/* The lineup as a draft. */
-bool sp_lineup_draft(const sp_lineup *lineup, sp_draft *draft, sp_error *error);
+/* The lineup as a partial layout. */
+bool sp_lineup_partial(const sp_lineup *lineup, sp_partial *partial, sp_error *error);
 
 #endif

@@ -14,7 +14,7 @@ typedef struct {
     double flow;                   /* m³/s, kept nozzles included */
     double outlay;                 /* m³/s, the same with what the mounts cost */
     double covered;                /* m² of the sample */
-    float *hit, *film, *wet, *dry; /* [table->patch_count], as sp_draft's */
+    float *hit, *film, *wet, *dry; /* [table->patch_count], as sp_partial's */
     double *gain;                  /* [table->row_count], scratch */
 } sp_lineup;
 

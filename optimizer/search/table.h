@@ -1,5 +1,5 @@
-/* The pool's poses, and nozzles of drafts beside them, as sparse rows over a sample of the patches: small enough to
- * try thousands of layouts on. */
+/* The pool's poses, and nozzles of partial layouts beside them, as sparse rows over a sample of the patches: small
+ * enough to try thousands of layouts on. */
 #ifndef OPTIMIZER_TABLE_H
 #define OPTIMIZER_TABLE_H
 
@@ -21,7 +21,7 @@ typedef struct {
     float *column_field, *column_film;
 } sp_table;
 
-/* Borrows all; `others` are nozzles of drafts of the same search, or NULL. */
+/* Borrows all; `others` are nozzles of partial layouts of the same search, or NULL. */
 bool sp_table_create(const sp_search *search, const sp_pool *pool, const sp_placed *const *others, size_t other_count,
                      sp_table *table, sp_error *error);
 void sp_table_free(sp_table *table);

@@ -82,11 +82,11 @@ void sp_tuned_free(sp_tuned *tuned)
     *tuned = (sp_tuned){0};
 }
 
-void sp_tuned_settle(const sp_tuned *tuned, sp_draft *draft)
+void sp_tuned_settle(const sp_tuned *tuned, sp_partial *partial)
 {
     const sp_fluid *liquid = &sp_evaluator_setup(tuned->search.coarse)->liquid;
-    for (size_t i = 0; i < draft->count; i++) {
-        sp_placed *placed = &draft->items[i];
+    for (size_t i = 0; i < partial->count; i++) {
+        sp_placed *placed = &partial->items[i];
         if (fabs(sp_nozzle_flow(&placed->nozzle, liquid) - placed->flow) > 1e-9 * placed->flow)
             placed->nozzle.flow = placed->flow;
     }

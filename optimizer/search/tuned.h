@@ -14,7 +14,7 @@ typedef struct {
 
 bool sp_tuned_create(const sp_search *search, const sp_pool *pool, sp_tuned *tuned, sp_error *error);
 void sp_tuned_free(sp_tuned *tuned);
-/* Writes the flows of poses that were added to a draft into their nozzles. */
-void sp_tuned_settle(const sp_tuned *tuned, sp_draft *draft);
+/* Writes the flows of poses that were added to a partial layout into their nozzles. */
+void sp_tuned_settle(const sp_tuned *tuned, sp_partial *partial);
 
 #endif

@@ -15,7 +15,7 @@ void fail(const sp_error *error)
 void placement_open(const char *scene, placement *p)
 {
     sp_error error = {0};
-    sp_draft first;
+    sp_partial first;
     *p = (placement){.scene = sp_scene_load(scene, &error)};
     p->fine = p->scene ? sp_evaluator_create(sp_scene_setup(p->scene), &error) : NULL;
     if (!p->fine)
@@ -36,7 +36,7 @@ void placement_open(const char *scene, placement *p)
     if (!sp_find_first(&p->search, 1, &p->deadline, &p->front, &p->pool, &first, &error) ||
         !sp_find_more(&p->search, &p->deadline, &p->front, &p->pool, &first, &error))
         fail(&error);
-    sp_draft_free(&first);
+    sp_partial_free(&first);
 }
 
 void placement_close(placement *p)

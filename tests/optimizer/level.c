@@ -21,7 +21,7 @@ typedef struct {
     sp_deadline deadline;
     sp_search search;
     sp_sights sights;
-    sp_draft draft;
+    sp_partial partial;
 } bench;
 
 /* A floor with a wall behind it, and one nozzle of the pattern given aslant above them. */
@@ -69,13 +69,13 @@ static void bench_open(bench *b, sp_pattern pattern, sp_trajectory trajectory, d
     assert_true(sp_search_create(b->room.evaluator, &b->options, &b->sites, &b->candidates, &b->visibility, &b->search,
                                  &error));
     assert_true(sp_sights_create(&b->search, 4, false, &b->sights, &error));
-    assert_true(sp_draft_create(&b->search, &b->draft, &error));
-    assert_true(sp_draft_add_pose(&b->search, &b->draft, (sp_pose){1, 0, 2, 0}, &error));
+    assert_true(sp_partial_create(&b->search, &b->partial, &error));
+    assert_true(sp_partial_add_pose(&b->search, &b->partial, (sp_pose){1, 0, 2, 0}, &error));
 }
 
 static void bench_close(bench *b)
 {
-    sp_draft_free(&b->draft);
+    sp_partial_free(&b->partial);
     sp_sights_free(&b->sights);
     sp_search_free(&b->search);
     sp_visibility_free(&b->visibility);
@@ -195,16 +195,16 @@ static void slopes_are_differences(void **state)
         sp_error error = {0};
         double flux = i < 9 ? 0 : 2 * LITRES_PER_MINUTE;
         bench_open(&b, patterns[i % 3], trajectories[i / 3 % 3], flux, i < 18 ? SP_COMBINE_SUM : SP_COMBINE_SINGLE);
-        const sp_sight *sight = sp_sights_look(&b.sights, &b.draft.items[0], &error);
+        const sp_sight *sight = sp_sights_look(&b.sights, &b.partial.items[0], &error);
         assert_non_null(sight);
-        sp_freedom freedom = sp_freedom_create(&b.search, &b.draft.items[0]);
+        sp_freedom freedom = sp_freedom_create(&b.search, &b.partial.items[0]);
         assert_int_equal(freedom.count, i % 3 == 2 ? 8 : 7);
         check_slopes(&b, &freedom, sight, i);
         bench_close(&b);
     }
 }
 
-/* Where only what a draft leaves dry is looked at, a nozzle adds the same to it. */
+/* Where only what a partial layout leaves dry is looked at, a nozzle adds the same to it. */
 static void dry_patches_say_what_is_added(void **state)
 {
     (void)state;
@@ -213,12 +213,12 @@ static void dry_patches_say_what_is_added(void **state)
     bench_open(&b, SP_PATTERN_FULL_CONE, SP_TRAJECTORY_PARABOLA, 2 * LITRES_PER_MINUTE, SP_COMBINE_SUM);
     size_t patches = b.search.patch_count, left_out = 0;
     float *whole = malloc(patches * sizeof *whole), *part = malloc(patches * sizeof *part);
-    sp_placed placed = b.draft.items[0];
+    sp_placed placed = b.partial.items[0];
     placed.nozzle.position.x += 0.05;
     assert_true(whole && part);
     assert_true(sp_sights_field(&b.sights, &placed, NULL, whole, &error));
-    assert_true(sp_sights_field(&b.sights, &placed, &b.draft, part, &error));
-    assert_true(sp_field_gain(&b.search, &b.draft, whole) == sp_field_gain(&b.search, &b.draft, part));
+    assert_true(sp_sights_field(&b.sights, &placed, &b.partial, part, &error));
+    assert_true(sp_field_gain(&b.search, &b.partial, whole) == sp_field_gain(&b.search, &b.partial, part));
     for (size_t p = 0; p < patches; p++)
         left_out += whole[p] != 0 && part[p] == 0;
     assert_true(left_out > 0);

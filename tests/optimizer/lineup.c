@@ -229,7 +229,7 @@ static void two_merge_into_the_best_one(void **state)
     job_close(&j);
 }
 
-/* Regrouping never loses, and a lineup is the same draft on all patches. */
+/* Regrouping never loses, and a lineup is the same partial layout on all patches. */
 static void regrouping_never_loses(void **state)
 {
     (void)state;
@@ -249,11 +249,11 @@ static void regrouping_never_loses(void **state)
             double budget = lineup.flow * (1 + SP_ROUNDING), before = lineup.covered;
             sp_lineup_regroup(&lineup, budget, &scratch);
             assert_true(lineup.covered >= before && lineup.flow <= budget);
-            sp_draft draft;
-            assert_true(sp_lineup_draft(&lineup, &draft, &error));
-            assert_true(fabs(draft.covered - lineup.covered) < 1e-5 * lineup.covered);
-            assert_true(fabs(draft.flow - lineup.flow) < 1e-12);
-            sp_draft_free(&draft);
+            sp_partial partial;
+            assert_true(sp_lineup_partial(&lineup, &partial, &error));
+            assert_true(fabs(partial.covered - lineup.covered) < 1e-5 * lineup.covered);
+            assert_true(fabs(partial.flow - lineup.flow) < 1e-12);
+            sp_partial_free(&partial);
         }
         sp_lineup_free(&lineup);
         sp_lineup_free(&scratch);
@@ -269,7 +269,7 @@ static void tuned_poses_say_their_flow(void **state)
     job j;
     sp_error error = {0};
     sp_tuned tuned;
-    sp_draft draft;
+    sp_partial partial;
     job_open(&j, false);
     j.options.refine.flow = INFINITY;
     assert_true(sp_tuned_create(&j.search, &j.pool, &tuned, &error));
@@ -277,20 +277,20 @@ static void tuned_poses_say_their_flow(void **state)
     assert_true(tuned.pool.count > j.pool.count);
     for (size_t i = 0; i < tuned.pool.count; i++) {
         double flow = tuned.candidates.variants[tuned.pool.items[i].variant].flow;
-        assert_true(sp_draft_create(&tuned.search, &draft, &error));
-        assert_true(sp_draft_add_pose(&tuned.search, &draft, tuned.pool.items[i], &error));
-        sp_tuned_settle(&tuned, &draft);
-        const sp_placed *placed = &draft.items[0];
+        assert_true(sp_partial_create(&tuned.search, &partial, &error));
+        assert_true(sp_partial_add_pose(&tuned.search, &partial, tuned.pool.items[i], &error));
+        sp_tuned_settle(&tuned, &partial);
+        const sp_placed *placed = &partial.items[0];
         assert_true(placed->flow == flow);
         assert_true(fabs(sp_nozzle_flow(&placed->nozzle, &j.room.setup.liquid) - flow) < 1e-9 * flow);
         assert_true(flow >= 0.999 * placed->nozzle.type->flow_min && flow <= 1.001 * placed->nozzle.type->flow_max);
         sp_layout *layout = sp_layout_create(&placed->nozzle, 1, &error);
         sp_coverage *coverage = sp_evaluate_inverse(j.room.evaluator, layout, &error);
         /* single precision may see two texels at the edge otherwise */
-        assert_true(fabs(coverage->covered_area - draft.covered) < 2.1 * TEXEL * TEXEL);
+        assert_true(fabs(coverage->covered_area - partial.covered) < 2.1 * TEXEL * TEXEL);
         sp_coverage_destroy(coverage);
         sp_layout_destroy(layout);
-        sp_draft_free(&draft);
+        sp_partial_free(&partial);
     }
     sp_tuned_free(&tuned);
     job_close(&j);

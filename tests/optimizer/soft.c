@@ -17,7 +17,7 @@ typedef struct {
     sp_deadline deadline;
     sp_search search;
     sp_sights sights;
-    sp_draft draft; /* one cone, 0.3 m off the middle */
+    sp_partial partial; /* one cone, 0.3 m off the middle */
 } bench;
 
 static void bench_open(bench *b)
@@ -41,13 +41,13 @@ static void bench_open(bench *b)
     assert_true(sp_search_create(j->room.evaluator, &j->options, &b->sites, &b->candidates, &b->visibility, &b->search,
                                  &error));
     assert_true(sp_sights_create(&b->search, 4, false, &b->sights, &error));
-    assert_true(sp_draft_create(&b->search, &b->draft, &error));
-    assert_true(sp_draft_add_pose(&b->search, &b->draft, (sp_pose){0, 0, 0, 0}, &error));
+    assert_true(sp_partial_create(&b->search, &b->partial, &error));
+    assert_true(sp_partial_add_pose(&b->search, &b->partial, (sp_pose){0, 0, 0, 0}, &error));
 }
 
 static void bench_close(bench *b)
 {
-    sp_draft_free(&b->draft);
+    sp_partial_free(&b->partial);
     sp_sights_free(&b->sights);
     sp_search_free(&b->search);
     sp_visibility_free(&b->visibility);
@@ -67,12 +67,12 @@ static void one_solve_goes_to_the_middle(void **state)
         sp_error error = {0};
         double values[1][SP_UNKNOWNS];
         bench_open(&b);
-        const sp_placed *placed = &b.draft.items[0];
+        const sp_placed *placed = &b.partial.items[0];
         sp_freedom freedom = sp_freedom_create(&b.search, placed);
         const sp_sight *sight = sp_sights_look(&b.sights, placed, &error);
         assert_int_equal(freedom.count, 1);
         memcpy(values[0], freedom.value, sizeof values[0]);
-        assert_true(sp_soft_solve(&b.search, &b.draft, &freedom, &sight, widths[w], INFINITY, values, &error));
+        assert_true(sp_soft_solve(&b.search, &b.partial, &freedom, &sight, widths[w], INFINITY, values, &error));
         sp_nozzle found = sp_freedom_nozzle(&freedom, values[0]);
         print_message("from %g to %g m\n", placed->nozzle.position.x, found.position.x);
         assert_true(fabs(placed->nozzle.position.x) > 0.25 && fabs(found.position.x) < 1e-3);
@@ -86,11 +86,11 @@ static void annealing_ends_there(void **state)
     bench b;
     sp_error error = {0};
     bench_open(&b);
-    double before = b.draft.covered;
-    assert_true(sp_anneal(&b.sights, 0, SP_WIDTHS, INFINITY, &b.deadline, &b.draft, &error));
-    print_message("at %g m, %g m2 for %g\n", b.draft.items[0].nozzle.position.x, b.draft.covered, before);
-    assert_true(fabs(b.draft.items[0].nozzle.position.x) < 0.01);
-    assert_true(b.draft.covered > before);
+    double before = b.partial.covered;
+    assert_true(sp_anneal(&b.sights, 0, SP_WIDTHS, INFINITY, &b.deadline, &b.partial, &error));
+    print_message("at %g m, %g m2 for %g\n", b.partial.items[0].nozzle.position.x, b.partial.covered, before);
+    assert_true(fabs(b.partial.items[0].nozzle.position.x) < 0.01);
+    assert_true(b.partial.covered > before);
     bench_close(&b);
 }
 

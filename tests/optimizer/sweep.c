@@ -317,25 +317,25 @@ static void scores_are_what_fields_add(void **state)
         stage_open(&s, criterion, SP_TRAJECTORY_LINE);
         size_t patches = s.search.patch_count, poses = s.candidates.pose_start[s.sites.count];
         float *field = malloc(patches * sizeof *field);
-        sp_draft draft;
-        assert_true(sp_draft_create(&s.search, &draft, &error));
+        sp_partial partial;
+        assert_true(sp_partial_create(&s.search, &partial, &error));
         sp_sweeper *sweeper = sp_sweepers_create(&s.search, 1, &error);
         uint64_t random = 11;
         double total = 0;
         for (size_t p = 0; p < patches; p++) {
-            draft.wet[p] = (float)(1.5 * next_random(&random));
-            draft.dry[p] = (float)next_random(&random);
+            partial.wet[p] = (float)(1.5 * next_random(&random));
+            partial.dry[p] = (float)next_random(&random);
         }
         for (size_t number = 0; number < poses; number += 1 + poses / 500) {
             sp_pose pose = pose_of(&s, number);
-            sp_score score = sp_score_pose(sweeper, &s.search, &draft, pose, 0);
+            sp_score score = sp_score_pose(sweeper, &s.search, &partial, pose, 0);
             sp_field_pose(&s.search, pose, field);
-            double gain = sp_field_gain(&s.search, &draft, field), room = 0;
+            double gain = sp_field_gain(&s.search, &partial, field), room = 0;
             for (size_t p = 0; p < patches; p++)
-                room += field[p] != 0 && draft.wet[p] < 1
+                room += field[p] != 0 && partial.wet[p] < 1
                             ? s.search.all * (double)s.search.area[p] *
                                   fmin(1, fabs((double)fminf(field[p], 0)) + (field[p] > 0)) *
-                                  (1 - (double)sp_worth(&s.search, draft.wet[p], draft.dry[p]))
+                                  (1 - (double)sp_worth(&s.search, partial.wet[p], partial.dry[p]))
                             : 0;
             /* single precision may see two points on the pattern's very edge otherwise */
             assert_true(fabs(score.gain - gain) <= 1e-4 * gain + 2 * TEXEL * TEXEL);
@@ -345,15 +345,15 @@ static void scores_are_what_fields_add(void **state)
         assert_true(total > 0);
         /* what is wet by now counts only once the sweeper has been told */
         sp_pose pose = pose_of(&s, poses - 1);
-        double before = sp_score_pose(sweeper, &s.search, &draft, pose, 0).gain;
+        double before = sp_score_pose(sweeper, &s.search, &partial, pose, 0).gain;
         for (size_t p = 0; p < patches; p++)
-            draft.wet[p] = 2;
-        assert_true(before > 0 && sp_score_pose(sweeper, &s.search, &draft, pose, 0).gain == before);
+            partial.wet[p] = 2;
+        assert_true(before > 0 && sp_score_pose(sweeper, &s.search, &partial, pose, 0).gain == before);
         sp_sweepers_forget(sweeper, 1);
-        assert_true(sp_score_pose(sweeper, &s.search, &draft, pose, 0).gain == 0);
+        assert_true(sp_score_pose(sweeper, &s.search, &partial, pose, 0).gain == 0);
         sp_sweepers_destroy(sweeper, 1);
         free(field);
-        sp_draft_free(&draft);
+        sp_partial_free(&partial);
         stage_close(&s);
     }
 }

@@ -164,7 +164,7 @@ static void in_a_hurry_few_patches_are_seen(void **state)
     room_close(&j.room);
 }
 
-/* What the placement has once it would look for other drafts of the candidates. */
+/* What the placement has once it would look for other layouts of the candidates. */
 static sp_proposal *place_until_exchange(job *j, double time_limit)
 {
     stopper stop = {"exchange", 0, 0};
@@ -176,7 +176,7 @@ static sp_proposal *place_until_exchange(job *j, double time_limit)
     return proposal;
 }
 
-/* In a hurry a draft that reaches the target has been refined by then, and none at leisure. */
+/* In a hurry a layout that reaches the target has been refined by then, and none at leisure. */
 static void in_a_hurry_the_proposal_comes_first(void **state)
 {
     (void)state;

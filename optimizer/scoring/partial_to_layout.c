@@ -1,5 +1,5 @@
-/* Drafts as layouts, whose nozzles have names. */
-#include "scoring/draft.h"
+/* Partial layouts as layouts, whose nozzles have names. */
+#include "scoring/partial.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -39,9 +39,9 @@ static void name_nozzle(const sp_search *search, const sp_layout *layout, size_t
     while (name_taken(layout, i, name) || is_port(search->options, name));
 }
 
-sp_layout *sp_draft_layout(const sp_search *search, const sp_draft *draft, sp_error *error)
+sp_layout *sp_partial_to_layout(const sp_search *search, const sp_partial *partial, sp_error *error)
 {
-    sp_layout *layout = sp_layout_create(NULL, search->kept_count + draft->count, error);
+    sp_layout *layout = sp_layout_create(NULL, search->kept_count + partial->count, error);
     if (!layout)
         return NULL;
     for (size_t i = 0; i < search->kept_count; i++)
@@ -49,12 +49,12 @@ sp_layout *sp_draft_layout(const sp_search *search, const sp_draft *draft, sp_er
     size_t number = 0;
     /* ports first, so that none of their names is taken */
     for (int ports = 1; ports >= 0; ports--)
-        for (size_t i = 0; i < draft->count; i++) {
-            const sp_mount *mount = &search->options->mounts[draft->items[i].site.mount];
+        for (size_t i = 0; i < partial->count; i++) {
+            const sp_mount *mount = &search->options->mounts[partial->items[i].site.mount];
             size_t at = search->kept_count + i;
             if ((mount->kind == SP_MOUNT_PORT) != ports)
                 continue;
-            layout->nozzles[at] = draft->items[i].nozzle;
+            layout->nozzles[at] = partial->items[i].nozzle;
             layout->nozzles[at].name[0] = 0;
             name_nozzle(search, layout, at, ports ? mount->name : NULL, &number);
         }

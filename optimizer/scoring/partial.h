@@ -1,6 +1,7 @@
-/* A layout during the search: nozzles with what each brings to the coarse patches. */
-#ifndef OPTIMIZER_DRAFT_H
-#define OPTIMIZER_DRAFT_H
+/* A partial layout: the nozzles that the search has placed, and refinement moves, with what each brings to the coarse
+ * patches. */
+#ifndef OPTIMIZER_PARTIAL_H
+#define OPTIMIZER_PARTIAL_H
 
 #include "scoring/wetness.h"
 
@@ -27,24 +28,24 @@ typedef struct {
     double outlay;    /* m³/s, the same with what the mounts cost */
     double covered;   /* m² of coarse patches */
     double value;     /* covered, and the credit for what is on the way */
-} sp_draft;
+} sp_partial;
 
-/* A draft of the kept nozzles alone. */
-bool sp_draft_create(const sp_search *search, sp_draft *draft, sp_error *error);
-bool sp_draft_copy(const sp_search *search, const sp_draft *from, sp_draft *to, sp_error *error);
-void sp_draft_free(sp_draft *draft);
+/* A partial layout of the kept nozzles alone. */
+bool sp_partial_create(const sp_search *search, sp_partial *partial, sp_error *error);
+bool sp_partial_copy(const sp_search *search, const sp_partial *from, sp_partial *to, sp_error *error);
+void sp_partial_free(sp_partial *partial);
 /* Adds a nozzle and takes its field over, also on failure. */
-bool sp_draft_add(const sp_search *search, sp_draft *draft, sp_placed placed, sp_error *error);
-bool sp_draft_add_pose(const sp_search *search, sp_draft *draft, sp_pose pose, sp_error *error);
-void sp_draft_remove(const sp_search *search, sp_draft *draft, size_t i);
+bool sp_partial_add(const sp_search *search, sp_partial *partial, sp_placed placed, sp_error *error);
+bool sp_partial_add_pose(const sp_search *search, sp_partial *partial, sp_pose pose, sp_error *error);
+void sp_partial_remove(const sp_search *search, sp_partial *partial, size_t i);
 /* Removes item i and hands it over. */
-sp_placed sp_draft_take(const sp_search *search, sp_draft *draft, size_t i);
+sp_placed sp_partial_take(const sp_search *search, sp_partial *partial, size_t i);
 /* Draws wet, dry, flow, outlay, covered and value from the items. */
-void sp_draft_refresh(const sp_search *search, sp_draft *draft);
+void sp_partial_refresh(const sp_search *search, sp_partial *partial);
 /* What it covers of the search's patches, m², added up in their order. */
-double sp_draft_counted(const sp_search *search, const sp_draft *draft);
+double sp_partial_counted(const sp_search *search, const sp_partial *partial);
 /* True where a covers more than b, and not the same but for round-off. */
-static inline bool sp_covers_more(const sp_search *search, const sp_draft *a, const sp_draft *b)
+static inline bool sp_covers_more(const sp_search *search, const sp_partial *a, const sp_partial *b)
 {
     return a->covered > b->covered + SP_TIE * search->all;
 }
@@ -53,12 +54,13 @@ static inline double sp_placed_outlay(const sp_search *search, const sp_placed *
 {
     return sp_outlay_at(search, placed->site.mount, placed->flow);
 }
-/* What the draft's mounts cost, m³/s; and the water (m³/s) that its nozzles may take within an outlay of `budget`. */
-double sp_draft_costs(const sp_search *search, const sp_draft *draft);
-double sp_draft_water(const sp_search *search, const sp_draft *draft, double budget);
-/* True where the draft may take one more nozzle at the site: number and ports, not water. */
-bool sp_draft_has_place(const sp_search *search, const sp_draft *draft, uint32_t mount);
+/* What the partial layout's mounts cost, m³/s; and the water (m³/s) that its nozzles may take within an outlay of
+ * `budget`. */
+double sp_partial_costs(const sp_search *search, const sp_partial *partial);
+double sp_partial_water(const sp_search *search, const sp_partial *partial, double budget);
+/* True where the partial layout may take one more nozzle at the site: number and ports, not water. */
+bool sp_partial_has_place(const sp_search *search, const sp_partial *partial, uint32_t mount);
 /* Named nozzles, the kept ones first. */
-sp_layout *sp_draft_layout(const sp_search *search, const sp_draft *draft, sp_error *error);
+sp_layout *sp_partial_to_layout(const sp_search *search, const sp_partial *partial, sp_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-#include "scoring/draft_told.h"
+#include "scoring/partial_told.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -57,12 +57,12 @@ static bool hear_field(sp_heard *heard, size_t rank, float *field, size_t count)
     return there;
 }
 
-void sp_tell_draft(const sp_search *search, const sp_draft *draft, sp_told *told)
+void sp_tell_partial(const sp_search *search, const sp_partial *partial, sp_told *told)
 {
-    uint64_t count = draft->count;
+    uint64_t count = partial->count;
     sp_tell(told, &count, sizeof count);
-    for (size_t i = 0; i < draft->count; i++) {
-        const sp_placed *placed = &draft->items[i];
+    for (size_t i = 0; i < partial->count; i++) {
+        const sp_placed *placed = &partial->items[i];
         sp_tell_nozzle(search, &placed->nozzle, told);
         sp_tell_nozzle(search, &placed->origin, told);
         sp_tell(told, &placed->pose, sizeof placed->pose);
@@ -72,7 +72,7 @@ void sp_tell_draft(const sp_search *search, const sp_draft *draft, sp_told *told
     }
 }
 
-static bool hear_placed(const sp_search *search, sp_heard *heard, size_t rank, sp_draft *draft, sp_error *error)
+static bool hear_placed(const sp_search *search, sp_heard *heard, size_t rank, sp_partial *partial, sp_error *error)
 {
     sp_placed placed = {.field = malloc((search->field_count + 1) * sizeof *placed.field)};
     if (!placed.field)
@@ -82,25 +82,25 @@ static bool hear_placed(const sp_search *search, sp_heard *heard, size_t rank, s
         sp_hear(heard, rank, &placed.site, sizeof placed.site) &&
         sp_hear(heard, rank, &placed.flow, sizeof placed.flow) &&
         hear_field(heard, rank, placed.field, search->field_count) && placed.nozzle.type && placed.origin.type)
-        return sp_draft_add(search, draft, placed, error);
+        return sp_partial_add(search, partial, placed, error);
     free(placed.field);
-    return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "a rank has told half a draft");
+    return sp_fail(error, SP_ERROR_ARGUMENT, NULL, 0, 0, "a rank has told half a layout");
 }
 
-bool sp_hear_draft(const sp_search *search, sp_heard *heard, size_t rank, sp_draft *draft, sp_error *error)
+bool sp_hear_partial(const sp_search *search, sp_heard *heard, size_t rank, sp_partial *partial, sp_error *error)
 {
-    sp_draft made;
+    sp_partial made;
     uint64_t count;
     if (!sp_hear(heard, rank, &count, sizeof count))
         return true;
-    if (!sp_draft_create(search, &made, error))
+    if (!sp_partial_create(search, &made, error))
         return false;
     for (uint64_t i = 0; i < count; i++)
         if (!hear_placed(search, heard, rank, &made, error)) {
-            sp_draft_free(&made);
+            sp_partial_free(&made);
             return false;
         }
-    sp_draft_free(draft);
-    *draft = made;
+    sp_partial_free(partial);
+    *partial = made;
     return true;
 }

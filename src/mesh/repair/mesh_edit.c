@@ -1,4 +1,4 @@
-#include "mesh/repair/draft.h"
+#include "mesh/repair/mesh_edit.h"
 
 #include "mesh/disjoint_sets.h"
 #include "mesh/grow.h"
@@ -19,41 +19,41 @@ static void find_shells(const sp_mesh *mesh, const sp_half_edges *edges, uint32_
         shell[t] = sp_set_root(shell, t);
 }
 
-bool sp_mesh_draft_open(sp_mesh_draft *draft, const sp_mesh *mesh, sp_error *error)
+bool sp_mesh_edit_open(sp_mesh_edit *edit, const sp_mesh *mesh, sp_error *error)
 {
     size_t count = mesh->triangle_count, room = count + 1;
-    *draft = (sp_mesh_draft){.mesh = mesh, .count = count, .room = room, .part_room = room};
-    draft->shell = malloc(room * sizeof *draft->shell);
-    draft->triangles = malloc(room * sizeof *draft->triangles);
-    draft->part = malloc(room * sizeof *draft->part);
-    if (!draft->shell || !draft->triangles || !draft->part || !sp_half_edges_create(mesh, &draft->edges, error)) {
-        sp_mesh_draft_close(draft);
+    *edit = (sp_mesh_edit){.mesh = mesh, .count = count, .room = room, .part_room = room};
+    edit->shell = malloc(room * sizeof *edit->shell);
+    edit->triangles = malloc(room * sizeof *edit->triangles);
+    edit->part = malloc(room * sizeof *edit->part);
+    if (!edit->shell || !edit->triangles || !edit->part || !sp_half_edges_create(mesh, &edit->edges, error)) {
+        sp_mesh_edit_close(edit);
         return sp_fail_memory(error);
     }
-    memcpy(draft->triangles, mesh->triangles, count * sizeof *draft->triangles);
-    memcpy(draft->part, mesh->part, count * sizeof *draft->part);
-    find_shells(mesh, &draft->edges, draft->shell);
+    memcpy(edit->triangles, mesh->triangles, count * sizeof *edit->triangles);
+    memcpy(edit->part, mesh->part, count * sizeof *edit->part);
+    find_shells(mesh, &edit->edges, edit->shell);
     return true;
 }
 
-void sp_mesh_draft_close(sp_mesh_draft *draft)
+void sp_mesh_edit_close(sp_mesh_edit *edit)
 {
-    sp_half_edges_destroy(&draft->edges);
-    free(draft->shell);
-    free(draft->triangles);
-    free(draft->part);
-    *draft = (sp_mesh_draft){0};
+    sp_half_edges_destroy(&edit->edges);
+    free(edit->shell);
+    free(edit->triangles);
+    free(edit->part);
+    *edit = (sp_mesh_edit){0};
 }
 
-bool sp_mesh_draft_add(sp_mesh_draft *draft, uint32_t a, uint32_t b, uint32_t c, uint32_t part, sp_error *error)
+bool sp_mesh_edit_add(sp_mesh_edit *edit, uint32_t a, uint32_t b, uint32_t c, uint32_t part, sp_error *error)
 {
-    if (!sp_grow(&draft->triangles, &draft->room, draft->count + 1, sizeof *draft->triangles) ||
-        !sp_grow(&draft->part, &draft->part_room, draft->count + 1, sizeof *draft->part))
+    if (!sp_grow(&edit->triangles, &edit->room, edit->count + 1, sizeof *edit->triangles) ||
+        !sp_grow(&edit->part, &edit->part_room, edit->count + 1, sizeof *edit->part))
         return sp_fail_memory(error);
-    draft->triangles[draft->count][0] = a;
-    draft->triangles[draft->count][1] = b;
-    draft->triangles[draft->count][2] = c;
-    draft->part[draft->count++] = part;
+    edit->triangles[edit->count][0] = a;
+    edit->triangles[edit->count][1] = b;
+    edit->triangles[edit->count][2] = c;
+    edit->part[edit->count++] = part;
     return true;
 }
 
@@ -67,21 +67,21 @@ static sp_mesh *with_parts(sp_mesh *made, const sp_mesh *from)
     return made;
 }
 
-sp_mesh *sp_mesh_draft_mesh(const sp_mesh_draft *draft, sp_error *error)
+sp_mesh *sp_mesh_edit_mesh(const sp_mesh_edit *edit, sp_error *error)
 {
-    const sp_mesh *mesh = draft->mesh;
-    uint32_t(*kept)[3] = malloc((draft->count + 1) * sizeof *kept);
-    uint32_t *part = malloc((draft->count + 1) * sizeof *part);
+    const sp_mesh *mesh = edit->mesh;
+    uint32_t(*kept)[3] = malloc((edit->count + 1) * sizeof *kept);
+    uint32_t *part = malloc((edit->count + 1) * sizeof *part);
     const char **names = calloc(mesh->part_count + 1, sizeof *names);
     sp_mesh *made = NULL;
     if (kept && part && names) {
         size_t count = 0;
         for (size_t i = 0; i < mesh->part_count; i++)
             names[i] = mesh->parts[i].name;
-        for (size_t t = 0; t < draft->count; t++)
-            if (draft->triangles[t][0] != SP_NONE) {
-                memcpy(kept[count], draft->triangles[t], sizeof *kept);
-                part[count++] = draft->part[t];
+        for (size_t t = 0; t < edit->count; t++)
+            if (edit->triangles[t][0] != SP_NONE) {
+                memcpy(kept[count], edit->triangles[t], sizeof *kept);
+                part[count++] = edit->part[t];
             }
         made = with_parts(sp_mesh_create(mesh->vertices, mesh->vertex_count, (const uint32_t(*)[3])kept, count, part,
                                          names, mesh->part_count, error),
