@@ -5,7 +5,7 @@
 #include "placement.h"
 #include "refine/anneal.h"
 #include "refine/compass.h"
-#include "search/guess.h"
+#include "search/partial_enumeration.h"
 #include "search/tuned.h"
 
 #include <stdio.h>
@@ -21,7 +21,7 @@
 typedef struct {
     uint32_t row[2];
     size_t count;
-    double covered; /* m² of the table's sample */
+    double covered; /* m² of the coverage matrix's sample */
 } pair;
 
 static int by_covered(const void *a, const void *b)
@@ -49,15 +49,15 @@ static void widen_pool(placement *p)
 }
 
 /* Every row that the budget allows with its best partner, the best first; malloc'd. */
-static pair *list_pairs(const sp_table *table, double budget, size_t *count)
+static pair *list_pairs(const sp_coverage_matrix *matrix, double budget, size_t *count)
 {
     sp_error error = {0};
     sp_lineup lineup;
-    pair *pairs = malloc((table->row_count + 1) * sizeof *pairs);
-    if (!pairs || !sp_lineup_create(table, &lineup, &error))
+    pair *pairs = malloc((matrix->row_count + 1) * sizeof *pairs);
+    if (!pairs || !sp_lineup_create(matrix, &lineup, &error))
         fail(&error);
     *count = 0;
-    for (uint32_t r = 0; r < table->row_count; r++) {
+    for (uint32_t r = 0; r < matrix->row_count; r++) {
         double gain;
         sp_lineup_set(&lineup, NULL, 0);
         if (!(sp_lineup_gain(&lineup, r, budget) > 0))
@@ -81,14 +81,14 @@ static bool is_known(const pair *pairs, size_t i)
 }
 
 /* What a pair covers on the search's patches, m², before and after it was refined. */
-static void refine(placement *p, const sp_tuned *tuned, const sp_table *table, const pair *start, double budget,
-                   double covered[2])
+static void refine(placement *p, const sp_tuned *tuned, const sp_coverage_matrix *matrix, const pair *start,
+                   double budget, double covered[2])
 {
     sp_error error = {0};
     sp_sights sights;
     sp_lineup lineup;
     sp_partial partial;
-    if (!sp_sights_create(&p->search, SIGHTS, false, &sights, &error) || !sp_lineup_create(table, &lineup, &error))
+    if (!sp_sights_create(&p->search, SIGHTS, false, &sights, &error) || !sp_lineup_create(matrix, &lineup, &error))
         fail(&error);
     sp_lineup_set(&lineup, start->row, start->count);
     if (!sp_lineup_partial(&lineup, &partial, &error))
@@ -116,30 +116,30 @@ int main(int argc, char **argv)
     sp_error error = {0};
     placement p;
     sp_tuned tuned;
-    sp_table table = {0};
+    sp_coverage_matrix matrix = {0};
     placement_open(argv[1], &p);
     widen_pool(&p);
     double budget = litres / 6e4 * (1 + SP_ROUNDING), best[2] = {0, 0};
     if (!sp_tuned_create(&p.search, &p.pool, &tuned, &error) ||
-        !sp_table_create(&tuned.search, &tuned.pool, NULL, 0, &table, &error))
+        !sp_coverage_matrix_create(&tuned.search, &tuned.pool, NULL, 0, &matrix, &error))
         fail(&error);
-    pair *pairs = list_pairs(&table, budget, &count);
+    pair *pairs = list_pairs(&matrix, budget, &count);
     size_t tried = 0, rank = 0;
     for (size_t i = 0; i < count && tried < most; i++) {
         double covered[2];
         if (is_known(pairs, i))
             continue;
-        refine(&p, &tuned, &table, &pairs[i], budget, covered);
+        refine(&p, &tuned, &matrix, &pairs[i], budget, covered);
         best[0] = fmax(best[0], covered[0]);
         rank = covered[1] > best[1] ? tried : rank;
         best[1] = fmax(best[1], covered[1]);
         tried++;
     }
     printf("%zu rows, %zu pairs refined at %g L/min: %.2f %% of the attainable before, %.2f %% after, from pair %zu\n",
-           table.row_count, tried, litres, 100 * best[0] / p.search.view_area, 100 * best[1] / p.search.view_area,
+           matrix.row_count, tried, litres, 100 * best[0] / p.search.view_area, 100 * best[1] / p.search.view_area,
            rank + 1);
     free(pairs);
-    sp_table_free(&table);
+    sp_coverage_matrix_free(&matrix);
     sp_tuned_free(&tuned);
     placement_close(&p);
     return 0;

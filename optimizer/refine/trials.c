@@ -1,7 +1,7 @@
 #include "refine/trials.h"
 
 #include "mesh/grow.h"
-#include "search/guess.h"
+#include "search/partial_enumeration.h"
 
 #include <stdlib.h>
 
@@ -84,12 +84,13 @@ bool sp_find_others(sp_refining *refining, sp_trials *trials)
     double *budgets = malloc((count + 1) * sizeof *budgets);
     sp_lineup *lineups = calloc(count + 1, sizeof *lineups);
     const sp_placed **nozzles = list_nozzles(refining->front, &nozzle_count);
-    sp_table table = {0};
+    sp_coverage_matrix matrix = {0};
     bool done = (budgets && lineups && nozzles) || sp_fail_memory(refining->error);
     for (size_t i = 0; done && i < count; i++)
         budgets[i] = trials->items[i].budget * (1 + SP_ROUNDING);
-    done = done && sp_table_create(&tuned->search, &tuned->pool, nozzles, nozzle_count, &table, refining->error) &&
-           sp_guess(&table, budgets, count, refining->deadline, lineups, refining->error);
+    done = done &&
+           sp_coverage_matrix_create(&tuned->search, &tuned->pool, nozzles, nozzle_count, &matrix, refining->error) &&
+           sp_enumerate_partially(&matrix, budgets, count, refining->deadline, lineups, refining->error);
     for (size_t i = 0; done && i < count; i++)
         done = sp_lineup_partial(&lineups[i], &trials->items[i].other, refining->error);
     for (size_t i = 0; lineups && i < count; i++)
@@ -97,7 +98,7 @@ bool sp_find_others(sp_refining *refining, sp_trials *trials)
     free(budgets);
     free(lineups);
     free(nozzles);
-    sp_table_free(&table);
+    sp_coverage_matrix_free(&matrix);
     return done;
 }
 

@@ -3,7 +3,7 @@
 #include "scoring/prepare.h"
 #include "scoring/partial_told.h"
 #include "search/fewest.h"
-#include "search/guess.h"
+#include "search/partial_enumeration.h"
 #include "search/walk.h"
 
 #include <stdlib.h>
@@ -88,12 +88,13 @@ static bool shrink_best(const sp_finding *finding)
     return done;
 }
 
-/* Start number i of a search within a budget: the first of the greedy order, or what was found by guessing. */
-static bool start_from(const sp_finding *finding, const sp_partial *greedy, const sp_lineup *guessed, double budget,
+/* Start number i of a search within a budget: the first of the greedy order, or what was found by partial enumeration.
+ */
+static bool start_from(const sp_finding *finding, const sp_partial *greedy, const sp_lineup *enumerated, double budget,
                        size_t i, sp_partial *partial)
 {
     if (i == 1)
-        return sp_lineup_partial(guessed, partial, finding->error);
+        return sp_lineup_partial(enumerated, partial, finding->error);
     if (!sp_partial_copy(finding->search, greedy, partial, finding->error))
         return false;
     while (partial->count && partial->outlay > budget)
@@ -102,12 +103,12 @@ static bool start_from(const sp_finding *finding, const sp_partial *greedy, cons
 }
 
 /* The better of what the starts improve to within a budget; *best, which holds a layout, becomes it. */
-static bool start_at(const sp_finding *finding, const sp_partial *greedy, const sp_lineup *guessed, double budget,
+static bool start_at(const sp_finding *finding, const sp_partial *greedy, const sp_lineup *enumerated, double budget,
                      sp_partial *best)
 {
     for (size_t i = 0; i < STARTS && sp_deadline_goes_on(finding->deadline, "front", 0); i++) {
         sp_partial partial;
-        if (!start_from(finding, greedy, guessed, budget, i, &partial))
+        if (!start_from(finding, greedy, enumerated, budget, i, &partial))
             return false;
         bool done = sp_improve(finding->search, finding->pool, budget, finding->deadline, &partial, finding->error);
         bool better = done && sp_covers_more(finding->search, &partial, best);
@@ -181,14 +182,14 @@ static bool measure_all(const sp_finding *finding, const sp_partial *partials, s
 }
 
 /* The best found within each budget, measured. */
-static bool search_budgets(const sp_finding *finding, const sp_partial *greedy, const sp_lineup *guessed,
+static bool search_budgets(const sp_finding *finding, const sp_partial *greedy, const sp_lineup *enumerated,
                            const double *budgets, size_t count)
 {
     sp_partial *partials = calloc(count + 1, sizeof *partials);
     bool done = partials || sp_fail_memory(finding->error);
     for (size_t i = 0; done && i < count; i++)
         done = sp_partial_create(finding->search, &partials[i], finding->error) &&
-               start_at(finding, greedy, &guessed[i], budgets[i], &partials[i]);
+               start_at(finding, greedy, &enumerated[i], budgets[i], &partials[i]);
     sp_ranks_part(ranks_of(finding));
     done = done && walk_all(finding, budgets, partials, count);
     sp_ranks_rejoin(ranks_of(finding));
@@ -288,16 +289,16 @@ static bool fill_front(const sp_finding *finding, const sp_partial *greedy)
         return sp_fail_memory(finding->error);
     for (size_t i = 0; i < count; i++)
         budgets[i] *= 1 + SP_ROUNDING;
-    sp_table table = {0};
-    sp_lineup *guessed = calloc(count + 1, sizeof *guessed);
-    bool done = guessed || sp_fail_memory(finding->error);
-    done = done && sp_table_create(finding->search, finding->pool, NULL, 0, &table, finding->error) &&
-           sp_guess(&table, budgets, count, finding->deadline, guessed, finding->error);
-    done = done && search_budgets(finding, greedy, guessed, budgets, count);
-    for (size_t i = 0; guessed && i < count; i++)
-        sp_lineup_free(&guessed[i]);
-    sp_table_free(&table);
-    free(guessed);
+    sp_coverage_matrix matrix = {0};
+    sp_lineup *enumerated = calloc(count + 1, sizeof *enumerated);
+    bool done = enumerated || sp_fail_memory(finding->error);
+    done = done && sp_coverage_matrix_create(finding->search, finding->pool, NULL, 0, &matrix, finding->error) &&
+           sp_enumerate_partially(&matrix, budgets, count, finding->deadline, enumerated, finding->error);
+    done = done && search_budgets(finding, greedy, enumerated, budgets, count);
+    for (size_t i = 0; enumerated && i < count; i++)
+        sp_lineup_free(&enumerated[i]);
+    sp_coverage_matrix_free(&matrix);
+    free(enumerated);
     free(budgets);
     return done;
 }
