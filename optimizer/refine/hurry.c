@@ -8,9 +8,9 @@
 #define RUNGS 12          /* amounts of water for which other layouts are looked for in a hurry */
 #define RUNG 0.95         /* of each, the next */
 #define RUNG_FIRST 1.4    /* of what the first layout takes, which does not reach the target */
-#define RUNGS_TRIED 4     /* of the layouts found for these, that are polished */
+#define RUNGS_TRIED 4     /* of the layouts found for these, that are refined */
 #define PROMISING 0.012   /* of the target: what may be missing for that */
-#define CLOSE 0.004       /* the same for the last polish */
+#define CLOSE 0.004       /* the same for the last local search */
 #define CLOSEST 2         /* layouts so close that have it at a time */
 #define MISSING_COST 15.0 /* share of the water that makes up for what is missing, per share of the target */
 #define WALKS 6           /* from the closest */
@@ -115,7 +115,7 @@ static bool try_closest(sp_refining *refining, sp_trials *trials)
     for (size_t k = count < CLOSEST ? count : CLOSEST; done && k-- > 0;) {
         const sp_front_entry *entry = &front->by_water.entries[ranked[k].at];
         double outlay = aims_at_target(front) ? ranked[k].merit : entry->point.outlay;
-        done = sp_try_also(refining, trials, &entry->partial, fmin(outlay, most), SP_TRIAL_POLISH);
+        done = sp_try_also(refining, trials, &entry->partial, fmin(outlay, most), SP_TRIAL_BY_TURNS);
     }
     free(ranked);
     return done;
@@ -126,8 +126,8 @@ static bool sharpen_closest(sp_refining *refining)
 {
     sp_front *front = refining->front;
     sp_trials trials = {0};
-    bool done =
-        try_closest(refining, &trials) && sp_sharpen(&refining->polishing, trials.items, trials.count, refining->error);
+    bool done = try_closest(refining, &trials) &&
+                sp_sharpen(&refining->local_search, trials.items, trials.count, refining->error);
     for (size_t i = 0; done && i < trials.count; i++) {
         sp_front_point point;
         done = sp_front_measure(front, refining->search, &trials.items[i].partial, &point, refining->error);

@@ -14,7 +14,7 @@
 #define NEAR_MOST 5  /* layouts near it that are tried */
 #define LEEWAY 0.03  /* more water that such a layout may take */
 
-#define SHARP_ROUNDS 3    /* of the last polish */
+#define SHARP_ROUNDS 3    /* of the last local search */
 #define SHARP_SAVING 2e-3 /* less water, for another round */
 
 /* Every layout of the front once more. */
@@ -23,7 +23,7 @@ static bool try_front(sp_refining *refining, sp_trials *trials)
     const sp_front *front = refining->front;
     for (size_t i = 0; i < front->by_water.count; i++)
         if (sp_front_counts(front, i) && !sp_try_also(refining, trials, &front->by_water.entries[i].partial,
-                                                      front->by_water.entries[i].point.outlay, SP_TRIAL_POLISH))
+                                                      front->by_water.entries[i].point.outlay, SP_TRIAL_BY_TURNS))
             return false;
     return true;
 }
@@ -44,7 +44,7 @@ static bool try_fewest(sp_refining *refining, sp_trials *trials)
     for (size_t i = 0; i < front->by_number.count; i++) {
         const sp_front_entry *entry = &front->by_number.entries[i];
         if (entry->partial.count && entry->partial.count < front->best.count && !on_water_front(front, &entry->point) &&
-            !sp_try_also(refining, trials, &entry->partial, entry->point.outlay, SP_TRIAL_POLISH))
+            !sp_try_also(refining, trials, &entry->partial, entry->point.outlay, SP_TRIAL_BY_TURNS))
             return false;
     }
     return true;
@@ -95,7 +95,7 @@ static bool drop_others(sp_refining *refining, sp_trials *trials)
 }
 
 /* Every layout of the front, and others in their places and between. */
-static bool polish_front(sp_refining *refining)
+static bool search_front_locally(sp_refining *refining)
 {
     sp_trials trials = {0};
     bool done = ask_others(refining, &trials, true) && sp_find_others(refining, &trials) &&
@@ -122,16 +122,16 @@ static bool sharpen(sp_refining *refining, bool saves, bool near)
 {
     sp_front *front = refining->front;
     sp_trials trials = {0};
-    bool done = sp_try_also(refining, &trials, &front->best, front->best.outlay, SP_TRIAL_POLISH);
+    bool done = sp_try_also(refining, &trials, &front->best, front->best.outlay, SP_TRIAL_BY_TURNS);
     for (size_t i = 0; near && done && i < front->by_water.count && trials.count <= NEAR_MOST; i++) {
         const sp_front_entry *entry = &front->by_water.entries[i];
         double budget = fmin(entry->point.outlay * (1 + LEEWAY), front->best.outlay);
         if (entry->point.outlay < front->best.outlay * (1 - SP_GAIN_LEAST) && entry->point.area < front->target &&
             entry->point.area >= front->target * (1 - NEAR))
-            done = sp_try_also(refining, &trials, &entry->partial, budget, SP_TRIAL_POLISH);
+            done = sp_try_also(refining, &trials, &entry->partial, budget, SP_TRIAL_BY_TURNS);
     }
     sp_front_point *points = NULL;
-    done = done && sp_sharpen(&refining->polishing, trials.items, trials.count, refining->error) &&
+    done = done && sp_sharpen(&refining->local_search, trials.items, trials.count, refining->error) &&
            (points = sp_trials_measure_ahead(refining, &trials, false));
     for (size_t i = 0; done && i < trials.count; i++) {
         done = sp_front_note(front, refining->search, &trials.items[i].partial, &points[i], refining->error);
@@ -159,7 +159,7 @@ static bool sharpen_often(sp_refining *refining, bool saves)
 static bool refine_all(sp_refining *refining)
 {
     const sp_front *front = refining->front;
-    if (!polish_front(refining))
+    if (!search_front_locally(refining))
         return false;
     bool saves = front->objective != SP_OBJECTIVE_MAX_COVERAGE && front->measured.area >= front->target;
     return recombine_front(refining) && (!saves || sp_save_water(refining)) && recombine_front(refining) &&
@@ -179,10 +179,10 @@ static bool run(const sp_search *search, const sp_pool *pool, sp_deadline *deadl
     if (!sp_refine_asked(&search->options->refine) || !sp_deadline_goes_on(deadline, "refine", 0))
         return true;
     sp_refining refining = {.search = search, .pool = pool, .deadline = deadline, .front = front, .error = error};
-    if (!sp_polishing_create(search, pool, front->fine, deadline, &refining.polishing, error))
+    if (!sp_local_search_create(search, pool, front->fine, deadline, &refining.local_search, error))
         return false;
     bool done = step(&refining);
-    sp_polishing_free(&refining.polishing);
+    sp_local_search_free(&refining.local_search);
     return done;
 }
 

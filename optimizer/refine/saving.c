@@ -16,7 +16,7 @@ bool sp_save_flow(sp_refining *refining, const sp_partial *full)
         low += sp_least_flow(search, &full->items[i]);
     if (!(low < high * (1 - 1e-6)))
         return true;
-    sp_sights *sights = &refining->polishing.sights[0]; /* liquid flies alike at every flow */
+    sp_sights *sights = &refining->local_search.sights[0]; /* liquid flies alike at every flow */
     bool done = true;
     sp_sights_forget(sights);
     for (int trial = 0; done && trial < FLOW_TRIALS && sp_deadline_goes_on(refining->deadline, "refine", 1); trial++) {
@@ -38,7 +38,7 @@ bool sp_save_flow(sp_refining *refining, const sp_partial *full)
     return done;
 }
 
-/* Anneals a layout and walks from it once, on two cores, then polishes what more walks from it find, until the front
+/* Anneals a layout and walks from it once, on two cores, then refines what more walks from it find, until the front
  * has one that takes less water than `before` and reaches the target, or it is given up. */
 static bool insist(sp_refining *refining, sp_partial *partial, double budget, const sp_front_point *before)
 {

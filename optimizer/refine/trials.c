@@ -79,7 +79,7 @@ static const sp_placed **list_nozzles(const sp_front *front, size_t *count)
 
 bool sp_find_others(sp_refining *refining, sp_trials *trials)
 {
-    const sp_tuned *tuned = &refining->polishing.tuned;
+    const sp_tuned *tuned = &refining->local_search.tuned;
     size_t count = trials->count, nozzle_count;
     double *budgets = malloc((count + 1) * sizeof *budgets);
     sp_lineup *lineups = calloc(count + 1, sizeof *lineups);
@@ -123,7 +123,7 @@ bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials, sp_partial *b
 {
     const sp_search *search = refining->search;
     sp_front_point *points = NULL;
-    bool done = sp_polish(&refining->polishing, trials->items, trials->count, refining->error) &&
+    bool done = sp_local_search_run(&refining->local_search, trials->items, trials->count, refining->error) &&
                 (points = sp_trials_measure_ahead(refining, trials, true));
     for (size_t i = 0; done && i < trials->count; i++) {
         sp_partial *partial = &trials->items[i].partial;

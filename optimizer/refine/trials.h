@@ -1,8 +1,8 @@
-/* Trials: layouts that refinement polishes many at a time, and where it looks for others in their place. */
+/* Trials: layouts that local search refines, many at a time, and where it looks for others in their place. */
 #ifndef OPTIMIZER_TRIALS_H
 #define OPTIMIZER_TRIALS_H
 
-#include "refine/polish.h"
+#include "refine/local_search.h"
 #include "search/front.h"
 
 #define SP_GAIN_LEAST 1e-4 /* of area or water: less is no improvement */
@@ -12,7 +12,7 @@ typedef struct {
     const sp_pool *pool;
     sp_deadline *deadline;
     sp_front *front;
-    sp_polishing polishing;
+    sp_local_search local_search;
     uint64_t seeds; /* used so far */
     sp_error *error;
 } sp_refining;
@@ -37,8 +37,8 @@ bool sp_ask_other(sp_refining *refining, sp_trials *trials, double outlay);
 /* Finds the trials' other layouts: of the pool at the flows that refinement may set, and of nozzles that the front's
  * layouts have already, put together anew. */
 bool sp_find_others(sp_refining *refining, sp_trials *trials);
-/* Polishes the trials and lets the front have them. *best, where not NULL, becomes a copy of the one that covers most,
- * if that is more than it does itself. */
+/* Searches locally from the trials and lets the front have them. *best, where not NULL, becomes a copy of the one that
+ * covers most, if that is more than it does itself. */
 bool sp_trials_carry_out(sp_refining *refining, sp_trials *trials, sp_partial *best);
 /* What the trials' layouts are measured as, as far as ranks have done that ahead (see sp_front_measure_ahead);
  * `better`: of those that got better and may count. [trials->count], the caller frees; NULL on error. */

@@ -5,7 +5,7 @@
 
 #include "search/coverage_matrix.h"
 
-#define SP_LINEUP_MOST 64 /* nozzles besides the kept ones; larger layouts are not looked for in it */
+#define SP_LINEUP_MOST 64 /* nozzles besides the kept ones; larger layouts are not looked for so */
 
 typedef struct {
     const sp_coverage_matrix *matrix;

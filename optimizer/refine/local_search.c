@@ -1,4 +1,4 @@
-#include "refine/polish.h"
+#include "refine/local_search.h"
 
 #include "scoring/prepare.h"
 #include "refine/compass.h"
@@ -9,7 +9,7 @@
 #include <omp.h>
 #include <stdlib.h>
 
-#define ROUGH_PATCHES 4000.0  /* most of the polishing sees no more than these show */
+#define ROUGH_PATCHES 4000.0  /* most of the local search sees no more than these show */
 #define SHARP_PATCHES 60000.0 /* the last of it sees the final patches, or so many */
 #define FILM_PATCHES 20000.0  /* or where film is asked for so many */
 #define SIGHTS 24             /* kept for each thread */
@@ -17,7 +17,7 @@
 #define STEP_SHARP 0.12
 #define STEP_TURN 0.045 /* small enough for places to stay */
 #define STEP_LEAST 0.006
-#define SHARP_START 4   /* width at which the last polish starts */
+#define SHARP_START 4   /* width at which the last local search starts */
 #define KEEPS_UP 0.002  /* of what is covered, by which few patches may mislead */
 #define STARTS 2        /* of annealing */
 #define TURNS 4         /* of walks and new layouts, as many as STARTS that are annealed first */
@@ -45,55 +45,54 @@ static void sights_free(sp_sights *sights, int threads)
     free(sights);
 }
 
-void sp_polishing_free(sp_polishing *polishing)
+void sp_local_search_free(sp_local_search *local)
 {
-    sights_free(polishing->sights, polishing->threads);
-    sights_free(polishing->rough_sights, polishing->threads);
-    sights_free(polishing->sharp_sights, polishing->threads);
-    if (polishing->sharp.coarse)
-        sp_search_free(&polishing->sharp);
-    sp_evaluator_destroy(polishing->sharp_evaluator);
-    if (polishing->rough_evaluator)
-        sp_search_free(&polishing->rough);
-    sp_evaluator_destroy(polishing->rough_evaluator);
-    sp_tuned_free(&polishing->tuned);
-    *polishing = (sp_polishing){0};
+    sights_free(local->sights, local->threads);
+    sights_free(local->rough_sights, local->threads);
+    sights_free(local->sharp_sights, local->threads);
+    if (local->sharp.coarse)
+        sp_search_free(&local->sharp);
+    sp_evaluator_destroy(local->sharp_evaluator);
+    if (local->rough_evaluator)
+        sp_search_free(&local->rough);
+    sp_evaluator_destroy(local->rough_evaluator);
+    sp_tuned_free(&local->tuned);
+    *local = (sp_local_search){0};
 }
 
 /* The search on the final patches. */
-static bool create_sharp(sp_polishing *polishing, const sp_evaluator *fine, sp_error *error)
+static bool create_sharp(sp_local_search *local, const sp_evaluator *fine, sp_error *error)
 {
-    const sp_search *search = polishing->search;
+    const sp_search *search = local->search;
     double texel = sp_evaluator_fidelity(fine)->texel, most = search->runoffs ? FILM_PATCHES : SHARP_PATCHES;
     double coarser = sqrt((double)sp_evaluator_patches(fine)->count / most);
     const sp_evaluator *sharp = fine;
     if (search->runoffs || coarser > sqrt(1.5))
-        sharp = polishing->sharp_evaluator = sp_evaluator_resample(fine, texel * fmax(1, coarser), error);
+        sharp = local->sharp_evaluator = sp_evaluator_resample(fine, texel * fmax(1, coarser), error);
     return sharp &&
            sp_search_create(sharp, search->options, search->sites, search->candidates, search->visibility,
-                            &polishing->sharp, error) &&
-           sights_create(&polishing->sharp, polishing->threads, false, &polishing->sharp_sights, error);
+                            &local->sharp, error) &&
+           sights_create(&local->sharp, local->threads, false, &local->sharp_sights, error);
 }
 
-bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine, sp_deadline *deadline,
-                         sp_polishing *polishing, sp_error *error)
+bool sp_local_search_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine,
+                            sp_deadline *deadline, sp_local_search *local, sp_error *error)
 {
     const sp_patches *patches = sp_evaluator_patches(search->coarse);
-    *polishing = (sp_polishing){
+    *local = (sp_local_search){
         .search = search, .deadline = deadline, .rough = *search, .threads = sp_threads(&search->options->run)};
-    bool done = sp_tuned_create(search, pool, &polishing->tuned, error);
+    bool done = sp_tuned_create(search, pool, &local->tuned, error);
     if (done && (double)patches->count > 1.5 * ROUGH_PATCHES) {
-        polishing->rough_evaluator = sp_evaluator_resample(
+        local->rough_evaluator = sp_evaluator_resample(
             fine, sp_evaluator_fidelity(search->coarse)->texel * sqrt((double)patches->count / ROUGH_PATCHES), error);
-        done = polishing->rough_evaluator &&
-               sp_search_create(polishing->rough_evaluator, search->options, search->sites, search->candidates,
-                                search->visibility, &polishing->rough, error);
+        done = local->rough_evaluator && sp_search_create(local->rough_evaluator, search->options, search->sites,
+                                                          search->candidates, search->visibility, &local->rough, error);
     }
-    done = done && create_sharp(polishing, fine, error) &&
-           sights_create(search, polishing->threads, true, &polishing->sights, error) &&
-           sights_create(&polishing->rough, polishing->threads, false, &polishing->rough_sights, error);
+    done = done && create_sharp(local, fine, error) &&
+           sights_create(search, local->threads, true, &local->sights, error) &&
+           sights_create(&local->rough, local->threads, false, &local->rough_sights, error);
     if (!done)
-        sp_polishing_free(polishing);
+        sp_local_search_free(local);
     return done;
 }
 
@@ -146,31 +145,31 @@ static size_t turn_of(const sp_trial *trial)
 }
 
 /* Anneals from ever wider starts: a narrow one keeps what is there; a wide one forgets it, and may find better. */
-static bool anneal(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, sp_partial *partial,
+static bool anneal(const sp_local_search *local, sp_sights *sights, const sp_trial *trial, sp_partial *partial,
                    sp_error *error)
 {
     static const size_t starts[STARTS] = {3, 0};
-    double water = sp_partial_water(polishing->search, partial, trial->budget);
+    double water = sp_partial_water(local->search, partial, trial->budget);
     for (size_t i = 0; i < STARTS; i++)
         if ((trial->kind == SP_TRIAL_ANNEAL || i == turn_of(trial)) &&
-            !sp_anneal(sights, starts[i], SP_WIDTHS, water, polishing->deadline, partial, error))
+            !sp_anneal(sights, starts[i], SP_WIDTHS, water, local->deadline, partial, error))
             return false;
     return true;
 }
 
 /* What `start` becomes on few patches, if it keeps up with `before`. */
-static bool refine(const sp_polishing *polishing, sp_sights *sights, const sp_trial *trial, double before,
+static bool refine(const sp_local_search *local, sp_sights *sights, const sp_trial *trial, double before,
                    const sp_partial *start, sp_partial *refined, sp_error *error)
 {
     bool fits;
     if (!transfer(sights, start, refined, error))
         return false;
-    double water = sp_partial_water(polishing->search, refined, trial->budget);
+    double water = sp_partial_water(local->search, refined, trial->budget);
     bool done = fit(sights, trial->budget, refined, &fits, error);
     if (done && fits)
-        done = anneal(polishing, sights, trial, refined, error) &&
+        done = anneal(local, sights, trial, refined, error) &&
                (refined->covered < before * (1 - BEHIND_MOST) ||
-                sp_compass(sights, STEP_FIRST, STEP_LEAST, water, polishing->deadline, refined, error));
+                sp_compass(sights, STEP_FIRST, STEP_LEAST, water, local->deadline, refined, error));
     if (!done)
         sp_partial_free(refined);
     return done;
@@ -190,12 +189,12 @@ static bool cover_before(sp_sights *sights, const sp_trial *trial, double *cover
 }
 
 /* Walks, where the trial is to begin so. */
-static bool walk(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
+static bool walk(const sp_local_search *local, int thread, sp_trial *trial, sp_error *error)
 {
     (void)thread;
-    return trial->kind != SP_TRIAL_WALK || (sp_partial_copy(polishing->search, &trial->partial, &trial->start, error) &&
-                                            sp_walk(&polishing->tuned.search, trial->budget * (1 + SP_ROUNDING), WALK,
-                                                    trial->seed, polishing->deadline, &trial->start, error));
+    return trial->kind != SP_TRIAL_WALK || (sp_partial_copy(local->search, &trial->partial, &trial->start, error) &&
+                                            sp_walk(&local->tuned.search, trial->budget * (1 + SP_ROUNDING), WALK,
+                                                    trial->seed, local->deadline, &trial->start, error));
 }
 
 static bool is_same(const sp_nozzle *a, const sp_nozzle *b)
@@ -225,27 +224,27 @@ static void find_repeats(sp_trial *trials, size_t count)
 }
 
 /* What the trial starts from. */
-static bool begin(const sp_polishing *polishing, sp_trial *trial, sp_partial *start, sp_error *error)
+static bool begin(const sp_local_search *local, sp_trial *trial, sp_partial *start, sp_error *error)
 {
     const sp_partial *from = trial->kind == SP_TRIAL_OTHER  ? &trial->other
                              : trial->kind == SP_TRIAL_WALK ? &trial->start
                                                             : &trial->partial;
-    if (!sp_partial_copy(polishing->search, from, start, error))
+    if (!sp_partial_copy(local->search, from, start, error))
         return false;
-    sp_tuned_settle(&polishing->tuned, start);
+    sp_tuned_settle(&local->tuned, start);
     return true;
 }
 
 /* The refined layout on the search's own patches, turned a little more on these, becomes the trial's. */
-static bool take_over(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
+static bool take_over(const sp_local_search *local, int thread, sp_trial *trial, sp_error *error)
 {
-    sp_sights *sights = &polishing->sights[thread];
+    sp_sights *sights = &local->sights[thread];
     sp_partial partial;
     sp_sights_forget(sights);
     if (!transfer(sights, &trial->refined, &partial, error))
         return false;
-    double water = sp_partial_water(polishing->search, &partial, trial->budget);
-    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, water, polishing->deadline, &partial, error)) {
+    double water = sp_partial_water(local->search, &partial, trial->budget);
+    if (!sp_compass(sights, STEP_TURN, STEP_LEAST, water, local->deadline, &partial, error)) {
         sp_partial_free(&partial);
         return false;
     }
@@ -254,23 +253,23 @@ static bool take_over(const sp_polishing *polishing, int thread, sp_trial *trial
     return true;
 }
 
-static bool polish(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
+static bool search_locally(const sp_local_search *local, int thread, sp_trial *trial, sp_error *error)
 {
-    sp_sights *sights = &polishing->rough_sights[thread];
+    sp_sights *sights = &local->rough_sights[thread];
     sp_partial start;
     double before;
-    if (trial->repeats || !sp_deadline_goes_on(polishing->deadline, "refine", 0))
+    if (trial->repeats || !sp_deadline_goes_on(local->deadline, "refine", 0))
         return true;
     /* what was looked at before is another thread's luck */
     sp_sights_forget(sights);
-    if (!cover_before(sights, trial, &before, error) || !begin(polishing, trial, &start, error))
+    if (!cover_before(sights, trial, &before, error) || !begin(local, trial, &start, error))
         return false;
-    bool done = refine(polishing, sights, trial, before, &start, &trial->refined, error);
+    bool done = refine(local, sights, trial, before, &start, &trial->refined, error);
     sp_partial_free(&start);
     if (!done)
         return false;
     trial->covered = trial->refined.covered;
-    trial->better = fits_within(polishing->search, &trial->refined, trial->budget) &&
+    trial->better = fits_within(local->search, &trial->refined, trial->budget) &&
                     trial->refined.covered > before * (1 + GAIN_LEAST);
     return true;
 }
@@ -285,49 +284,48 @@ static bool keeps_up(const sp_trial *trials, size_t count, size_t i)
     return trials[i].better;
 }
 
-typedef bool (*trial_step)(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error);
+typedef bool (*trial_step)(const sp_local_search *local, int thread, sp_trial *trial, sp_error *error);
 
-static sp_ranks *ranks_of(const sp_polishing *polishing)
+static sp_ranks *ranks_of(const sp_local_search *local)
 {
-    return polishing->search->options->run.ranks;
+    return local->search->options->run.ranks;
 }
 
 /* Takes the step for trial i where it is this rank's, and all are asked for, or it is better. */
-static void take(const sp_polishing *polishing, int thread, sp_trial *trials, size_t i, bool better, trial_step step,
+static void take(const sp_local_search *local, int thread, sp_trial *trials, size_t i, bool better, trial_step step,
                  sp_error *failure)
 {
     sp_error mine = {0};
-    if (sp_ranks_mine(ranks_of(polishing), i) && (!better || trials[i].better) &&
-        !step(polishing, thread, &trials[i], &mine)) {
-#pragma omp critical(sp_polish_failure)
+    if (sp_ranks_mine(ranks_of(local), i) && (!better || trials[i].better) && !step(local, thread, &trials[i], &mine)) {
+#pragma omp critical(sp_local_search_failure)
         *failure = mine;
     }
 }
 
 /* Every trial, or those that are better; the last, which have most nozzles, first, so that no thread is left alone with
  * one of these. A trial alone is taken outside of a parallel region, so that what it does may have all threads. */
-static bool for_each(const sp_polishing *polishing, sp_trial *trials, size_t count, bool better, trial_step step,
+static bool for_each(const sp_local_search *local, sp_trial *trials, size_t count, bool better, trial_step step,
                      sp_error *error)
 {
     sp_error failure = {0};
-    sp_ranks_part(ranks_of(polishing));
+    sp_ranks_part(ranks_of(local));
     if (count == 1) {
-        take(polishing, 0, trials, 0, better, step, &failure);
+        take(local, 0, trials, 0, better, step, &failure);
     } else {
-#pragma omp parallel for num_threads(polishing->threads) schedule(dynamic, 1)
+#pragma omp parallel for num_threads(local->threads) schedule(dynamic, 1)
         for (size_t k = 0; k < count; k++)
-            take(polishing, omp_get_thread_num(), trials, count - 1 - k, better, step, &failure);
+            take(local, omp_get_thread_num(), trials, count - 1 - k, better, step, &failure);
     }
-    sp_ranks_rejoin(ranks_of(polishing));
+    sp_ranks_rejoin(ranks_of(local));
     if (failure.kind == SP_OK)
         return true;
     return sp_fail(error, failure.kind, failure.file, failure.line, failure.column, "%s", failure.message);
 }
 
 /* What the others' trials came to on few patches: nothing where that is not heard. */
-static bool share_merits(const sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error)
+static bool share_merits(const sp_local_search *local, sp_trial *trials, size_t count, sp_error *error)
 {
-    sp_ranks *ranks = ranks_of(polishing);
+    sp_ranks *ranks = ranks_of(local);
     sp_told told = {0};
     sp_heard heard;
     for (size_t i = 0; i < count; i++)
@@ -345,10 +343,10 @@ static bool share_merits(const sp_polishing *polishing, sp_trial *trials, size_t
 }
 
 /* The others' layouts, of all trials or of those that are better. */
-static bool share_partials(const sp_polishing *polishing, sp_trial *trials, size_t count, bool better, sp_error *error)
+static bool share_partials(const sp_local_search *local, sp_trial *trials, size_t count, bool better, sp_error *error)
 {
-    const sp_search *search = polishing->search;
-    sp_ranks *ranks = ranks_of(polishing);
+    const sp_search *search = local->search;
+    sp_ranks *ranks = ranks_of(local);
     sp_told told = {0};
     sp_heard heard;
     for (size_t i = 0; sp_ranks_count(ranks) > 1 && i < count; i++)
@@ -364,12 +362,12 @@ static bool share_partials(const sp_polishing *polishing, sp_trial *trials, size
     return done;
 }
 
-bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error)
+bool sp_local_search_run(sp_local_search *local, sp_trial *trials, size_t count, sp_error *error)
 {
-    bool done = for_each(polishing, trials, count, false, walk, error);
+    bool done = for_each(local, trials, count, false, walk, error);
     find_repeats(trials, count);
-    done = done && for_each(polishing, trials, count, false, polish, error) &&
-           share_merits(polishing, trials, count, error);
+    done = done && for_each(local, trials, count, false, search_locally, error) &&
+           share_merits(local, trials, count, error);
     bool *keeps = calloc(count ? count : 1, sizeof *keeps);
     if (!keeps)
         done = sp_fail_memory(error);
@@ -378,8 +376,8 @@ bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error
     for (size_t i = 0; done && i < count; i++)
         trials[i].better = keeps[i];
     free(keeps);
-    done = done && for_each(polishing, trials, count, true, take_over, error) &&
-           share_partials(polishing, trials, count, true, error);
+    done = done && for_each(local, trials, count, true, take_over, error) &&
+           share_partials(local, trials, count, true, error);
     for (size_t i = 0; i < count; i++) {
         sp_partial_free(&trials[i].start);
         sp_partial_free(&trials[i].refined);
@@ -388,17 +386,17 @@ bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error
 }
 
 /* On the final patches, then as the search's own see it. */
-static bool sharpen(const sp_polishing *polishing, int thread, sp_trial *trial, sp_error *error)
+static bool sharpen(const sp_local_search *local, int thread, sp_trial *trial, sp_error *error)
 {
-    sp_sights *sights = &polishing->sharp_sights[thread], *own = &polishing->sights[thread];
+    sp_sights *sights = &local->sharp_sights[thread], *own = &local->sights[thread];
     sp_partial sharp, partial;
     sp_sights_forget(sights);
     sp_sights_forget(own);
     if (!transfer(sights, &trial->partial, &sharp, error))
         return false;
-    double water = sp_partial_water(polishing->search, &sharp, trial->budget);
-    bool done = sp_anneal(sights, SHARP_START, SP_WIDTHS, water, polishing->deadline, &sharp, error) &&
-                sp_compass(sights, STEP_SHARP, STEP_LEAST, water, polishing->deadline, &sharp, error) &&
+    double water = sp_partial_water(local->search, &sharp, trial->budget);
+    bool done = sp_anneal(sights, SHARP_START, SP_WIDTHS, water, local->deadline, &sharp, error) &&
+                sp_compass(sights, STEP_SHARP, STEP_LEAST, water, local->deadline, &sharp, error) &&
                 transfer(own, &sharp, &partial, error);
     sp_partial_free(&sharp);
     if (!done)
@@ -408,8 +406,7 @@ static bool sharpen(const sp_polishing *polishing, int thread, sp_trial *trial, 
     return true;
 }
 
-bool sp_sharpen(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error)
+bool sp_sharpen(sp_local_search *local, sp_trial *trials, size_t count, sp_error *error)
 {
-    return for_each(polishing, trials, count, false, sharpen, error) &&
-           share_partials(polishing, trials, count, false, error);
+    return for_each(local, trials, count, false, sharpen, error) && share_partials(local, trials, count, false, error);
 }

@@ -1,18 +1,18 @@
-/* Polishing: refining many layouts at once, each annealed and then improved by compass. */
-#ifndef OPTIMIZER_POLISH_H
-#define OPTIMIZER_POLISH_H
+/* Local search: refining many layouts at once, each annealed and then improved by compass. */
+#ifndef OPTIMIZER_LOCAL_SEARCH_H
+#define OPTIMIZER_LOCAL_SEARCH_H
 
 #include "refine/anneal.h"
 #include "search/tuned.h"
 
 typedef enum {
-    SP_TRIAL_ANNEAL, /* the layout as it is, annealed from every start */
-    SP_TRIAL_POLISH, /* the same, annealed by turns as all that follow */
-    SP_TRIAL_WALK,   /* after a walk */
-    SP_TRIAL_OTHER,  /* another in its place */
+    SP_TRIAL_ANNEAL,   /* the layout as it is, annealed from every start */
+    SP_TRIAL_BY_TURNS, /* the same, annealed by turns as all that follow */
+    SP_TRIAL_WALK,     /* after a walk */
+    SP_TRIAL_OTHER,    /* another in its place */
 } sp_trial_kind;
 
-/* One layout to polish at equal water. */
+/* One layout to search from at equal water. */
 typedef struct {
     sp_trial_kind kind;
     sp_partial partial; /* what comes out takes its place, if better, and no other of the same water much more so */
@@ -36,16 +36,16 @@ typedef struct {
     sp_tuned tuned;                /* where walks and other layouts find their poses */
     int threads;
     sp_sights *sights, *rough_sights, *sharp_sights; /* [threads]; the first are exact */
-} sp_polishing;
+} sp_local_search;
 
-bool sp_polishing_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine, sp_deadline *deadline,
-                         sp_polishing *polishing, sp_error *error);
-void sp_polishing_free(sp_polishing *polishing);
+bool sp_local_search_create(const sp_search *search, const sp_pool *pool, const sp_evaluator *fine,
+                            sp_deadline *deadline, sp_local_search *local, sp_error *error);
+void sp_local_search_free(sp_local_search *local);
 
-/* Polishes every trial on few patches, and the best for each amount of water on the search's own. Trials are dealt out
- * to ranks. What comes out does not depend on the number of threads or ranks. */
-bool sp_polish(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error);
-/* Polishes every trial's layout sharply on the final patches, where it never gets worse. */
-bool sp_sharpen(sp_polishing *polishing, sp_trial *trials, size_t count, sp_error *error);
+/* Searches locally from every trial on few patches, and the best for each amount of water on the search's own. Trials
+ * are dealt out to ranks. What comes out does not depend on the number of threads or ranks. */
+bool sp_local_search_run(sp_local_search *local, sp_trial *trials, size_t count, sp_error *error);
+/* Refines every trial's layout sharply on the final patches, where it never gets worse. */
+bool sp_sharpen(sp_local_search *local, sp_trial *trials, size_t count, sp_error *error);
 
 #endif
