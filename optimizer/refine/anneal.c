@@ -51,33 +51,33 @@ bool sp_partial_look(sp_sights *sights, sp_partial *partial, sp_error *error)
     return true;
 }
 
-/* Takes over a share of the way from each freedom's start to its values, and looks again. */
-static bool go(const sp_annealing *annealing, const sp_freedom *freedoms, double (*values)[SP_UNKNOWNS], double share,
-               sp_partial *partial)
+/* Takes over a share of the way from each nozzle's start to its values, and looks again. */
+static bool go(const sp_annealing *annealing, const sp_pose_parameters *parameters, double (*values)[SP_UNKNOWNS],
+               double share, sp_partial *partial)
 {
     const sp_search *search = annealing->sights->search;
     for (size_t i = 0; i < partial->count; i++) {
         double part[SP_UNKNOWNS];
-        for (size_t k = 0; k < freedoms[i].count; k++)
-            part[k] = freedoms[i].value[k] + share * (values[i][k] - freedoms[i].value[k]);
-        sp_placed_move(search, &partial->items[i], &freedoms[i], part);
+        for (size_t k = 0; k < parameters[i].count; k++)
+            part[k] = parameters[i].value[k] + share * (values[i][k] - parameters[i].value[k]);
+        sp_placed_move(search, &partial->items[i], &parameters[i], part);
     }
     sp_turn_down(search, partial, annealing->water);
     return sp_partial_look(annealing->sights, partial, annealing->error);
 }
 
 /* Goes the whole way; where `careful`, half or a quarter of it if that is what is worth more than before, or stays. */
-static bool line_search(const sp_annealing *annealing, const sp_freedom *freedoms, double (*values)[SP_UNKNOWNS],
-                        bool careful, sp_partial *partial)
+static bool line_search(const sp_annealing *annealing, const sp_pose_parameters *parameters,
+                        double (*values)[SP_UNKNOWNS], bool careful, sp_partial *partial)
 {
     const sp_search *search = annealing->sights->search;
     if (!careful)
-        return go(annealing, freedoms, values, 1, partial);
+        return go(annealing, parameters, values, 1, partial);
     for (double share = 1; share >= SHARE_LEAST; share /= 2) {
         sp_partial trial;
         if (!sp_partial_copy(search, partial, &trial, annealing->error))
             return false;
-        if (!go(annealing, freedoms, values, share, &trial)) {
+        if (!go(annealing, parameters, values, share, &trial)) {
             sp_partial_free(&trial);
             return false;
         }
@@ -94,10 +94,10 @@ static bool line_search(const sp_annealing *annealing, const sp_freedom *freedom
 /* The solver takes its slopes from differences, so that its answers hold to 1e-8 or so of the range, and what comes of
  * them would be another layout at another scale. They are brought to the nearest mark, which is finer than the
  * compass's least step. */
-static void mark(const sp_freedom *freedom, double values[SP_UNKNOWNS])
+static void mark(const sp_pose_parameters *parameters, double values[SP_UNKNOWNS])
 {
-    for (size_t k = 0; k < freedom->count; k++) {
-        double half = 0.5 * (freedom->high[k] - freedom->low[k]), middle = freedom->low[k] + half;
+    for (size_t k = 0; k < parameters->count; k++) {
+        double half = 0.5 * (parameters->high[k] - parameters->low[k]), middle = parameters->low[k] + half;
         values[k] = middle + half * (nearbyint((values[k] - middle) / half * MARKS) / MARKS);
     }
 }
@@ -106,23 +106,23 @@ static void mark(const sp_freedom *freedom, double values[SP_UNKNOWNS])
 static bool step(const sp_annealing *annealing, size_t width, sp_partial *partial)
 {
     const sp_search *search = annealing->sights->search;
-    sp_freedom *freedoms = malloc(partial->count * sizeof *freedoms);
+    sp_pose_parameters *parameters = malloc(partial->count * sizeof *parameters);
     const sp_sight **views = malloc(partial->count * sizeof *views);
     double(*values)[SP_UNKNOWNS] = malloc(partial->count * sizeof *values);
-    bool done = (freedoms && values && views) || sp_fail_memory(annealing->error);
+    bool done = (parameters && values && views) || sp_fail_memory(annealing->error);
     for (size_t i = 0; done && i < partial->count; i++) {
-        freedoms[i] = sp_freedom_create(search, &partial->items[i]);
-        for (size_t k = 0; k < freedoms[i].count; k++)
-            values[i][k] = freedoms[i].value[k];
+        parameters[i] = sp_pose_parameters_create(search, &partial->items[i]);
+        for (size_t k = 0; k < parameters[i].count; k++)
+            values[i][k] = parameters[i].value[k];
         views[i] = sp_sights_look(annealing->sights, &partial->items[i], annealing->error);
         done = views[i] != NULL;
     }
     done = done &&
-           sp_soft_solve(search, partial, freedoms, views, widths[width], annealing->water, values, annealing->error);
+           sp_soft_solve(search, partial, parameters, views, widths[width], annealing->water, values, annealing->error);
     for (size_t i = 0; done && i < partial->count; i++)
-        mark(&freedoms[i], values[i]);
-    done = done && line_search(annealing, freedoms, values, width >= SP_CAREFUL, partial);
-    free(freedoms);
+        mark(&parameters[i], values[i]);
+    done = done && line_search(annealing, parameters, values, width >= SP_CAREFUL, partial);
+    free(parameters);
     free(views);
     free(values);
     return done;

@@ -43,19 +43,19 @@ static bool is_promising(sp_needle *needle, const sp_placed *trial, bool *promis
 /* Tries one value of one unknown and keeps it where more is covered. */
 static bool try_value(sp_needle *needle, size_t k, double step, bool *moved)
 {
-    sp_freedom freedom = sp_freedom_create(needle->search, &needle->placed);
-    double values[SP_UNKNOWNS], half = 0.5 * (freedom.high[k] - freedom.low[k]);
-    for (size_t j = 0; j < freedom.count; j++)
-        values[j] = freedom.value[j];
-    values[k] = fmin(freedom.high[k], fmax(freedom.low[k], values[k] + step * half));
-    if (values[k] == freedom.value[k])
+    sp_pose_parameters parameters = sp_pose_parameters_create(needle->search, &needle->placed);
+    double values[SP_UNKNOWNS], half = 0.5 * (parameters.high[k] - parameters.low[k]);
+    for (size_t j = 0; j < parameters.count; j++)
+        values[j] = parameters.value[j];
+    values[k] = fmin(parameters.high[k], fmax(parameters.low[k], values[k] + step * half));
+    if (values[k] == parameters.value[k])
         return true;
     sp_placed trial = needle->placed;
-    sp_placed_move(needle->search, &trial, &freedom, values);
+    sp_placed_move(needle->search, &trial, &parameters, values);
     if (needle->partial->flow + trial.flow > needle->water * (1 + 1e-12))
         return true;
     bool elsewhere = sp_distance(trial.nozzle.position, needle->placed.nozzle.position) > 0;
-    bool promising = elsewhere || freedom.kind[k] != SP_UNKNOWN_PLACE;
+    bool promising = elsewhere || parameters.kind[k] != SP_UNKNOWN_PLACE;
     if (elsewhere && !is_promising(needle, &trial, &promising))
         return false;
     if (!promising)
@@ -90,9 +90,9 @@ static bool try_nozzle(const sp_search *search, sp_sights *sights, double water,
     bool done = needle.trial || sp_fail_memory(error);
     if (done)
         needle.gain = sp_field_gain(search, partial, needle.placed.field);
-    sp_freedom freedom = sp_freedom_create(search, &needle.placed);
-    for (size_t k = 0; done && k < freedom.count; k++) {
-        if (freedom.kind[k] == SP_UNKNOWN_PLACE && step < PLACE_LEAST)
+    sp_pose_parameters parameters = sp_pose_parameters_create(search, &needle.placed);
+    for (size_t k = 0; done && k < parameters.count; k++) {
+        if (parameters.kind[k] == SP_UNKNOWN_PLACE && step < PLACE_LEAST)
             continue;
         bool forth = false;
         done = try_value(&needle, k, step, &forth) && (forth || try_value(&needle, k, -step, &forth));

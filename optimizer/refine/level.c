@@ -9,7 +9,7 @@
 /* All that a nozzle's arrivals share. */
 typedef struct {
     const sp_search *search;
-    const sp_freedom *freedom;
+    const sp_pose_parameters *parameters;
     sp_width width;
     sp_nozzle nozzle;
     const sp_sight *sight;
@@ -33,14 +33,14 @@ static sp_vec3 difference(sp_vec3 to, sp_vec3 from, double step)
 /* What of the pose changes with unknown k, by a difference towards the middle of its range. */
 static void vary(sp_posed *posed, const double *values, size_t k)
 {
-    const sp_freedom *freedom = posed->freedom;
+    const sp_pose_parameters *parameters = posed->parameters;
     const sp_setup *setup = sp_evaluator_setup(posed->search->coarse);
-    double changed[SP_UNKNOWNS], half = 0.5 * (freedom->high[k] - freedom->low[k]);
-    for (size_t i = 0; i < freedom->count; i++)
+    double changed[SP_UNKNOWNS], half = 0.5 * (parameters->high[k] - parameters->low[k]);
+    for (size_t i = 0; i < parameters->count; i++)
         changed[i] = values[i];
-    double step = copysign(STEP * half, freedom->low[k] + half - values[k]);
+    double step = copysign(STEP * half, parameters->low[k] + half - values[k]);
     changed[k] += step;
-    sp_nozzle nozzle = sp_freedom_nozzle(freedom, changed);
+    sp_nozzle nozzle = sp_pose_parameters_nozzle(parameters, changed);
     sp_frame frame = sp_nozzle_frame(nozzle.axis, nozzle.roll, setup->up);
     posed->turn[k] = (sp_frame){difference(frame.x, posed->frame.x, step), difference(frame.y, posed->frame.y, step),
                                 difference(frame.z, posed->frame.z, step)};
@@ -51,12 +51,12 @@ static void vary(sp_posed *posed, const double *values, size_t k)
     posed->thicken[k] = (after - before) / (step * before);
 }
 
-static sp_posed pose(const sp_search *search, const sp_freedom *freedom, const sp_sight *sight, sp_width width,
-                     const double *values, bool slopes)
+static sp_posed pose(const sp_search *search, const sp_pose_parameters *parameters, const sp_sight *sight,
+                     sp_width width, const double *values, bool slopes)
 {
     const sp_setup *setup = sp_evaluator_setup(search->coarse);
-    sp_posed posed = {.search = search, .freedom = freedom, .width = width, .sight = sight};
-    posed.nozzle = sp_freedom_nozzle(freedom, values);
+    sp_posed posed = {.search = search, .parameters = parameters, .width = width, .sight = sight};
+    posed.nozzle = sp_pose_parameters_nozzle(parameters, values);
     posed.spray = sp_spray_create(posed.nozzle.type, sp_nozzle_angle(&posed.nozzle));
     posed.frame = sp_nozzle_frame(posed.nozzle.axis, posed.nozzle.roll, setup->up);
     double flow = sp_nozzle_flow(&posed.nozzle, &setup->liquid);
@@ -64,7 +64,7 @@ static sp_posed pose(const sp_search *search, const sp_freedom *freedom, const s
     double most = sp_spray_reach(&posed.spray) + FAR * (width.edge + OWN_EDGE * BROAD);
     posed.least = most < M_PI ? cos(most) : -2;
     posed.moved = sp_distance(posed.nozzle.position, sight->position) > 0;
-    for (size_t k = 0; slopes && k < freedom->count; k++)
+    for (size_t k = 0; slopes && k < parameters->count; k++)
         vary(&posed, values, k);
     return posed;
 }
@@ -164,13 +164,13 @@ typedef struct {
 
 static sp_log_slope log_slope(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, size_t k)
 {
-    const sp_freedom *freedom = posed->freedom;
+    const sp_pose_parameters *parameters = posed->parameters;
     double edge = (1 - borne->inside) / borne->edge;
     sp_log_slope slope = {0, 0};
     sp_vec3 turn;
-    switch (freedom->kind[k]) {
+    switch (parameters->kind[k]) {
     case SP_UNKNOWN_PLACE:
-        slope.flux = shift(posed, borne, seen, freedom->move[k], &turn);
+        slope.flux = shift(posed, borne, seen, parameters->move[k], &turn);
         slope.share = edge * sp_dot(borne->gradient, in_frame(&posed->frame, turn));
         break;
     case SP_UNKNOWN_AXIS:
@@ -209,7 +209,7 @@ static void set_level(const sp_posed *posed, const sp_borne *borne, const sp_see
     bool sums = !posed->search->single && posed->search->threshold > 0;
     levels->alone[i] = share * alone;
     levels->flux[i] = sums ? share * (1 - alone) * flux : 0;
-    for (size_t k = 0; levels->alone_slope && k < posed->freedom->count; k++) {
+    for (size_t k = 0; levels->alone_slope && k < posed->parameters->count; k++) {
         sp_log_slope by = log_slope(posed, borne, seen, k);
         size_t at = k * posed->sight->count + i;
         double of_alone = share * (alone * by.share + rise * by.flux);
@@ -227,34 +227,34 @@ static void bring(const sp_posed *posed, const sp_borne *borne, const sp_seen *s
     double flow = sp_nozzle_flow(&posed->nozzle, &sp_evaluator_setup(posed->search->coarse)->liquid);
     brought->amount[i] =
         flow / posed->spray.solid_angle * borne->transfer * borne->inside * seen->part * patches->area[seen->patch];
-    for (size_t k = 0; brought->slope && k < posed->freedom->count; k++) {
+    for (size_t k = 0; brought->slope && k < posed->parameters->count; k++) {
         sp_log_slope by = log_slope(posed, borne, seen, k);
         double by_k = brought->amount[i] * (by.flux + by.share);
         brought->slope[k * posed->sight->count + i] = isfinite(by_k) ? by_k : 0;
     }
 }
 
-static void set_nothing(const sp_freedom *freedom, size_t count, size_t i, double *amount, double *slope)
+static void set_nothing(const sp_pose_parameters *parameters, size_t count, size_t i, double *amount, double *slope)
 {
     amount[i] = 0;
-    for (size_t k = 0; slope && k < freedom->count; k++)
+    for (size_t k = 0; slope && k < parameters->count; k++)
         slope[k * count + i] = 0;
 }
 
-static bool has_place(const sp_freedom *freedom)
+static bool has_place(const sp_pose_parameters *parameters)
 {
-    for (size_t k = 0; k < freedom->count; k++)
-        if (freedom->kind[k] == SP_UNKNOWN_PLACE)
+    for (size_t k = 0; k < parameters->count; k++)
+        if (parameters->kind[k] == SP_UNKNOWN_PLACE)
             return true;
     return false;
 }
 
-void sp_levels_set(const sp_search *search, const sp_freedom *freedom, const sp_sight *sight, sp_width width,
+void sp_levels_set(const sp_search *search, const sp_pose_parameters *parameters, const sp_sight *sight, sp_width width,
                    const double *values, const sp_levels *levels, const sp_brought *brought)
 {
     bool slopes = levels->alone_slope != NULL;
-    sp_posed posed = pose(search, freedom, sight, width, values, slopes);
-    bool flies = posed.moved || (slopes && has_place(freedom));
+    sp_posed posed = pose(search, parameters, sight, width, values, slopes);
+    bool flies = posed.moved || (slopes && has_place(parameters));
     for (size_t i = 0; i < sight->count; i++) {
         const sp_seen *seen = &sight->seen[i];
         sp_borne borne = {0};
@@ -262,12 +262,12 @@ void sp_levels_set(const sp_search *search, const sp_freedom *freedom, const sp_
         if (there && seen->passes) {
             set_level(&posed, &borne, seen, i, levels);
         } else {
-            set_nothing(freedom, sight->count, i, levels->alone, levels->alone_slope);
-            set_nothing(freedom, sight->count, i, levels->flux, levels->flux_slope);
+            set_nothing(parameters, sight->count, i, levels->alone, levels->alone_slope);
+            set_nothing(parameters, sight->count, i, levels->flux, levels->flux_slope);
         }
         if (brought && there)
             bring(&posed, &borne, seen, i, brought);
         else if (brought)
-            set_nothing(freedom, sight->count, i, brought->amount, brought->slope);
+            set_nothing(parameters, sight->count, i, brought->amount, brought->slope);
     }
 }

@@ -2,7 +2,7 @@
 #ifndef OPTIMIZER_LEVEL_H
 #define OPTIMIZER_LEVEL_H
 
-#include "refine/freedom.h"
+#include "refine/pose_parameters.h"
 #include "refine/sight.h"
 
 /* How soft: the width (in logarithm of flux over threshold) of the step from dry to covered, and of the pattern's edge.
@@ -14,7 +14,7 @@ typedef struct {
 
 /* What each arrival brings its patch, as the measure has it, softly (see sp_wetting): the share of the patch that it
  * covers by itself, and the flux over threshold that it brings towards what several cover together. Derivatives by each
- * value of the freedom, [freedom->count][sight->count]. */
+ * value of the pose parameters, [parameters->count][sight->count]. */
 typedef struct {
     double *alone, *alone_slope; /* [sight->count]; slopes NULL where they are not asked for */
     double *flux, *flux_slope;
@@ -26,8 +26,9 @@ typedef struct {
     double *amount, *slope;
 } sp_brought;
 
-/* At the freedom's values [SP_UNKNOWNS], visibility as in `sight`. And what is brought, where that is asked for. */
-void sp_levels_set(const sp_search *search, const sp_freedom *freedom, const sp_sight *sight, sp_width width,
+/* At these values of the pose parameters [SP_UNKNOWNS], visibility as in `sight`. And what is brought, where that is
+ * asked for. */
+void sp_levels_set(const sp_search *search, const sp_pose_parameters *parameters, const sp_sight *sight, sp_width width,
                    const double *values, const sp_levels *levels, const sp_brought *brought);
 
 /* Logistic function. */

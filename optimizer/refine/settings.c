@@ -1,6 +1,6 @@
 #include "refine/settings.h"
 
-#include "refine/freedom.h"
+#include "refine/pose_parameters.h"
 #include "scoring/field.h"
 
 #define ROUNDS 3 /* of looking at the settings beside those of the best layout */

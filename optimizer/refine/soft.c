@@ -15,7 +15,7 @@
 #define SURE 16.0          /* widths above the threshold where nothing is missing any more */
 
 typedef struct {
-    const sp_freedom *freedom;
+    const sp_pose_parameters *parameters;
     const sp_sight *sight;
     size_t first; /* of its unknowns */
     sp_levels levels;
@@ -43,10 +43,10 @@ typedef struct {
  * telling Ceres, which searches long where bounds are many. */
 static void values_at(const sp_soft_nozzle *own, const double *x, double values[SP_UNKNOWNS])
 {
-    const sp_freedom *freedom = own->freedom;
-    for (size_t k = 0; k < freedom->count; k++) {
-        double half = 0.5 * (freedom->high[k] - freedom->low[k]);
-        values[k] = freedom->low[k] + half + half * sin(x[own->first + k]);
+    const sp_pose_parameters *parameters = own->parameters;
+    for (size_t k = 0; k < parameters->count; k++) {
+        double half = 0.5 * (parameters->high[k] - parameters->low[k]);
+        values[k] = parameters->low[k] + half + half * sin(x[own->first + k]);
     }
 }
 
@@ -57,7 +57,7 @@ static void set_levels(sp_soft *soft, const double *x, bool slopes)
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
     for (size_t i = 0; i < soft->nozzle_count; i++) {
         sp_soft_nozzle *own = &soft->nozzles[i];
-        const sp_freedom *freedom = own->freedom;
+        const sp_pose_parameters *parameters = own->parameters;
         double values[SP_UNKNOWNS];
         values_at(own, x, values);
         double chain[SP_UNKNOWNS];
@@ -67,10 +67,10 @@ static void set_levels(sp_soft *soft, const double *x, bool slopes)
         sp_levels levels = own->levels;
         if (!slopes)
             levels.alone_slope = levels.flux_slope = NULL;
-        sp_levels_set(soft->search, freedom, own->sight, soft->width, values, &levels,
+        sp_levels_set(soft->search, parameters, own->sight, soft->width, values, &levels,
                       soft->film.count ? &brought : NULL);
-        for (size_t k = 0; slopes && k < freedom->count; k++) {
-            chain[k] = 0.5 * (freedom->high[k] - freedom->low[k]) * cos(x[own->first + k]);
+        for (size_t k = 0; slopes && k < parameters->count; k++) {
+            chain[k] = 0.5 * (parameters->high[k] - parameters->low[k]) * cos(x[own->first + k]);
             for (size_t a = k * own->sight->count; a < (k + 1) * own->sight->count; a++) {
                 levels.alone_slope[a] *= chain[k];
                 levels.flux_slope[a] *= chain[k];
@@ -164,7 +164,7 @@ static void add_film(const sp_soft *soft, size_t patch, double by_film, sp_soft_
 {
     for (size_t i = 0; by_film != 0 && i < soft->film.count; i++) {
         const sp_soft_runs *runs = &soft->film.runs[i];
-        for (size_t k = 0; k < runs->freedom->count; k++)
+        for (size_t k = 0; k < runs->parameters->count; k++)
             add_slope(row, runs->first + k, by_film * (double)runs->slope[k * soft->search->patch_count + patch]);
     }
 }
@@ -183,7 +183,7 @@ static void add_row(const sp_soft *soft, size_t patch, const sp_soft_miss *at, d
             continue;
         double by_alone = -weight * at->together * at->film * alone_but(soft, patch, soft->links[l].nozzle);
         double by_flux = weight * at->alone * at->film * at->by_flux;
-        for (size_t k = 0; k < own->freedom->count; k++) {
+        for (size_t k = 0; k < own->parameters->count; k++) {
             size_t slope = k * own->sight->count + arrival;
             add_slope(&own_row, own->first + k,
                       by_alone * own->levels.alone_slope[slope] + by_flux * own->levels.flux_slope[slope]);
@@ -267,11 +267,11 @@ static void add_water(sp_soft *soft, const double *x, bool slopes)
         const sp_soft_nozzle *own = &soft->nozzles[i];
         double values[SP_UNKNOWNS];
         values_at(own, x, values);
-        sp_nozzle nozzle = sp_freedom_nozzle(own->freedom, values);
+        sp_nozzle nozzle = sp_pose_parameters_nozzle(own->parameters, values);
         flow += sp_nozzle_flow(&nozzle, &sp_evaluator_setup(soft->search->coarse)->liquid);
-        for (size_t k = 0; k < own->freedom->count; k++) {
-            double half = 0.5 * (own->freedom->high[k] - own->freedom->low[k]);
-            row[own->first + k] = own->freedom->kind[k] == SP_UNKNOWN_FLOW
+        for (size_t k = 0; k < own->parameters->count; k++) {
+            double half = 0.5 * (own->parameters->high[k] - own->parameters->low[k]);
+            row[own->first + k] = own->parameters->kind[k] == SP_UNKNOWN_FLOW
                                       ? WATER_PENALTY * half * cos(x[own->first + k]) / soft->budget
                                       : 0;
         }
@@ -368,7 +368,8 @@ static bool link_patches(sp_soft *soft, sp_error *error)
     return true;
 }
 
-static bool soft_create(sp_soft *soft, const sp_freedom *freedoms, const sp_sight *const *sights, sp_error *error)
+static bool soft_create(sp_soft *soft, const sp_pose_parameters *parameters, const sp_sight *const *sights,
+                        sp_error *error)
 {
     soft->nozzles = calloc(soft->nozzle_count, sizeof *soft->nozzles);
     if (!soft->nozzles)
@@ -376,8 +377,8 @@ static bool soft_create(sp_soft *soft, const sp_freedom *freedoms, const sp_sigh
     size_t first = 0;
     for (size_t i = 0; i < soft->nozzle_count; i++) {
         size_t most = sights[i]->count ? sights[i]->count : 1;
-        soft->nozzles[i] = (sp_soft_nozzle){.freedom = &freedoms[i], .sight = sights[i], .first = first};
-        first += freedoms[i].count;
+        soft->nozzles[i] = (sp_soft_nozzle){.parameters = &parameters[i], .sight = sights[i], .first = first};
+        first += parameters[i].count;
         sp_levels *levels = &soft->nozzles[i].levels;
         double *numbers = malloc(2 * most * (1 + SP_UNKNOWNS) * sizeof *numbers);
         if (!numbers)
@@ -414,10 +415,10 @@ static bool solve(sp_soft *soft, double (*values)[SP_UNKNOWNS], sp_error *error)
         return sp_fail_memory(error);
     const double most = acos(EDGE_LEAST);
     for (size_t i = 0; i < soft->nozzle_count; i++) {
-        const sp_freedom *freedom = soft->nozzles[i].freedom;
-        for (size_t k = 0; k < freedom->count; k++) {
-            double half = 0.5 * (freedom->high[k] - freedom->low[k]);
-            double angle = asin(fmin(1, fmax(-1, (freedom->value[k] - freedom->low[k] - half) / half)));
+        const sp_pose_parameters *parameters = soft->nozzles[i].parameters;
+        for (size_t k = 0; k < parameters->count; k++) {
+            double half = 0.5 * (parameters->high[k] - parameters->low[k]);
+            double angle = asin(fmin(1, fmax(-1, (parameters->value[k] - parameters->low[k] - half) / half)));
             x[soft->nozzles[i].first + k] = fmin(most, fmax(-most, angle));
         }
     }
@@ -463,19 +464,19 @@ static void let_go(sp_search *held)
     free(held->kept_film);
 }
 
-bool sp_soft_solve(const sp_search *search, const sp_partial *partial, const sp_freedom *freedoms,
+bool sp_soft_solve(const sp_search *search, const sp_partial *partial, const sp_pose_parameters *parameters,
                    const sp_sight *const *sights, sp_width width, double budget, double (*values)[SP_UNKNOWNS],
                    sp_error *error)
 {
     sp_search held;
     sp_soft soft = {.search = &held, .width = width, .budget = budget, .nozzle_count = partial->count};
     for (size_t i = 0; i < partial->count; i++)
-        soft.unknowns += freedoms[i].count;
+        soft.unknowns += parameters[i].count;
     if (!soft.unknowns)
         return true;
-    bool done = hold(search, partial, &held, error) && soft_create(&soft, freedoms, sights, error) &&
+    bool done = hold(search, partial, &held, error) && soft_create(&soft, parameters, sights, error) &&
                 (!search->runoffs ||
-                 sp_soft_film_create(&held, freedoms, sights, partial->count, width.level, &soft.film, error)) &&
+                 sp_soft_film_create(&held, parameters, sights, partial->count, width.level, &soft.film, error)) &&
                 solve(&soft, values, error);
     soft_free(&soft);
     let_go(&held);

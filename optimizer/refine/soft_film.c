@@ -4,7 +4,7 @@
 
 #define SURE 16.0 /* widths beyond the threshold where nothing changes any more */
 
-bool sp_soft_film_create(const sp_search *search, const sp_freedom *freedoms, const sp_sight *const *sights,
+bool sp_soft_film_create(const sp_search *search, const sp_pose_parameters *parameters, const sp_sight *const *sights,
                          size_t count, double width, sp_soft_film *film, sp_error *error)
 {
     size_t patches = search->patch_count + 1, first = 0;
@@ -14,8 +14,8 @@ bool sp_soft_film_create(const sp_search *search, const sp_freedom *freedoms, co
     for (size_t i = 0; i < count; i++) {
         sp_soft_runs *own = &film->runs[i];
         size_t most = sights[i]->count + 1;
-        *own = (sp_soft_runs){.freedom = &freedoms[i], .sight = sights[i], .first = first};
-        first += freedoms[i].count;
+        *own = (sp_soft_runs){.parameters = &parameters[i], .sight = sights[i], .first = first};
+        first += parameters[i].count;
         own->brought.amount = malloc(most * sizeof *own->brought.amount);
         own->brought.slope = malloc(most * SP_UNKNOWNS * sizeof *own->brought.slope);
         own->film = malloc(patches * sizeof *own->film);
@@ -43,7 +43,7 @@ static void run_down(const sp_search *search, const sp_soft_runs *own, const dou
 {
     sp_runoff *runoff = sp_search_runoff(search);
     double *arriving = sp_runoff_arriving(runoff);
-    const sp_nozzle *nozzle = &own->freedom->start;
+    const sp_nozzle *nozzle = &own->parameters->start;
     double flow = sp_nozzle_flow(nozzle, &sp_evaluator_setup(search->coarse)->liquid);
     for (size_t a = 0; a < own->sight->count; a++)
         arriving[own->sight->seen[a].patch] += times * brings[a];
@@ -54,7 +54,7 @@ void sp_soft_film_set(sp_soft_film *film, size_t i, const double *chain)
 {
     const sp_soft_runs *own = &film->runs[i];
     run_down(film->search, own, own->brought.amount, 1, own->film);
-    for (size_t k = 0; chain && k < own->freedom->count; k++)
+    for (size_t k = 0; chain && k < own->parameters->count; k++)
         run_down(film->search, own, &own->brought.slope[k * own->sight->count], chain[k],
                  &own->slope[k * film->search->patch_count]);
 }

@@ -7,12 +7,12 @@
 
 /* One nozzle's. */
 typedef struct {
-    const sp_freedom *freedom;
+    const sp_pose_parameters *parameters;
     const sp_sight *sight;
     size_t first;       /* of its unknowns */
     sp_brought brought; /* by arrival */
     float *film;        /* [patch_count], over what is asked for */
-    float *slope;       /* [freedom->count][patch_count], by unknown */
+    float *slope;       /* [parameters->count][patch_count], by unknown */
 } sp_soft_runs;
 
 typedef struct {
@@ -22,8 +22,8 @@ typedef struct {
     sp_soft_runs *runs; /* [count] */
 } sp_soft_film;
 
-/* For nozzles with these freedoms, whose unknowns follow one another. Borrows all; freed in any case. */
-bool sp_soft_film_create(const sp_search *search, const sp_freedom *freedoms, const sp_sight *const *sights,
+/* For nozzles with these pose parameters, whose unknowns follow one another. Borrows all; freed in any case. */
+bool sp_soft_film_create(const sp_search *search, const sp_pose_parameters *parameters, const sp_sight *const *sights,
                          size_t count, double width, sp_soft_film *film, sp_error *error);
 void sp_soft_film_free(sp_soft_film *film);
 /* Draws nozzle i's film from what it brings, and the slopes where they are asked for; what brought.slope holds is

@@ -110,13 +110,13 @@ static void looks_free(looks *l)
     }
 }
 
-static void look(const bench *b, const sp_freedom *freedom, const sp_sight *sight, const double *values, bool slopes,
-                 const looks *l)
+static void look(const bench *b, const sp_pose_parameters *parameters, const sp_sight *sight, const double *values,
+                 bool slopes, const looks *l)
 {
     const sp_width width = {0.3, 0.1};
     const sp_levels levels = {l->value[0], slopes ? l->slope[0] : NULL, l->value[1], slopes ? l->slope[1] : NULL};
     const sp_brought brought = {l->value[2], slopes ? l->slope[2] : NULL};
-    sp_levels_set(&b->search, freedom, sight, width, values, &levels, &brought);
+    sp_levels_set(&b->search, parameters, sight, width, values, &levels, &brought);
 }
 
 /* Largest difference between slopes and central differences over the largest slope, for one unknown. */
@@ -145,15 +145,15 @@ static bool any(const double *numbers, size_t count)
 }
 
 /* The same of all columns that anything is in, which for one unknown at least one must be. */
-static double worst_of_unknown(const bench *b, const sp_freedom *freedom, const sp_sight *sight, const double *values,
-                               size_t k, const looks *here)
+static double worst_of_unknown(const bench *b, const sp_pose_parameters *parameters, const sp_sight *sight,
+                               const double *values, size_t k, const looks *here)
 {
-    double step = 1e-5 * (freedom->high[k] - freedom->low[k]), moved[SP_UNKNOWNS], worst = 0;
+    double step = 1e-5 * (parameters->high[k] - parameters->low[k]), moved[SP_UNKNOWNS], worst = 0;
     looks at[2] = {looks_create(sight), looks_create(sight)};
     memcpy(moved, values, sizeof moved);
     for (int i = 0; i < 2; i++) {
         moved[k] = values[k] + (i ? -step : step);
-        look(b, freedom, sight, moved, false, &at[i]);
+        look(b, parameters, sight, moved, false, &at[i]);
     }
     int columns = 0;
     for (int i = 0; i < COLUMNS; i++) {
@@ -169,18 +169,18 @@ static double worst_of_unknown(const bench *b, const sp_freedom *freedom, const 
     return worst;
 }
 
-static void check_slopes(const bench *b, const sp_freedom *freedom, const sp_sight *sight, int number)
+static void check_slopes(const bench *b, const sp_pose_parameters *parameters, const sp_sight *sight, int number)
 {
     double values[SP_UNKNOWNS];
     assert_true(sight->count > 300);
-    for (size_t k = 0; k < freedom->count; k++)
-        values[k] = 0.4 * freedom->low[k] + 0.6 * freedom->high[k];
+    for (size_t k = 0; k < parameters->count; k++)
+        values[k] = 0.4 * parameters->low[k] + 0.6 * parameters->high[k];
     looks here = looks_create(sight);
-    look(b, freedom, sight, values, true, &here);
-    for (size_t k = 0; k < freedom->count; k++) {
-        double worst = worst_of_unknown(b, freedom, sight, values, k, &here);
+    look(b, parameters, sight, values, true, &here);
+    for (size_t k = 0; k < parameters->count; k++) {
+        double worst = worst_of_unknown(b, parameters, sight, values, k, &here);
         if (worst > 0)
-            fail_msg("case %d, unknown %zu of kind %d: off by %g", number, k, (int)freedom->kind[k], worst);
+            fail_msg("case %d, unknown %zu of kind %d: off by %g", number, k, (int)parameters->kind[k], worst);
     }
     looks_free(&here);
 }
@@ -197,9 +197,9 @@ static void slopes_are_differences(void **state)
         bench_open(&b, patterns[i % 3], trajectories[i / 3 % 3], flux, i < 18 ? SP_COMBINE_SUM : SP_COMBINE_SINGLE);
         const sp_sight *sight = sp_sights_look(&b.sights, &b.partial.items[0], &error);
         assert_non_null(sight);
-        sp_freedom freedom = sp_freedom_create(&b.search, &b.partial.items[0]);
-        assert_int_equal(freedom.count, i % 3 == 2 ? 8 : 7);
-        check_slopes(&b, &freedom, sight, i);
+        sp_pose_parameters parameters = sp_pose_parameters_create(&b.search, &b.partial.items[0]);
+        assert_int_equal(parameters.count, i % 3 == 2 ? 8 : 7);
+        check_slopes(&b, &parameters, sight, i);
         bench_close(&b);
     }
 }

@@ -68,12 +68,12 @@ static void one_solve_goes_to_the_middle(void **state)
         double values[1][SP_UNKNOWNS];
         bench_open(&b);
         const sp_placed *placed = &b.partial.items[0];
-        sp_freedom freedom = sp_freedom_create(&b.search, placed);
+        sp_pose_parameters parameters = sp_pose_parameters_create(&b.search, placed);
         const sp_sight *sight = sp_sights_look(&b.sights, placed, &error);
-        assert_int_equal(freedom.count, 1);
-        memcpy(values[0], freedom.value, sizeof values[0]);
-        assert_true(sp_soft_solve(&b.search, &b.partial, &freedom, &sight, widths[w], INFINITY, values, &error));
-        sp_nozzle found = sp_freedom_nozzle(&freedom, values[0]);
+        assert_int_equal(parameters.count, 1);
+        memcpy(values[0], parameters.value, sizeof values[0]);
+        assert_true(sp_soft_solve(&b.search, &b.partial, &parameters, &sight, widths[w], INFINITY, values, &error));
+        sp_nozzle found = sp_pose_parameters_nozzle(&parameters, values[0]);
         print_message("from %g to %g m\n", placed->nozzle.position.x, found.position.x);
         assert_true(fabs(placed->nozzle.position.x) > 0.25 && fabs(found.position.x) < 1e-3);
         bench_close(&b);

@@ -1,6 +1,6 @@
 /* What refinement may change of one nozzle: its place within the mount, axis, roll, angle and flow. */
-#ifndef OPTIMIZER_FREEDOM_H
-#define OPTIMIZER_FREEDOM_H
+#ifndef OPTIMIZER_POSE_PARAMETERS_H
+#define OPTIMIZER_POSE_PARAMETERS_H
 
 #include "scoring/partial.h"
 
@@ -20,14 +20,14 @@ typedef struct {
     sp_vec3 move[SP_UNKNOWNS];                  /* place: unit direction */
     double value[SP_UNKNOWNS];                  /* at the start; m from the origin's position, rad, m³/s */
     double low[SP_UNKNOWNS], high[SP_UNKNOWNS]; /* low < high */
-} sp_freedom;
+} sp_pose_parameters;
 
 /* Nothing, where sweeps do not know the nozzle's type. */
-sp_freedom sp_freedom_create(const sp_search *search, const sp_placed *placed);
+sp_pose_parameters sp_pose_parameters_create(const sp_search *search, const sp_placed *placed);
 /* The nozzle at these values, its axis brought back within the limits of tilt and refinement. */
-sp_nozzle sp_freedom_nozzle(const sp_freedom *freedom, const double *values);
+sp_nozzle sp_pose_parameters_nozzle(const sp_pose_parameters *parameters, const double *values);
 /* The same put where the mounting point has come to lie, its axis within the tilt from that point's. */
-sp_nozzle sp_freedom_nozzle_at(const sp_freedom *freedom, const double *values, const sp_site *site);
+sp_nozzle sp_pose_parameters_nozzle_at(const sp_pose_parameters *parameters, const double *values, const sp_site *site);
 /* The roll at which a nozzle with this axis keeps the x of the one given as far as turning the axis alone allows. */
 double sp_carried_roll(const sp_nozzle *nozzle, sp_vec3 axis, sp_vec3 up);
 
