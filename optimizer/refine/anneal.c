@@ -117,8 +117,8 @@ static bool step(const sp_annealing *annealing, size_t width, sp_partial *partia
         views[i] = sp_sights_look(annealing->sights, &partial->items[i], annealing->error);
         done = views[i] != NULL;
     }
-    done = done &&
-           sp_soft_solve(search, partial, parameters, views, widths[width], annealing->water, values, annealing->error);
+    done = done && sp_smooth_objective_minimise(search, partial, parameters, views, widths[width], annealing->water,
+                                                values, annealing->error);
     for (size_t i = 0; done && i < partial->count; i++)
         mark(&parameters[i], values[i]);
     done = done && line_search(annealing, parameters, values, width >= SP_CAREFUL, partial);

@@ -2,9 +2,9 @@
 #ifndef OPTIMIZER_ANNEAL_H
 #define OPTIMIZER_ANNEAL_H
 
-#include "refine/soft.h"
+#include "refine/smooth_objective.h"
 
-/* The widths of an annealing, from the softest. From SP_CAREFUL on a step must improve what it starts from. */
+/* The widths of an annealing, from the smoothest. From SP_CAREFUL on a step must improve what it starts from. */
 #define SP_WIDTHS 7
 #define SP_CAREFUL 3
 

@@ -3,7 +3,7 @@
 
 #include "scoring/prepare.h"
 #include "refine/anneal.h"
-#include "refine/soft.h"
+#include "refine/smooth_objective.h"
 
 #define HEIGHT 2.0
 #define EDGE 2.2
@@ -72,7 +72,8 @@ static void one_solve_goes_to_the_middle(void **state)
         const sp_sight *sight = sp_sights_look(&b.sights, placed, &error);
         assert_int_equal(parameters.count, 1);
         memcpy(values[0], parameters.value, sizeof values[0]);
-        assert_true(sp_soft_solve(&b.search, &b.partial, &parameters, &sight, widths[w], INFINITY, values, &error));
+        assert_true(sp_smooth_objective_minimise(&b.search, &b.partial, &parameters, &sight, widths[w], INFINITY,
+                                                 values, &error));
         sp_nozzle found = sp_pose_parameters_nozzle(&parameters, values[0]);
         print_message("from %g to %g m\n", placed->nozzle.position.x, found.position.x);
         assert_true(fabs(placed->nozzle.position.x) > 0.25 && fabs(found.position.x) < 1e-3);

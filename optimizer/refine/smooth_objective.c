@@ -1,7 +1,7 @@
-#include "refine/soft.h"
+#include "refine/smooth_objective.h"
 
 #include "ceres/least_squares.h"
-#include "refine/soft_film.h"
+#include "refine/smooth_film.h"
 #include "scoring/footprints.h"
 
 #include <stdlib.h>
@@ -18,8 +18,8 @@ typedef struct {
     const sp_pose_parameters *parameters;
     const sp_sight *sight;
     size_t first; /* of its unknowns */
-    sp_levels levels;
-} sp_soft_nozzle;
+    sp_smooth_arrivals arrivals;
+} sp_smooth_nozzle;
 
 /* A patch's arrivals are links[start[p]] to links[start[p + 1]]. */
 typedef struct {
@@ -31,17 +31,17 @@ typedef struct {
     sp_width width;
     double budget;
     size_t nozzle_count, unknowns;
-    sp_soft_nozzle *nozzles;
+    sp_smooth_nozzle *nozzles;
     size_t *start; /* [patch_count + 1] */
     sp_link *links;
-    sp_soft_film film;                                  /* of no nozzles where film is not asked for */
+    sp_smooth_film film;                                /* of no nozzles where film is not asked for */
     double *chunk_cost, *chunk_gradient, *chunk_normal; /* [CHUNKS][1], [][unknowns], [][unknowns²] */
     sp_error *error; /* of the solver, which does not know why residuals are missing: what is told first stays */
-} sp_soft;
+} sp_smooth_objective;
 
 /* The values at x, whose entries are angles: value = middle + half range * sin(x). That keeps the limits without
  * telling Ceres, which searches long where bounds are many. */
-static void values_at(const sp_soft_nozzle *own, const double *x, double values[SP_UNKNOWNS])
+static void values_at(const sp_smooth_nozzle *own, const double *x, double values[SP_UNKNOWNS])
 {
     const sp_pose_parameters *parameters = own->parameters;
     for (size_t k = 0; k < parameters->count; k++) {
@@ -50,34 +50,35 @@ static void values_at(const sp_soft_nozzle *own, const double *x, double values[
     }
 }
 
-/* The levels at x and, where asked for, their derivatives by x. */
-static void set_levels(sp_soft *soft, const double *x, bool slopes)
+/* The smooth arrivals at x and, where asked for, their derivatives by x. */
+static void set_arrivals(sp_smooth_objective *smooth, const double *x, bool slopes)
 {
-    int threads = sp_threads(&soft->search->options->run);
+    int threads = sp_threads(&smooth->search->options->run);
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
-    for (size_t i = 0; i < soft->nozzle_count; i++) {
-        sp_soft_nozzle *own = &soft->nozzles[i];
+    for (size_t i = 0; i < smooth->nozzle_count; i++) {
+        sp_smooth_nozzle *own = &smooth->nozzles[i];
         const sp_pose_parameters *parameters = own->parameters;
         double values[SP_UNKNOWNS];
         values_at(own, x, values);
         double chain[SP_UNKNOWNS];
         sp_brought brought = {0};
-        if (soft->film.count)
-            brought = (sp_brought){soft->film.runs[i].brought.amount, slopes ? soft->film.runs[i].brought.slope : NULL};
-        sp_levels levels = own->levels;
+        if (smooth->film.count)
+            brought =
+                (sp_brought){smooth->film.runs[i].brought.amount, slopes ? smooth->film.runs[i].brought.slope : NULL};
+        sp_smooth_arrivals arrivals = own->arrivals;
         if (!slopes)
-            levels.alone_slope = levels.flux_slope = NULL;
-        sp_levels_set(soft->search, parameters, own->sight, soft->width, values, &levels,
-                      soft->film.count ? &brought : NULL);
+            arrivals.alone_slope = arrivals.flux_slope = NULL;
+        sp_smooth_arrivals_set(smooth->search, parameters, own->sight, smooth->width, values, &arrivals,
+                               smooth->film.count ? &brought : NULL);
         for (size_t k = 0; slopes && k < parameters->count; k++) {
             chain[k] = 0.5 * (parameters->high[k] - parameters->low[k]) * cos(x[own->first + k]);
             for (size_t a = k * own->sight->count; a < (k + 1) * own->sight->count; a++) {
-                levels.alone_slope[a] *= chain[k];
-                levels.flux_slope[a] *= chain[k];
+                arrivals.alone_slope[a] *= chain[k];
+                arrivals.flux_slope[a] *= chain[k];
             }
         }
-        if (soft->film.count)
-            sp_soft_film_set(&soft->film, i, slopes ? chain : NULL);
+        if (smooth->film.count)
+            sp_smooth_film_set(&smooth->film, i, slopes ? chain : NULL);
     }
 }
 
@@ -90,56 +91,56 @@ typedef struct {
     double film;     /* 1 where it is not asked for */
     double by_flux;  /* how `together` changes per flux */
     double by_film;  /* how `film` changes per film of all nozzles */
-} sp_soft_miss;
+} sp_smooth_miss;
 
 /* The link behind the last of the same nozzle's at a patch. */
-static size_t end_of_group(const sp_soft *soft, size_t patch, size_t first)
+static size_t end_of_group(const sp_smooth_objective *smooth, size_t patch, size_t first)
 {
     size_t end = first + 1;
-    while (end < soft->start[patch + 1] && soft->links[end].nozzle == soft->links[first].nozzle)
+    while (end < smooth->start[patch + 1] && smooth->links[end].nozzle == smooth->links[first].nozzle)
         end++;
     return end;
 }
 
 /* The share of a patch that a nozzle's arrivals leave dry, links `first` to before `end`. */
-static double left_dry(const sp_soft *soft, size_t first, size_t end)
+static double left_dry(const sp_smooth_objective *smooth, size_t first, size_t end)
 {
     double cover = 0;
     for (size_t l = first; l < end; l++)
-        cover += soft->nozzles[soft->links[l].nozzle].levels.alone[soft->links[l].arrival];
+        cover += smooth->nozzles[smooth->links[l].nozzle].arrivals.alone[smooth->links[l].arrival];
     return cover > 1 ? 0 : 1 - cover; /* and not a number where it is none */
 }
 
-static void miss_of_hits(const sp_soft *soft, size_t patch, sp_soft_miss *at)
+static void miss_of_hits(const sp_smooth_objective *smooth, size_t patch, sp_smooth_miss *at)
 {
-    const sp_search *search = soft->search;
+    const sp_search *search = smooth->search;
     double sum = (double)search->kept_hit[patch];
     at->together = 1;
     at->alone = sum >= 1 ? 0 : (double)search->kept_dry[patch];
-    for (size_t l = soft->start[patch], end; l < soft->start[patch + 1]; l = end) {
-        end = end_of_group(soft, patch, l);
-        at->alone *= left_dry(soft, l, end);
+    for (size_t l = smooth->start[patch], end; l < smooth->start[patch + 1]; l = end) {
+        end = end_of_group(smooth, patch, l);
+        at->alone *= left_dry(smooth, l, end);
         for (size_t k = l; k < end; k++)
-            sum += soft->nozzles[soft->links[k].nozzle].levels.flux[soft->links[k].arrival];
+            sum += smooth->nozzles[smooth->links[k].nozzle].arrivals.flux[smooth->links[k].arrival];
     }
     if (search->single || search->threshold <= 0 || sum <= 0)
         return;
-    double widths = log(sum) / soft->width.level;
+    double widths = log(sum) / smooth->width.coverage;
     if (widths < -SURE)
         return;
-    double cover = widths > SURE ? 1 : sp_soft_step(widths);
+    double cover = widths > SURE ? 1 : sp_smooth_step(widths);
     at->together = 1 - cover;
-    at->by_flux = -cover * (1 - cover) / (soft->width.level * sum);
+    at->by_flux = -cover * (1 - cover) / (smooth->width.coverage * sum);
 }
 
 /* What all but this nozzle leave dry alone. */
-static double alone_but(const sp_soft *soft, size_t patch, uint32_t nozzle)
+static double alone_but(const sp_smooth_objective *smooth, size_t patch, uint32_t nozzle)
 {
-    double miss = soft->search->kept_hit[patch] >= 1 ? 0 : (double)soft->search->kept_dry[patch];
-    for (size_t l = soft->start[patch], end; l < soft->start[patch + 1]; l = end) {
-        end = end_of_group(soft, patch, l);
-        if (soft->links[l].nozzle != nozzle)
-            miss *= left_dry(soft, l, end);
+    double miss = smooth->search->kept_hit[patch] >= 1 ? 0 : (double)smooth->search->kept_dry[patch];
+    for (size_t l = smooth->start[patch], end; l < smooth->start[patch + 1]; l = end) {
+        end = end_of_group(smooth, patch, l);
+        if (smooth->links[l].nozzle != nozzle)
+            miss *= left_dry(smooth, l, end);
     }
     return miss;
 }
@@ -148,9 +149,9 @@ static double alone_but(const sp_soft *soft, size_t patch, uint32_t nozzle)
 typedef struct {
     double *row;
     size_t *columns, used;
-} sp_soft_row;
+} sp_smooth_row;
 
-static void add_slope(sp_soft_row *row, size_t column, double slope)
+static void add_slope(sp_smooth_row *row, size_t column, double slope)
 {
     if (slope == 0)
         return;
@@ -160,36 +161,36 @@ static void add_slope(sp_soft_row *row, size_t column, double slope)
 }
 
 /* Adds what the films' slopes make of the miss, `by_film` that of all films together. */
-static void add_film(const sp_soft *soft, size_t patch, double by_film, sp_soft_row *row)
+static void add_film(const sp_smooth_objective *smooth, size_t patch, double by_film, sp_smooth_row *row)
 {
-    for (size_t i = 0; by_film != 0 && i < soft->film.count; i++) {
-        const sp_soft_runs *runs = &soft->film.runs[i];
+    for (size_t i = 0; by_film != 0 && i < smooth->film.count; i++) {
+        const sp_smooth_runoff *runs = &smooth->film.runs[i];
         for (size_t k = 0; k < runs->parameters->count; k++)
-            add_slope(row, runs->first + k, by_film * (double)runs->slope[k * soft->search->patch_count + patch]);
+            add_slope(row, runs->first + k, by_film * (double)runs->slope[k * smooth->search->patch_count + patch]);
     }
 }
 
 /* Adds a patch's row of the Jacobian, which is never held, to the normal matrix and the gradient. */
-static void add_row(const sp_soft *soft, size_t patch, const sp_soft_miss *at, double *row, size_t *columns,
-                    double *gradient, double *normal)
+static void add_row(const sp_smooth_objective *smooth, size_t patch, const sp_smooth_miss *at, double *row,
+                    size_t *columns, double *gradient, double *normal)
 {
-    size_t n = soft->unknowns;
-    sp_soft_row own_row = {row, columns, 0};
+    size_t n = smooth->unknowns;
+    sp_smooth_row own_row = {row, columns, 0};
     double weight = at->weight, miss = at->alone * at->together * at->film;
-    for (size_t l = soft->start[patch]; l < soft->start[patch + 1]; l++) {
-        const sp_soft_nozzle *own = &soft->nozzles[soft->links[l].nozzle];
-        size_t arrival = soft->links[l].arrival;
-        if (own->levels.alone[arrival] <= 0 && own->levels.flux[arrival] <= 0)
+    for (size_t l = smooth->start[patch]; l < smooth->start[patch + 1]; l++) {
+        const sp_smooth_nozzle *own = &smooth->nozzles[smooth->links[l].nozzle];
+        size_t arrival = smooth->links[l].arrival;
+        if (own->arrivals.alone[arrival] <= 0 && own->arrivals.flux[arrival] <= 0)
             continue;
-        double by_alone = -weight * at->together * at->film * alone_but(soft, patch, soft->links[l].nozzle);
+        double by_alone = -weight * at->together * at->film * alone_but(smooth, patch, smooth->links[l].nozzle);
         double by_flux = weight * at->alone * at->film * at->by_flux;
         for (size_t k = 0; k < own->parameters->count; k++) {
             size_t slope = k * own->sight->count + arrival;
             add_slope(&own_row, own->first + k,
-                      by_alone * own->levels.alone_slope[slope] + by_flux * own->levels.flux_slope[slope]);
+                      by_alone * own->arrivals.alone_slope[slope] + by_flux * own->arrivals.flux_slope[slope]);
         }
     }
-    add_film(soft, patch, weight * at->alone * at->together * at->by_film, &own_row);
+    add_film(smooth, patch, weight * at->alone * at->together * at->by_film, &own_row);
     size_t used = own_row.used;
     for (size_t i = 0; i < used; i++) {
         gradient[columns[i]] += row[columns[i]] * weight * miss;
@@ -201,54 +202,54 @@ static void add_row(const sp_soft *soft, size_t patch, const sp_soft_miss *at, d
         row[columns[i]] = 0;
 }
 
-static sp_soft_miss miss_at(const sp_soft *soft, size_t patch)
+static sp_smooth_miss miss_at(const sp_smooth_objective *smooth, size_t patch)
 {
-    sp_soft_miss at = {.weight = sqrt((double)soft->search->area[patch]), .film = 1};
-    miss_of_hits(soft, patch, &at);
-    if (!soft->film.count)
+    sp_smooth_miss at = {.weight = sqrt((double)smooth->search->area[patch]), .film = 1};
+    miss_of_hits(smooth, patch, &at);
+    if (!smooth->film.count)
         return at;
-    at.film = 1 - sp_soft_film_cover(&soft->film, patch, &at.by_film);
+    at.film = 1 - sp_smooth_film_cover(&smooth->film, patch, &at.by_film);
     at.by_film = -at.by_film;
     return at;
 }
 
 /* Sums one chunk of the patches. `row` (all zero) and `columns` are the chunk's own scratch. */
-static void sum_chunk(sp_soft *soft, size_t chunk, bool slopes, double *row, size_t *columns)
+static void sum_chunk(sp_smooth_objective *smooth, size_t chunk, bool slopes, double *row, size_t *columns)
 {
-    size_t n = soft->unknowns, patches = soft->search->patch_count;
-    double *gradient = &soft->chunk_gradient[chunk * n], *normal = &soft->chunk_normal[chunk * n * n], cost = 0;
+    size_t n = smooth->unknowns, patches = smooth->search->patch_count;
+    double *gradient = &smooth->chunk_gradient[chunk * n], *normal = &smooth->chunk_normal[chunk * n * n], cost = 0;
     if (slopes) {
         memset(gradient, 0, n * sizeof *gradient);
         memset(normal, 0, n * n * sizeof *normal);
     }
     for (size_t p = patches * chunk / CHUNKS; p < patches * (chunk + 1) / CHUNKS; p++) {
-        if ((soft->start[p] == soft->start[p + 1] && !soft->film.count) || soft->search->area[p] <= 0)
+        if ((smooth->start[p] == smooth->start[p + 1] && !smooth->film.count) || smooth->search->area[p] <= 0)
             continue;
-        sp_soft_miss at = miss_at(soft, p);
+        sp_smooth_miss at = miss_at(smooth, p);
         double miss = at.alone * at.together * at.film;
         cost += at.weight * at.weight * miss * miss;
         if (slopes && miss > 0)
-            add_row(soft, p, &at, row, columns, gradient, normal);
+            add_row(smooth, p, &at, row, columns, gradient, normal);
     }
-    soft->chunk_cost[chunk] = cost;
+    smooth->chunk_cost[chunk] = cost;
 }
 
-static bool sum_patches(sp_soft *soft, bool slopes)
+static bool sum_patches(sp_smooth_objective *smooth, bool slopes)
 {
-    size_t n = soft->unknowns;
+    size_t n = smooth->unknowns;
     double *rows = calloc(CHUNKS * n, sizeof *rows);
     size_t *columns = malloc(CHUNKS * n * sizeof *columns);
-    int threads = sp_threads(&soft->search->options->run);
+    int threads = sp_threads(&smooth->search->options->run);
     if (rows && columns) {
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
         for (size_t chunk = 0; chunk < CHUNKS; chunk++)
-            sum_chunk(soft, chunk, slopes, &rows[chunk * n], &columns[chunk * n]);
+            sum_chunk(smooth, chunk, slopes, &rows[chunk * n], &columns[chunk * n]);
         for (size_t chunk = 1; chunk < CHUNKS; chunk++) {
-            soft->chunk_cost[0] += soft->chunk_cost[chunk];
+            smooth->chunk_cost[0] += smooth->chunk_cost[chunk];
             for (size_t i = 0; slopes && i < n; i++)
-                soft->chunk_gradient[i] += soft->chunk_gradient[chunk * n + i];
+                smooth->chunk_gradient[i] += smooth->chunk_gradient[chunk * n + i];
             for (size_t i = 0; slopes && i < n * n; i++)
-                soft->chunk_normal[i] += soft->chunk_normal[chunk * n * n + i];
+                smooth->chunk_normal[i] += smooth->chunk_normal[chunk * n * n + i];
         }
     }
     bool done = rows && columns;
@@ -258,32 +259,32 @@ static bool sum_patches(sp_soft *soft, bool slopes)
 }
 
 /* Water above the budget as one more residual. */
-static void add_water(sp_soft *soft, const double *x, bool slopes)
+static void add_water(sp_smooth_objective *smooth, const double *x, bool slopes)
 {
-    size_t n = soft->unknowns;
-    double flow = soft->search->kept_flow;
-    double *row = soft->chunk_gradient + n; /* chunk 1's, summed up already */
-    for (size_t i = 0; i < soft->nozzle_count; i++) {
-        const sp_soft_nozzle *own = &soft->nozzles[i];
+    size_t n = smooth->unknowns;
+    double flow = smooth->search->kept_flow;
+    double *row = smooth->chunk_gradient + n; /* chunk 1's, summed up already */
+    for (size_t i = 0; i < smooth->nozzle_count; i++) {
+        const sp_smooth_nozzle *own = &smooth->nozzles[i];
         double values[SP_UNKNOWNS];
         values_at(own, x, values);
         sp_nozzle nozzle = sp_pose_parameters_nozzle(own->parameters, values);
-        flow += sp_nozzle_flow(&nozzle, &sp_evaluator_setup(soft->search->coarse)->liquid);
+        flow += sp_nozzle_flow(&nozzle, &sp_evaluator_setup(smooth->search->coarse)->liquid);
         for (size_t k = 0; k < own->parameters->count; k++) {
             double half = 0.5 * (own->parameters->high[k] - own->parameters->low[k]);
             row[own->first + k] = own->parameters->kind[k] == SP_UNKNOWN_FLOW
-                                      ? WATER_PENALTY * half * cos(x[own->first + k]) / soft->budget
+                                      ? WATER_PENALTY * half * cos(x[own->first + k]) / smooth->budget
                                       : 0;
         }
     }
-    double over = WATER_PENALTY * (flow / soft->budget - 1);
+    double over = WATER_PENALTY * (flow / smooth->budget - 1);
     if (over <= 0)
         return;
-    soft->chunk_cost[0] += over * over;
+    smooth->chunk_cost[0] += over * over;
     for (size_t i = 0; slopes && i < n; i++) {
-        soft->chunk_gradient[i] += over * row[i];
+        smooth->chunk_gradient[i] += over * row[i];
         for (size_t j = 0; j <= i; j++)
-            soft->chunk_normal[i * n + j] += row[i] * row[j];
+            smooth->chunk_normal[i * n + j] += row[i] * row[j];
     }
 }
 
@@ -305,10 +306,10 @@ static bool factorise(double *a, size_t n)
 
 /* As many residuals as patches would be slow and fat. With JᵀJ = L Lᵀ the n residuals L⁻¹Jᵀr with Jacobian Lᵀ have the
  * same gradient and normal matrix, and one more without slope makes up the cost. */
-static bool condense(sp_soft *soft, double *residuals, double *jacobian)
+static bool condense(sp_smooth_objective *smooth, double *residuals, double *jacobian)
 {
-    size_t n = soft->unknowns;
-    double *normal = soft->chunk_normal, largest = 0, explained = 0;
+    size_t n = smooth->unknowns;
+    double *normal = smooth->chunk_normal, largest = 0, explained = 0;
     for (size_t i = 0; i < n; i++)
         largest = fmax(largest, normal[i * n + i]);
     /* an unknown that nothing depends on must not make the matrix singular */
@@ -317,7 +318,7 @@ static bool condense(sp_soft *soft, double *residuals, double *jacobian)
     if (!factorise(normal, n))
         return false;
     for (size_t i = 0; i < n; i++) {
-        residuals[i] = soft->chunk_gradient[i];
+        residuals[i] = smooth->chunk_gradient[i];
         for (size_t k = 0; k < i; k++)
             residuals[i] -= normal[i * n + k] * residuals[k];
         residuals[i] /= normal[i * n + i];
@@ -325,113 +326,114 @@ static bool condense(sp_soft *soft, double *residuals, double *jacobian)
         for (size_t k = 0; k < n; k++)
             jacobian[i * n + k] = k >= i ? normal[k * n + i] : 0;
     }
-    residuals[n] = sqrt(fmax(0, soft->chunk_cost[0] - explained));
+    residuals[n] = sqrt(fmax(0, smooth->chunk_cost[0] - explained));
     memset(&jacobian[n * n], 0, n * sizeof *jacobian);
     return true;
 }
 
 static bool evaluate(void *user, const double *x, double *residuals, double *jacobian)
 {
-    sp_soft *soft = user;
-    size_t n = soft->unknowns;
-    set_levels(soft, x, jacobian != NULL);
-    if (!sum_patches(soft, jacobian != NULL))
-        return sp_fail_memory(soft->error);
-    add_water(soft, x, jacobian != NULL);
-    if (!isfinite(soft->chunk_cost[0]))
+    sp_smooth_objective *smooth = user;
+    size_t n = smooth->unknowns;
+    set_arrivals(smooth, x, jacobian != NULL);
+    if (!sum_patches(smooth, jacobian != NULL))
+        return sp_fail_memory(smooth->error);
+    add_water(smooth, x, jacobian != NULL);
+    if (!isfinite(smooth->chunk_cost[0]))
         return false;
     if (jacobian)
-        return condense(soft, residuals, jacobian);
+        return condense(smooth, residuals, jacobian);
     memset(residuals, 0, n * sizeof *residuals);
-    residuals[n] = sqrt(soft->chunk_cost[0]);
+    residuals[n] = sqrt(smooth->chunk_cost[0]);
     return true;
 }
 
-static bool link_patches(sp_soft *soft, sp_error *error)
+static bool link_patches(sp_smooth_objective *smooth, sp_error *error)
 {
-    size_t patches = soft->search->patch_count, total = 0;
-    for (size_t i = 0; i < soft->nozzle_count; i++)
-        total += soft->nozzles[i].sight->count;
-    soft->start = calloc(patches + 2, sizeof *soft->start);
-    soft->links = malloc((total ? total : 1) * sizeof *soft->links);
-    if (!soft->start || !soft->links)
+    size_t patches = smooth->search->patch_count, total = 0;
+    for (size_t i = 0; i < smooth->nozzle_count; i++)
+        total += smooth->nozzles[i].sight->count;
+    smooth->start = calloc(patches + 2, sizeof *smooth->start);
+    smooth->links = malloc((total ? total : 1) * sizeof *smooth->links);
+    if (!smooth->start || !smooth->links)
         return sp_fail_memory(error);
     /* counted two places on, so that filling moves each start to its own place */
-    for (size_t i = 0; i < soft->nozzle_count; i++)
-        for (size_t a = 0; a < soft->nozzles[i].sight->count; a++)
-            soft->start[soft->nozzles[i].sight->seen[a].patch + 2]++;
+    for (size_t i = 0; i < smooth->nozzle_count; i++)
+        for (size_t a = 0; a < smooth->nozzles[i].sight->count; a++)
+            smooth->start[smooth->nozzles[i].sight->seen[a].patch + 2]++;
     for (size_t p = 0; p < patches; p++)
-        soft->start[p + 2] += soft->start[p + 1];
-    for (size_t i = 0; i < soft->nozzle_count; i++)
-        for (size_t a = 0; a < soft->nozzles[i].sight->count; a++)
-            soft->links[soft->start[soft->nozzles[i].sight->seen[a].patch + 1]++] = (sp_link){(uint32_t)i, (uint32_t)a};
+        smooth->start[p + 2] += smooth->start[p + 1];
+    for (size_t i = 0; i < smooth->nozzle_count; i++)
+        for (size_t a = 0; a < smooth->nozzles[i].sight->count; a++)
+            smooth->links[smooth->start[smooth->nozzles[i].sight->seen[a].patch + 1]++] =
+                (sp_link){(uint32_t)i, (uint32_t)a};
     return true;
 }
 
-static bool soft_create(sp_soft *soft, const sp_pose_parameters *parameters, const sp_sight *const *sights,
-                        sp_error *error)
+static bool smooth_create(sp_smooth_objective *smooth, const sp_pose_parameters *parameters,
+                          const sp_sight *const *sights, sp_error *error)
 {
-    soft->nozzles = calloc(soft->nozzle_count, sizeof *soft->nozzles);
-    if (!soft->nozzles)
+    smooth->nozzles = calloc(smooth->nozzle_count, sizeof *smooth->nozzles);
+    if (!smooth->nozzles)
         return sp_fail_memory(error);
     size_t first = 0;
-    for (size_t i = 0; i < soft->nozzle_count; i++) {
+    for (size_t i = 0; i < smooth->nozzle_count; i++) {
         size_t most = sights[i]->count ? sights[i]->count : 1;
-        soft->nozzles[i] = (sp_soft_nozzle){.parameters = &parameters[i], .sight = sights[i], .first = first};
+        smooth->nozzles[i] = (sp_smooth_nozzle){.parameters = &parameters[i], .sight = sights[i], .first = first};
         first += parameters[i].count;
-        sp_levels *levels = &soft->nozzles[i].levels;
+        sp_smooth_arrivals *arrivals = &smooth->nozzles[i].arrivals;
         double *numbers = malloc(2 * most * (1 + SP_UNKNOWNS) * sizeof *numbers);
         if (!numbers)
             return sp_fail_memory(error);
-        *levels = (sp_levels){numbers, numbers + most, numbers + most * (1 + SP_UNKNOWNS),
-                              numbers + most * (2 + SP_UNKNOWNS)};
+        *arrivals = (sp_smooth_arrivals){numbers, numbers + most, numbers + most * (1 + SP_UNKNOWNS),
+                                         numbers + most * (2 + SP_UNKNOWNS)};
     }
-    size_t n = soft->unknowns;
-    soft->chunk_cost = calloc(CHUNKS, sizeof *soft->chunk_cost);
-    soft->chunk_gradient = calloc(CHUNKS * n, sizeof *soft->chunk_gradient);
-    soft->chunk_normal = calloc(CHUNKS * n, n * sizeof *soft->chunk_normal);
-    if (!soft->chunk_cost || !soft->chunk_gradient || !soft->chunk_normal)
+    size_t n = smooth->unknowns;
+    smooth->chunk_cost = calloc(CHUNKS, sizeof *smooth->chunk_cost);
+    smooth->chunk_gradient = calloc(CHUNKS * n, sizeof *smooth->chunk_gradient);
+    smooth->chunk_normal = calloc(CHUNKS * n, n * sizeof *smooth->chunk_normal);
+    if (!smooth->chunk_cost || !smooth->chunk_gradient || !smooth->chunk_normal)
         return sp_fail_memory(error);
-    return link_patches(soft, error);
+    return link_patches(smooth, error);
 }
 
-static void soft_free(sp_soft *soft)
+static void smooth_free(sp_smooth_objective *smooth)
 {
-    for (size_t i = 0; soft->nozzles && i < soft->nozzle_count; i++)
-        free(soft->nozzles[i].levels.alone);
-    free(soft->nozzles);
-    sp_soft_film_free(&soft->film);
-    free(soft->start);
-    free(soft->links);
-    free(soft->chunk_cost);
-    free(soft->chunk_gradient);
-    free(soft->chunk_normal);
+    for (size_t i = 0; smooth->nozzles && i < smooth->nozzle_count; i++)
+        free(smooth->nozzles[i].arrivals.alone);
+    free(smooth->nozzles);
+    sp_smooth_film_free(&smooth->film);
+    free(smooth->start);
+    free(smooth->links);
+    free(smooth->chunk_cost);
+    free(smooth->chunk_gradient);
+    free(smooth->chunk_normal);
 }
 
-static bool solve(sp_soft *soft, double (*values)[SP_UNKNOWNS], sp_error *error)
+static bool solve(sp_smooth_objective *smooth, double (*values)[SP_UNKNOWNS], sp_error *error)
 {
-    double *x = malloc(soft->unknowns * sizeof *x);
+    double *x = malloc(smooth->unknowns * sizeof *x);
     if (!x)
         return sp_fail_memory(error);
     const double most = acos(EDGE_LEAST);
-    for (size_t i = 0; i < soft->nozzle_count; i++) {
-        const sp_pose_parameters *parameters = soft->nozzles[i].parameters;
+    for (size_t i = 0; i < smooth->nozzle_count; i++) {
+        const sp_pose_parameters *parameters = smooth->nozzles[i].parameters;
         for (size_t k = 0; k < parameters->count; k++) {
             double half = 0.5 * (parameters->high[k] - parameters->low[k]);
             double angle = asin(fmin(1, fmax(-1, (parameters->value[k] - parameters->low[k] - half) / half)));
-            x[soft->nozzles[i].first + k] = fmin(most, fmax(-most, angle));
+            x[smooth->nozzles[i].first + k] = fmin(most, fmax(-most, angle));
         }
     }
-    sp_least_squares problem = {.unknowns = soft->unknowns,
-                                .residuals = soft->unknowns + 1,
+    sp_least_squares problem = {.unknowns = smooth->unknowns,
+                                .residuals = smooth->unknowns + 1,
                                 .function = evaluate,
-                                .user = soft,
+                                .user = smooth,
                                 .iterations = ITERATIONS,
                                 .tolerance = TOLERANCE};
-    soft->error = error;
+    smooth->error = error;
     bool done = sp_least_squares_solve(&problem, x, NULL, error);
-    for (size_t i = 0; done && i < soft->nozzle_count; i++)
-        values_at(&soft->nozzles[i], x, values[i]);
+    for (size_t i = 0; done && i < smooth->nozzle_count; i++)
+        values_at(&smooth->nozzles[i], x, values[i]);
     free(x);
     return done;
 }
@@ -464,21 +466,21 @@ static void let_go(sp_search *held)
     free(held->kept_film);
 }
 
-bool sp_soft_solve(const sp_search *search, const sp_partial *partial, const sp_pose_parameters *parameters,
-                   const sp_sight *const *sights, sp_width width, double budget, double (*values)[SP_UNKNOWNS],
-                   sp_error *error)
+bool sp_smooth_objective_minimise(const sp_search *search, const sp_partial *partial,
+                                  const sp_pose_parameters *parameters, const sp_sight *const *sights, sp_width width,
+                                  double budget, double (*values)[SP_UNKNOWNS], sp_error *error)
 {
     sp_search held;
-    sp_soft soft = {.search = &held, .width = width, .budget = budget, .nozzle_count = partial->count};
+    sp_smooth_objective smooth = {.search = &held, .width = width, .budget = budget, .nozzle_count = partial->count};
     for (size_t i = 0; i < partial->count; i++)
-        soft.unknowns += parameters[i].count;
-    if (!soft.unknowns)
+        smooth.unknowns += parameters[i].count;
+    if (!smooth.unknowns)
         return true;
-    bool done = hold(search, partial, &held, error) && soft_create(&soft, parameters, sights, error) &&
-                (!search->runoffs ||
-                 sp_soft_film_create(&held, parameters, sights, partial->count, width.level, &soft.film, error)) &&
-                solve(&soft, values, error);
-    soft_free(&soft);
+    bool done = hold(search, partial, &held, error) && smooth_create(&smooth, parameters, sights, error) &&
+                (!search->runoffs || sp_smooth_film_create(&held, parameters, sights, partial->count, width.coverage,
+                                                           &smooth.film, error)) &&
+                solve(&smooth, values, error);
+    smooth_free(&smooth);
     let_go(&held);
     return done;
 }

@@ -1,20 +1,21 @@
-#include "refine/soft_film.h"
+#include "refine/smooth_film.h"
 
 #include <stdlib.h>
 
 #define SURE 16.0 /* widths beyond the threshold where nothing changes any more */
 
-bool sp_soft_film_create(const sp_search *search, const sp_pose_parameters *parameters, const sp_sight *const *sights,
-                         size_t count, double width, sp_soft_film *film, sp_error *error)
+bool sp_smooth_film_create(const sp_search *search, const sp_pose_parameters *parameters, const sp_sight *const *sights,
+                           size_t count, double width, sp_smooth_film *film, sp_error *error)
 {
     size_t patches = search->patch_count + 1, first = 0;
-    *film = (sp_soft_film){.search = search, .width = width, .count = count, .runs = calloc(count, sizeof *film->runs)};
+    *film =
+        (sp_smooth_film){.search = search, .width = width, .count = count, .runs = calloc(count, sizeof *film->runs)};
     if (!film->runs)
         return sp_fail_memory(error);
     for (size_t i = 0; i < count; i++) {
-        sp_soft_runs *own = &film->runs[i];
+        sp_smooth_runoff *own = &film->runs[i];
         size_t most = sights[i]->count + 1;
-        *own = (sp_soft_runs){.parameters = &parameters[i], .sight = sights[i], .first = first};
+        *own = (sp_smooth_runoff){.parameters = &parameters[i], .sight = sights[i], .first = first};
         first += parameters[i].count;
         own->brought.amount = malloc(most * sizeof *own->brought.amount);
         own->brought.slope = malloc(most * SP_UNKNOWNS * sizeof *own->brought.slope);
@@ -26,7 +27,7 @@ bool sp_soft_film_create(const sp_search *search, const sp_pose_parameters *para
     return true;
 }
 
-void sp_soft_film_free(sp_soft_film *film)
+void sp_smooth_film_free(sp_smooth_film *film)
 {
     for (size_t i = 0; film->runs && i < film->count; i++) {
         free(film->runs[i].brought.amount);
@@ -35,11 +36,12 @@ void sp_soft_film_free(sp_soft_film *film)
         free(film->runs[i].slope);
     }
     free(film->runs);
-    *film = (sp_soft_film){0};
+    *film = (sp_smooth_film){0};
 }
 
 /* The film of what the arrivals bring, or of a derivative of that. */
-static void run_down(const sp_search *search, const sp_soft_runs *own, const double *brings, double times, float *film)
+static void run_down(const sp_search *search, const sp_smooth_runoff *own, const double *brings, double times,
+                     float *film)
 {
     sp_runoff *runoff = sp_search_runoff(search);
     double *arriving = sp_runoff_arriving(runoff);
@@ -50,16 +52,16 @@ static void run_down(const sp_search *search, const sp_soft_runs *own, const dou
     sp_runoff_find(runoff, nozzle->type, flow, film);
 }
 
-void sp_soft_film_set(sp_soft_film *film, size_t i, const double *chain)
+void sp_smooth_film_set(sp_smooth_film *film, size_t i, const double *chain)
 {
-    const sp_soft_runs *own = &film->runs[i];
+    const sp_smooth_runoff *own = &film->runs[i];
     run_down(film->search, own, own->brought.amount, 1, own->film);
     for (size_t k = 0; chain && k < own->parameters->count; k++)
         run_down(film->search, own, &own->brought.slope[k * own->sight->count], chain[k],
                  &own->slope[k * film->search->patch_count]);
 }
 
-double sp_soft_film_cover(const sp_soft_film *film, size_t patch, double *rise)
+double sp_smooth_film_cover(const sp_smooth_film *film, size_t patch, double *rise)
 {
     double sum = (double)film->search->kept_film[patch];
     for (size_t i = 0; i < film->count; i++)
@@ -68,7 +70,7 @@ double sp_soft_film_cover(const sp_soft_film *film, size_t patch, double *rise)
     double widths = sum > 0 ? log(sum) / film->width : -SURE;
     if (widths <= -SURE || widths >= SURE)
         return widths > 0;
-    double cover = sp_soft_step(widths);
+    double cover = sp_smooth_step(widths);
     *rise = cover * (1 - cover) / (film->width * sum);
     return cover;
 }

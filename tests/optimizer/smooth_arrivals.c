@@ -1,9 +1,10 @@
-/* Soft levels: their derivatives by every unknown, against differences, for cones and fans, lines, parabolas and drops.
+/* Smooth arrivals: their derivatives by every unknown, against differences, for cones and fans, lines, parabolas and
+ * drops.
  */
 #include "room.h"
 
 #include "scoring/prepare.h"
-#include "refine/level.h"
+#include "refine/smooth_arrivals.h"
 #include "scoring/scoring.h"
 
 #define PRESSURE 2e5
@@ -85,7 +86,7 @@ static void bench_close(bench *b)
     room_close(&b->room);
 }
 
-/* Levels of arrivals, and what they bring: values and slopes by turns. */
+/* Smooth arrivals, and what they bring: values and slopes by turns. */
 #define COLUMNS 3
 typedef struct {
     double *value[COLUMNS], *slope[COLUMNS];
@@ -114,9 +115,10 @@ static void look(const bench *b, const sp_pose_parameters *parameters, const sp_
                  bool slopes, const looks *l)
 {
     const sp_width width = {0.3, 0.1};
-    const sp_levels levels = {l->value[0], slopes ? l->slope[0] : NULL, l->value[1], slopes ? l->slope[1] : NULL};
+    const sp_smooth_arrivals arrivals = {l->value[0], slopes ? l->slope[0] : NULL, l->value[1],
+                                         slopes ? l->slope[1] : NULL};
     const sp_brought brought = {l->value[2], slopes ? l->slope[2] : NULL};
-    sp_levels_set(&b->search, parameters, sight, width, values, &levels, &brought);
+    sp_smooth_arrivals_set(&b->search, parameters, sight, width, values, &arrivals, &brought);
 }
 
 /* Largest difference between slopes and central differences over the largest slope, for one unknown. */

@@ -1,4 +1,4 @@
-#include "refine/level.h"
+#include "refine/smooth_arrivals.h"
 
 #define FAR 8.0 /* widths beyond the edge where nothing is left of a pattern */
 /* Width of the logistic step, of a patch's breadth, whose slope is that of sp_spray_share's. */
@@ -77,7 +77,7 @@ typedef struct {
     double margin;    /* rad */
     sp_vec3 gradient; /* of the margin by `local`; for slopes alone */
     double edge;      /* rad, its width */
-    double inside;    /* soft, 0 to 1 */
+    double inside;    /* smoothed, 0 to 1 */
 } sp_borne;
 
 static sp_vec3 in_frame(const sp_frame *frame, sp_vec3 d)
@@ -129,7 +129,7 @@ static bool bear(const sp_posed *posed, const sp_seen *seen, bool flies, bool sl
     double widths = borne->margin / borne->edge;
     if (widths < -FAR)
         return false;
-    borne->inside = widths > FAR ? 1 : sp_soft_step(widths);
+    borne->inside = widths > FAR ? 1 : sp_smooth_step(widths);
     return true;
 }
 
@@ -196,26 +196,26 @@ static double alone_of(const sp_posed *posed, double flux, double *rise)
     *rise = 0;
     if (posed->search->threshold <= 0)
         return 1;
-    double cover = sp_soft_step(log(flux) / posed->width.level);
-    *rise = cover * (1 - cover) / posed->width.level;
+    double cover = sp_smooth_step(log(flux) / posed->width.coverage);
+    *rise = cover * (1 - cover) / posed->width.coverage;
     return cover;
 }
 
-static void set_level(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, size_t i,
-                      const sp_levels *levels)
+static void set_arrival(const sp_posed *posed, const sp_borne *borne, const sp_seen *seen, size_t i,
+                        const sp_smooth_arrivals *arrivals)
 {
     double flux = posed->strength * borne->transfer, share = seen->part * borne->inside, rise;
     double alone = alone_of(posed, flux, &rise);
     bool sums = !posed->search->single && posed->search->threshold > 0;
-    levels->alone[i] = share * alone;
-    levels->flux[i] = sums ? share * (1 - alone) * flux : 0;
-    for (size_t k = 0; levels->alone_slope && k < posed->parameters->count; k++) {
+    arrivals->alone[i] = share * alone;
+    arrivals->flux[i] = sums ? share * (1 - alone) * flux : 0;
+    for (size_t k = 0; arrivals->alone_slope && k < posed->parameters->count; k++) {
         sp_log_slope by = log_slope(posed, borne, seen, k);
         size_t at = k * posed->sight->count + i;
         double of_alone = share * (alone * by.share + rise * by.flux);
         double of_flux = share * flux * ((1 - alone) * (by.share + by.flux) - rise * by.flux);
-        levels->alone_slope[at] = isfinite(of_alone) ? of_alone : 0;
-        levels->flux_slope[at] = sums && isfinite(of_flux) ? of_flux : 0;
+        arrivals->alone_slope[at] = isfinite(of_alone) ? of_alone : 0;
+        arrivals->flux_slope[at] = sums && isfinite(of_flux) ? of_flux : 0;
     }
 }
 
@@ -249,10 +249,11 @@ static bool has_place(const sp_pose_parameters *parameters)
     return false;
 }
 
-void sp_levels_set(const sp_search *search, const sp_pose_parameters *parameters, const sp_sight *sight, sp_width width,
-                   const double *values, const sp_levels *levels, const sp_brought *brought)
+void sp_smooth_arrivals_set(const sp_search *search, const sp_pose_parameters *parameters, const sp_sight *sight,
+                            sp_width width, const double *values, const sp_smooth_arrivals *arrivals,
+                            const sp_brought *brought)
 {
-    bool slopes = levels->alone_slope != NULL;
+    bool slopes = arrivals->alone_slope != NULL;
     sp_posed posed = pose(search, parameters, sight, width, values, slopes);
     bool flies = posed.moved || (slopes && has_place(parameters));
     for (size_t i = 0; i < sight->count; i++) {
@@ -260,10 +261,10 @@ void sp_levels_set(const sp_search *search, const sp_pose_parameters *parameters
         sp_borne borne = {0};
         bool there = bear(&posed, seen, flies, slopes, &borne);
         if (there && seen->passes) {
-            set_level(&posed, &borne, seen, i, levels);
+            set_arrival(&posed, &borne, seen, i, arrivals);
         } else {
-            set_nothing(parameters, sight->count, i, levels->alone, levels->alone_slope);
-            set_nothing(parameters, sight->count, i, levels->flux, levels->flux_slope);
+            set_nothing(parameters, sight->count, i, arrivals->alone, arrivals->alone_slope);
+            set_nothing(parameters, sight->count, i, arrivals->flux, arrivals->flux_slope);
         }
         if (brought && there)
             bring(&posed, &borne, seen, i, brought);
