@@ -1,4 +1,4 @@
-/* Steps of the primal-dual hybrid gradient method on one set of texels. */
+/* Steps of the primal-dual hybrid gradient method (PDHG) on one set of texels. */
 #ifndef OPTIMIZER_ITERATE_H
 #define OPTIMIZER_ITERATE_H
 

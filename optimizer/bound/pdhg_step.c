@@ -1,4 +1,4 @@
-#include "bound/hybrid.h"
+#include "bound/pdhg.h"
 
 #include <math.h>
 
@@ -6,7 +6,7 @@
 
 /* A step is short and there are thousands: no more threads than have enough to do. With less, where others use the
  * cores too, they wait for each other longer than they work. */
-static int threads_for(const sp_hybrid *h)
+static int threads_for(const sp_pdhg *h)
 {
     double shares = (double)h->rows->used + (double)h->dual->texels;
     return (int)fmax(1, fmin(h->dual->cover->threads, floor(shares / SHARES_A_THREAD)));
@@ -25,7 +25,7 @@ static size_t lower_bound(const uint32_t *texel, size_t first, size_t end, size_
 }
 
 /* Each thread adds to texels of its own, row after row, so that the sums do not depend on how many there are. */
-void sp_hybrid_add_up(sp_hybrid *h, const double *x)
+void sp_pdhg_add_up(sp_pdhg *h, const double *x)
 {
     const sp_rows *rows = h->rows;
     size_t texels = h->dual->texels;
@@ -62,7 +62,7 @@ static double worth(const uint32_t *texel, const float *share, size_t count, con
     return (total[0] + total[1]) + (total[2] + total[3]);
 }
 
-static void find_prices(sp_hybrid *h)
+static void find_prices(sp_pdhg *h)
 {
     const sp_rows *rows = h->rows;
     const sp_prices *u = &h->dual->u;
@@ -80,7 +80,7 @@ static void find_prices(sp_hybrid *h)
 }
 
 /* A step in a texel's two prices, which together stay within its area. */
-static void step_texel(sp_hybrid *h, size_t t)
+static void step_texel(sp_pdhg *h, size_t t)
 {
     sp_dual *dual = h->dual;
     size_t texels = dual->texels;
@@ -103,13 +103,13 @@ static void step_texel(sp_hybrid *h, size_t t)
     dual->u.lifted[t] = (float)lifted;
 }
 
-static double most_of(const sp_hybrid *h, size_t row)
+static double most_of(const sp_pdhg *h, size_t row)
 {
     bool once = !h->dual->cover->repeats || h->rows->port[row] != SP_NO_PORT;
     return once ? 1 : (double)h->task->nozzles;
 }
 
-static void step_rows(sp_hybrid *h)
+static void step_rows(sp_pdhg *h)
 {
     sp_dual *dual = h->dual;
     for (size_t r = 0; r < h->resources; r++)
@@ -118,7 +118,7 @@ static void step_rows(sp_hybrid *h)
         h->x_bar[c] = 0;
         if (h->tau[c] <= 0)
             continue;
-        sp_takes takes = sp_hybrid_takes(h, c);
+        sp_takes takes = sp_pdhg_takes(h, c);
         double gain = h->price[c];
         for (size_t k = 0; k < takes.count; k++)
             gain -= h->dual_resource[takes.resource[k]] * takes.amount[k];
@@ -132,18 +132,18 @@ static void step_rows(sp_hybrid *h)
     }
 }
 
-void sp_hybrid_step(sp_hybrid *h)
+void sp_pdhg_step(sp_pdhg *h)
 {
     sp_dual *dual = h->dual;
     find_prices(h);
     step_rows(h);
-    sp_hybrid_add_up(h, h->x_bar);
+    sp_pdhg_add_up(h, h->x_bar);
     int threads = threads_for(h);
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (size_t t = 0; t < dual->texels; t++)
         step_texel(h, t);
     for (size_t r = 0; r < h->resources; r++) {
-        double beyond = h->use[r] - sp_hybrid_limit(h, r);
+        double beyond = h->use[r] - sp_pdhg_limit(h, r);
         h->resource_sum[r] += h->dual_resource[r];
         h->dual_resource[r] = fmax(0, h->dual_resource[r] + dual->weight * h->sigma_resource[r] * beyond);
     }

@@ -1,6 +1,7 @@
-/* One run of the primal-dual hybrid gradient method that sp_dual_solve makes: steps, and looks at where they lead. */
-#ifndef OPTIMIZER_HYBRID_H
-#define OPTIMIZER_HYBRID_H
+/* One run of PDHG, the primal-dual hybrid gradient method, that sp_dual_solve makes: steps, and looks at where they
+ * lead. */
+#ifndef OPTIMIZER_PDHG_H
+#define OPTIMIZER_PDHG_H
 
 #include "bound/dual.h"
 
@@ -25,24 +26,24 @@ typedef struct {
     double scale; /* of the resource rows, so that their steps keep up with the texels' */
     size_t resources, since;
     double gap_start;
-} sp_hybrid;
+} sp_pdhg;
 
 /* dual->x and dual->choice have room for all rows. */
-bool sp_hybrid_create(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_hybrid *h, sp_error *error);
-void sp_hybrid_free(sp_hybrid *h);
-void sp_hybrid_step(sp_hybrid *h);
+bool sp_pdhg_create(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_pdhg *h, sp_error *error);
+void sp_pdhg_free(sp_pdhg *h);
+void sp_pdhg_step(sp_pdhg *h);
 /* Looks at where the steps stand and at their average, and notes in the dual what is best; true where bound and linear
  * program are near enough. */
-bool sp_hybrid_look(sp_hybrid *h, size_t iteration);
+bool sp_pdhg_look(sp_pdhg *h, size_t iteration);
 
 /* What one unit of a row takes: of how many resources, which, and how much. */
 typedef struct {
     size_t count, resource[3];
     double amount[3];
 } sp_takes;
-sp_takes sp_hybrid_takes(const sp_hybrid *h, size_t row);
-double sp_hybrid_limit(const sp_hybrid *h, size_t resource);
+sp_takes sp_pdhg_takes(const sp_pdhg *h, size_t row);
+double sp_pdhg_limit(const sp_pdhg *h, size_t resource);
 /* cover = Σ share x. */
-void sp_hybrid_add_up(sp_hybrid *h, const double *x);
+void sp_pdhg_add_up(sp_pdhg *h, const double *x);
 
 #endif

@@ -1,10 +1,10 @@
-#include "bound/hybrid.h"
+#include "bound/pdhg.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-void sp_hybrid_free(sp_hybrid *h)
+void sp_pdhg_free(sp_pdhg *h)
 {
     free(h->tau);
     free(h->cover);
@@ -16,7 +16,7 @@ void sp_hybrid_free(sp_hybrid *h)
 }
 
 /* All doubles in one block. */
-static bool allocate(sp_hybrid *h, sp_error *error)
+static bool allocate(sp_pdhg *h, sp_error *error)
 {
     const sp_cover *cover = h->dual->cover;
     size_t rows = h->rows->count, texels = cover->texel_count;
@@ -46,7 +46,7 @@ static bool allocate(sp_hybrid *h, sp_error *error)
 }
 
 /* The rows' shares as the texels' lifts make them. What they are worth changes with the lifts. */
-static bool lift_rows(sp_hybrid *h, sp_error *error)
+static bool lift_rows(sp_pdhg *h, sp_error *error)
 {
     sp_prices *const all[] = {&h->dual->u, &h->u_last, &h->u_mean};
     const sp_rows *rows = h->rows;
@@ -68,7 +68,7 @@ static bool lift_rows(sp_hybrid *h, sp_error *error)
     return true;
 }
 
-sp_takes sp_hybrid_takes(const sp_hybrid *h, size_t row)
+sp_takes sp_pdhg_takes(const sp_pdhg *h, size_t row)
 {
     const sp_cover *cover = h->dual->cover;
     double one = h->scale / (double)h->task->nozzles;
@@ -81,19 +81,19 @@ sp_takes sp_hybrid_takes(const sp_hybrid *h, size_t row)
     return takes;
 }
 
-double sp_hybrid_limit(const sp_hybrid *h, size_t resource)
+double sp_pdhg_limit(const sp_pdhg *h, size_t resource)
 {
     return resource < 2 ? h->scale : h->scale / (double)h->task->nozzles;
 }
 
-static bool can_choose(const sp_hybrid *h, size_t row)
+static bool can_choose(const sp_pdhg *h, size_t row)
 {
     return h->rows->start[row + 1] > h->rows->start[row] &&
            h->dual->cover->weight[h->rows->tier[row]] <= h->task->water;
 }
 
 /* Sums of columns, into tau, and of the texels' rows, into sigma. */
-static void add_shares(sp_hybrid *h, double *mean)
+static void add_shares(sp_pdhg *h, double *mean)
 {
     const sp_rows *rows = h->rows;
     size_t texels = h->dual->texels, chosen = 0;
@@ -122,7 +122,7 @@ static void add_shares(sp_hybrid *h, double *mean)
 }
 
 /* Diagonal steps: the inverse sums of rows and columns. */
-static void set_steps(sp_hybrid *h)
+static void set_steps(sp_pdhg *h)
 {
     double mean;
     add_shares(h, &mean);
@@ -132,7 +132,7 @@ static void set_steps(sp_hybrid *h)
     for (size_t c = 0; c < h->rows->count; c++) {
         if (h->tau[c] <= 0)
             continue;
-        sp_takes takes = sp_hybrid_takes(h, c);
+        sp_takes takes = sp_pdhg_takes(h, c);
         for (size_t k = 0; k < takes.count; k++) {
             h->load[takes.resource[k]] += takes.amount[k];
             h->tau[c] += takes.amount[k];
@@ -145,11 +145,11 @@ static void set_steps(sp_hybrid *h)
         h->sigma_resource[r] = h->load[r] > 0 ? 1 / h->load[r] : 0;
 }
 
-bool sp_hybrid_create(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_hybrid *h, sp_error *error)
+bool sp_pdhg_create(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_pdhg *h, sp_error *error)
 {
-    *h = (sp_hybrid){.dual = dual, .rows = rows, .task = task, .gap_start = INFINITY};
+    *h = (sp_pdhg){.dual = dual, .rows = rows, .task = task, .gap_start = INFINITY};
     if (!allocate(h, error) || !lift_rows(h, error)) {
-        sp_hybrid_free(h);
+        sp_pdhg_free(h);
         return false;
     }
     if (rows->count)

@@ -1,4 +1,4 @@
-#include "bound/hybrid.h"
+#include "bound/pdhg.h"
 
 #include <math.h>
 
@@ -7,7 +7,7 @@
 #define LEAST 50    /* iterations */
 
 /* The bound of prices u at which the rows are worth `price` / `over`. */
-static double bound_of(sp_hybrid *h, const sp_prices *u, const double *price, double over)
+static double bound_of(sp_pdhg *h, const sp_prices *u, const double *price, double over)
 {
     sp_offers_clear(&h->offers);
     for (size_t c = 0; c < h->rows->count; c++)
@@ -19,7 +19,7 @@ static double bound_of(sp_hybrid *h, const sp_prices *u, const double *price, do
 }
 
 /* What fractions x / over cover once brought within the limits. */
-static double reached_by(sp_hybrid *h, const double *x, double over)
+static double reached_by(sp_pdhg *h, const double *x, double over)
 {
     const sp_cover *cover = h->dual->cover;
     double beyond = 1;
@@ -28,14 +28,14 @@ static double reached_by(sp_hybrid *h, const double *x, double over)
     for (size_t c = 0; c < h->rows->count; c++) {
         if (h->tau[c] <= 0)
             continue;
-        sp_takes takes = sp_hybrid_takes(h, c);
+        sp_takes takes = sp_pdhg_takes(h, c);
         for (size_t k = 0; k < takes.count; k++)
             h->use[takes.resource[k]] += takes.amount[k] * x[c];
     }
     for (size_t r = 0; r < h->resources; r++)
         if (h->use[r] > 0)
-            beyond = fmax(beyond, h->use[r] / over / sp_hybrid_limit(h, r));
-    sp_hybrid_add_up(h, x);
+            beyond = fmax(beyond, h->use[r] / over / sp_pdhg_limit(h, r));
+    sp_pdhg_add_up(h, x);
     double area = cover->base;
     for (size_t t = 0; t < cover->texel_count; t++) {
         double least = (double)h->cover[t];
@@ -46,7 +46,7 @@ static double reached_by(sp_hybrid *h, const double *x, double over)
     return area;
 }
 
-static void note_best(sp_hybrid *h, double bound, const sp_prices *u, double reached, const double *x, double over)
+static void note_best(sp_pdhg *h, double bound, const sp_prices *u, double reached, const double *x, double over)
 {
     sp_dual *dual = h->dual;
     if (bound < dual->bound) {
@@ -61,7 +61,7 @@ static void note_best(sp_hybrid *h, double bound, const sp_prices *u, double rea
 }
 
 /* The primal weight follows the distances that both sides went since the last restart. */
-static void restart(sp_hybrid *h, bool from_mean, double gap)
+static void restart(sp_pdhg *h, bool from_mean, double gap)
 {
     sp_dual *dual = h->dual;
     double over = (double)h->since, far_x = 0, far_u = 0;
@@ -94,7 +94,7 @@ static void restart(sp_hybrid *h, bool from_mean, double gap)
     h->gap_start = gap;
 }
 
-bool sp_hybrid_look(sp_hybrid *h, size_t iteration)
+bool sp_pdhg_look(sp_pdhg *h, size_t iteration)
 {
     sp_dual *dual = h->dual;
     double over = (double)h->since;
