@@ -27,22 +27,22 @@ typedef struct {
     sp_offers offers;
     uint32_t lightest; /* of the tiers */
     double proved;     /* the bound at the last water by the last prices alone */
-    bool closed;       /* which is as low as these lifts go: all candidates bring no more than the few */
+    bool closed;       /* which is as low as these inequalities go: all candidates bring no more than the few */
     bool complete;     /* the last pricing of all was not broken off; else `proved` and `closed` say nothing new */
     size_t proofs;     /* complete pricings of all */
     size_t iterations; /* of a solve, at most; may be set */
     size_t coarse;     /* of it on groups of texels, before these; may be set */
     double tolerance;  /* at which a solve ends, as a share of the bound; may be set */
-    sp_lifts lifts;    /* of the last task */
-    bool lifting;      /* they have come into use */
+    sp_valid_inequalities inequalities; /* of the last task */
+    bool strengthening;                 /* they have come into use */
 } sp_bound;
 
 bool sp_bound_create(const sp_cover *cover, const sp_pricer *pricer, sp_bound *bound, sp_error *error);
 void sp_bound_free(sp_bound *bound);
 /* Lowers the bounds at and about `water` (units): solves on the few, then proves on all. Meant to be repeated: what all
- * have that the few lack joins them, and texels take up new lifts. */
+ * have that the few lack joins them, and texels take up new inequalities. */
 bool sp_bound_lower(sp_bound *bound, size_t water, sp_error *error);
-/* The same without a proof: only looks for candidates and lifts, where pricing all takes long. */
+/* The same without a proof: only looks for candidates and inequalities, where pricing all takes long. */
 bool sp_bound_explore(sp_bound *bound, size_t water, sp_error *error);
 /* A bound holds at more water, too, up to the next sum that candidates come to: after by_water was lowered. */
 void sp_bound_settle(sp_bound *bound);

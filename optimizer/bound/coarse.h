@@ -5,7 +5,8 @@
 
 #include "bound/dual.h"
 
-/* Solves on the groups from where `dual` stands, and leaves it where that led. Takes the texels' lifts as they are. */
+/* Solves on the groups from where `dual` stands, and leaves it where that led. Takes the texels' inequalities as they
+ * are. */
 bool sp_coarse_solve(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_error *error);
 
 #endif

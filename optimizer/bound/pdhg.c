@@ -8,7 +8,7 @@ void sp_pdhg_free(sp_pdhg *h)
 {
     free(h->tau);
     free(h->cover);
-    free(h->lifted);
+    free(h->strengthened);
     sp_prices_free(&h->u_last);
     sp_prices_free(&h->u_mean);
     sp_knapsack_free(&h->knapsack);
@@ -45,26 +45,27 @@ static bool allocate(sp_pdhg *h, sp_error *error)
            sp_prices_create(cover, &h->u_last, error) && sp_prices_create(cover, &h->u_mean, error);
 }
 
-/* The rows' shares as the texels' lifts make them. What they are worth changes with the lifts. */
-static bool lift_rows(sp_pdhg *h, sp_error *error)
+/* The rows' shares as the texels' inequalities make them. What they are worth changes with the inequalities. */
+static bool strengthen_rows(sp_pdhg *h, sp_error *error)
 {
     sp_prices *const all[] = {&h->dual->u, &h->u_last, &h->u_mean};
     const sp_rows *rows = h->rows;
     for (size_t i = 0; i < 3; i++) {
-        all[i]->lifts = h->task->lifts;
+        all[i]->inequalities = h->task->inequalities;
         memcpy(all[i]->kind, h->dual->u.kind, h->dual->texels);
     }
-    if (!h->task->lifts) {
-        memset(h->dual->u.lifted, 0, h->dual->texels * sizeof *h->dual->u.lifted);
+    if (!h->task->inequalities) {
+        memset(h->dual->u.strengthened, 0, h->dual->texels * sizeof *h->dual->u.strengthened);
         return true;
     }
-    h->lifted = malloc((rows->used + 1) * sizeof *h->lifted);
-    if (!h->lifted)
+    h->strengthened = malloc((rows->used + 1) * sizeof *h->strengthened);
+    if (!h->strengthened)
         return sp_fail_memory(error);
     for (size_t i = 0; i < rows->used; i++)
-        h->lifted[i] = h->task->lifted
-                           ? h->task->lifted[i]
-                           : sp_share_lifted(h->task->lifts, h->dual->u.kind[rows->texel[i]], rows->share[i]);
+        h->strengthened[i] =
+            h->task->strengthened
+                ? h->task->strengthened[i]
+                : sp_share_strengthened(h->task->inequalities, h->dual->u.kind[rows->texel[i]], rows->share[i]);
     return true;
 }
 
@@ -110,9 +111,9 @@ static void add_shares(sp_pdhg *h, double *mean)
             double share = (double)sp_share_of(rows->share[i]);
             h->tau[c] += share;
             h->sigma[rows->texel[i]] += share;
-            if (h->lifted) {
-                h->tau[c] += (double)h->lifted[i];
-                h->sigma[texels + rows->texel[i]] += (double)h->lifted[i];
+            if (h->strengthened) {
+                h->tau[c] += (double)h->strengthened[i];
+                h->sigma[texels + rows->texel[i]] += (double)h->strengthened[i];
             }
         }
         *mean += h->tau[c];
@@ -148,7 +149,7 @@ static void set_steps(sp_pdhg *h)
 bool sp_pdhg_create(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task, sp_pdhg *h, sp_error *error)
 {
     *h = (sp_pdhg){.dual = dual, .rows = rows, .task = task, .gap_start = INFINITY};
-    if (!allocate(h, error) || !lift_rows(h, error)) {
+    if (!allocate(h, error) || !strengthen_rows(h, error)) {
         sp_pdhg_free(h);
         return false;
     }
@@ -156,7 +157,7 @@ bool sp_pdhg_create(sp_dual *dual, const sp_rows *rows, const sp_dual_task *task
         memcpy(h->x_start, dual->x, rows->count * sizeof *dual->x);
     for (size_t t = 0; t < dual->texels; t++) {
         h->u_start[t] = (double)dual->u.plain[t];
-        h->u_start[dual->texels + t] = (double)dual->u.lifted[t];
+        h->u_start[dual->texels + t] = (double)dual->u.strengthened[t];
     }
     memcpy(h->dual_resource, dual->dual_resource, h->resources * sizeof *h->dual_resource);
     set_steps(h);

@@ -10,9 +10,9 @@ typedef struct {
     sp_dual *dual;
     const sp_rows *rows;
     const sp_dual_task *task;
-    double *tau;   /* [rows], of the step in x; 0: a row that cannot be chosen */
-    double *sigma; /* [2 texels], plain and lifted, as all that follows of [2 texels] */
-    float *lifted; /* [rows->used], the shares lifted; NULL: no lifts */
+    double *tau;         /* [rows], of the step in x; 0: a row that cannot be chosen */
+    double *sigma;       /* [2 texels], plain and strengthened, as all that follows of [2 texels] */
+    float *strengthened; /* [rows->used], the shares strengthened; NULL: no inequalities */
     double *dual_resource, *sigma_resource, *load, *use; /* [resources]; load: Σ of a row's use over the rows */
     double *price, *price_sum;                           /* [rows] */
     double *x_sum, *x_bar;                               /* [rows] */

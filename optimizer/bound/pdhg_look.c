@@ -39,7 +39,7 @@ static double reached_by(sp_pdhg *h, const double *x, double over)
     double area = cover->base;
     for (size_t t = 0; t < cover->texel_count; t++) {
         double least = (double)h->cover[t];
-        if (h->lifted)
+        if (h->strengthened)
             least = fmin(least, (double)h->cover[cover->texel_count + t]);
         area += (double)cover->area[t] * fmin(1, least / (over * beyond));
     }
@@ -75,9 +75,9 @@ static void restart(sp_pdhg *h, bool from_mean, double gap)
     }
     for (size_t i = 0; i < 2 * dual->texels; i++) {
         size_t t = i < dual->texels ? i : i - dual->texels;
-        float *u = i < dual->texels ? &dual->u.plain[t] : &dual->u.lifted[t];
+        float *u = i < dual->texels ? &dual->u.plain[t] : &dual->u.strengthened[t];
         if (from_mean)
-            *u = i < dual->texels ? h->u_mean.plain[t] : h->u_mean.lifted[t];
+            *u = i < dual->texels ? h->u_mean.plain[t] : h->u_mean.strengthened[t];
         double way = (double)*u - h->u_start[i];
         far_u += h->sigma[i] > 0 ? way * way / h->sigma[i] : 0;
         h->u_start[i] = (double)*u;
@@ -101,7 +101,7 @@ bool sp_pdhg_look(sp_pdhg *h, size_t iteration)
     for (size_t t = 0; t < dual->texels; t++) {
         float area = dual->cover->area[t];
         h->u_mean.plain[t] = fminf((float)(h->u_sum[t] / over), area);
-        h->u_mean.lifted[t] = fminf((float)(h->u_sum[dual->texels + t] / over), area - h->u_mean.plain[t]);
+        h->u_mean.strengthened[t] = fminf((float)(h->u_sum[dual->texels + t] / over), area - h->u_mean.plain[t]);
     }
     double mean_bound = bound_of(h, &h->u_mean, h->price_sum, over), last_bound = bound_of(h, &h->u_last, h->price, 1);
     double mean_reached = reached_by(h, h->x_sum, over), last_reached = reached_by(h, dual->x, 1);

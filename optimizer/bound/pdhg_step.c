@@ -43,8 +43,8 @@ void sp_pdhg_add_up(sp_pdhg *h, const double *x)
             size_t stop = lower_bound(rows->texel, i, rows->start[c + 1], end);
             for (size_t k = i; k < stop; k++)
                 h->cover[rows->texel[k]] += sp_share_of(rows->share[k]) * amount;
-            for (size_t k = i; h->lifted && k < stop; k++)
-                h->cover[texels + rows->texel[k]] += h->lifted[k] * amount;
+            for (size_t k = i; h->strengthened && k < stop; k++)
+                h->cover[texels + rows->texel[k]] += h->strengthened[k] * amount;
         }
     }
 }
@@ -74,8 +74,8 @@ static void find_prices(sp_pdhg *h)
         if (h->tau[c] <= 0)
             continue;
         h->price[c] = worth(rows->texel + first, rows->share + first, count, u->plain);
-        if (h->lifted)
-            h->price[c] += worth(rows->texel + first, h->lifted + first, count, u->lifted);
+        if (h->strengthened)
+            h->price[c] += worth(rows->texel + first, h->strengthened + first, count, u->strengthened);
     }
 }
 
@@ -85,22 +85,22 @@ static void step_texel(sp_pdhg *h, size_t t)
     sp_dual *dual = h->dual;
     size_t texels = dual->texels;
     double area = (double)dual->cover->area[t], *const sum = h->u_sum;
-    double plain_step = dual->weight * h->sigma[t], lifted_step = dual->weight * h->sigma[texels + t];
-    double plain = (double)dual->u.plain[t], lifted = (double)dual->u.lifted[t];
+    double plain_step = dual->weight * h->sigma[t], strengthened_step = dual->weight * h->sigma[texels + t];
+    double plain = (double)dual->u.plain[t], strengthened = (double)dual->u.strengthened[t];
     sum[t] += plain;
-    sum[texels + t] += lifted;
+    sum[texels + t] += strengthened;
     h->u_last.plain[t] = dual->u.plain[t];
-    h->u_last.lifted[t] = dual->u.lifted[t];
+    h->u_last.strengthened[t] = dual->u.strengthened[t];
     plain = fmax(plain - plain_step * ((double)h->cover[t] - 1), 0);
-    lifted = h->lifted ? fmax(lifted - lifted_step * ((double)h->cover[texels + t] - 1), 0) : 0;
-    double excess = plain + lifted - area, steps = plain_step + lifted_step;
-    if (excess > 0 && lifted > 0 && steps > 0) {
-        double from_plain = fmin(plain, fmax(excess - lifted, excess * plain_step / steps));
+    strengthened = h->strengthened ? fmax(strengthened - strengthened_step * ((double)h->cover[texels + t] - 1), 0) : 0;
+    double excess = plain + strengthened - area, steps = plain_step + strengthened_step;
+    if (excess > 0 && strengthened > 0 && steps > 0) {
+        double from_plain = fmin(plain, fmax(excess - strengthened, excess * plain_step / steps));
         plain -= from_plain;
-        lifted = fmin(lifted, fmax(0, area - plain));
+        strengthened = fmin(strengthened, fmax(0, area - plain));
     }
     dual->u.plain[t] = (float)fmin(plain, area);
-    dual->u.lifted[t] = (float)lifted;
+    dual->u.strengthened[t] = (float)strengthened;
 }
 
 static double most_of(const sp_pdhg *h, size_t row)

@@ -168,8 +168,9 @@ static bool price_items(sp_tuples *o, const sp_prices *u, const float *found, ui
 {
     sp_prices areas = {0};
     bool done = sp_prices_create(o->cover, &areas, error);
-    /* lifts hold for no more nozzles than they were made for */
-    bool holds = !u->lifts || o->water / o->lightest <= u->lifts->nozzles || o->cover->nozzles <= u->lifts->nozzles;
+    /* inequalities hold for no more nozzles than they were made for */
+    bool holds = !u->inequalities || o->water / o->lightest <= u->inequalities->nozzles ||
+                 o->cover->nozzles <= u->inequalities->nozzles;
     if (done && holds) {
         o->rest[0] = o->cover->base + sp_cover_rest(o->cover, u);
         fill_prices(o, 0, found);

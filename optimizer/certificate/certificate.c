@@ -7,25 +7,25 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define ROUNDS_EXPLORING 4   /* of looking at some of the poses first */
-#define EXPLORING_MOST 0.2   /* of the time left, for those */
-#define ROUNDS_FIRST 2       /* of pricing all poses, at the proposal's water */
-#define ROUNDS_WATER 1       /* at a water that may be too little for the proposal's coverage */
-#define TRIALS_WATER 2       /* such waters */
-#define STEP_WATER 0.4       /* of the way to the proposal's water, for the first of them */
-#define WORK_LEAST 3e9       /* at the front's points, in words of sp_tuples */
-#define WORK_EACH 1.5e4      /* the same, besides, for every candidate */
-#define WORK_BEGIN 3e3       /* that a solve and a pricing of all take, for every candidate */
-#define WORK_LOOK 4e2        /* that it takes to find the candidates of a point, the same */
-#define WORK_POINT_LEAST 3e8 /* that a point may take at first */
-#define WORK_POINT 2e3       /* the same, besides, for every candidate */
-#define WORK_STEP 5          /* times what a target took the next one is likely to take */
-#define CANDIDATES_FIRST 800 /* that layouts are made of one by one, at first */
-#define CANDIDATES_STEP 4    /* times as many then */
-#define CANDIDATES 12800     /* most that come into question for it */
-#define WATER_NEAR 1.25      /* times less water is so near that the same prices say something */
-#define WATER_LIKE 1.1       /* the same, and need not be priced for again */
-#define ROUNDS_LIFTED 3      /* at least, so that the lifts have settled */
+#define ROUNDS_EXPLORING 4    /* of looking at some of the poses first */
+#define EXPLORING_MOST 0.2    /* of the time left, for those */
+#define ROUNDS_FIRST 2        /* of pricing all poses, at the proposal's water */
+#define ROUNDS_WATER 1        /* at a water that may be too little for the proposal's coverage */
+#define TRIALS_WATER 2        /* such waters */
+#define STEP_WATER 0.4        /* of the way to the proposal's water, for the first of them */
+#define WORK_LEAST 3e9        /* at the front's points, in words of sp_tuples */
+#define WORK_EACH 1.5e4       /* the same, besides, for every candidate */
+#define WORK_BEGIN 3e3        /* that a solve and a pricing of all take, for every candidate */
+#define WORK_LOOK 4e2         /* that it takes to find the candidates of a point, the same */
+#define WORK_POINT_LEAST 3e8  /* that a point may take at first */
+#define WORK_POINT 2e3        /* the same, besides, for every candidate */
+#define WORK_STEP 5           /* times what a target took the next one is likely to take */
+#define CANDIDATES_FIRST 800  /* that layouts are made of one by one, at first */
+#define CANDIDATES_STEP 4     /* times as many then */
+#define CANDIDATES 12800      /* most that come into question for it */
+#define WATER_NEAR 1.25       /* times less water is so near that the same prices say something */
+#define WATER_LIKE 1.1        /* the same, and need not be priced for again */
+#define ROUNDS_STRENGTHENED 3 /* at least, so that the inequalities have settled */
 /* with --prove: */
 #define ROUNDS_PROVING 2 /* at the proposal's water, and trials of water */
 #define ROUNDS_WATER_PROVING 1
@@ -124,7 +124,7 @@ static bool lower(certifying *c, size_t water, size_t rounds, double done, sp_er
     for (size_t round = 0; round < rounds && has_time(c, done); round++) {
         if (!sp_bound_lower(&c->bound, water, error))
             return false;
-        if (c->bound.closed && round >= ROUNDS_LIFTED)
+        if (c->bound.closed && round >= ROUNDS_STRENGTHENED)
             break;
     }
     return true;

@@ -158,15 +158,15 @@ void sp_pose_prices_worth(const sp_pose_prices *prices, const sp_view *view, flo
         float share = covers ? fminf(part * prices->upwards, 1)
                              : share_of(prices, t, cell ? part * fminf(flux, SURELY) : flux, several);
         worth[i] = u->plain[t] * share;
-        if (!u->lifts || !(u->lifted[t] > 0 && share > 0))
+        if (!u->inequalities || !(u->strengthened[t] > 0 && share > 0))
             continue;
-        /* a lift of two arcs together may be more than the sum of theirs, but never more than 1; what cells cover by
-         * themselves is not lifted */
-        float lift = covers    ? share
-                     : cell    ? sp_lift_portion(u->lifts, u->kind[t], share)
-                     : several ? 1
-                               : sp_lift(u->lifts, u->kind[t], share);
-        worth[i] += u->lifted[t] * lift;
+        /* the strengthened share of two arcs together may be more than the sum of theirs, but never more than 1; what
+         * cells cover by themselves is not strengthened */
+        float strong = covers    ? share
+                       : cell    ? sp_strengthen_portion(u->inequalities, u->kind[t], share)
+                       : several ? 1
+                                 : sp_strengthen(u->inequalities, u->kind[t], share);
+        worth[i] += u->strengthened[t] * strong;
     }
     prices->search->sweeps->total(view, worth, total);
 }
@@ -180,7 +180,7 @@ static inline float film_share_of(const sp_pose_prices *prices, uint32_t texel, 
 /* Adds what a print brings to a row of `count` entries; returns how many it has then. A texel is covered by what hits
  * it, or by its film, never by both together, so that where many nozzles suffice one way, the greater of either way's
  * shares come to 1 as well. Where a spray ends, what it covers by itself and what suffices together with others' are
- * two entries: lifts make of them what they make of each. */
+ * two entries: inequalities make of them what they make of each. */
 static inline size_t write_print(const sp_pose_prices *prices, const sp_print *print, uint32_t *texels, float *shares,
                                  size_t count)
 {

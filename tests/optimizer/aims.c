@@ -35,7 +35,7 @@ typedef struct {
     const uint32_t *tiers[2 * TYPES];
     size_t ports[2];
     float *need;
-    sp_lifts lifts;
+    sp_valid_inequalities inequalities;
     sp_prices prices;
     sp_aim_kinds kinds;
     sp_pose_prices *poses;
@@ -73,7 +73,7 @@ static void set_types(stage *s)
         s->types[i] = &s->type[i];
 }
 
-/* Prices at random, some texels' by a lift; `sparse`: of few texels, so that each of them tells. */
+/* Prices at random, some texels' by an inequality; `sparse`: of few texels, so that each of them tells. */
 static void set_prices(stage *s, bool sparse, uint64_t *random)
 {
     sp_error error = {0};
@@ -93,16 +93,16 @@ static void set_prices(stage *s, bool sparse, uint64_t *random)
                           .repeats = true,
                           .threads = 1};
     s->need = malloc(patches * sizeof *s->need);
-    sp_lifts_create(3, &s->lifts);
+    sp_valid_inequalities_create(3, &s->inequalities);
     assert_true(s->need && sp_prices_create(&s->cover, &s->prices, &error));
-    s->prices.lifts = &s->lifts;
+    s->prices.inequalities = &s->inequalities;
     for (size_t t = 0; t < patches; t++) {
-        double lifted = fmax(0, next_random(random) - 0.5);
+        double strengthened = fmax(0, next_random(random) - 0.5);
         s->need[t] = t % 17 ? 1 : 0.5f;
         double priced = sparse ? t % 37 == 0 : 1;
-        s->prices.plain[t] = (float)(priced * next_random(random) * (1 - lifted)) * s->search.area[t];
-        s->prices.lifted[t] = (float)(priced * lifted) * s->search.area[t];
-        s->prices.kind[t] = (uint8_t)(next_random(random) * (double)s->lifts.kinds);
+        s->prices.plain[t] = (float)(priced * next_random(random) * (1 - strengthened)) * s->search.area[t];
+        s->prices.strengthened[t] = (float)(priced * strengthened) * s->search.area[t];
+        s->prices.kind[t] = (uint8_t)(next_random(random) * (double)s->inequalities.kinds);
     }
 }
 
@@ -184,9 +184,10 @@ static double worth(const stage *s, uint32_t site, size_t speed, const sp_spray 
     sp_field_view(&s->search, view, &posed, field);
     for (size_t t = 0; t < s->search.patch_count; t++) {
         float share = field[t] < 0 ? -field[t] : fminf(1, field[t] / s->need[t]);
-        float lifted = field[t] < 0 ? share : sp_lift(&s->lifts, s->prices.kind[t], share);
+        float strengthened = field[t] < 0 ? share : sp_strengthen(&s->inequalities, s->prices.kind[t], share);
         if (share > 0)
-            price += (double)share * (double)s->prices.plain[t] + (double)lifted * (double)s->prices.lifted[t];
+            price +=
+                (double)share * (double)s->prices.plain[t] + (double)strengthened * (double)s->prices.strengthened[t];
     }
     free(field);
     return price;

@@ -27,7 +27,7 @@ static void check_instance(instance *in, size_t start_rows, double *looseness)
     /* whether prices are sought on groups of texels first or not */
     bound.coarse = start_rows % 2 ? 60 : 0;
     assert_true(sp_bound_lower_single(&bound, &error));
-    /* a level of the lifts is all that it may lie above, where no more than one fits */
+    /* a level of the inequalities is all that it may lie above, where no more than one fits */
     for (size_t w = 0; w <= water && w < 2 * bound.lightest; w++) {
         assert_true(bound.by_water[w] >= t.by_water[w]);
         assert_true(bound.by_water[w] <= t.by_water[w] + 0.02);

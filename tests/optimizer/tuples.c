@@ -100,7 +100,8 @@ static double best_of(const instance *in, size_t water)
 
 /* Prices that hold, good or not: none, those that a bound was proved with, or any at all; or that hold for one nozzle
  * alone, and are of no use. */
-static void set_prices(instance *in, int way, size_t water, sp_lifts *lifts, sp_prices *u, uint64_t *random)
+static void set_prices(instance *in, int way, size_t water, sp_valid_inequalities *inequalities, sp_prices *u,
+                       uint64_t *random)
 {
     sp_error error = {0};
     stored s = {&in->cover, &in->rows, 8};
@@ -108,12 +109,12 @@ static void set_prices(instance *in, int way, size_t water, sp_lifts *lifts, sp_
     sp_bound bound;
     assert_true(sp_prices_create(&in->cover, u, &error));
     if (way == 3) {
-        sp_lifts_create(1, lifts);
-        u->lifts = lifts;
+        sp_valid_inequalities_create(1, inequalities);
+        u->inequalities = inequalities;
         for (size_t t = 0; t < in->cover.texel_count; t++) {
             u->plain[t] = 0;
-            u->lifted[t] = in->area[t];
-            u->kind[t] = SP_LIFT_ALL_OR_NOTHING;
+            u->strengthened[t] = in->area[t];
+            u->kind[t] = SP_INEQUALITY_ALL_OR_NOTHING;
         }
     }
     if (way == 1) {
@@ -121,18 +122,18 @@ static void set_prices(instance *in, int way, size_t water, sp_lifts *lifts, sp_
         for (int round = 0; round < 4; round++)
             assert_true(sp_bound_lower(&bound, water, &error));
         sp_prices_copy(&in->cover, &bound.dual.price, u);
-        *lifts = bound.lifts;
-        u->lifts = u->lifts ? lifts : NULL;
+        *inequalities = bound.inequalities;
+        u->inequalities = u->inequalities ? inequalities : NULL;
         sp_bound_free(&bound);
     }
     if (way == 2) {
-        sp_lifts_create(in->cover.nozzles, lifts);
-        u->lifts = in->cover.whole ? NULL : lifts;
+        sp_valid_inequalities_create(in->cover.nozzles, inequalities);
+        u->inequalities = in->cover.whole ? NULL : inequalities;
         for (size_t t = 0; t < in->cover.texel_count; t++) {
-            double part = u->lifts ? fmax(0, instance_random(random) - 0.5) : 0;
+            double part = u->inequalities ? fmax(0, instance_random(random) - 0.5) : 0;
             u->plain[t] = (float)(instance_random(random) * (1 - part)) * in->area[t];
-            u->lifted[t] = (float)part * in->area[t];
-            u->kind[t] = (uint8_t)(instance_random(random) * (double)lifts->kinds);
+            u->strengthened[t] = (float)part * in->area[t];
+            u->kind[t] = (uint8_t)(instance_random(random) * (double)inequalities->kinds);
         }
     }
 }
@@ -187,7 +188,7 @@ static void no_layout_covers_more(void **state)
     uint64_t random = 5;
     for (uint64_t i = 0; i < INSTANCES; i++) {
         instance in;
-        sp_lifts lifts;
+        sp_valid_inequalities inequalities;
         sp_prices u;
         size_t water = 26 + i % 30;
         instance_create(&in, 12, 14, i % 2, 1 + i % 4, water, i % 3, 0.1 + 0.03 * (double)(i % 20), 9177 + 1000 * i);
@@ -199,7 +200,7 @@ static void no_layout_covers_more(void **state)
         if (i % 6 == 5)
             in.cover.repeats = false;
         water -= i % 8 == 7 ? 14 : 0;
-        set_prices(&in, (int)(i / 2 % 4), water, &lifts, &u, &random);
+        set_prices(&in, (int)(i / 2 % 4), water, &inequalities, &u, &random);
         check(&in, water, &u, &random);
         sp_prices_free(&u);
         instance_free(&in);

@@ -1,5 +1,5 @@
-/* What bounds are made of is rounded to the safe side: water, lifted shares, and the price of every pose and row beside
- * what the public evaluator says that its nozzle does alone. */
+/* What bounds are made of is rounded to the safe side: water, strengthened shares, and the price of every pose and row
+ * beside what the public evaluator says that its nozzle does alone. */
 #include "room.h"
 
 #include "scoring/prepare.h"
@@ -53,14 +53,14 @@ static void layouts_within_a_flow_are_so_in_units(void **state)
     }
 }
 
-/* Shares that come to 1 do so lifted, whatever the lift, however small the most of them. */
-static void lifted_shares_still_suffice(void **state)
+/* Shares that come to 1 do so strengthened, whatever the inequality, however small the most of them. */
+static void strengthened_shares_still_suffice(void **state)
 {
     (void)state;
     uint64_t random = 3;
     for (size_t nozzles = 1; nozzles <= 9; nozzles++) {
-        sp_lifts lifts;
-        sp_lifts_create(nozzles, &lifts);
+        sp_valid_inequalities inequalities;
+        sp_valid_inequalities_create(nozzles, &inequalities);
         for (int trial = 0; trial < 4000; trial++) {
             float share[9];
             size_t count = 1 + (size_t)(next_random(&random) * (double)nozzles);
@@ -74,32 +74,33 @@ static void lifted_shares_still_suffice(void **state)
                 share[i] = fminf(1, nextafterf(share[i], 2));
                 sum += (double)share[i];
             }
-            for (size_t k = 0; k < lifts.kinds; k++) {
-                double lifted = 0;
+            for (size_t k = 0; k < inequalities.kinds; k++) {
+                double strengthened = 0;
                 for (size_t i = 0; i < count; i++)
-                    lifted += (double)sp_lift(&lifts, k, share[i]);
-                assert_true(lifted >= 1);
+                    strengthened += (double)sp_strengthen(&inequalities, k, share[i]);
+                assert_true(strengthened >= 1);
             }
         }
     }
 }
 
-/* What a candidate brings a texel in parts, lifted part by part, comes to no less than lifted as a whole. */
+/* What a candidate brings a texel in parts, strengthened part by part, comes to no less than strengthened as a whole.
+ */
 static void portions_come_to_the_whole(void **state)
 {
     (void)state;
     uint64_t random = 21;
     for (size_t nozzles = 1; nozzles <= 9; nozzles++) {
-        sp_lifts lifts;
-        sp_lifts_create(nozzles, &lifts);
+        sp_valid_inequalities inequalities;
+        sp_valid_inequalities_create(nozzles, &inequalities);
         for (int trial = 0; trial < 1000; trial++) {
             const float part = (float)next_random(&random), share = (float)next_random(&random);
             const float parts[] = {share * part, share - share * part};
-            for (size_t k = 0; k < lifts.kinds; k++) {
+            for (size_t k = 0; k < inequalities.kinds; k++) {
                 double sum = 0;
                 for (size_t i = 0; i < 2; i++)
-                    sum += (double)sp_lift_portion(&lifts, k, parts[i]);
-                assert_true(sum >= (double)sp_lift(&lifts, k, share));
+                    sum += (double)sp_strengthen_portion(&inequalities, k, parts[i]);
+                assert_true(sum >= (double)sp_strengthen(&inequalities, k, share));
             }
         }
     }
@@ -148,7 +149,7 @@ typedef struct {
     size_t ports[2];
     float *need, *film_need; /* film_need NULL where film is not asked for */
     sp_cover cover;
-    sp_lifts lifts;
+    sp_valid_inequalities inequalities;
     sp_prices prices;
     sp_rows own;
     sp_pose_order order;
@@ -176,7 +177,7 @@ static void set_types(stage *s)
     s->options.type_count = TYPES;
 }
 
-static void set_cover(stage *s, uint64_t *random, bool lifted)
+static void set_cover(stage *s, uint64_t *random, bool strengthened)
 {
     sp_error error = {0};
     size_t patches = s->search.patch_count;
@@ -192,18 +193,18 @@ static void set_cover(stage *s, uint64_t *random, bool lifted)
                           .repeats = true,
                           .threads = 1};
     s->need = malloc(patches * sizeof *s->need);
-    sp_lifts_create(3, &s->lifts);
+    sp_valid_inequalities_create(3, &s->inequalities);
     s->film_need = s->walls ? malloc(patches * sizeof *s->film_need) : NULL;
     for (size_t t = 0; s->film_need && t < patches; t++)
         s->film_need[t] = t % 13 ? 1 : 0.3f;
     assert_true(s->need && sp_prices_create(&s->cover, &s->prices, &error));
-    s->prices.lifts = lifted ? &s->lifts : NULL;
+    s->prices.inequalities = strengthened ? &s->inequalities : NULL;
     for (size_t t = 0; t < patches; t++) {
-        double part = lifted ? fmax(0, next_random(random) - 0.5) : 0;
+        double part = strengthened ? fmax(0, next_random(random) - 0.5) : 0;
         s->need[t] = t % 17 || s->search.single ? 1 : 0.5f;
         s->prices.plain[t] = (float)(next_random(random) * (1 - part)) * s->search.area[t];
-        s->prices.lifted[t] = (float)part * s->search.area[t];
-        s->prices.kind[t] = (uint8_t)(next_random(random) * (double)s->lifts.kinds);
+        s->prices.strengthened[t] = (float)part * s->search.area[t];
+        s->prices.kind[t] = (uint8_t)(next_random(random) * (double)s->inequalities.kinds);
     }
 }
 
@@ -286,8 +287,10 @@ static double worth(const stage *s, sp_pose pose)
             share = 0;
         if (s->film_need)
             share = fmax(share, fmin(1, coverage->deposits.film[t] / film / (double)s->film_need[t]));
-        double lift = s->prices.lifts ? (double)sp_lift(&s->lifts, s->prices.kind[t], (float)share) : 0;
-        price += fmax(part, share) * (double)s->prices.plain[t] + fmax(part, lift) * (double)s->prices.lifted[t];
+        double strong =
+            s->prices.inequalities ? (double)sp_strengthen(&s->inequalities, s->prices.kind[t], (float)share) : 0;
+        price +=
+            fmax(part, share) * (double)s->prices.plain[t] + fmax(part, strong) * (double)s->prices.strengthened[t];
     }
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
@@ -322,9 +325,9 @@ static void check_prices(stage *s)
             worths += exact;
         }
     print_message("prices are %.2e above what poses are worth\n", prices / worths - 1);
-    /* of cells that fall short of the flux little is known of what a lift makes of some of them, and where one nozzle
-     * alone must do not even whether both arcs to them do so together */
-    assert_true(prices < (s->walls ? LOOSE_FILM : LOOSE) * worths || (s->search.single && !s->prices.lifts));
+    /* of cells that fall short of the flux little is known of what an inequality makes of some of them, and where one
+     * nozzle alone must do not even whether both arcs to them do so together */
+    assert_true(prices < (s->walls ? LOOSE_FILM : LOOSE) * worths || (s->search.single && !s->prices.inequalities));
     sp_rows_free(&rows);
     sp_offers_free(&offers);
 }
@@ -351,7 +354,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(layouts_within_a_flow_are_so_in_units),
-        cmocka_unit_test(lifted_shares_still_suffice),
+        cmocka_unit_test(strengthened_shares_still_suffice),
         cmocka_unit_test(portions_come_to_the_whole),
         cmocka_unit_test(what_falls_short_does_not_cover),
         cmocka_unit_test(no_pose_is_worth_more_than_its_price),

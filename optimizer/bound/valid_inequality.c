@@ -1,4 +1,4 @@
-#include "bound/lift.h"
+#include "bound/valid_inequality.h"
 
 #include <math.h>
 
@@ -27,39 +27,40 @@ static double round_mixed(double f, double parts, double rest)
     return fmin(1, (whole * rest + fmin(scaled - whole, rest)) / (parts * rest));
 }
 
-static void add(sp_lifts *lifts, const double values[SP_LIFT_LEVELS + 1])
+static void add(sp_valid_inequalities *inequalities, const double values[SP_INEQUALITY_LEVELS + 1])
 {
-    size_t kind = lifts->kinds++;
-    float *own = lifts->value[kind];
-    for (size_t i = 0; i <= SP_LIFT_LEVELS; i++)
+    size_t kind = inequalities->kinds++;
+    float *own = inequalities->value[kind];
+    for (size_t i = 0; i <= SP_INEQUALITY_LEVELS; i++)
         own[i] = fminf(1, (float)values[i] * UPWARDS);
     own[0] = 0;
-    for (size_t i = 1; i <= SP_LIFT_LEVELS; i++)
-        lifts->steep[kind] = fmaxf(lifts->steep[kind], own[i] * (float)SP_LIFT_LEVELS / (float)i * UPWARDS);
+    for (size_t i = 1; i <= SP_INEQUALITY_LEVELS; i++)
+        inequalities->steep[kind] =
+            fmaxf(inequalities->steep[kind], own[i] * (float)SP_INEQUALITY_LEVELS / (float)i * UPWARDS);
 }
 
-void sp_lifts_create(size_t nozzles, sp_lifts *lifts)
+void sp_valid_inequalities_create(size_t nozzles, sp_valid_inequalities *inequalities)
 {
     static const double cuts[] = {0.25, 0.5, 0.75, 0.9, 0.999};
     static const double gaps[] = {0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.499999};
     static const double roundings[][2] = {{2, 0.05}, {2, 0.1}, {2, 0.2}, {2, 0.4}, {2, 0.7},
                                           {3, 0.1},  {3, 0.3}, {3, 0.6}, {4, 0.2}, {4, 0.5}};
-    double n = (double)nozzles, values[SP_LIFT_LEVELS + 1];
-    size_t levels = SP_LIFT_LEVELS;
-    *lifts = (sp_lifts){.nozzles = nozzles};
+    double n = (double)nozzles, values[SP_INEQUALITY_LEVELS + 1];
+    size_t levels = SP_INEQUALITY_LEVELS;
+    *inequalities = (sp_valid_inequalities){.nozzles = nozzles};
     for (size_t k = 0; k < sizeof cuts / sizeof *cuts; k++) {
         for (size_t i = 0; i <= levels; i++)
             values[i] = cut_all((double)i / (double)levels, cuts[k] / n, n);
-        add(lifts, values);
+        add(inequalities, values);
     }
     for (size_t k = 0; k < sizeof gaps / sizeof *gaps; k++) {
         for (size_t i = 0; i <= levels; i++)
             values[i] = two_halves((double)i / (double)levels, gaps[k], n);
-        add(lifts, values);
+        add(inequalities, values);
     }
     for (size_t k = 0; k < sizeof roundings / sizeof *roundings; k++) {
         for (size_t i = 0; i <= levels; i++)
             values[i] = round_mixed((double)i / (double)levels, roundings[k][0], roundings[k][1]);
-        add(lifts, values);
+        add(inequalities, values);
     }
 }
