@@ -1,5 +1,5 @@
-/* Bounds on what any layout could cover, whatever the number of candidates: prices are sought on a few of them and then
- * proved on all. */
+/* Bounds on what any layout could cover, whatever the number of candidates: multipliers are sought on a few of them and
+ * then proved on all. */
 #ifndef OPTIMIZER_BOUND_H
 #define OPTIMIZER_BOUND_H
 
@@ -8,10 +8,10 @@
 /* All candidates, however they are kept. */
 typedef struct {
     void *user;
-    /* Adds every candidate's total price at texel prices u to `offers`, or something no lower. Appends to `rows` some
+    /* Adds every candidate's total price at multipliers u to `offers`, or something no lower. Appends to `rows` some
      * of those worth more than needed[tier] that are not among them yet (by key). Without `all` it may look at some
      * only, and offer nothing. */
-    bool (*price)(void *user, const sp_prices *u, const double *needed, bool all, sp_offers *offers, sp_rows *rows,
+    bool (*price)(void *user, const sp_multipliers *u, const double *needed, bool all, sp_offers *offers, sp_rows *rows,
                   sp_error *error);
 } sp_pricer;
 
@@ -26,7 +26,7 @@ typedef struct {
     sp_knapsack knapsack;
     sp_offers offers;
     uint32_t lightest; /* of the tiers */
-    double proved;     /* the bound at the last water by the last prices alone */
+    double proved;     /* the bound at the last water by the last multipliers alone */
     bool closed;       /* which is as low as these inequalities go: all candidates bring no more than the few */
     bool complete;     /* the last pricing of all was not broken off; else `proved` and `closed` say nothing new */
     size_t proofs;     /* complete pricings of all */

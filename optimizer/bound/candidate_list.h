@@ -14,8 +14,8 @@ typedef struct {
     size_t run_count;
     size_t *run_start; /* [run_count + 1]: runs of one port, within one kind */
     size_t *run_port;  /* [run_count], SP_NO_PORT: none */
-    /* price[position] = what the candidate is worth at prices u, rounded upwards; 0 where it is not alive. */
-    bool (*price)(void *user, const sp_prices *u, const uint8_t *alive, float *price, sp_error *error);
+    /* price[position] = what the candidate is worth at multipliers u, rounded upwards; 0 where it is not alive. */
+    bool (*price)(void *user, const sp_multipliers *u, const uint8_t *alive, float *price, sp_error *error);
     /* Appends the candidate's row, its position as key. */
     bool (*row)(void *user, size_t position, sp_rows *rows, sp_error *error);
     int threads; /* that may ask for rows at a time */

@@ -77,10 +77,10 @@ static bool prepare(coarse *o, const sp_dual *dual, const sp_rows *rows, const s
            sp_dual_make_room(&o->dual, rows->count, error);
 }
 
-/* Where the iterations stand, to the groups. Prices there, and of resources, are of as many texels at a time. */
+/* Where the iterations stand, to the groups. Multipliers there, and of resources, are of as many texels at a time. */
 static void restrict_to_groups(coarse *o, const sp_dual *dual, const sp_rows *rows)
 {
-    sp_prices *u = &o->dual.u;
+    sp_multipliers *u = &o->dual.u;
     memset(u->plain, 0, o->cover.texel_count * sizeof *u->plain);
     for (size_t t = 0; t < dual->texels; t++) {
         u->plain[t / EACH] += dual->u.plain[t];
@@ -96,7 +96,7 @@ static void restrict_to_groups(coarse *o, const sp_dual *dual, const sp_rows *ro
 /* And back, from the best that was found there. */
 static void spread_from_groups(const coarse *o, sp_dual *dual, const sp_rows *rows)
 {
-    const sp_prices *u = &o->dual.price;
+    const sp_multipliers *u = &o->dual.multipliers;
     for (size_t t = 0; t < dual->texels; t++) {
         size_t g = t / EACH;
         float part = o->area[g] > 0 ? dual->cover->area[t] / o->area[g] : 0, area = dual->cover->area[t];

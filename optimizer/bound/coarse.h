@@ -1,5 +1,5 @@
-/* The same prices sought on groups of texels first: within a group each texel's price is its part of the group's by
- * area. What they prove is as true as of any prices, and steps take a fraction of the time. */
+/* The same multipliers sought on groups of texels first: within a group each texel's multiplier is its part of the
+ * group's by area. What they prove is as true as of any multipliers, and steps take a fraction of the time. */
 #ifndef OPTIMIZER_COARSE_H
 #define OPTIMIZER_COARSE_H
 

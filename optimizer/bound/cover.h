@@ -73,20 +73,20 @@ void sp_rows_free(sp_rows *rows);
 uint64_t *sp_rows_keys(const sp_rows *rows);
 bool sp_keys_hold(const uint64_t *keys, size_t count, uint64_t key);
 
-/* Prices of texels, m²: of their shares, and of what one of the inequalities makes of these. */
+/* Lagrange multipliers of texels, m²: of their shares, and of what one of the inequalities makes of these. */
 typedef struct {
     const sp_valid_inequalities *inequalities; /* NULL: only shares count */
     float *plain, *strengthened;               /* [texels], plain + strengthened <= area */
     uint8_t *kind;                             /* [texels], which inequality */
-} sp_prices;
+} sp_multipliers;
 
-bool sp_prices_create(const sp_cover *cover, sp_prices *prices, sp_error *error);
-void sp_prices_copy(const sp_cover *cover, const sp_prices *from, sp_prices *to);
-void sp_prices_free(sp_prices *prices);
+bool sp_multipliers_create(const sp_cover *cover, sp_multipliers *multipliers, sp_error *error);
+void sp_multipliers_copy(const sp_cover *cover, const sp_multipliers *from, sp_multipliers *to);
+void sp_multipliers_free(sp_multipliers *multipliers);
 
 /* What a row is worth; rounded upwards. */
-double sp_rows_price(const sp_rows *rows, size_t row, const sp_prices *prices);
-/* The area, Σ (area - price), that prices leave: what no candidate has to bring. Rounded upwards. */
-double sp_cover_rest(const sp_cover *cover, const sp_prices *prices);
+double sp_rows_price(const sp_rows *rows, size_t row, const sp_multipliers *multipliers);
+/* The area, Σ (area - multiplier), that multipliers leave: what no candidate has to bring. Rounded upwards. */
+double sp_cover_rest(const sp_cover *cover, const sp_multipliers *multipliers);
 
 #endif

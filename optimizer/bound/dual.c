@@ -11,7 +11,7 @@
 bool sp_dual_create(const sp_cover *cover, sp_dual *dual, sp_error *error)
 {
     *dual = (sp_dual){.cover = cover, .texels = cover->texel_count};
-    if (!sp_prices_create(cover, &dual->price, error) || !sp_prices_create(cover, &dual->u, error)) {
+    if (!sp_multipliers_create(cover, &dual->multipliers, error) || !sp_multipliers_create(cover, &dual->u, error)) {
         sp_dual_free(dual);
         return false;
     }
@@ -24,8 +24,8 @@ bool sp_dual_create(const sp_cover *cover, sp_dual *dual, sp_error *error)
 
 void sp_dual_free(sp_dual *dual)
 {
-    sp_prices_free(&dual->price);
-    sp_prices_free(&dual->u);
+    sp_multipliers_free(&dual->multipliers);
+    sp_multipliers_free(&dual->u);
     free(dual->choice);
     free(dual->x);
     free(dual->dual_resource);

@@ -1,7 +1,8 @@
-/* Prices of texels that make the best layout's bound low: the Lagrangian dual of maximum coverage.
+/* Lagrange multipliers of texels that make the best layout's bound low: the Lagrangian dual of maximum coverage.
  *
- * For prices 0 <= u <= area no layout covers more than Σ (area - u) + the most that Σ u share of its nozzles can come
- * to. That holds for any u, and for any valid inequality of the shares; the iterations here only look for good ones. */
+ * For multipliers 0 <= u <= area no layout covers more than Σ (area - u) + the most that Σ u share of its nozzles can
+ * come to. That holds for any u, and for any valid inequality of the shares; the iterations here only look for good
+ * ones. */
 #ifndef OPTIMIZER_DUAL_H
 #define OPTIMIZER_DUAL_H
 
@@ -10,15 +11,15 @@
 typedef struct {
     const sp_cover *cover;
     size_t texels;
-    sp_prices price;       /* the best found by the last solve */
-    double bound;          /* m² that it shows for the rows it was solved on, cover->base included */
+    sp_multipliers multipliers; /* the best found by the last solve */
+    double bound;               /* m² that it shows for the rows it was solved on, cover->base included */
     double reached;        /* m² that fractions of those rows do cover (the linear program's own value, from below) */
     size_t row_capacity;   /* of what follows */
     double *choice;        /* [rows], fraction of each row in the average of the last solve */
-    sp_prices u;           /* where the iterations stand */
+    sp_multipliers u;      /* where the iterations stand */
     double *x;             /* [rows] */
     double *dual_resource; /* [2 + ports], of water, number and ports */
-    double weight;         /* primal weight: steps in price over steps in choice */
+    double weight;         /* primal weight: steps in multipliers over steps in choice */
 } sp_dual;
 
 /* What the last solve chose of a row; nothing of rows that have come since. */

@@ -9,8 +9,8 @@ void sp_pdhg_free(sp_pdhg *h)
     free(h->tau);
     free(h->cover);
     free(h->strengthened);
-    sp_prices_free(&h->u_last);
-    sp_prices_free(&h->u_mean);
+    sp_multipliers_free(&h->u_last);
+    sp_multipliers_free(&h->u_mean);
     sp_knapsack_free(&h->knapsack);
     sp_offers_free(&h->offers);
 }
@@ -42,13 +42,13 @@ static bool allocate(sp_pdhg *h, sp_error *error)
     h->dual_resource = h->resource_sum + h->resources;
     return sp_offers_create(cover->tier_count, cover->weight, cover->port_count, h->task->nozzles + 1, cover->repeats,
                             &h->offers, error) &&
-           sp_prices_create(cover, &h->u_last, error) && sp_prices_create(cover, &h->u_mean, error);
+           sp_multipliers_create(cover, &h->u_last, error) && sp_multipliers_create(cover, &h->u_mean, error);
 }
 
 /* The rows' shares as the texels' inequalities make them. What they are worth changes with the inequalities. */
 static bool strengthen_rows(sp_pdhg *h, sp_error *error)
 {
-    sp_prices *const all[] = {&h->dual->u, &h->u_last, &h->u_mean};
+    sp_multipliers *const all[] = {&h->dual->u, &h->u_last, &h->u_mean};
     const sp_rows *rows = h->rows;
     for (size_t i = 0; i < 3; i++) {
         all[i]->inequalities = h->task->inequalities;

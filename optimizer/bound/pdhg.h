@@ -17,7 +17,7 @@ typedef struct {
     double *price, *price_sum;                           /* [rows] */
     double *x_sum, *x_bar;                               /* [rows] */
     double *u_sum;                                       /* [2 texels] */
-    sp_prices u_last, u_mean;
+    sp_multipliers u_last, u_mean;
     double *resource_sum;
     float *cover; /* [2 texels], Σ share x */
     double *x_start, *u_start;

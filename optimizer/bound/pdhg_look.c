@@ -6,8 +6,8 @@
 #define STALE 0.4   /* or once that share of all iterations has passed without */
 #define LEAST 50    /* iterations */
 
-/* The bound of prices u at which the rows are worth `price` / `over`. */
-static double bound_of(sp_pdhg *h, const sp_prices *u, const double *price, double over)
+/* The bound of multipliers u at which the rows are worth `price` / `over`. */
+static double bound_of(sp_pdhg *h, const sp_multipliers *u, const double *price, double over)
 {
     sp_offers_clear(&h->offers);
     for (size_t c = 0; c < h->rows->count; c++)
@@ -46,12 +46,12 @@ static double reached_by(sp_pdhg *h, const double *x, double over)
     return area;
 }
 
-static void note_best(sp_pdhg *h, double bound, const sp_prices *u, double reached, const double *x, double over)
+static void note_best(sp_pdhg *h, double bound, const sp_multipliers *u, double reached, const double *x, double over)
 {
     sp_dual *dual = h->dual;
     if (bound < dual->bound) {
         dual->bound = bound;
-        sp_prices_copy(dual->cover, u, &dual->price);
+        sp_multipliers_copy(dual->cover, u, &dual->multipliers);
     }
     if (reached > dual->reached) {
         dual->reached = reached;

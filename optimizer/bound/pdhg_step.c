@@ -65,7 +65,7 @@ static double worth(const uint32_t *texel, const float *share, size_t count, con
 static void find_prices(sp_pdhg *h)
 {
     const sp_rows *rows = h->rows;
-    const sp_prices *u = &h->dual->u;
+    const sp_multipliers *u = &h->dual->u;
     int threads = threads_for(h);
 #pragma omp parallel for num_threads(threads) schedule(static, 16)
     for (size_t c = 0; c < rows->count; c++) {
@@ -79,7 +79,7 @@ static void find_prices(sp_pdhg *h)
     }
 }
 
-/* A step in a texel's two prices, which together stay within its area. */
+/* A step in a texel's two multipliers, which together stay within its area. */
 static void step_texel(sp_pdhg *h, size_t t)
 {
     sp_dual *dual = h->dual;

@@ -31,7 +31,7 @@ sp_tuples *sp_tuples_create(const sp_cover *cover, const sp_candidate_list *list
         return o;
     o->steps = water / o->unit;
     bool done = true;
-    for (size_t k = 0; k < BY_PRICES; k++) {
+    for (size_t k = 0; k < BY_MULTIPLIERS; k++) {
         o->most_priced[k] = malloc(list->kind_count * (o->steps + 1) * sizeof(double));
         done &= o->most_priced[k] != NULL;
     }
@@ -46,7 +46,7 @@ void sp_tuples_destroy(sp_tuples *o)
 {
     if (!o)
         return;
-    for (size_t k = 0; k < BY_PRICES; k++)
+    for (size_t k = 0; k < BY_MULTIPLIERS; k++)
         free(o->most_priced[k]);
     free(o->items);
     free(o->able);

@@ -178,7 +178,7 @@ static bool choose(worker *own, size_t depth, size_t i, double covered, const do
         own->work = INFINITY;
         return true;
     }
-    double with[BY_PRICES] = {0};
+    double with[BY_MULTIPLIERS] = {0};
     for (size_t k = 0; k < o->priced; k++)
         with[k] = priced[k] + (double)one->price[k];
     list_joining(own, depth, i, now, with, left);
@@ -237,7 +237,7 @@ static void worker_free(worker *own)
 
 bool sp_tuples_enumerate(sp_tuples *o, sp_error *error)
 {
-    static const double none[BY_PRICES] = {0};
+    static const double none[BY_MULTIPLIERS] = {0};
     int threads = o->cover->threads;
     worker *workers = calloc((size_t)threads, sizeof *workers);
     bool done = workers != NULL;

@@ -61,7 +61,7 @@ static bool build_sets(sp_tuples *o, sp_error *error)
 
 bool sp_tuples_list_able(sp_tuples *o, sp_error *error)
 {
-    static const double none[BY_PRICES] = {0};
+    static const double none[BY_MULTIPLIERS] = {0};
     free(o->able);
     o->able = malloc((o->count + 1) * sizeof *o->able);
     o->able_count = 0;

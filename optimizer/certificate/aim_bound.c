@@ -1,6 +1,6 @@
 #include "certificate/aim_bound.h"
 
-#include "certificate/aim_prices.h"
+#include "certificate/aim_pricing.h"
 
 #include <stdlib.h>
 
@@ -21,9 +21,9 @@ typedef struct {
     size_t outlay_count;
     uint32_t *weight;   /* [tiers] */
     uint32_t **tier_of; /* [mounts x kinds][steps] */
-    uint32_t *none;     /* [mounts x variants], for the poses' prices, which are not asked */
-    sp_pose_prices *poses;
-    sp_aim_prices *prices;
+    uint32_t *none;     /* [mounts x variants], for the poses' pricing, which is not asked */
+    sp_pose_pricing *poses;
+    sp_aim_pricing *pricing;
     sp_pricer pricer;
     sp_bound bound;
 } aiming;
@@ -31,8 +31,8 @@ typedef struct {
 static void aiming_free(aiming *a)
 {
     sp_bound_free(&a->bound);
-    sp_aim_prices_destroy(a->prices);
-    sp_pose_prices_destroy(a->poses);
+    sp_aim_pricing_destroy(a->pricing);
+    sp_pose_pricing_destroy(a->poses);
     for (size_t i = 0; a->tier_of && i < a->task->search->options->mount_count * a->kinds.count; i++)
         free(a->tier_of[i]);
     free(a->tier_of);
@@ -137,7 +137,7 @@ static bool add_rows(aiming *a, sp_error *error)
         for (size_t n = 0; n < sp_front_partial(a->front, i)->count; n++) {
             const sp_placed *placed = &sp_front_partial(a->front, i)->items[n];
             uint32_t tier = tier_of_weight(a, sp_water_weight(&a->units, sp_placed_outlay(a->task->search, placed)));
-            if (!sp_pose_prices_found(a->poses, placed, tier, &a->bound.rows, error))
+            if (!sp_pose_pricing_found(a->poses, placed, tier, &a->bound.rows, error))
                 return false;
         }
     for (size_t c = 0; c < rows->count && a->units.unit == a->task->units->unit; c++) {
@@ -156,14 +156,14 @@ static bool prepare(aiming *a, sp_error *error)
     const sp_aim_task *task = a->task;
     if (!set_tiers(a, error))
         return false;
-    a->poses = sp_pose_prices_create(task->search, &a->cover, a->none, task->need, NULL, task->ports, error);
+    a->poses = sp_pose_pricing_create(task->search, &a->cover, a->none, task->need, NULL, task->ports, error);
     if (!a->poses)
         return false;
-    a->prices = sp_aim_prices_create(task->search, &a->cover, &a->kinds, (const uint32_t *const *)a->tier_of,
-                                     task->ports, a->poses, error);
-    if (!a->prices)
+    a->pricing = sp_aim_pricing_create(task->search, &a->cover, &a->kinds, (const uint32_t *const *)a->tier_of,
+                                       task->ports, a->poses, error);
+    if (!a->pricing)
         return false;
-    a->pricer = sp_aim_pricer(a->prices);
+    a->pricer = sp_aim_pricer(a->pricing);
     return sp_bound_create(&a->cover, &a->pricer, &a->bound, error) && add_rows(a, error);
 }
 
@@ -175,7 +175,7 @@ static size_t budget_of(const aiming *a, double outlay)
 
 static bool lower(aiming *a, size_t water, size_t rounds, sp_error *error)
 {
-    sp_aim_prices_seek(a->prices, water);
+    sp_aim_pricing_seek(a->pricing, water);
     for (size_t round = 0; round < rounds && sp_cover_goes_on(&a->cover); round++)
         if (!sp_bound_lower(&a->bound, water, error))
             return false;

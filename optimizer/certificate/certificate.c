@@ -23,7 +23,7 @@
 #define CANDIDATES_FIRST 800  /* that layouts are made of one by one, at first */
 #define CANDIDATES_STEP 4     /* times as many then */
 #define CANDIDATES 12800      /* most that come into question for it */
-#define WATER_NEAR 1.25       /* times less water is so near that the same prices say something */
+#define WATER_NEAR 1.25       /* times less water is so near that the same multipliers say something */
 #define WATER_LIKE 1.1        /* the same, and need not be priced for again */
 #define ROUNDS_STRENGTHENED 3 /* at least, so that the inequalities have settled */
 /* with --prove: */
@@ -154,7 +154,7 @@ static double open_at(const certifying *c, size_t i)
     return fmax(0, 1 - c->points[i].found / c->bound.by_water[c->points[i].water]);
 }
 
-/* True of a point of as much water as another, or so little less that prices for that one do. */
+/* True of a point of as much water as another, or so little less that multipliers for that one do. */
 static bool is_like(const certifying *c, size_t i, size_t other, double times)
 {
     double water = (double)c->points[i].water, most = (double)c->points[other].water;
@@ -182,8 +182,9 @@ static size_t next_point(const certifying *c)
     return found;
 }
 
-/* Prices all candidates for so much water, `open` of whose bound nothing found comes up to. Where that is wide prices
- * are sought on groups of texels first: these get further in as much time, but do not see what a narrow gap is about.
+/* Prices all candidates for so much water, `open` of whose bound nothing found comes up to. Where that is wide
+ * multipliers are sought on groups of texels first: these get further in as much time, but do not see what a narrow gap
+ * is about.
  */
 static bool price_for(certifying *c, size_t water, double open, size_t rounds, sp_error *error)
 {
@@ -208,14 +209,14 @@ static void note_bound(certifying *c, size_t water, double bound)
     sp_bound_settle(&c->bound);
 }
 
-/* Looks at the layouts of so much water one by one, by the prices that the bound was last proved with, for those that
- * cover more than `found`, as long as the bound is more than `least` (share) above it: for the lowest targets that a
- * few candidates come up to, then more, while there is work left. */
+/* Looks at the layouts of so much water one by one, by the multipliers that the bound was last proved with, for those
+ * that cover more than `found`, as long as the bound is more than `least` (share) above it: for the lowest targets that
+ * a few candidates come up to, then more, while there is work left. */
 static bool look_at(certifying *c, size_t water, double found, double least, effort most, double *work, sp_error *error)
 {
     const double *bound = &c->bound.by_water[water];
     const sp_tuple_task task = {
-        water, found, *bound, most.candidates, &c->bound.dual.price, sp_pose_prices_last(c->problem.prices)};
+        water, found, *bound, most.candidates, &c->bound.dual.multipliers, sp_pose_pricing_last(c->problem.pricing)};
     sp_tuple_answer answer = {.complete = true, .bound = *bound};
     sp_tuples *tuples = sp_tuples_create(&c->problem.cover, &c->problem.list, &task, error);
     bool done = tuples != NULL, better = false;

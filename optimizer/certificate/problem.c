@@ -139,7 +139,7 @@ static bool add_own(sp_problem *p, sp_error *error)
         for (size_t n = 0; n < partial->count; n++) {
             const sp_placed *placed = &partial->items[n];
             uint32_t tier = tier_for(p, sp_placed_outlay(p->search, placed));
-            if (!sp_pose_prices_found(p->prices, placed, tier, &p->nozzles, error))
+            if (!sp_pose_pricing_found(p->pricing, placed, tier, &p->nozzles, error))
                 return false;
         }
     }
@@ -218,13 +218,13 @@ static bool prepare(sp_problem *p, sp_error *error)
 {
     if (!set_tiers(p, error) || !set_texels(p, error))
         return false;
-    p->prices = sp_pose_prices_create(p->search, &p->cover, p->tier_of, p->need, p->film_need, p->ports, error);
-    if (!p->prices)
+    p->pricing = sp_pose_pricing_create(p->search, &p->cover, p->tier_of, p->need, p->film_need, p->ports, error);
+    if (!p->pricing)
         return false;
-    p->pricer = sp_pose_pricer(p->prices);
+    p->pricer = sp_pose_pricer(p->pricing);
     return add_own(p, error) && (!p->search->costly || set_sums(p, error)) &&
            sp_pose_order_create(p->search, &p->cover, p->tier_of, p->ports, &p->nozzles, &p->order, error) &&
-           sp_pose_list(p->prices, &p->order, &p->list, error);
+           sp_pose_list(p->pricing, &p->order, &p->list, error);
 }
 
 bool sp_problem_create(const sp_search *search, const sp_front *front, sp_problem *problem, bool *possible,
@@ -242,7 +242,7 @@ void sp_problem_free(sp_problem *p)
 {
     sp_pose_order_free(&p->order);
     sp_rows_free(&p->nozzles);
-    sp_pose_prices_destroy(p->prices);
+    sp_pose_pricing_destroy(p->pricing);
     free(p->area);
     free(p->need);
     free(p->film_need);

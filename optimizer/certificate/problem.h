@@ -3,7 +3,7 @@
 #ifndef OPTIMIZER_PROBLEM_H
 #define OPTIMIZER_PROBLEM_H
 
-#include "certificate/pose_prices.h"
+#include "certificate/pose_pricing.h"
 #include "certificate/water_units.h"
 #include "search/front.h"
 
@@ -22,7 +22,7 @@ typedef struct {
     size_t cost_count;
     double *outlays; /* [costs x variants], then one for each nozzle of the front */
     size_t own;      /* nozzles of the front */
-    sp_pose_prices *prices;
+    sp_pose_pricing *pricing;
     sp_rows nozzles; /* of the front */
     sp_pose_order order;
     sp_candidate_list list;

@@ -14,7 +14,7 @@ typedef struct {
     size_t most; /* rows to hand out at a time */
 } stored;
 
-static inline bool stored_price(void *user, const sp_prices *u, const double *needed, bool all, sp_offers *offers,
+static inline bool stored_price(void *user, const sp_multipliers *u, const double *needed, bool all, sp_offers *offers,
                                 sp_rows *rows, sp_error *error)
 {
     (void)all;
@@ -55,7 +55,7 @@ typedef struct {
     sp_candidate_list list;
 } stored_line;
 
-static inline bool stored_line_price(void *user, const sp_prices *u, const uint8_t *alive, float *price,
+static inline bool stored_line_price(void *user, const sp_multipliers *u, const uint8_t *alive, float *price,
                                      sp_error *error)
 {
     (void)error;

@@ -98,16 +98,16 @@ static double best_of(const instance *in, size_t water)
     return b.best;
 }
 
-/* Prices that hold, good or not: none, those that a bound was proved with, or any at all; or that hold for one nozzle
- * alone, and are of no use. */
-static void set_prices(instance *in, int way, size_t water, sp_valid_inequalities *inequalities, sp_prices *u,
-                       uint64_t *random)
+/* Multipliers that hold, good or not: none, those that a bound was proved with, or any at all; or that hold for one
+ * nozzle alone, and are of no use. */
+static void set_multipliers(instance *in, int way, size_t water, sp_valid_inequalities *inequalities, sp_multipliers *u,
+                            uint64_t *random)
 {
     sp_error error = {0};
     stored s = {&in->cover, &in->rows, 8};
     sp_pricer pricer = stored_pricer(&s);
     sp_bound bound;
-    assert_true(sp_prices_create(&in->cover, u, &error));
+    assert_true(sp_multipliers_create(&in->cover, u, &error));
     if (way == 3) {
         sp_valid_inequalities_create(1, inequalities);
         u->inequalities = inequalities;
@@ -121,7 +121,7 @@ static void set_prices(instance *in, int way, size_t water, sp_valid_inequalitie
         assert_true(sp_bound_create(&in->cover, &pricer, &bound, &error));
         for (int round = 0; round < 4; round++)
             assert_true(sp_bound_lower(&bound, water, &error));
-        sp_prices_copy(&in->cover, &bound.dual.price, u);
+        sp_multipliers_copy(&in->cover, &bound.dual.multipliers, u);
         *inequalities = bound.inequalities;
         u->inequalities = u->inequalities ? inequalities : NULL;
         sp_bound_free(&bound);
@@ -138,7 +138,7 @@ static void set_prices(instance *in, int way, size_t water, sp_valid_inequalitie
     }
 }
 
-static sp_tuples *tuples_of(const stored_line *s, size_t water, double floor, double bound, const sp_prices *u)
+static sp_tuples *tuples_of(const stored_line *s, size_t water, double floor, double bound, const sp_multipliers *u)
 {
     sp_error error = {0};
     float *price = malloc((s->list.count + 1) * sizeof *price);
@@ -154,7 +154,7 @@ static sp_tuples *tuples_of(const stored_line *s, size_t water, double floor, do
 }
 
 /* Targets above and below the best, from the highest down. */
-static void check(instance *in, size_t water, const sp_prices *u, uint64_t *random)
+static void check(instance *in, size_t water, const sp_multipliers *u, uint64_t *random)
 {
     static const double parts[] = {1.2, 1.02, 1.0001, 0.97, 0.8, 0.5};
     sp_error error = {0};
@@ -189,7 +189,7 @@ static void no_layout_covers_more(void **state)
     for (uint64_t i = 0; i < INSTANCES; i++) {
         instance in;
         sp_valid_inequalities inequalities;
-        sp_prices u;
+        sp_multipliers u;
         size_t water = 26 + i % 30;
         instance_create(&in, 12, 14, i % 2, 1 + i % 4, water, i % 3, 0.1 + 0.03 * (double)(i % 20), 9177 + 1000 * i);
         in.cover.base = i % 5 ? 0 : 0.1;
@@ -200,9 +200,9 @@ static void no_layout_covers_more(void **state)
         if (i % 6 == 5)
             in.cover.repeats = false;
         water -= i % 8 == 7 ? 14 : 0;
-        set_prices(&in, (int)(i / 2 % 4), water, &inequalities, &u, &random);
+        set_multipliers(&in, (int)(i / 2 % 4), water, &inequalities, &u, &random);
         check(&in, water, &u, &random);
-        sp_prices_free(&u);
+        sp_multipliers_free(&u);
         instance_free(&in);
     }
 }

@@ -3,7 +3,7 @@
 #include "room.h"
 
 #include "scoring/prepare.h"
-#include "certificate/pose_prices.h"
+#include "certificate/pose_pricing.h"
 #include "certificate/water_units.h"
 
 static double next_random(uint64_t *state)
@@ -150,11 +150,11 @@ typedef struct {
     float *need, *film_need; /* film_need NULL where film is not asked for */
     sp_cover cover;
     sp_valid_inequalities inequalities;
-    sp_prices prices;
+    sp_multipliers multipliers;
     sp_rows own;
     sp_pose_order order;
     sp_candidate_list list;
-    sp_pose_prices *poses;
+    sp_pose_pricing *poses;
 } stage;
 
 static void set_types(stage *s)
@@ -197,14 +197,14 @@ static void set_cover(stage *s, uint64_t *random, bool strengthened)
     s->film_need = s->walls ? malloc(patches * sizeof *s->film_need) : NULL;
     for (size_t t = 0; s->film_need && t < patches; t++)
         s->film_need[t] = t % 13 ? 1 : 0.3f;
-    assert_true(s->need && sp_prices_create(&s->cover, &s->prices, &error));
-    s->prices.inequalities = strengthened ? &s->inequalities : NULL;
+    assert_true(s->need && sp_multipliers_create(&s->cover, &s->multipliers, &error));
+    s->multipliers.inequalities = strengthened ? &s->inequalities : NULL;
     for (size_t t = 0; t < patches; t++) {
         double part = strengthened ? fmax(0, next_random(random) - 0.5) : 0;
         s->need[t] = t % 17 || s->search.single ? 1 : 0.5f;
-        s->prices.plain[t] = (float)(next_random(random) * (1 - part)) * s->search.area[t];
-        s->prices.strengthened[t] = (float)part * s->search.area[t];
-        s->prices.kind[t] = (uint8_t)(next_random(random) * (double)s->inequalities.kinds);
+        s->multipliers.plain[t] = (float)(next_random(random) * (1 - part)) * s->search.area[t];
+        s->multipliers.strengthened[t] = (float)part * s->search.area[t];
+        s->multipliers.kind[t] = (uint8_t)(next_random(random) * (double)s->inequalities.kinds);
     }
 }
 
@@ -248,7 +248,7 @@ static void stage_open(stage *s, sp_criterion criterion, sp_trajectory trajector
     assert_true(
         sp_search_create(s->evaluator, &s->options, &s->sites, &s->candidates, &s->visibility, &s->search, &error));
     set_cover(s, random, trajectory == SP_TRAJECTORY_LINE);
-    s->poses = sp_pose_prices_create(&s->search, &s->cover, s->tier, s->need, s->film_need, s->ports, &error);
+    s->poses = sp_pose_pricing_create(&s->search, &s->cover, s->tier, s->need, s->film_need, s->ports, &error);
     assert_non_null(s->poses);
     assert_true(sp_pose_order_create(&s->search, &s->cover, s->tier, s->ports, &s->own, &s->order, &error));
     assert_true(sp_pose_list(s->poses, &s->order, &s->list, &error));
@@ -256,9 +256,9 @@ static void stage_open(stage *s, sp_criterion criterion, sp_trajectory trajector
 
 static void stage_close(stage *s)
 {
-    sp_pose_prices_destroy(s->poses);
+    sp_pose_pricing_destroy(s->poses);
     sp_pose_order_free(&s->order);
-    sp_prices_free(&s->prices);
+    sp_multipliers_free(&s->multipliers);
     free(s->need);
     free(s->film_need);
     sp_search_free(&s->search);
@@ -270,7 +270,7 @@ static void stage_close(stage *s)
     room_close(&s->room);
 }
 
-/* What a pose brings at these prices, by sp_evaluate_inverse alone. */
+/* What a pose brings at these multipliers, by sp_evaluate_inverse alone. */
 static double worth(const stage *s, sp_pose pose)
 {
     sp_error error = {0};
@@ -287,10 +287,11 @@ static double worth(const stage *s, sp_pose pose)
             share = 0;
         if (s->film_need)
             share = fmax(share, fmin(1, coverage->deposits.film[t] / film / (double)s->film_need[t]));
-        double strong =
-            s->prices.inequalities ? (double)sp_strengthen(&s->inequalities, s->prices.kind[t], (float)share) : 0;
-        price +=
-            fmax(part, share) * (double)s->prices.plain[t] + fmax(part, strong) * (double)s->prices.strengthened[t];
+        double strong = s->multipliers.inequalities
+                            ? (double)sp_strengthen(&s->inequalities, s->multipliers.kind[t], (float)share)
+                            : 0;
+        price += fmax(part, share) * (double)s->multipliers.plain[t] +
+                 fmax(part, strong) * (double)s->multipliers.strengthened[t];
     }
     sp_coverage_destroy(coverage);
     sp_layout_destroy(layout);
@@ -308,16 +309,16 @@ static void check_prices(stage *s)
     double prices = 0, worths = 0;
     assert_true(sp_offers_create(1, s->weight, 1, 3, true, &offers, &error));
     sp_pricer pricer = sp_pose_pricer(s->poses);
-    assert_true(pricer.price(pricer.user, &s->prices, needed, true, &offers, &rows, &error));
-    const float *last = sp_pose_prices_last(s->poses);
+    assert_true(pricer.price(pricer.user, &s->multipliers, needed, true, &offers, &rows, &error));
+    const float *last = sp_pose_pricing_last(s->poses);
     size_t stride = 1 + s->order.list.count / POSES;
     for (size_t block = 0; block < s->order.block_count; block++)
         for (size_t at = s->order.blocks[block].start; at < s->order.blocks[block + 1].start; at += stride) {
             sp_pose pose = sp_pose_order_at(&s->order, block, at);
             double exact = worth(s, pose), swept = (double)last[at];
             size_t row = rows.count;
-            assert_true(sp_pose_prices_add(s->poses, pose, &rows, &error));
-            double by_row = sp_rows_price(&rows, row, &s->prices);
+            assert_true(sp_pose_pricing_add(s->poses, pose, &rows, &error));
+            double by_row = sp_rows_price(&rows, row, &s->multipliers);
             if (exact > swept || exact > by_row)
                 fail_msg("type %zu is worth %.9g, swept %.9g, by its row %.9g",
                          (size_t)(s->candidates.variants[pose.variant].type - s->type), exact, swept, by_row);
@@ -327,7 +328,8 @@ static void check_prices(stage *s)
     print_message("prices are %.2e above what poses are worth\n", prices / worths - 1);
     /* of cells that fall short of the flux little is known of what an inequality makes of some of them, and where one
      * nozzle alone must do not even whether both arcs to them do so together */
-    assert_true(prices < (s->walls ? LOOSE_FILM : LOOSE) * worths || (s->search.single && !s->prices.inequalities));
+    assert_true(prices < (s->walls ? LOOSE_FILM : LOOSE) * worths ||
+                (s->search.single && !s->multipliers.inequalities));
     sp_rows_free(&rows);
     sp_offers_free(&offers);
 }

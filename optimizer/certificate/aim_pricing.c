@@ -1,4 +1,4 @@
-#include "certificate/aim_prices.h"
+#include "certificate/aim_pricing.h"
 
 #include "ranks/gather.h"
 #include "scoring/scoring.h"
@@ -51,13 +51,13 @@ typedef struct {
     double excess; /* price over what is needed; 0: none */
 } aim;
 
-struct sp_aim_prices {
+struct sp_aim_pricing {
     const sp_search *search;
     const sp_cover *cover;
     const sp_aim_kinds *kinds;
     const uint32_t *const *tier_of;
     const size_t *ports;
-    const sp_pose_prices *poses;
+    const sp_pose_pricing *poses;
     int threads;
     scratch *scratches; /* [threads] */
     aim *best;          /* [sites x kinds] */
@@ -79,61 +79,61 @@ static bool scratch_create(const sp_search *search, scratch *own)
     return own->worth && own->culls;
 }
 
-sp_aim_prices *sp_aim_prices_create(const sp_search *search, const sp_cover *cover, const sp_aim_kinds *kinds,
-                                    const uint32_t *const *tier_of, const size_t *ports, const sp_pose_prices *poses,
-                                    sp_error *error)
+sp_aim_pricing *sp_aim_pricing_create(const sp_search *search, const sp_cover *cover, const sp_aim_kinds *kinds,
+                                      const uint32_t *const *tier_of, const size_t *ports, const sp_pose_pricing *poses,
+                                      sp_error *error)
 {
-    sp_aim_prices *prices = malloc(sizeof *prices);
-    if (!prices)
+    sp_aim_pricing *pricing = malloc(sizeof *pricing);
+    if (!pricing)
         return sp_fail_memory(error);
-    *prices = (sp_aim_prices){.search = search,
-                              .cover = cover,
-                              .kinds = kinds,
-                              .tier_of = tier_of,
-                              .ports = ports,
-                              .poses = poses,
-                              .threads = sp_sweeper_threads(search),
-                              .water = cover->water};
-    prices->scratches = calloc((size_t)prices->threads, sizeof *prices->scratches);
-    prices->best = calloc(search->sites->count + 1, kinds->count * sizeof *prices->best);
-    prices->known = calloc((cover->port_count + 1) * cover->tier_count, sizeof *prices->known);
-    prices->field = malloc((search->patch_count + 1) * sizeof *prices->field);
-    prices->fair = malloc((cover->tier_count + 1) * sizeof *prices->fair);
+    *pricing = (sp_aim_pricing){.search = search,
+                                .cover = cover,
+                                .kinds = kinds,
+                                .tier_of = tier_of,
+                                .ports = ports,
+                                .poses = poses,
+                                .threads = sp_sweeper_threads(search),
+                                .water = cover->water};
+    pricing->scratches = calloc((size_t)pricing->threads, sizeof *pricing->scratches);
+    pricing->best = calloc(search->sites->count + 1, kinds->count * sizeof *pricing->best);
+    pricing->known = calloc((cover->port_count + 1) * cover->tier_count, sizeof *pricing->known);
+    pricing->field = malloc((search->patch_count + 1) * sizeof *pricing->field);
+    pricing->fair = malloc((cover->tier_count + 1) * sizeof *pricing->fair);
     size_t enough = CELLS_MORE + CELLS_EACH * search->candidates->pose_start[search->sites->count];
-    prices->enough = enough < CELLS_MOST ? enough : CELLS_MOST;
-    bool done =
-        (prices->scratches && prices->best && prices->known && prices->field && prices->fair) || sp_fail_memory(error);
-    done = done && sp_knapsack_create(cover->nozzles, cover->water, &prices->knapsack, error);
-    for (int i = 0; done && i < prices->threads; i++)
-        done = scratch_create(search, &prices->scratches[i]) || sp_fail_memory(error);
+    pricing->enough = enough < CELLS_MOST ? enough : CELLS_MOST;
+    bool done = (pricing->scratches && pricing->best && pricing->known && pricing->field && pricing->fair) ||
+                sp_fail_memory(error);
+    done = done && sp_knapsack_create(cover->nozzles, cover->water, &pricing->knapsack, error);
+    for (int i = 0; done && i < pricing->threads; i++)
+        done = scratch_create(search, &pricing->scratches[i]) || sp_fail_memory(error);
     if (done)
-        return prices;
-    sp_aim_prices_destroy(prices);
+        return pricing;
+    sp_aim_pricing_destroy(pricing);
     return NULL;
 }
 
-void sp_aim_prices_destroy(sp_aim_prices *prices)
+void sp_aim_pricing_destroy(sp_aim_pricing *pricing)
 {
-    if (!prices)
+    if (!pricing)
         return;
-    for (int i = 0; prices->scratches && i < prices->threads; i++) {
-        free(prices->scratches[i].worth);
-        free(prices->scratches[i].culls);
+    for (int i = 0; pricing->scratches && i < pricing->threads; i++) {
+        free(pricing->scratches[i].worth);
+        free(pricing->scratches[i].culls);
     }
-    free(prices->scratches);
-    free(prices->best);
-    free(prices->known);
-    free(prices->field);
-    sp_knapsack_free(&prices->knapsack);
-    free(prices->fair);
-    free(prices->open.items);
-    free(prices->next.items);
-    free(prices);
+    free(pricing->scratches);
+    free(pricing->best);
+    free(pricing->known);
+    free(pricing->field);
+    sp_knapsack_free(&pricing->knapsack);
+    free(pricing->fair);
+    free(pricing->open.items);
+    free(pricing->next.items);
+    free(pricing);
 }
 
-void sp_aim_prices_seek(sp_aim_prices *prices, size_t water)
+void sp_aim_pricing_seek(sp_aim_pricing *pricing, size_t water)
 {
-    prices->water = water;
+    pricing->water = water;
 }
 
 static bool append(cell_list *cells, const sp_aim_cell *cell)
@@ -150,35 +150,35 @@ static bool append(cell_list *cells, const sp_aim_cell *cell)
     return true;
 }
 
-static double tilt_of(const sp_aim_prices *prices, uint32_t site)
+static double tilt_of(const sp_aim_pricing *pricing, uint32_t site)
 {
-    return prices->search->options->mounts[prices->search->sites->items[site].mount].tilt;
+    return pricing->search->options->mounts[pricing->search->sites->items[site].mount].tilt;
 }
 
-static uint32_t tier_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
+static uint32_t tier_of(const sp_aim_pricing *pricing, const sp_aim_cell *cell)
 {
-    size_t mount = prices->search->sites->items[cell->site].mount;
-    return prices->tier_of[mount * prices->kinds->count + cell->kind][cell->step];
+    size_t mount = pricing->search->sites->items[cell->site].mount;
+    return pricing->tier_of[mount * pricing->kinds->count + cell->kind][cell->step];
 }
 
 /* The best price known of the cell's port, or of all other mounting points, and tier. */
-static double *known_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
+static double *known_of(const sp_aim_pricing *pricing, const sp_aim_cell *cell)
 {
-    size_t port = prices->ports[prices->search->sites->items[cell->site].mount];
-    size_t place = port == SP_NO_PORT ? prices->cover->port_count : port;
-    return &prices->known[place * prices->cover->tier_count + tier_of(prices, cell)];
+    size_t port = pricing->ports[pricing->search->sites->items[cell->site].mount];
+    size_t place = port == SP_NO_PORT ? pricing->cover->port_count : port;
+    return &pricing->known[place * pricing->cover->tier_count + tier_of(pricing, cell)];
 }
 
 /* The most flux over threshold per transfer of a view of a cell's aims, and the least. */
-static double strength_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
+static double strength_of(const sp_aim_pricing *pricing, const sp_aim_cell *cell)
 {
-    double plenty = prices->search->plenty;
-    return plenty > 0 ? sp_aim_cell_intensity(cell, &prices->kinds->items[cell->kind]) / plenty : INFINITY;
+    double plenty = pricing->search->plenty;
+    return plenty > 0 ? sp_aim_cell_intensity(cell, &pricing->kinds->items[cell->kind]) / plenty : INFINITY;
 }
-static double least_strength_of(const sp_aim_prices *prices, const sp_aim_cell *cell)
+static double least_strength_of(const sp_aim_pricing *pricing, const sp_aim_cell *cell)
 {
-    double plenty = prices->search->plenty;
-    return plenty > 0 ? sp_aim_cell_intensity_least(cell, &prices->kinds->items[cell->kind]) / plenty : INFINITY;
+    double plenty = pricing->search->plenty;
+    return plenty > 0 ? sp_aim_cell_intensity_least(cell, &pricing->kinds->items[cell->kind]) / plenty : INFINITY;
 }
 
 /* Whether two cells need the same worths of arrivals. */
@@ -208,13 +208,13 @@ static const sp_cull *cull_of(scratch *own, const sp_bins *bins, const sp_spray 
 }
 
 /* The sum over all that aims sprayed as `cell` about `disc` may have a share of; counted by shares, over these. */
-static double reach_price(const sp_aim_prices *prices, scratch *own, const sp_aim_cell *cell, sp_aim_disc disc,
+static double reach_price(const sp_aim_pricing *pricing, scratch *own, const sp_aim_cell *cell, sp_aim_disc disc,
                           sp_count count)
 {
-    const sp_search *search = prices->search;
-    sp_spray spray = sp_aim_cell_spray(cell, &prices->kinds->items[cell->kind], disc.radius);
+    const sp_search *search = pricing->search;
+    sp_spray spray = sp_aim_cell_spray(cell, &pricing->kinds->items[cell->kind], disc.radius);
     sp_frame frame = sp_aim_cell_frame(cell, &disc, sp_evaluator_setup(search->coarse)->up);
-    sp_region region = sp_region_create(&spray, &frame, strength_of(prices, cell), 0);
+    sp_region region = sp_region_create(&spray, &frame, strength_of(pricing, cell), 0);
     region.count = count;
     region.narrowest = (float)(2 * sin(0.25 * cell->angle_low));
     const sp_bins *bins = &search->visibility->bins;
@@ -225,100 +225,101 @@ static double reach_price(const sp_aim_prices *prices, scratch *own, const sp_ai
 }
 
 /* Turns to what a cell's aims bring at most; false where nothing is seen. */
-static bool turn_to(const sp_aim_prices *prices, scratch *own, const sp_aim_cell *cell, const sp_prices *u)
+static bool turn_to(const sp_aim_pricing *pricing, scratch *own, const sp_aim_cell *cell, const sp_multipliers *u)
 {
-    const sp_search *search = prices->search;
-    const sp_aim_kind *kind = &prices->kinds->items[cell->kind];
+    const sp_search *search = pricing->search;
+    const sp_aim_kind *kind = &pricing->kinds->items[cell->kind];
     for (size_t i = 0; i < CULLS; i++)
         own->culls[i].used = false;
     own->view = sp_visibility_look(search->visibility, cell->site, kind->launch, &own->desk);
     if (!own->view->start)
         return false;
-    sp_pose_prices_worth(prices->poses, own->view, (float)least_strength_of(prices, cell),
-                         (float)strength_of(prices, cell), u, own->worth, own->total);
+    sp_pose_pricing_worth(pricing->poses, own->view, (float)least_strength_of(pricing, cell),
+                          (float)strength_of(pricing, cell), u, own->worth, own->total);
     return true;
 }
 
 /* Bounds of cells that are alike, and the prices of the middles of those that may matter. */
-static void price_alike(const sp_aim_prices *prices, scratch *own, entry *entries, size_t count, const sp_prices *u)
+static void price_alike(const sp_aim_pricing *pricing, scratch *own, entry *entries, size_t count,
+                        const sp_multipliers *u)
 {
-    const sp_site *site = &prices->search->sites->items[entries[0].cell.site];
-    double tilt = tilt_of(prices, entries[0].cell.site);
-    bool sees = turn_to(prices, own, &entries[0].cell, u);
+    const sp_site *site = &pricing->search->sites->items[entries[0].cell.site];
+    double tilt = tilt_of(pricing, entries[0].cell.site);
+    bool sees = turn_to(pricing, own, &entries[0].cell, u);
     for (size_t i = 0; i < count; i++) {
         sp_aim_cell *cell = &entries[i].cell;
         sp_aim_disc disc = sp_aim_cell_disc(cell, site, tilt);
         /* nor more than the cell that it is a piece of */
-        cell->upper = sees ? fmin(cell->upper, reach_price(prices, own, cell, disc, SP_COUNT_GENEROUS)) : 0;
+        cell->upper = sees ? fmin(cell->upper, reach_price(pricing, own, cell, disc, SP_COUNT_GENEROUS)) : 0;
         entries[i].middle = 0;
-        if (cell->upper <= fmin(*known_of(prices, cell), prices->fair[tier_of(prices, cell)]) ||
+        if (cell->upper <= fmin(*known_of(pricing, cell), pricing->fair[tier_of(pricing, cell)]) ||
             sp_dot(disc.axis, site->axis) < cos(tilt) - 1e-12)
             continue;
-        sp_aim_cell middle = sp_aim_cell_middle(cell, &prices->kinds->items[cell->kind]);
-        entries[i].middle = reach_price(prices, own, &middle, (sp_aim_disc){disc.axis, 0}, SP_COUNT_SHARE);
+        sp_aim_cell middle = sp_aim_cell_middle(cell, &pricing->kinds->items[cell->kind]);
+        entries[i].middle = reach_price(pricing, own, &middle, (sp_aim_disc){disc.axis, 0}, SP_COUNT_SHARE);
     }
 }
 
-static sp_ranks *ranks_of(const sp_aim_prices *prices)
+static sp_ranks *ranks_of(const sp_aim_pricing *pricing)
 {
-    return prices->search->options->run.ranks;
+    return pricing->search->options->run.ranks;
 }
 
 /* The others' bounds, and the prices of middles. */
-static bool share_open(sp_aim_prices *prices, sp_error *error)
+static bool share_open(sp_aim_pricing *pricing, sp_error *error)
 {
-    cell_list *open = &prices->open;
+    cell_list *open = &pricing->open;
     sp_told told = {0};
     sp_heard heard;
-    for (size_t i = 0; sp_ranks_count(ranks_of(prices)) > 1 && i < open->count; i++)
-        if (sp_ranks_mine(ranks_of(prices), open->items[i].cell.site)) {
+    for (size_t i = 0; sp_ranks_count(ranks_of(pricing)) > 1 && i < open->count; i++)
+        if (sp_ranks_mine(ranks_of(pricing), open->items[i].cell.site)) {
             sp_tell(&told, &open->items[i].cell.upper, sizeof(double));
             sp_tell(&told, &open->items[i].middle, sizeof(double));
         }
-    if (!sp_ranks_gather(ranks_of(prices), "aims", &told, &heard, error))
+    if (!sp_ranks_gather(ranks_of(pricing), "aims", &told, &heard, error))
         return false;
     for (size_t i = 0; i < open->count; i++) {
         entry *cell = &open->items[i];
-        if (sp_ranks_mine(ranks_of(prices), cell->cell.site))
+        if (sp_ranks_mine(ranks_of(pricing), cell->cell.site))
             continue;
-        sp_hear(&heard, sp_ranks_owner(ranks_of(prices), cell->cell.site), &cell->cell.upper, sizeof(double));
-        sp_hear(&heard, sp_ranks_owner(ranks_of(prices), cell->cell.site), &cell->middle, sizeof(double));
+        sp_hear(&heard, sp_ranks_owner(ranks_of(pricing), cell->cell.site), &cell->cell.upper, sizeof(double));
+        sp_hear(&heard, sp_ranks_owner(ranks_of(pricing), cell->cell.site), &cell->middle, sizeof(double));
     }
     sp_heard_free(&heard);
     return true;
 }
 
 /* All open cells, each rank those of its own sites. */
-static bool price_open(sp_aim_prices *prices, const sp_prices *u, sp_error *error)
+static bool price_open(sp_aim_pricing *pricing, const sp_multipliers *u, sp_error *error)
 {
-    cell_list *open = &prices->open;
+    cell_list *open = &pricing->open;
     size_t groups = 0;
-    sp_ranks_part(ranks_of(prices));
+    sp_ranks_part(ranks_of(pricing));
     for (size_t i = 0; i < open->count; i++)
         if (!i || !alike(&open->items[i - 1].cell, &open->items[i].cell))
             open->items[groups++].group = i;
-#pragma omp parallel for num_threads(prices->threads) schedule(dynamic, 1)
+#pragma omp parallel for num_threads(pricing->threads) schedule(dynamic, 1)
     for (size_t g = 0; g < groups; g++) {
         size_t first = open->items[g].group, end = g + 1 < groups ? open->items[g + 1].group : open->count;
-        if (sp_ranks_mine(ranks_of(prices), open->items[first].cell.site) && sp_cover_goes_on(prices->cover))
-            price_alike(prices, &prices->scratches[omp_get_thread_num()], &open->items[first], end - first, u);
+        if (sp_ranks_mine(ranks_of(pricing), open->items[first].cell.site) && sp_cover_goes_on(pricing->cover))
+            price_alike(pricing, &pricing->scratches[omp_get_thread_num()], &open->items[first], end - first, u);
     }
-    for (int i = 0; i < prices->threads; i++)
-        sp_visibility_leave(prices->search->visibility, &prices->scratches[i].desk);
-    prices->looked_at += open->count;
-    sp_ranks_rejoin(ranks_of(prices));
-    return share_open(prices, error);
+    for (int i = 0; i < pricing->threads; i++)
+        sp_visibility_leave(pricing->search->visibility, &pricing->scratches[i].desk);
+    pricing->looked_at += open->count;
+    sp_ranks_rejoin(ranks_of(pricing));
+    return share_open(pricing, error);
 }
 
 /* Remembers the middles: as what is known, and as what may be handed out. */
-static void note_middles(sp_aim_prices *prices)
+static void note_middles(sp_aim_pricing *pricing)
 {
-    for (size_t i = 0; i < prices->open.count; i++) {
-        const entry *found = &prices->open.items[i];
+    for (size_t i = 0; i < pricing->open.count; i++) {
+        const entry *found = &pricing->open.items[i];
         const sp_aim_cell *cell = &found->cell;
-        double *known = known_of(prices, cell), need = prices->fair[tier_of(prices, cell)];
+        double *known = known_of(pricing, cell), need = pricing->fair[tier_of(pricing, cell)];
         *known = fmax(*known, found->middle);
-        aim *best = &prices->best[cell->site * prices->kinds->count + cell->kind];
+        aim *best = &pricing->best[cell->site * pricing->kinds->count + cell->kind];
         double excess = need > 0 ? found->middle / need : found->middle * 1e30;
         if (found->middle > need && excess > best->excess)
             *best = (aim){*cell, excess};
@@ -326,9 +327,9 @@ static void note_middles(sp_aim_prices *prices)
 }
 
 /* What a cell's bound may be without mattering more than what is known anyway. */
-static double harmless(const sp_aim_prices *prices, const sp_aim_cell *cell)
+static double harmless(const sp_aim_pricing *pricing, const sp_aim_cell *cell)
 {
-    return fmax(CLOSE * *known_of(prices, cell), prices->fair[tier_of(prices, cell)]);
+    return fmax(CLOSE * *known_of(pricing, cell), pricing->fair[tier_of(pricing, cell)]);
 }
 
 static int by_excess(const void *a, const void *b)
@@ -355,29 +356,29 @@ static int by_likeness(const void *a, const void *b)
 }
 
 /* Splits the open cells that matter, the highest first, as long as there is work left to spend; offers the others. */
-static bool split_open(sp_aim_prices *prices, sp_offers *offers)
+static bool split_open(sp_aim_pricing *pricing, sp_offers *offers)
 {
-    cell_list *open = &prices->open, *next = &prices->next;
+    cell_list *open = &pricing->open, *next = &pricing->next;
     next->count = 0;
     for (size_t i = 0; i < open->count; i++) {
         entry *own = &open->items[i];
-        double limit = harmless(prices, &own->cell);
+        double limit = harmless(pricing, &own->cell);
         own->group = i;
         own->excess = own->cell.upper > limit ? own->cell.upper / limit : 0;
     }
     qsort(open->items, open->count, sizeof *open->items, by_excess);
     for (size_t i = 0; i < open->count; i++) {
         const sp_aim_cell *cell = &open->items[i].cell;
-        const sp_aim_kind *kind = &prices->kinds->items[cell->kind];
-        const sp_site *site = &prices->search->sites->items[cell->site];
-        double tilt = tilt_of(prices, cell->site);
+        const sp_aim_kind *kind = &pricing->kinds->items[cell->kind];
+        const sp_site *site = &pricing->search->sites->items[cell->site];
+        double tilt = tilt_of(pricing, cell->site);
         sp_aim_cell children[SP_AIM_CHILDREN];
         size_t count = 0;
-        if (open->items[i].excess > 0 && prices->looked_at + next->count < prices->enough &&
+        if (open->items[i].excess > 0 && pricing->looked_at + next->count < pricing->enough &&
             sp_aim_cell_splits(cell, kind, site, tilt))
             count = sp_aim_cell_split(cell, kind, site, tilt, children);
         else
-            sp_offers_add(offers, prices->ports[site->mount], tier_of(prices, cell), cell->upper);
+            sp_offers_add(offers, pricing->ports[site->mount], tier_of(pricing, cell), cell->upper);
         for (size_t k = 0; k < count; k++)
             if (!append(next, &children[k]))
                 return false;
@@ -391,21 +392,21 @@ static bool split_open(sp_aim_prices *prices, sp_offers *offers)
 }
 
 /* All aims at all mounting points, in as few cells as can be. */
-static bool open_all(sp_aim_prices *prices)
+static bool open_all(sp_aim_pricing *pricing)
 {
-    const sp_search *search = prices->search;
-    prices->open.count = prices->looked_at = 0;
+    const sp_search *search = pricing->search;
+    pricing->open.count = pricing->looked_at = 0;
     for (uint32_t site = 0; site < search->sites->count; site++)
-        for (uint32_t k = 0; k < prices->kinds->count; k++) {
-            const sp_aim_kind *kind = &prices->kinds->items[k];
+        for (uint32_t k = 0; k < pricing->kinds->count; k++) {
+            const sp_aim_kind *kind = &pricing->kinds->items[k];
             uint32_t mount = search->sites->items[site].mount;
-            prices->best[site * prices->kinds->count + k] = (aim){0};
+            pricing->best[site * pricing->kinds->count + k] = (aim){0};
             if (search->port_taken[mount] || !sp_candidates_axes(search->candidates, mount, kind->variant)->count)
                 continue;
             for (uint32_t step = 0; step < kind->step_count; step++) {
                 sp_aim_cell whole = sp_aim_cell_whole(kind, site, k, step);
-                if (prices->cover->weight[tier_of(prices, &whole)] <= prices->cover->water &&
-                    !append(&prices->open, &whole))
+                if (pricing->cover->weight[tier_of(pricing, &whole)] <= pricing->cover->water &&
+                    !append(&pricing->open, &whole))
                     return false;
             }
         }
@@ -414,37 +415,37 @@ static bool open_all(sp_aim_prices *prices)
 
 /* What the rows at hand are worth is known. Where every nozzle is worth no more than its part of the water that a bound
  * is sought for, measured by the best choice of rows, no choice of them is worth more than that. */
-static void read_offers(sp_aim_prices *prices, const sp_offers *offers)
+static void read_offers(sp_aim_pricing *pricing, const sp_offers *offers)
 {
-    const sp_cover *cover = prices->cover;
-    size_t tiers = cover->tier_count, ports = cover->port_count, nozzles = cover->nozzles, water = prices->water;
-    sp_knapsack_fill(&prices->knapsack, offers, water);
-    double most = sp_knapsack_value(&prices->knapsack, nozzles, water);
+    const sp_cover *cover = pricing->cover;
+    size_t tiers = cover->tier_count, ports = cover->port_count, nozzles = cover->nozzles, water = pricing->water;
+    sp_knapsack_fill(&pricing->knapsack, offers, water);
+    double most = sp_knapsack_value(&pricing->knapsack, nozzles, water);
     for (size_t k = 0; k < tiers; k++) {
         for (size_t p = 0; p < ports; p++)
-            prices->known[p * tiers + k] = offers->port[p * tiers + k];
-        prices->known[ports * tiers + k] = offers->free[k * offers->most];
-        prices->fair[k] = cover->weight[k] > water ? INFINITY : most * (double)cover->weight[k] / (double)water;
+            pricing->known[p * tiers + k] = offers->port[p * tiers + k];
+        pricing->known[ports * tiers + k] = offers->free[k * offers->most];
+        pricing->fair[k] = cover->weight[k] > water ? INFINITY : most * (double)cover->weight[k] / (double)water;
     }
 }
 
 /* The row of an aim: a cell's middle. */
-static bool hand_out_one(sp_aim_prices *prices, const sp_aim_cell *cell, sp_rows *rows, sp_error *error)
+static bool hand_out_one(sp_aim_pricing *pricing, const sp_aim_cell *cell, sp_rows *rows, sp_error *error)
 {
-    const sp_search *search = prices->search;
-    const sp_aim_kind *kind = &prices->kinds->items[cell->kind];
+    const sp_search *search = pricing->search;
+    const sp_aim_kind *kind = &pricing->kinds->items[cell->kind];
     const sp_site *site = &search->sites->items[cell->site];
     sp_aim_cell middle = sp_aim_cell_middle(cell, kind);
-    sp_aim_disc disc = {sp_aim_cell_disc(cell, site, tilt_of(prices, cell->site)).axis, 0};
+    sp_aim_disc disc = {sp_aim_cell_disc(cell, site, tilt_of(pricing, cell->site)).axis, 0};
     sp_posed_spray posed = {.spray = sp_aim_cell_spray(&middle, kind, 0),
                             .frame = sp_aim_cell_frame(&middle, &disc, sp_evaluator_setup(search->coarse)->up),
-                            .strength = strength_of(prices, cell)};
+                            .strength = strength_of(pricing, cell)};
     sp_desk *desk = NULL;
     const sp_view *view = sp_visibility_look(search->visibility, cell->site, kind->launch, &desk);
-    sp_field_view(search, view, &posed, prices->field);
+    sp_field_view(search, view, &posed, pricing->field);
     sp_visibility_leave(search->visibility, &desk);
-    return sp_pose_prices_row(prices->poses, prices->field, KEY_FIRST + prices->keys++, prices->ports[site->mount],
-                              tier_of(prices, cell), rows, error);
+    return sp_pose_pricing_row(pricing->poses, pricing->field, KEY_FIRST + pricing->keys++, pricing->ports[site->mount],
+                               tier_of(pricing, cell), rows, error);
 }
 
 static int by_merit(const void *a, const void *b)
@@ -455,44 +456,44 @@ static int by_merit(const void *a, const void *b)
     return by_likeness(&(entry){.cell = p->cell}, &(entry){.cell = q->cell});
 }
 
-static bool price_aims(void *user, const sp_prices *u, const double *needed, bool all, sp_offers *offers, sp_rows *rows,
-                       sp_error *error)
+static bool price_aims(void *user, const sp_multipliers *u, const double *needed, bool all, sp_offers *offers,
+                       sp_rows *rows, sp_error *error)
 {
     (void)all, (void)needed; /* what matters is asked of all aims together, and little is spent on what does not */
-    sp_aim_prices *prices = user;
-    size_t bests = prices->search->sites->count * prices->kinds->count;
-    if (!open_all(prices))
+    sp_aim_pricing *pricing = user;
+    size_t bests = pricing->search->sites->count * pricing->kinds->count;
+    if (!open_all(pricing))
         return sp_fail_memory(error);
-    read_offers(prices, offers);
-    while (prices->open.count) {
-        if (!price_open(prices, u, error))
+    read_offers(pricing, offers);
+    while (pricing->open.count) {
+        if (!price_open(pricing, u, error))
             return false;
-        if (!sp_cover_goes_on(prices->cover))
+        if (!sp_cover_goes_on(pricing->cover))
             return true;
-        note_middles(prices);
-        if (!split_open(prices, offers))
+        note_middles(pricing);
+        if (!split_open(pricing, offers))
             return sp_fail_memory(error);
     }
-    qsort(prices->best, bests, sizeof *prices->best, by_merit);
+    qsort(pricing->best, bests, sizeof *pricing->best, by_merit);
     bool done = true;
-    for (size_t i = 0; done && i < bests && i < ROWS_AT_A_TIME && prices->best[i].excess > 0; i++)
-        done = hand_out_one(prices, &prices->best[i].cell, rows, error);
+    for (size_t i = 0; done && i < bests && i < ROWS_AT_A_TIME && pricing->best[i].excess > 0; i++)
+        done = hand_out_one(pricing, &pricing->best[i].cell, rows, error);
     return done;
 }
 
-sp_pricer sp_aim_pricer(sp_aim_prices *prices)
+sp_pricer sp_aim_pricer(sp_aim_pricing *pricing)
 {
-    return (sp_pricer){prices, price_aims};
+    return (sp_pricer){pricing, price_aims};
 }
 
-double sp_aim_prices_upper(sp_aim_prices *prices, const sp_aim_cell *cell, const sp_prices *u)
+double sp_aim_pricing_upper(sp_aim_pricing *pricing, const sp_aim_cell *cell, const sp_multipliers *u)
 {
-    const sp_site *site = &prices->search->sites->items[cell->site];
-    scratch *own = &prices->scratches[0];
+    const sp_site *site = &pricing->search->sites->items[cell->site];
+    scratch *own = &pricing->scratches[0];
     double upper = 0;
-    if (turn_to(prices, own, cell, u))
-        upper = reach_price(prices, own, cell, sp_aim_cell_disc(cell, site, tilt_of(prices, cell->site)),
+    if (turn_to(pricing, own, cell, u))
+        upper = reach_price(pricing, own, cell, sp_aim_cell_disc(cell, site, tilt_of(pricing, cell->site)),
                             SP_COUNT_GENEROUS);
-    sp_visibility_leave(prices->search->visibility, &own->desk);
+    sp_visibility_leave(pricing->search->visibility, &own->desk);
     return upper;
 }

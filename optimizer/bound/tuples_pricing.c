@@ -23,7 +23,8 @@ double *sp_tuples_of_kind(const sp_tuples *o, double *tables, size_t kind)
     return tables + kind * (o->steps + 1);
 }
 
-/* What candidates could add to the sums of the k-th prices, `price` by position: the best of each kind. */
+/* What candidates could add to the sums of prices by the k-th multipliers, `price` by position: the best of each kind.
+ */
 static void fill_prices(sp_tuples *o, size_t k, const float *price)
 {
     const sp_candidate_list *list = o->list;
@@ -40,8 +41,8 @@ static void fill_prices(sp_tuples *o, size_t k, const float *price)
     }
 }
 
-/* Could a layout that holds candidates worth so much by the k-th prices, and others of the kind and lighter in so much
- * water, come above the target? */
+/* Could a layout that holds candidates worth so much by the k-th multipliers, and others of the kind and lighter in so
+ * much water, come above the target? */
 static bool priced_above(const sp_tuples *o, size_t k, double priced, size_t kind, size_t water)
 {
     double most = o->most_priced[k][kind * (o->steps + 1) + water / o->unit];
@@ -56,7 +57,7 @@ bool sp_tuples_all_above(const sp_tuples *o, const double *priced, const float *
     return above;
 }
 
-/* The highest target that a candidate could be part of a layout above, by the k-th prices. */
+/* The highest target that a candidate could be part of a layout above, by the k-th multipliers. */
 static double above_by(const sp_tuples *o, size_t k, double price, size_t kind)
 {
     return (o->rest[k] + price + o->most_priced[k][(o->water - o->list->weight[kind]) / o->unit]) * UPWARDS;
@@ -73,7 +74,7 @@ double sp_tuples_target_for(const sp_tuples *o, size_t most, const float *above,
     return o->floor + (double)i * step;
 }
 
-/* Leaves alive what the k-th prices do. */
+/* Leaves alive what the k-th multipliers do. */
 static void shut_out(const sp_tuples *o, size_t k, const float *price, uint8_t *alive)
 {
     const sp_candidate_list *list = o->list;
@@ -87,18 +88,18 @@ static void shut_out(const sp_tuples *o, size_t k, const float *price, uint8_t *
 }
 
 /* Prices what is alive anew, exactly. */
-static bool price_by(sp_tuples *o, const sp_prices *u, const uint8_t *alive, float *price, sp_error *error)
+static bool price_by(sp_tuples *o, const sp_multipliers *u, const uint8_t *alive, float *price, sp_error *error)
 {
     o->rest[o->priced++] = o->cover->base + sp_cover_rest(o->cover, u);
     return o->list->price(o->list->user, u, alive, price, error);
 }
 
-/* Prices between the first two: what holds for both does for these, and the best completions by one need not be those
- * by the other. */
-static void mix(sp_tuples *o, float *const price[BY_PRICES])
+/* Multipliers between the first two: what holds for both does for these, and the best completions by one need not be
+ * those by the other. */
+static void mix(sp_tuples *o, float *const price[BY_MULTIPLIERS])
 {
-    for (; o->priced < BY_PRICES; o->priced++) {
-        double part = (double)(o->priced - 1) / (BY_PRICES - 1);
+    for (; o->priced < BY_MULTIPLIERS; o->priced++) {
+        double part = (double)(o->priced - 1) / (BY_MULTIPLIERS - 1);
         o->rest[o->priced] = part * o->rest[0] + (1 - part) * o->rest[1];
 #pragma omp parallel for num_threads(o->list->threads)
         for (size_t i = 0; i < o->list->count; i++) {
@@ -108,8 +109,8 @@ static void mix(sp_tuples *o, float *const price[BY_PRICES])
     }
 }
 
-/* The candidates that the prices left. */
-static bool list_items(sp_tuples *o, const uint8_t *alive, float *const price[BY_PRICES], sp_error *error)
+/* The candidates that the multipliers left. */
+static bool list_items(sp_tuples *o, const uint8_t *alive, float *const price[BY_MULTIPLIERS], sp_error *error)
 {
     const sp_candidate_list *list = o->list;
     for (size_t r = 0; r < list->run_count; r++) {
@@ -135,8 +136,8 @@ static bool list_items(sp_tuples *o, const uint8_t *alive, float *const price[BY
     return true;
 }
 
-/* Shuts out by all prices what could not be part of a layout above the target. */
-static void sift(sp_tuples *o, uint8_t *alive, float *const price[BY_PRICES])
+/* Shuts out by all multipliers what could not be part of a layout above the target. */
+static void sift(sp_tuples *o, uint8_t *alive, float *const price[BY_MULTIPLIERS])
 {
     for (int round = 0; round < SIFTED; round++)
         for (size_t k = 0; k < o->priced; k++) {
@@ -163,11 +164,11 @@ static void raise_floor(sp_tuples *o, const float *found, float *above)
 }
 
 /* What is left by prices as they were found, then by all. */
-static bool price_items(sp_tuples *o, const sp_prices *u, const float *found, uint8_t *alive,
-                        float *const price[BY_PRICES], sp_error *error)
+static bool price_items(sp_tuples *o, const sp_multipliers *u, const float *found, uint8_t *alive,
+                        float *const price[BY_MULTIPLIERS], sp_error *error)
 {
-    sp_prices areas = {0};
-    bool done = sp_prices_create(o->cover, &areas, error);
+    sp_multipliers areas = {0};
+    bool done = sp_multipliers_create(o->cover, &areas, error);
     /* inequalities hold for no more nozzles than they were made for */
     bool holds = !u->inequalities || o->water / o->lightest <= u->inequalities->nozzles ||
                  o->cover->nozzles <= u->inequalities->nozzles;
@@ -179,7 +180,7 @@ static bool price_items(sp_tuples *o, const sp_prices *u, const float *found, ui
         done = price_by(o, u, alive, price[0], error);
     }
     done = done && price_by(o, &areas, alive, price[o->priced], error);
-    sp_prices_free(&areas);
+    sp_multipliers_free(&areas);
     if (!done || !sp_cover_goes_on(o->cover))
         return done;
     if (holds)
@@ -189,13 +190,13 @@ static bool price_items(sp_tuples *o, const sp_prices *u, const float *found, ui
     return list_items(o, alive, price, error);
 }
 
-bool sp_tuples_find_items(sp_tuples *o, const sp_prices *u, const float *found, sp_error *error)
+bool sp_tuples_find_items(sp_tuples *o, const sp_multipliers *u, const float *found, sp_error *error)
 {
     size_t positions = o->list->count + 1;
     uint8_t *alive = malloc(positions);
-    float *price[BY_PRICES];
+    float *price[BY_MULTIPLIERS];
     bool done = alive != NULL;
-    for (size_t k = 0; k < BY_PRICES; k++) {
+    for (size_t k = 0; k < BY_MULTIPLIERS; k++) {
         price[k] = calloc(positions, sizeof *price[k]);
         done &= price[k] != NULL;
     }
@@ -203,7 +204,7 @@ bool sp_tuples_find_items(sp_tuples *o, const sp_prices *u, const float *found, 
         memset(alive, 1, positions);
     done = (done || sp_fail_memory(error)) && price_items(o, u, found, alive, price, error);
     free(alive);
-    for (size_t k = 0; k < BY_PRICES; k++)
+    for (size_t k = 0; k < BY_MULTIPLIERS; k++)
         free(price[k]);
     return done;
 }
