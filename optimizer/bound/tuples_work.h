@@ -10,8 +10,8 @@
 #define WORK_ROW 2e5       /* words that take as long as a row */
 #define UPWARDS (1 + 1e-9) /* more than sums here are rounded by */
 #define NO_SET UINT32_MAX
-#define BY_MULTIPLIERS                                                                                                 \
-    5 /* multipliers that layouts are told by: those given, the texels' areas, and what lies between */
+/* Multipliers that layouts are told by: those given, the texels' areas, and what lies between. */
+#define BY_MULTIPLIERS 5
 
 /* A candidate in question. */
 typedef struct {

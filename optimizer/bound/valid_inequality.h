@@ -10,8 +10,8 @@
 
 #define SP_INEQUALITY_KINDS 24
 #define SP_INEQUALITY_LEVELS 512
-#define SP_INEQUALITY_ALL_OR_NOTHING                                                                                   \
-    4 /* the kind that, where one nozzle is all there is, sees nothing but whole shares */
+/* The kind that, where one nozzle is all there is, sees nothing but whole shares. */
+#define SP_INEQUALITY_ALL_OR_NOTHING 4
 
 /* value[kind][level]: g of shares up to level / SP_INEQUALITY_LEVELS, none below the one before it. */
 typedef struct {

@@ -184,8 +184,7 @@ static size_t next_point(const certifying *c)
 
 /* Prices all candidates for so much water, `open` of whose bound nothing found comes up to. Where that is wide
  * multipliers are sought on groups of texels first: these get further in as much time, but do not see what a narrow gap
- * is about.
- */
+ * is about. */
 static bool price_for(certifying *c, size_t water, double open, size_t rounds, sp_error *error)
 {
     size_t iterations = c->bound.iterations;

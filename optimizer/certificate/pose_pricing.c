@@ -452,8 +452,7 @@ static sp_ranks *ranks_of(const sp_pose_pricing *pricing)
 }
 
 /* The others' prices of the blocks of their sites, where `price` is not NULL, and where `bests` is set the best of
- * these.
- */
+ * these. */
 static bool share_prices(sp_pose_pricing *pricing, float *price, bool bests, sp_error *error)
 {
     const sp_pose_order *order = pricing->order;

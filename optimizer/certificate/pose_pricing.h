@@ -1,6 +1,5 @@
 /* What every candidate pose is worth at given multipliers of the texels: swept from what was traced, no pose's row
- * stored.
- */
+ * stored. */
 #ifndef OPTIMIZER_POSE_PRICING_H
 #define OPTIMIZER_POSE_PRICING_H
 

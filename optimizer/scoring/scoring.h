@@ -37,8 +37,7 @@ void sp_sweepers_forget(sp_sweeper *sweepers, int count);
 /* Turns to what a site's nozzles of a launch would add to a partial layout. */
 void sp_sweeper_look(sp_sweeper *sweeper, const sp_search *search, const sp_partial *partial, uint32_t site,
                      size_t launch);
-/* Then to a variant of that launch. Both do nothing where the sweeper has not turned elsewhere since, nor forgotten.
- */
+/* Then to a variant of that launch. Both do nothing where the sweeper has not turned elsewhere since, nor forgotten. */
 void sp_sweeper_take(sp_sweeper *sweeper, size_t variant);
 /* Then to its poses; where the gain is less than `least`, m², either may come out higher, the gain still below that. */
 sp_score sp_sweeper_score(const sp_sweeper *sweeper, uint32_t axis, uint32_t roll, double least);

@@ -1,6 +1,5 @@
 /* Smooth arrivals: their derivatives by every unknown, against differences, for cones and fans, lines, parabolas and
- * drops.
- */
+ * drops. */
 #include "room.h"
 
 #include "scoring/prepare.h"

@@ -142,8 +142,7 @@ typedef struct {
 } packet_lines;
 
 /* Slopes of the parabolas from their middle, where all move along l->along.z; `add` is what the bend adds to each
- * direction.
- */
+ * direction. */
 static inline void take_slopes(const sp_parabola_packet *v, const float add[3], packet_lines *l)
 {
     int z = l->along.z;
